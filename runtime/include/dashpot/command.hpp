@@ -1,0 +1,35 @@
+// What an update law returns every sample, and the one place where the sign convention is stated.
+//
+// The port displacement u [m or rad] grows as the tool pushes into the tissue; u̇ [m/s or rad/s] is its velocity. The
+// network opposes the tool with the force f [N or N·m], positive against +u, so that f·u̇ [W] flows into the network.
+// It is split into f = damping·u̇ + force: the brake makes the first part by physics, the motor makes the second.
+#pragma once
+
+#ifdef __FAST_MATH__
+#error "dashpot needs IEEE arithmetic: finite checks and compensated sums do not survive -ffast-math"
+#endif
+
+namespace dashpot {
+
+enum class motion : unsigned char { translation, rotation };
+
+template <class Scalar>
+struct command {
+  Scalar damping;  // brake damping [N·s/m], or [N·m·s/rad] in rotation; never negative
+  Scalar force;    // motor force opposing +u [N], or torque [N·m] in rotation
+};
+
+// True when every argument is finite: x − x is 0 for a finite x and NaN for the others.
+template <class Scalar>
+constexpr bool all_finite(Scalar a, Scalar b, Scalar c) noexcept {
+  return (a - a) + (b - b) + (c - c) == Scalar(0);
+}
+
+// Zero for a magnitude below `threshold`, the value itself otherwise. Keeps decaying states out of the subnormal
+// range, where arithmetic is tens of times slower on many processors.
+template <class Scalar>
+constexpr Scalar flush_below(Scalar threshold, Scalar value) noexcept {
+  return value > threshold || value < -threshold ? value : Scalar(0);
+}
+
+}  // namespace dashpot

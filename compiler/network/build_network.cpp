@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "network/connections.hpp"
+#include "network/law.hpp"
+#include "network/name_rules.hpp"
+#include "network/network.hpp"
+#include "network/parameter_table.hpp"
+#include "network/read_motion.hpp"
+#include "source/excerpt.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr std::size_t most_elements = 20'000;
+
+// A leaf with its ends; a tree has been laid out as a graph.
+struct PlacedLeaf {
+  const LeafDecl* leaf;
+  NodeIndex a;
+  NodeIndex b;
+};
+
+class NetworkBuilder {
+ public:
+  NetworkBuilder(const NetworkDecl& decl, Diagnostics& diagnostics)
+      : decl_(decl), diagnostics_(diagnostics), table_(decl.parameters, diagnostics) {}
+
+  Network build() {
+    copy_texts();
+    network_.nodes = {"ground", "tool"};
+    place_leaves();
+    check_names();
+    add_elements();
+    read_contact();
+    read_validity();
+    network_.parameters = table_.parameters();
+    check_whole();
+    return std::move(network_);
+  }
+
+ private:
+  void copy_texts() {
+    const auto text_of = [](const std::optional<Text>& text) { return text ? text->text : std::string(); };
+    network_.name = text_of(decl_.name);
+    network_.name_span = decl_.name ? decl_.name->span : Span{};
+    network_.title = text_of(decl_.title);
+    network_.source = text_of(decl_.source);
+    network_.digest = decl_.digest;
+    network_.port_motion = read_motion(decl_.motion, diagnostics_);
+  }
+
+  void place_leaves() {
+    if (const auto* tree = std::get_if<TreeDecl>(&decl_.structure)) place_tree(*tree, tool, ground);
+    else for (const EdgeDecl& edge : std::get<std::vector<EdgeDecl>>(decl_.structure)) place_edge(edge);
+  }
+
+  void place_tree(const TreeDecl& tree, NodeIndex a, NodeIndex b) {
+    if (tree.leaf) leaves_.push_back({&*tree.leaf, a, b});
+    NodeIndex from = a;
+    for (const TreeDecl& child : tree.children) {
+      const bool ends_here = tree.kind == TreeDecl::Kind::parallel || &child == &tree.children.back();
+      const NodeIndex to = ends_here ? b : inner_node();
+      place_tree(child, from, to);
+      if (tree.kind == TreeDecl::Kind::series) from = to;
+    }
+  }
+
+  NodeIndex inner_node() {
+    network_.nodes.push_back(fmt::format("node_{}", network_.nodes.size() - 1));
+    return network_.nodes.size() - 1;
+  }
+
+  void place_edge(const EdgeDecl& edge) {
+    const NodeIndex a = named_node(edge.from);
+    const NodeIndex b = named_node(edge.to);
+    if (a == b) diagnostics_.report<DiagnosticCode::same_node_twice>(edge.to.span, excerpt(edge.to.text));
+    leaves_.push_back({&edge.leaf, a, b});
+  }
+
+  NodeIndex named_node(const Text& name) {
+    if (name.text == "tool") return tool;
+    if (name.text == "ground") return ground;
+    const auto [known, is_new] = node_of_name_.emplace(name.text, network_.nodes.size());
+    if (!is_new) return known->second;
+    network_.nodes.push_back(name.text);
+    check_node_name(name);
+    return known->second;
+  }
+
+  void check_node_name(const Text& name) {
+    for (const std::string_view reserved : {"tool", "ground"})
+      if (folded(name.text) == reserved) {
+        diagnostics_.report<DiagnosticCode::reserved_node_case>(name.span, name.text, reserved);
+        return;
+      }
+    check_name(name, "node", diagnostics_);
+  }
+
+  void check_names() {
+    std::vector<std::pair<const Text*, std::string_view>> given;
+    if (decl_.name) given.emplace_back(&*decl_.name, "network");
+    for (const ParameterDecl& parameter : decl_.parameters) given.emplace_back(&parameter.name, "parameter");
+    for (const PlacedLeaf& placed : leaves_)
+      if (placed.leaf->name) given.emplace_back(&*placed.leaf->name, "element");
+    std::sort(given.begin(), given.end(),
+              [](const auto& x, const auto& y) { return x.first->span.begin < y.first->span.begin; });
+    for (const auto& [name, owner] : given)
+      if (check_name(*name, owner, diagnostics_)) names_.add(*name, diagnostics_);
+  }
+
+  // Unnamed elements are numbered by their place among all elements.
+  std::string name_of(const LeafDecl& leaf, std::size_t number) {
+    if (leaf.name) return leaf.name->text;
+    const std::string name = names_.free_name(fmt::format("{}_{}", kind_of(make_law(leaf.kind, 0)), number));
+    names_.add({name, leaf.span}, diagnostics_);
+    return name;
+  }
+
+  void add_elements() {
+    if (leaves_.size() > most_elements)
+      diagnostics_.report<DiagnosticCode::too_many_elements>(decl_.structure_span, leaves_.size(), most_elements);
+    for (const PlacedLeaf& placed : leaves_) {
+      Element element{name_of(*placed.leaf, network_.elements.size() + 1), {}, placed.a, placed.b, placed.leaf->span, {}};
+      read_law(*placed.leaf, element);
+      network_.elements.push_back(std::move(element));
+    }
+  }
+
+  // A value that cannot be read counts as present, so that it causes no further complaints.
+  void read_law(const LeafDecl& leaf, Element& element) {
+    element.law = make_law(leaf.kind, 1);
+    if (!leaf.value) return;
+    const Dimension due = dimension_of(element.law, network_.port_motion);
+    const auto value = table_.read(*leaf.value, {fmt::format("a {}", kind_of(element.law)), due, network_.port_motion});
+    if (!value) return;
+    if (!check_value(leaf, element, *value)) return;
+    element.law = make_law(leaf.kind, value->value);
+    element.parameter = value->parameter;
+  }
+
+  bool check_value(const LeafDecl& leaf, const Element& element, const ReadValue& read) {
+    const std::optional<Parameter> parameter = read.parameter ? std::optional(table_.parameters()[*read.parameter]) : std::nullopt;
+    const bool tunable = parameter && parameter->tunable;
+    const double least = tunable ? parameter->min : read.value;
+    if (least < 0) report_negative(leaf, element, least);
+    else if (leaf.kind == ElementKind::slip && (tunable ? parameter->max : read.value) == 0) report_zero_yield(leaf, element);
+    else return true;
+    return false;
+  }
+
+  void report_negative(const LeafDecl& leaf, const Element& element, double value) {
+    const std::string text = fmt::format("{} {}", value, unit_of(element.law, network_.port_motion));
+    switch (leaf.kind) {
+      case ElementKind::spring:
+        return diagnostics_.report<DiagnosticCode::negative_stiffness>(leaf.value->span, element.name, text);
+      case ElementKind::damper:
+        return diagnostics_.report<DiagnosticCode::negative_damping>(leaf.value->span, element.name, text);
+      case ElementKind::slip:
+        return diagnostics_.report<DiagnosticCode::negative_yield>(leaf.value->span, element.name, text);
+    }
+  }
+
+  void report_zero_yield(const LeafDecl& leaf, const Element& element) {
+    diagnostics_.report<DiagnosticCode::zero_yield>(leaf.value->span, element.name, unit_of(element.law, network_.port_motion));
+    diagnostics_.note<DiagnosticCode::remove_slip>({});
+  }
+
+  std::optional<double> read_constant(const ValueDecl& decl, std::string_view taker, const Dimension& due) {
+    const auto value = table_.read(decl, {std::string(taker), due, network_.port_motion});
+    if (!value) return std::nullopt;
+    if (value->parameter && table_.parameters()[*value->parameter].tunable)
+      diagnostics_.report<DiagnosticCode::tunable_outside_elements>(decl.span, decl.text, taker);
+    return value->value;
+  }
+
+  Dimension length() const {
+    return network_.port_motion == motion::rotation ? dimensions::angle : dimensions::length;
+  }
+
+  void read_contact() {
+    if (!decl_.contact) return;
+    const auto at = read_constant(decl_.contact->at, "the place of the contact", length());
+    network_.contact = Contact{at.value_or(0), decl_.contact->span};
+  }
+
+  void read_validity() {
+    if (!decl_.valid) return;
+    const Dimension rate = product(length(), power(dimensions::time, -1));
+    network_.valid = {read_range(decl_.valid->rate, "the rate", rate, false),
+                      read_range(decl_.valid->displacement, "the displacement", length(), true),
+                      read_range(decl_.valid->frequency, "the frequency", dimensions::frequency, false),
+                      decl_.valid->span};
+  }
+
+  // A single bound is one of magnitude.
+  std::optional<Range> read_range(const std::optional<RangeDecl>& decl, std::string_view taker, const Dimension& due,
+                                  bool is_signed) {
+    if (!decl) return std::nullopt;
+    const auto high = read_constant(decl->high, taker, due);
+    const auto low = decl->low ? read_constant(*decl->low, taker, due) : high ? std::optional(is_signed ? -*high : 0.0) : high;
+    if (!low || !high) return std::nullopt;
+    if (!is_signed && *low < 0) {
+      diagnostics_.report<DiagnosticCode::negative_value>(decl->span, taker, fmt::format("{} {}", *low, unit_of(due)));
+      return std::nullopt;
+    }
+    if (*low <= *high) return Range{*low, *high};
+    diagnostics_.report<DiagnosticCode::range_reversed>(decl->span, excerpt(decl->high.text), decl->low ? excerpt(decl->low->text) : fmt::format("{}", *low));
+    return std::nullopt;
+  }
+
+  // Where parts of the file were not understood, these would only echo it.
+  void check_whole() {
+    if (!decl_.complete) return;
+    table_.report_unused();
+    const std::size_t errors_before = diagnostics_.error_count();
+    check_connections(network_, decl_.structure_span, diagnostics_);
+    if (diagnostics_.error_count() == errors_before) mark_effect(network_, diagnostics_);
+  }
+
+  const NetworkDecl& decl_;
+  Diagnostics& diagnostics_;
+  ParameterTable table_;
+  Network network_;
+  std::vector<PlacedLeaf> leaves_;
+  std::unordered_map<std::string, NodeIndex> node_of_name_;
+  UniqueNames names_;
+};
+
+}  // namespace
+
+std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  Network network = NetworkBuilder(decl, diagnostics).build();
+  if (!decl.complete || diagnostics.error_count() > errors_before) return std::nullopt;
+  return network;
+}
+
+}  // namespace dashpot::compiler

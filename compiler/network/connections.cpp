@@ -1,0 +1,124 @@
+#include "network/connections.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+
+#include "network/effect.hpp"
+#include "network/law.hpp"
+#include "source/nearest_name.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr std::size_t most_names_listed = 5;
+
+std::string list_names(const std::vector<const Element*>& elements) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(elements.size(), most_names_listed); ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", elements[i]->name);
+  if (elements.size() > most_names_listed) text += fmt::format(" and {} more", elements.size() - most_names_listed);
+  return text;
+}
+
+// Connected parts: one representative a node (union by path halving).
+class Parts {
+ public:
+  explicit Parts(const Network& network) : parent_(network.nodes.size()) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    for (const Element& element : network.elements) parent_[find(element.a)] = find(element.b);
+  }
+
+  std::size_t find(NodeIndex node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+std::vector<std::size_t> elements_at_nodes(const Network& network) {
+  std::vector<std::size_t> count(network.nodes.size(), 0);
+  for (const Element& element : network.elements) {
+    ++count[element.a];
+    ++count[element.b];
+  }
+  return count;
+}
+
+void check_ends(const Network& network, Span structure, Parts& parts, Diagnostics& diagnostics) {
+  const std::vector<std::size_t> count = elements_at_nodes(network);
+  for (const NodeIndex end : {tool, ground})
+    if (count[end] == 0) diagnostics.report<DiagnosticCode::end_unused>(structure, network.nodes[end]);
+  if (count[tool] > 0 && count[ground] > 0 && parts.find(tool) != parts.find(ground))
+    diagnostics.report<DiagnosticCode::ends_not_connected>(structure);
+}
+
+void check_floating_parts(const Network& network, Parts& parts, Diagnostics& diagnostics) {
+  std::vector<std::vector<const Element*>> members(network.nodes.size());
+  for (const Element& element : network.elements) members[parts.find(element.a)].push_back(&element);
+  members[parts.find(tool)].clear();
+  members[parts.find(ground)].clear();
+  for (const std::vector<const Element*>& part : members)
+    if (!part.empty()) diagnostics.report<DiagnosticCode::floating_part>(part.front()->span, list_names(part));
+}
+
+void check_slip_paths(const Network& network, Diagnostics& diagnostics) {
+  std::vector<bool> is_slip;
+  for (const Element& element : network.elements) is_slip.push_back(std::holds_alternative<Slip>(element.law));
+  const std::vector<bool> on_path = on_path_between_ends(network, is_slip);
+  std::vector<const Element*> slips;
+  for (std::size_t i = 0; i < on_path.size(); ++i)
+    if (on_path[i]) slips.push_back(&network.elements[i]);
+  if (slips.empty()) return;
+  diagnostics.report<DiagnosticCode::slips_join_ends>(slips.front()->span, list_names(slips));
+  diagnostics.note<DiagnosticCode::add_presliding_spring>({});
+}
+
+// The node of `element` at which nothing else ends; ground, reserved, where there is none.
+NodeIndex loose_end(const Element& element, const std::vector<std::size_t>& count) {
+  if (element.a != tool && element.a != ground && count[element.a] == 1) return element.a;
+  return element.b != tool && element.b != ground && count[element.b] == 1 ? element.b : ground;
+}
+
+void warn_about_loose_end(const Network& network, const Element& element, NodeIndex end, Diagnostics& diagnostics) {
+  diagnostics.report<DiagnosticCode::dangling_node>(element.span, network.nodes[end], element.name);
+  std::vector<std::string> others = network.nodes;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(end));
+  if (const auto nearest = nearest_name(network.nodes[end], others))
+    diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
+}
+
+void warn_about(const Network& network, const Element& element, bool may_carry, NodeIndex end,
+                Diagnostics& diagnostics) {
+  if (!may_carry)
+    diagnostics.report<DiagnosticCode::zero_value>(element.span, element.name,
+                                                   unit_of(element.law, network.port_motion));
+  else if (end != ground)
+    warn_about_loose_end(network, element, end, diagnostics);
+  else
+    diagnostics.report<DiagnosticCode::no_effect>(element.span, element.name);
+}
+
+}  // namespace
+
+void check_connections(const Network& network, Span structure, Diagnostics& diagnostics) {
+  Parts parts(network);
+  check_ends(network, structure, parts, diagnostics);
+  check_floating_parts(network, parts, diagnostics);
+  check_slip_paths(network, diagnostics);
+}
+
+void mark_effect(Network& network, Diagnostics& diagnostics) {
+  const std::vector<bool> may_carry = may_carry_force(network);
+  const std::vector<bool> on_path = on_path_between_ends(network, may_carry);
+  const std::vector<std::size_t> count = elements_at_nodes(network);
+  for (std::size_t i = 0; i < network.elements.size(); ++i) {
+    Element& element = network.elements[i];
+    element.has_effect = on_path[i];
+    if (!on_path[i]) warn_about(network, element, may_carry[i], loose_end(element, count), diagnostics);
+  }
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,16 @@
+// Whether a network hangs together.
+#pragma once
+
+#include "network/network.hpp"
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+// In: a network whose elements and nodes are complete. Refuses: tool or ground without an element, no connection from
+// one to the other, parts connected to neither, slips that join tool and ground by themselves (theory, section 5).
+void check_connections(const Network& network, Span structure, Diagnostics& diagnostics);
+
+// Marks the elements without effect, and warns about each.
+void mark_effect(Network& network, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

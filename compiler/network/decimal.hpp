@@ -1,0 +1,25 @@
+// Decimal literals to doubles.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "network/unit.hpp"
+
+namespace dashpot::compiler {
+
+// The length of the decimal literal that `text` starts with ("-1.5e3", "+.5"); 0 where it starts with none.
+std::size_t decimal_length(std::string_view text);
+
+enum class Rounding { finite, overflow, underflow };  // underflow: not zero, and yet rounded to it
+
+struct RoundedDecimal {
+  double value;
+  Rounding rounding;
+};
+
+// The literal times one of the unit, in SI. Correctly rounded where the unit is a power of ten; otherwise one rounding
+// of a 50-digit product.
+RoundedDecimal round_decimal(std::string_view literal, const Unit& unit);
+
+}  // namespace dashpot::compiler

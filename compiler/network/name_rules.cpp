@@ -1,0 +1,112 @@
+#include "network/name_rules.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <iterator>
+#include <optional>
+
+#include "source/excerpt.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// C++20 keywords and alternative tokens, and macros that some compilers predefine or common headers define.
+constexpr std::string_view keywords[] = {
+    "alignas",      "alignof",   "and",          "and_eq",    "asm",         "auto",          "bitand",
+    "bitor",        "bool",      "break",        "case",      "catch",       "char",          "char16_t",
+    "char32_t",     "char8_t",   "class",        "co_await",  "co_return",   "co_yield",      "compl",
+    "concept",      "const",     "const_cast",   "consteval", "constexpr",   "constinit",     "continue",
+    "decltype",     "default",   "delete",       "do",        "double",      "dynamic_cast",  "else",
+    "enum",         "explicit",  "export",       "extern",    "false",       "float",         "for",
+    "friend",       "goto",      "if",           "inline",    "int",         "long",          "mutable",
+    "namespace",    "new",       "noexcept",     "not",       "not_eq",      "nullptr",       "operator",
+    "or",           "or_eq",     "private",      "protected", "public",      "register",      "reinterpret_cast",
+    "requires",     "return",    "short",        "signed",    "sizeof",      "static",        "static_assert",
+    "static_cast",  "struct",    "switch",       "template",  "this",        "thread_local",  "throw",
+    "true",         "try",       "typedef",      "typeid",    "typename",    "union",         "unsigned",
+    "using",        "virtual",   "void",         "volatile",  "wchar_t",     "while",         "xor",
+    "xor_eq",       "linux",     "unix",         "i386",      "NULL",        "NAN",           "INFINITY",
+    "EOF",          "assert",    "errno",        "I",         "near",        "far"};
+
+// Members of the emitted class (architecture, section 5), the arguments of its functions, and the namespaces around it.
+constexpr std::string_view members[] = {
+    "scalar",        "sample_period", "parameters",    "reset",        "output",   "update",
+    "step",          "set",           "stored_energy", "position",     "velocity", "command",
+    "damping",       "force",         "port_motion",   "motion",       "estimator", "loop_delay",
+    "delay_samples", "device",        "device_digest", "input_digest", "digest",   "dashpot",
+    "generated",     "std"};
+
+bool is_letter(char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); }
+bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
+bool is_name_byte(char byte) { return is_letter(byte) || is_digit(byte) || byte == '_'; }
+
+bool has_name_form(std::string_view name) {
+  return !name.empty() && is_letter(name.front()) && std::all_of(name.begin(), name.end(), is_name_byte);
+}
+
+template <std::size_t size>
+bool contains(const std::string_view (&list)[size], std::string_view name) {
+  return std::find(std::begin(list), std::end(list), name) != std::end(list);
+}
+
+bool is_legal(std::string_view name) {
+  return has_name_form(name) && name.find("__") == std::string_view::npos && !contains(keywords, name) &&
+         !contains(members, name);
+}
+
+// Other bytes become single underscores, none at the ends; digits in front and reserved words get company.
+std::optional<std::string> legal_proposal(std::string_view name) {
+  std::string proposal;
+  for (const char byte : name)
+    if (is_letter(byte) || is_digit(byte))
+      proposal += byte;
+    else if (!proposal.empty() && proposal.back() != '_')
+      proposal += '_';
+  if (proposal.ends_with('_')) proposal.pop_back();
+  if (!proposal.empty() && is_digit(proposal.front())) proposal.insert(0, "n");
+  if (!proposal.empty() && !is_legal(proposal)) proposal += "_1";
+  return is_legal(proposal) ? std::optional(proposal) : std::nullopt;
+}
+
+void report_name(const Text& name, std::string_view owner, Diagnostics& diagnostics) {
+  if (!has_name_form(name.text))
+    diagnostics.report<DiagnosticCode::name_form>(name.span, owner, excerpt(name.text));
+  else if (name.text.find("__") != std::string::npos)
+    diagnostics.report<DiagnosticCode::name_with_double_underscore>(name.span, owner, excerpt(name.text));
+  else if (contains(keywords, name.text))
+    diagnostics.report<DiagnosticCode::name_is_keyword>(name.span, owner, name.text);
+  else
+    diagnostics.report<DiagnosticCode::name_is_member>(name.span, owner, name.text);
+}
+
+}  // namespace
+
+bool check_name(const Text& name, std::string_view owner, Diagnostics& diagnostics) {
+  if (is_legal(name.text)) return true;
+  report_name(name, owner, diagnostics);
+  if (const auto proposal = legal_proposal(excerpt(name.text)))
+    diagnostics.note<DiagnosticCode::write_instead>({}, *proposal);
+  return false;
+}
+
+std::string folded(std::string_view name) {
+  std::string text(name);
+  for (char& byte : text)
+    if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
+  return text;
+}
+
+void UniqueNames::add(const Text& name, Diagnostics& diagnostics) {
+  const auto [known, is_new] = places_.emplace(folded(name.text), name.span);
+  if (is_new) return;
+  diagnostics.report<DiagnosticCode::name_taken>(name.span, excerpt(name.text));
+  diagnostics.note<DiagnosticCode::first_given_here>(known->second);
+}
+
+std::string UniqueNames::free_name(const std::string& wanted) const {
+  std::string name = wanted;
+  for (int suffix = 2; places_.count(folded(name)) > 0; ++suffix) name = fmt::format("{}_{}", wanted, suffix);
+  return name;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,62 @@
+#include "network/network.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "network/law.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string value_text(const Network& network, const Element& element) {
+  const std::string value = fmt::format("{} {}", value_of(element.law), unit_of(element.law, network.port_motion));
+  return element.parameter ? fmt::format("{} = {}", network.parameters[*element.parameter].name, value) : value;
+}
+
+void append_header(std::string& out, const Network& network) {
+  const bool rotates = network.port_motion == motion::rotation;
+  fmt::format_to(std::back_inserter(out), "network {}: {}\n", network.name, rotates ? "rotation" : "translation");
+  if (!network.title.empty()) out += "  title: " + network.title + "\n";
+  if (!network.source.empty()) out += "  source: " + network.source + "\n";
+}
+
+void append_parameter(std::string& out, const Parameter& parameter) {
+  fmt::format_to(std::back_inserter(out), "  parameter {} = {}", parameter.name, parameter.value);
+  if (parameter.tunable) fmt::format_to(std::back_inserter(out), ", tunable {} … {}", parameter.min, parameter.max);
+  out += "\n";
+}
+
+void append_element(std::string& out, const Network& network, const Element& element) {
+  fmt::format_to(std::back_inserter(out), "  {} {} {}: {} – {}{}\n", kind_of(element.law), element.name,
+                 value_text(network, element), network.nodes[element.a], network.nodes[element.b],
+                 element.has_effect ? "" : " (no effect)");
+}
+
+void append_range(std::string& out, std::string_view what, const std::optional<Range>& range, std::string_view unit) {
+  if (range) fmt::format_to(std::back_inserter(out), "  valid {} {} … {} {}\n", what, range->low, range->high, unit);
+}
+
+void append_limits(std::string& out, const Network& network) {
+  const bool rotates = network.port_motion == motion::rotation;
+  if (network.contact)
+    fmt::format_to(std::back_inserter(out), "  contact at {} {}\n", network.contact->at, rotates ? "rad" : "m");
+  append_range(out, "rate", network.valid.rate, rotates ? "rad/s" : "m/s");
+  append_range(out, "displacement", network.valid.displacement, rotates ? "rad" : "m");
+  append_range(out, "frequency", network.valid.frequency, "Hz");
+}
+
+}  // namespace
+
+std::string to_text(const Network& network) {
+  std::string out;
+  append_header(out, network);
+  for (const Parameter& parameter : network.parameters) append_parameter(out, parameter);
+  for (const Element& element : network.elements) append_element(out, network, element);
+  append_limits(out, network);
+  return out;
+}
+
+std::string unit_of(const Law& law, motion port_motion) { return unit_of(dimension_of(law, port_motion)); }
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,154 @@
+#include "network/parameter_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "network/name_rules.hpp"
+#include "source/excerpt.hpp"
+#include "source/nearest_name.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// Per radian, and not per radian: what somebody forgets or writes too much.
+void note_radian(const ValueDecl& decl, const Dimension& dimension, const Expectation& expected,
+                 Diagnostics& diagnostics) {
+  if (product(dimension, power(dimensions::angle, -1)) == expected.dimension)
+    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + "/rad");
+}
+
+// The same element in the other motion.
+bool is_of_other_motion(const Dimension& x, const Dimension& y) {
+  constexpr std::pair<Dimension, Dimension> pairs[] = {{dimensions::stiffness, dimensions::rotational_stiffness},
+                                                       {dimensions::damping, dimensions::rotational_damping},
+                                                       {dimensions::force, dimensions::torque},
+                                                       {dimensions::length, dimensions::angle},
+                                                       {dimensions::velocity, dimensions::angular_velocity}};
+  return std::any_of(std::begin(pairs), std::end(pairs), [&](const auto& pair) {
+    return pair == std::pair(x, y) || pair == std::pair(y, x);
+  });
+}
+
+bool is_not_finite_word(std::string_view text) {
+  const std::string word = folded(text);
+  return word == "inf" || word == "infinity" || word == "nan";
+}
+
+}  // namespace
+
+void report_wrong_unit(const ValueDecl& decl, const Dimension& dimension, const Expectation& expected,
+                       Diagnostics& diagnostics) {
+  diagnostics.report<DiagnosticCode::wrong_unit>(decl.span, excerpt(decl.text), describe(dimension), expected.taker,
+                                                 describe(expected.dimension));
+  if (dimension == dimensions::number)
+    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + " " + unit_of(expected.dimension));
+  else if (is_of_other_motion(dimension, expected.dimension))
+    diagnostics.note<DiagnosticCode::units_of_motion>(
+        {}, expected.port_motion == motion::rotation ? "rotation" : "translation");
+  else
+    note_radian(decl, dimension, expected, diagnostics);
+}
+
+ParameterTable::ParameterTable(const std::vector<ParameterDecl>& decls, Diagnostics& diagnostics)
+    : diagnostics_(diagnostics) {
+  for (const ParameterDecl& decl : decls) entries_.push_back(read_entry(decl));
+}
+
+ParameterTable::Entry ParameterTable::read_entry(const ParameterDecl& decl) {
+  Entry entry{{decl.name.text, 0, decl.tunable, 0, 0, decl.span}, decl, {}, true, false};
+  const std::optional<double> value = decl.value ? read_part(*decl.value, entry) : std::nullopt;
+  entry.readable = value.has_value();
+  entry.parameter.value = value.value_or(0);
+  read_range(entry);
+  return entry;
+}
+
+// Value, minimum and maximum share one dimension: the first one that is stated.
+std::optional<double> ParameterTable::read_part(const ValueDecl& decl, Entry& entry) {
+  if (!is_quantity(decl)) {
+    diagnostics_.report<DiagnosticCode::malformed_quantity>(decl.span, excerpt(decl.text));
+    return std::nullopt;
+  }
+  const std::optional<Quantity> quantity = read_quantity(decl, diagnostics_);
+  if (!quantity) return std::nullopt;
+  if (quantity->dimension && entry.dimension && quantity->dimension != entry.dimension) {
+    diagnostics_.report<DiagnosticCode::range_of_other_unit>(decl.span, excerpt(decl.text),
+                                                             describe(*quantity->dimension), entry.parameter.name,
+                                                             describe(*entry.dimension));
+    return std::nullopt;
+  }
+  if (quantity->dimension) entry.dimension = quantity->dimension;
+  return quantity->value;
+}
+
+void ParameterTable::read_range(Entry& entry) {
+  const ParameterDecl& decl = entry.decl;
+  const std::optional<double> min = decl.min ? read_part(*decl.min, entry) : std::nullopt;
+  const std::optional<double> max = decl.max ? read_part(*decl.max, entry) : std::nullopt;
+  if (decl.tunable && (!decl.min || !decl.max))
+    return diagnostics_.report<DiagnosticCode::tunable_without_range>(decl.name.span, entry.parameter.name);
+  if (!decl.tunable && (decl.min || decl.max))
+    diagnostics_.report<DiagnosticCode::range_without_tunable>((decl.min ? decl.min : decl.max)->span,
+                                                               entry.parameter.name);
+  if (!min || !max) return;
+  entry.parameter.min = *min;
+  entry.parameter.max = *max;
+  if (*min > *max)
+    return diagnostics_.report<DiagnosticCode::range_reversed>(decl.max->span, excerpt(decl.max->text),
+                                                               excerpt(decl.min->text));
+  if (!entry.readable || (*min <= entry.parameter.value && entry.parameter.value <= *max)) return;
+  diagnostics_.report<DiagnosticCode::tunable_out_of_range>(decl.value->span, entry.parameter.name,
+                                                            excerpt(decl.value->text), excerpt(decl.min->text),
+                                                            excerpt(decl.max->text));
+}
+
+std::optional<ReadValue> ParameterTable::read(const ValueDecl& decl, const Expectation& expected) {
+  if (!is_quantity(decl)) {
+    const auto entry = std::find_if(entries_.begin(), entries_.end(),
+                                    [&](const Entry& e) { return e.parameter.name == decl.text; });
+    if (entry != entries_.end()) return use(*entry, decl, expected);
+    report_unknown(decl);
+    return std::nullopt;
+  }
+  const std::optional<Quantity> quantity = read_quantity(decl, diagnostics_);
+  if (!quantity) return std::nullopt;
+  if (!quantity->dimension || quantity->dimension == expected.dimension) return ReadValue{quantity->value, {}};
+  report_wrong_unit(decl, *quantity->dimension, expected, diagnostics_);
+  return std::nullopt;
+}
+
+std::optional<ReadValue> ParameterTable::use(Entry& entry, const ValueDecl& decl, const Expectation& expected) {
+  entry.used = true;
+  if (!entry.readable) return std::nullopt;
+  const auto index = static_cast<std::size_t>(&entry - entries_.data());
+  if (!entry.dimension) entry.dimension = expected.dimension;  // a plain number is SI of whatever its first use takes
+  if (entry.dimension == expected.dimension) return ReadValue{entry.parameter.value, index};
+  diagnostics_.report<DiagnosticCode::parameter_of_wrong_unit>(decl.span, decl.text, describe(*entry.dimension),
+                                                               expected.taker, describe(expected.dimension));
+  diagnostics_.note<DiagnosticCode::parameter_given_here>(entry.decl.value->span);
+  return std::nullopt;
+}
+
+void ParameterTable::report_unknown(const ValueDecl& decl) const {
+  if (is_not_finite_word(decl.text))
+    return diagnostics_.report<DiagnosticCode::not_finite>(decl.span, decl.text);
+  diagnostics_.report<DiagnosticCode::unknown_parameter>(decl.span, excerpt(decl.text));
+  std::vector<std::string> names;
+  for (const Entry& entry : entries_) names.push_back(entry.parameter.name);
+  if (const auto nearest = nearest_name(decl.text, names))
+    diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
+}
+
+void ParameterTable::report_unused() const {
+  for (const Entry& entry : entries_)
+    if (!entry.used) diagnostics_.report<DiagnosticCode::unused_parameter>(entry.decl.name.span, entry.parameter.name);
+}
+
+std::vector<Parameter> ParameterTable::parameters() const {
+  std::vector<Parameter> parameters;
+  for (const Entry& entry : entries_) parameters.push_back(entry.parameter);
+  return parameters;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,63 @@
+// The parameters of a network while its values are being read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "network/dimension.hpp"
+#include "network/network.hpp"
+#include "network/quantity.hpp"
+
+namespace dashpot::compiler {
+
+// What a value is for.
+struct Expectation {
+  std::string taker;     // "a damper", "the rate"
+  Dimension dimension;
+  motion port_motion;
+};
+
+struct ReadValue {
+  double value;  // SI
+  std::optional<std::size_t> parameter;
+};
+
+class ParameterTable {
+ public:
+  // Reports ranges that are missing, contradictory, or do not hold the value.
+  ParameterTable(const std::vector<ParameterDecl>& decls, Diagnostics& diagnostics);
+
+  // A number, a quantity of the dimension that is due, or the name of a parameter of that dimension; otherwise nothing,
+  // reported.
+  std::optional<ReadValue> read(const ValueDecl& decl, const Expectation& expected);
+
+  // Warns about every parameter that no value names.
+  void report_unused() const;
+
+  std::vector<Parameter> parameters() const;
+
+ private:
+  struct Entry {
+    Parameter parameter;
+    ParameterDecl decl;
+    std::optional<Dimension> dimension;  // nothing where value and range are plain numbers
+    bool readable = true;
+    bool used = false;
+  };
+
+  Entry read_entry(const ParameterDecl& decl);
+  std::optional<double> read_part(const ValueDecl& decl, Entry& entry);
+  void read_range(Entry& entry);
+  std::optional<ReadValue> use(Entry& entry, const ValueDecl& decl, const Expectation& expected);
+  void report_unknown(const ValueDecl& decl) const;
+
+  std::vector<Entry> entries_;
+  Diagnostics& diagnostics_;
+};
+
+// Reports, with the remedy, a quantity of another dimension than is due.
+void report_wrong_unit(const ValueDecl& decl, const Dimension& dimension, const Expectation& expected,
+                       Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

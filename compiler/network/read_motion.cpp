@@ -1,0 +1,17 @@
+#include "network/read_motion.hpp"
+
+#include "source/excerpt.hpp"
+#include "source/nearest_name.hpp"
+
+namespace dashpot::compiler {
+
+motion read_motion(const std::optional<Text>& text, Diagnostics& diagnostics) {
+  if (!text || text->text == "translation") return motion::translation;
+  if (text->text == "rotation") return motion::rotation;
+  diagnostics.report<DiagnosticCode::unknown_motion>(text->span, excerpt(text->text));
+  if (const auto nearest = nearest_name(text->text, {"translation", "rotation"}))
+    diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
+  return motion::translation;
+}
+
+}  // namespace dashpot::compiler

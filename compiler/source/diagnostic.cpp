@@ -1,0 +1,25 @@
+#include "source/diagnostic.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace dashpot::compiler {
+
+std::size_t Diagnostics::error_count() const {
+  return static_cast<std::size_t>(
+      std::count_if(list_.begin(), list_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; }));
+}
+
+bool Diagnostics::has_errors() const { return error_count() > 0; }
+
+std::vector<Diagnostic> Diagnostics::in_file_order() const {
+  std::map<const SourceFile*, std::size_t> file_order{{nullptr, 0}};  // files in the order in which they were met
+  for (const Diagnostic& diagnostic : list_) file_order.emplace(diagnostic.span.file, file_order.size());
+  std::vector<Diagnostic> sorted = list_;
+  std::stable_sort(sorted.begin(), sorted.end(), [&](const Diagnostic& x, const Diagnostic& y) {
+    return std::pair(file_order[x.span.file], x.span.begin) < std::pair(file_order[y.span.file], y.span.begin);
+  });
+  return sorted;
+}
+
+}  // namespace dashpot::compiler

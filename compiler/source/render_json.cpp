@@ -1,0 +1,47 @@
+#include <nlohmann/json.hpp>
+
+#include "source/code_name.hpp"
+#include "source/render.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json place_of(const Span& span) {
+  if (span.file == nullptr)
+    return {{"file", nullptr}, {"line", nullptr}, {"column", nullptr}, {"end_line", nullptr}, {"end_column", nullptr}};
+  const Position begin = span.file->position_of(span.begin);
+  const Position end = span.file->position_of(span.end);
+  return {{"file", span.file->path()},
+          {"line", begin.line},
+          {"column", begin.column},
+          {"end_line", end.line},
+          {"end_column", end.column}};
+}
+
+Json json_of(const Note& note) {
+  Json json = place_of(note.span);
+  json["message"] = note.text;
+  return json;
+}
+
+Json json_of(const Diagnostic& diagnostic) {
+  Json json = place_of(diagnostic.span);
+  json["severity"] = diagnostic.severity == Severity::error ? "error" : "warning";
+  json["code"] = code_name(diagnostic.code);
+  json["message"] = diagnostic.text;
+  json["notes"] = Json::array();
+  for (const Note& note : diagnostic.notes) json["notes"].push_back(json_of(note));
+  return json;
+}
+
+}  // namespace
+
+std::string render_json(const Diagnostics& diagnostics) {
+  Json list = Json::array();
+  for (const Diagnostic& diagnostic : diagnostics.in_file_order()) list.push_back(json_of(diagnostic));
+  return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace dashpot::compiler

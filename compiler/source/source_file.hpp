@@ -1,0 +1,44 @@
+// A text the user gave us, and places in it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace dashpot::compiler {
+
+class Diagnostics;
+
+struct Position {
+  std::size_t line;    // from 1
+  std::size_t column;  // from 1, in bytes
+};
+
+class SourceFile {
+ public:
+  SourceFile(std::string path, std::string text);
+
+  const std::string& path() const { return path_; }
+  const std::string& text() const { return text_; }
+  Position position_of(std::size_t offset) const;
+  std::string_view line(std::size_t number) const;  // without its end of line; number from 1
+
+ private:
+  std::string path_;
+  std::string text_;
+  std::vector<std::size_t> line_starts_;
+};
+
+// Bytes [begin, end) of a file; `file == nullptr` is "no place".
+struct Span {
+  const SourceFile* file = nullptr;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+// Refuses: unreadable files and files above 16 MiB, each with a diagnostic.
+std::optional<SourceFile> read_source(const std::string& path, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,38 @@
+// A JSON text as a value in which everything knows its place.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+struct JsonMember;
+
+struct JsonValue {
+  enum class Kind { null, boolean, number, string, array, object };
+
+  Kind kind = Kind::null;
+  Span span;         // strings with their quotes, arrays and objects with their brackets
+  std::string text;  // of a string its contents, escapes resolved; of a number or boolean the literal as written
+  std::vector<JsonValue> items;     // of an array
+  std::vector<JsonMember> members;  // of an object, in file order; where a key comes twice, the first counts
+};
+
+struct JsonMember {
+  std::string key;
+  Span key_span;
+  JsonValue value;
+};
+
+// "a string", "a list", …
+std::string_view kind_name(JsonValue::Kind kind);
+
+// In: a file. Out: its value. Refuses: what is not JSON (RFC 8259, in UTF-8, a byte order mark allowed), the first fault
+// only; numbers beyond a double; more than 100 levels or 500,000 values. Keys given twice are reported, no more.
+std::optional<JsonValue> parse_json(const SourceFile& file, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

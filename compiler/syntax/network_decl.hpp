@@ -1,0 +1,94 @@
+// A network file as its author wrote it: shape checked, values not yet read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+struct Text {
+  std::string text;
+  Span span;  // with the quotes
+};
+
+// A number in SI, a quantity with its unit, or the name of a parameter.
+struct ValueDecl {
+  enum class Form { number, text };
+
+  Form form = Form::number;
+  std::string text;  // the literal as written, or the contents of the string
+  Span span;
+};
+
+struct ParameterDecl {
+  Text name;
+  std::optional<ValueDecl> value;  // nothing where a reported problem left none
+  bool tunable = false;
+  std::optional<ValueDecl> min;
+  std::optional<ValueDecl> max;
+  Span span;  // of the whole value
+};
+
+enum class ElementKind { spring, damper, slip };
+
+struct LeafDecl {
+  ElementKind kind = ElementKind::spring;
+  Span kind_span;
+  std::optional<ValueDecl> value;
+  std::optional<Text> name;
+  Span span;
+};
+
+struct TreeDecl {
+  enum class Kind { leaf, series, parallel };
+
+  Kind kind = Kind::leaf;
+  std::optional<LeafDecl> leaf;  // of a leaf
+  std::vector<TreeDecl> children;
+  Span span;
+};
+
+struct EdgeDecl {
+  LeafDecl leaf;
+  Text from;
+  Text to;
+};
+
+// `[low, high]`, or a single upper bound, which stands for 0 … high.
+struct RangeDecl {
+  std::optional<ValueDecl> low;
+  ValueDecl high;
+  Span span;
+};
+
+struct ContactDecl {
+  ValueDecl at;
+  Span span;
+};
+
+struct ValidDecl {
+  std::optional<RangeDecl> rate;
+  std::optional<RangeDecl> displacement;
+  std::optional<RangeDecl> frequency;
+  Span span;
+};
+
+struct NetworkDecl {
+  std::optional<Text> name;
+  std::optional<Text> title;
+  std::optional<Text> source;
+  std::optional<Text> motion;
+  std::vector<ParameterDecl> parameters;
+  std::variant<TreeDecl, std::vector<EdgeDecl>> structure;  // `network` or `elements`
+  Span structure_span;
+  std::optional<ContactDecl> contact;
+  std::optional<ValidDecl> valid;
+  std::string digest;    // of the file's bytes
+  bool complete = true;  // false: problems were reported, so only what is here can be checked further
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,107 @@
+#include "syntax/object_reader.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "source/excerpt.hpp"
+#include "source/nearest_name.hpp"
+
+namespace dashpot::compiler {
+
+using Kind = JsonValue::Kind;
+
+ObjectReader::ObjectReader(const JsonValue& value, std::string owner, Diagnostics& diagnostics)
+    : object_(value), owner_(std::move(owner)), diagnostics_(diagnostics) {}
+
+void ObjectReader::refuse_other_keys(const std::vector<std::string>& keys) const {
+  for (const JsonMember& member : object_.members) {
+    if (std::find(keys.begin(), keys.end(), member.key) != keys.end()) continue;
+    diagnostics_.report<DiagnosticCode::unknown_key>(member.key_span, owner_, excerpt(member.key));
+    if (const auto nearest = nearest_name(member.key, keys))
+      diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
+    else
+      diagnostics_.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
+  }
+}
+
+const JsonMember* ObjectReader::find(std::string_view key) const {
+  const auto found = std::find_if(object_.members.begin(), object_.members.end(),
+                                  [&](const JsonMember& member) { return member.key == key; });
+  return found == object_.members.end() ? nullptr : &*found;
+}
+
+const JsonMember* ObjectReader::require(std::string_view key) const {
+  const JsonMember* member = find(key);
+  if (member == nullptr) diagnostics_.report<DiagnosticCode::missing_key>(opening(), owner_, key);
+  return member;
+}
+
+std::optional<Text> ObjectReader::text(std::string_view key) const {
+  const JsonMember* member = find(key);
+  return member == nullptr ? std::nullopt : read_text(key, member->value, diagnostics_);
+}
+
+std::optional<ValueDecl> ObjectReader::value(std::string_view key) const {
+  const JsonMember* member = find(key);
+  return member == nullptr ? std::nullopt : read_value(key, member->value, diagnostics_);
+}
+
+bool ObjectReader::flag(std::string_view key) const {
+  const JsonMember* member = find(key);
+  if (member == nullptr) return false;
+  if (member->value.kind != Kind::boolean) report_wrong_type(key, member->value, "true or false", diagnostics_);
+  return member->value.text == "true";
+}
+
+const JsonValue* ObjectReader::object(std::string_view key) const {
+  const JsonMember* member = find(key);
+  if (member == nullptr || member->value.kind == Kind::object) return member == nullptr ? nullptr : &member->value;
+  report_wrong_type(key, member->value, "an object", diagnostics_);
+  return nullptr;
+}
+
+const JsonValue* ObjectReader::list(std::string_view key) const {
+  const JsonMember* member = find(key);
+  if (member == nullptr || member->value.kind == Kind::array) return member == nullptr ? nullptr : &member->value;
+  report_wrong_type(key, member->value, "a list", diagnostics_);
+  return nullptr;
+}
+
+std::optional<RangeDecl> ObjectReader::range(std::string_view key) const {
+  const JsonMember* member = find(key);
+  if (member == nullptr) return std::nullopt;
+  const JsonValue& value = member->value;
+  if (value.kind == Kind::array && value.items.size() == 2) {
+    const std::optional<ValueDecl> low = read_value(key, value.items[0], diagnostics_);
+    const std::optional<ValueDecl> high = read_value(key, value.items[1], diagnostics_);
+    return low && high ? std::optional(RangeDecl{low, *high, value.span}) : std::nullopt;
+  }
+  if (value.kind == Kind::number || value.kind == Kind::string)
+    return RangeDecl{std::nullopt, *read_value(key, value, diagnostics_), value.span};
+  report_wrong_type(key, value, "[low, high] or the upper bound", diagnostics_);
+  return std::nullopt;
+}
+
+Span ObjectReader::opening() const { return {object_.span.file, object_.span.begin, object_.span.begin + 1}; }
+
+void report_wrong_type(std::string_view key, const JsonValue& value, std::string_view expected,
+                       Diagnostics& diagnostics) {
+  diagnostics.report<DiagnosticCode::wrong_type>(value.span, key, kind_name(value.kind), expected);
+}
+
+std::optional<ValueDecl> read_value(std::string_view key, const JsonValue& value, Diagnostics& diagnostics) {
+  if (value.kind == Kind::number) return ValueDecl{ValueDecl::Form::number, value.text, value.span};
+  if (value.kind == Kind::string) return ValueDecl{ValueDecl::Form::text, value.text, value.span};
+  report_wrong_type(key, value, "a number or a string such as \"5 N/m\"", diagnostics);
+  return std::nullopt;
+}
+
+std::optional<Text> read_text(std::string_view key, const JsonValue& value, Diagnostics& diagnostics) {
+  if (value.kind == Kind::string) return Text{value.text, value.span};
+  report_wrong_type(key, value, "a string", diagnostics);
+  return std::nullopt;
+}
+
+}  // namespace dashpot::compiler

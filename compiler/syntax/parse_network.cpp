@@ -1,0 +1,122 @@
+#include "syntax/parse_network.hpp"
+
+#include <string>
+#include <utility>
+
+#include "source/digest.hpp"
+#include "source/excerpt.hpp"
+#include "syntax/object_reader.hpp"
+#include "syntax/parse_structure.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+const std::vector<std::string> network_keys = {"dashpot", "name",     "title",   "source", "motion", "parameters",
+                                               "network", "elements", "contact", "valid"};
+
+bool is_network_file(const JsonValue& root, const ObjectReader& reader, Diagnostics& diagnostics) {
+  if (root.kind != Kind::object) {
+    report_wrong_type("a network file", root, "an object", diagnostics);
+    return false;
+  }
+  if (const JsonMember* device = reader.find("dashpot_device")) {
+    diagnostics.report<DiagnosticCode::device_instead_of_network>(device->key_span);
+    return false;
+  }
+  const JsonMember* format = reader.require("dashpot");
+  if (format == nullptr || (format->value.kind == Kind::number && format->value.text == "1")) return true;
+  diagnostics.report<DiagnosticCode::unknown_format>(format->value.span, excerpt(format->value.text));
+  return false;
+}
+
+ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics) {
+  ParameterDecl parameter{{member.key, member.key_span}, {}, false, {}, {}, member.value.span};
+  if (member.value.kind != Kind::object) {
+    parameter.value = read_value(member.key, member.value, diagnostics);
+    return parameter;
+  }
+  const ObjectReader reader(member.value, "a parameter", diagnostics);
+  reader.refuse_other_keys({"value", "tunable", "min", "max"});
+  reader.require("value");
+  parameter.value = reader.value("value");
+  parameter.tunable = reader.flag("tunable");
+  parameter.min = reader.value("min");
+  parameter.max = reader.value("max");
+  return parameter;
+}
+
+std::vector<ParameterDecl> parse_parameters(const ObjectReader& network, Diagnostics& diagnostics) {
+  std::vector<ParameterDecl> parameters;
+  if (const JsonValue* object = network.object("parameters"))
+    for (const JsonMember& member : object->members) parameters.push_back(parse_parameter(member, diagnostics));
+  return parameters;
+}
+
+std::optional<ContactDecl> parse_contact(const ObjectReader& network, Diagnostics& diagnostics) {
+  const JsonValue* object = network.object("contact");
+  if (object == nullptr) return std::nullopt;
+  const ObjectReader reader(*object, "contact", diagnostics);
+  reader.refuse_other_keys({"at"});
+  reader.require("at");
+  const std::optional<ValueDecl> at = reader.value("at");
+  return at ? std::optional(ContactDecl{*at, object->span}) : std::nullopt;
+}
+
+std::optional<ValidDecl> parse_valid(const ObjectReader& network, Diagnostics& diagnostics) {
+  const JsonValue* object = network.object("valid");
+  if (object == nullptr) return std::nullopt;
+  const ObjectReader reader(*object, "valid", diagnostics);
+  reader.refuse_other_keys({"rate", "displacement", "frequency"});
+  return ValidDecl{reader.range("rate"), reader.range("displacement"), reader.range("frequency"), object->span};
+}
+
+void parse_structure(const ObjectReader& reader, NetworkDecl& decl, Diagnostics& diagnostics) {
+  const JsonMember* tree = reader.find("network");
+  const JsonMember* netlist = reader.find("elements");
+  if (tree != nullptr && netlist != nullptr) {
+    const bool tree_first = tree->key_span.begin < netlist->key_span.begin;
+    diagnostics.report<DiagnosticCode::tree_and_netlist>(tree_first ? netlist->key_span : tree->key_span);
+    diagnostics.note<DiagnosticCode::first_given_here>(tree_first ? tree->key_span : netlist->key_span);
+  }
+  if (tree == nullptr && netlist == nullptr) diagnostics.report<DiagnosticCode::no_structure>(reader.opening());
+  if (tree != nullptr) {
+    decl.structure_span = tree->key_span;
+    if (auto root = parse_tree(tree->value, diagnostics)) decl.structure = std::move(*root);
+  } else if (const JsonValue* list = reader.list("elements")) {
+    decl.structure_span = netlist->key_span;
+    decl.structure = parse_netlist(*list, diagnostics);
+  }
+}
+
+NetworkDecl parse_keys(const ObjectReader& reader, Diagnostics& diagnostics) {
+  NetworkDecl decl;
+  reader.refuse_other_keys(network_keys);
+  reader.require("name");
+  decl.name = reader.text("name");
+  decl.title = reader.text("title");
+  decl.source = reader.text("source");
+  decl.motion = reader.text("motion");
+  decl.parameters = parse_parameters(reader, diagnostics);
+  parse_structure(reader, decl, diagnostics);
+  decl.contact = parse_contact(reader, diagnostics);
+  decl.valid = parse_valid(reader, diagnostics);
+  return decl;
+}
+
+}  // namespace
+
+std::optional<NetworkDecl> parse_network(const SourceFile& file, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  const std::optional<JsonValue> root = parse_json(file, diagnostics);
+  if (!root) return std::nullopt;
+  const ObjectReader reader(*root, "the network file", diagnostics);
+  if (!is_network_file(*root, reader, diagnostics)) return std::nullopt;
+  NetworkDecl decl = parse_keys(reader, diagnostics);
+  decl.digest = digest_of(file.text());
+  decl.complete = diagnostics.error_count() == errors_before;
+  return decl;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,101 @@
+// The model concept: what a servo loop needs of an update law. Every emitted class satisfies it (architecture,
+// section 5):
+//     using scalar = double;                                             // or float
+//     static constexpr scalar sample_period = 0.001;                     // [s]
+//     static constexpr dashpot::motion motion = dashpot::motion::translation;
+//     struct certified_for {
+//       static constexpr bool any_device = false;                        // true: compiled for the ideal device
+//       static constexpr const char* device = "pantograph_brake_2009";   // its name
+//       static constexpr const char* device_digest = "…";                // of the device file's bytes
+//       static constexpr const char* estimator = "butterworth";          // as in the device file
+//       static constexpr unsigned loop_delay = 0;                        // whole samples between read and write
+//     };
+//     void reset(scalar position) noexcept;                              // at rest there
+//     dashpot::command<scalar> output(scalar position, scalar velocity) noexcept;
+//     void update() noexcept;                                            // after the command has left
+//     scalar stored_energy() const noexcept;                             // [J]
+// A model whose facts are known only at run time (loaded from a library) has `model_facts facts() const noexcept` in
+// place of sample_period, motion and certified_for.
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include <dashpot/command.hpp>
+#include <dashpot/detected.hpp>
+
+namespace dashpot {
+
+// What a model was made for. The strings live as long as the model.
+struct model_facts {
+  double sample_period = 0;  // [s]
+  dashpot::motion motion = dashpot::motion::translation;
+  bool any_device = true;
+  const char* device = "";
+  const char* device_digest = "";
+  const char* estimator = "";
+  unsigned loop_delay = 0;  // [samples]
+};
+
+namespace model_claim {
+
+template <class M>
+using scalar = std::enable_if_t<std::is_floating_point_v<typename M::scalar>>;
+template <class M>
+using sample_period = std::enable_if_t<(M::sample_period > 0)>;
+template <class M>
+using motion = std::enable_if_t<M::motion == dashpot::motion::translation || M::motion == dashpot::motion::rotation>;
+template <class M>
+using certified_for = std::enable_if_t<std::is_convertible_v<decltype(M::certified_for::any_device), bool> &&
+                                       std::is_convertible_v<decltype(M::certified_for::device), const char*> &&
+                                       std::is_convertible_v<decltype(M::certified_for::device_digest), const char*> &&
+                                       std::is_convertible_v<decltype(M::certified_for::estimator), const char*> &&
+                                       std::is_convertible_v<decltype(M::certified_for::loop_delay), unsigned>>;
+template <class M>
+using facts = std::enable_if_t<noexcept(model_facts(std::declval<const M&>().facts()))>;
+template <class M>
+using reset = std::enable_if_t<noexcept(std::declval<M&>().reset(typename M::scalar()))>;
+template <class M>
+using output = std::enable_if_t<noexcept(
+    command<typename M::scalar>(std::declval<M&>().output(typename M::scalar(), typename M::scalar())))>;
+template <class M>
+using update = std::enable_if_t<noexcept(std::declval<M&>().update())>;
+template <class M>
+using stored_energy = std::enable_if_t<noexcept(double(std::declval<const M&>().stored_energy()))>;
+
+}  // namespace model_claim
+
+// Refuses, in words, to compile a class that is no model. Always true where it compiles.
+template <class Model>
+constexpr bool check_model() {
+  constexpr bool own_facts = is_detected<model_claim::facts, Model>;
+  static_assert(is_detected<model_claim::scalar, Model>, "the model needs 'using scalar = double;' or float");
+  static_assert(own_facts || is_detected<model_claim::sample_period, Model>,
+                "the model needs 'static constexpr scalar sample_period' [s], more than zero");
+  static_assert(own_facts || is_detected<model_claim::motion, Model>,
+                "the model needs 'static constexpr dashpot::motion motion'");
+  static_assert(own_facts || is_detected<model_claim::certified_for, Model>,
+                "the model needs 'struct certified_for' with static any_device, device, device_digest, estimator and "
+                "loop_delay: it says which device the model may run on");
+  static_assert(is_detected<model_claim::reset, Model>, "the model needs 'void reset(scalar position) noexcept'");
+  static_assert(is_detected<model_claim::output, Model>,
+                "the model needs 'dashpot::command<scalar> output(scalar position, scalar velocity) noexcept'");
+  static_assert(is_detected<model_claim::update, Model>, "the model needs 'void update() noexcept'");
+  static_assert(is_detected<model_claim::stored_energy, Model>,
+                "the model needs 'scalar stored_energy() const noexcept' [J]");
+  return true;
+}
+
+// What `model` was made for, from its own facts() where it has one, else from its static members.
+template <class Model>
+model_facts facts_of([[maybe_unused]] const Model& model) noexcept {
+  if constexpr (is_detected<model_claim::facts, Model>) {
+    return model.facts();
+  } else {
+    using certified = typename Model::certified_for;
+    return {static_cast<double>(Model::sample_period), Model::motion,          certified::any_device, certified::device,
+            certified::device_digest,                  certified::estimator, certified::loop_delay};
+  }
+}
+
+}  // namespace dashpot

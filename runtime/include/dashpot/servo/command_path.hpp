@@ -1,0 +1,122 @@
+// What lies between reading a sample and writing a command, and nothing else: safety checks, velocity estimate, model,
+// actuator. No heap, lock, system call or exception; what can wait until the command has left is in finish().
+#pragma once
+
+#include <dashpot/actuator.hpp>
+#include <dashpot/command.hpp>
+#include <dashpot/device.hpp>
+#include <dashpot/servo/energy_account.hpp>
+#include <dashpot/servo/safety_monitor.hpp>
+#include <dashpot/servo/velocity_feed.hpp>
+
+namespace dashpot {
+
+// What may happen to the model's command on its way to the device.
+struct command_options {
+  actuator_options actuator;
+  energy_policy energy = energy_policy::observe;
+};
+
+template <class Model, class Estimator>
+class command_path {
+  using scalar = typename Model::scalar;
+
+ public:
+  // Requires can_drive(device, network).
+  command_path(Model& model, Estimator& estimator, const device_description& device, motion network,
+               const command_options& options) noexcept
+      : model_(model),
+        feed_(estimator),
+        monitor_(device),
+        actuator_(device, network, options.actuator),
+        energy_(device, actuator_.gear(), options.energy),
+        sample_period_(device.loop.sample_period),
+        safe_{0, device.brake.safe_damping} {
+    start();
+  }
+
+  // The next fresh sample is where model and estimator are at rest.
+  void start() noexcept {
+    monitor_.restart();
+    actuator_.reset();
+    demand_ = safe_;
+    at_rest_ = false;
+  }
+
+  // One period: the command in demand() is the model's for this sample, the one before where the sample is not fresh,
+  // and the safe one where a fault is returned.
+  fault_report answer(unsigned missed, device_status status, const device_sample& sample) noexcept {
+    answered_ = false;
+    fault_report found = monitor_.check_wake_up(missed);
+    if (!found) found = monitor_.check_sample(status, sample);
+    if (!found && monitor_.is_fresh()) found = respond(sample);
+    if (found) demand_ = safe_;
+    return found;
+  }
+
+  // After the command has left.
+  void finish() noexcept {
+    if (!answered_) return;
+    model_.update();
+    energy_.settle(output_, position_, hold_time());
+  }
+
+  fault_report check_write(device_status status) const noexcept { return monitor_.check_write(status); }
+
+  const actuation& demand() const noexcept { return demand_; }
+  const actuation& safe() const noexcept { return safe_; }
+  bool has_answered() const noexcept { return answered_; }  // this period's sample reached the model
+  bool is_clipped() const noexcept { return output_.motor_saturated() || output_.damping_clipped != 0; }
+  double position() const noexcept { return position_; }  // as given to the model [m] or [rad]
+  double velocity() const noexcept { return velocity_; }  // [m/s] or [rad/s]
+  const command<double>& wanted() const noexcept { return wanted_; }  // by the model
+  double energy() const noexcept { return energy_.balance(); }        // taken from the tool since start(), at least [J]
+
+ private:
+  fault_report respond(const device_sample& sample) noexcept {
+    if (!at_rest_) rest_at(sample);
+    const double joint_velocity = feed_.update(sample, monitor_.periods_since_last());
+    if (const fault_report found = monitor_.check_velocity(joint_velocity)) return found;
+    position_ = actuator_.gear().tool_motion(sample.position);
+    velocity_ = actuator_.gear().tool_motion(joint_velocity);
+    return drive(model_.output(static_cast<scalar>(position_), static_cast<scalar>(velocity_)));
+  }
+
+  fault_report drive(const command<scalar>& wanted) noexcept {
+    wanted_ = {static_cast<double>(wanted.damping), static_cast<double>(wanted.force)};
+    if (const fault_report found = monitor_.check_command(wanted_.damping, wanted_.force)) return found;
+    output_ = actuator_.drive(energy_.control(wanted_, position_, velocity_, hold_time()), velocity_);
+    if (const fault_report found = monitor_.check_saturation(output_.motor_saturated())) return found;
+    demand_ = output_.demand();
+    answered_ = true;
+    return {};
+  }
+
+  void rest_at(const device_sample& sample) noexcept {
+    const double position = actuator_.gear().tool_motion(sample.position);
+    model_.reset(static_cast<scalar>(position));
+    energy_.reset(position);
+    feed_.reset(sample);
+    at_rest_ = true;
+  }
+
+  // Of the hold that ends with this period's sample [s].
+  double hold_time() const noexcept { return monitor_.periods_since_last() * sample_period_; }
+
+  Model& model_;
+  velocity_feed<Estimator> feed_;
+  safety_monitor monitor_;
+  actuator<double> actuator_;
+  energy_account energy_;
+  double sample_period_;  // [s]
+  actuation safe_;
+  actuation demand_;
+  command<double> wanted_{};
+  actuator_output<double> output_;
+  double position_ = 0;  // [m] or [rad]
+  double velocity_ = 0;  // [m/s] or [rad/s]
+  bool at_rest_ = false;
+  bool answered_ = false;
+};
+
+}  // namespace dashpot

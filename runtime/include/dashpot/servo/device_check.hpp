@@ -1,0 +1,39 @@
+// The device concept of device.hpp, checked in words, and its optional part:
+//     device_status reset() noexcept;   // leaves the device's own safe state; called when the loop's is left
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include <dashpot/detected.hpp>
+#include <dashpot/device.hpp>
+
+namespace dashpot {
+
+namespace device_claim {
+
+template <class D>
+using read = std::enable_if_t<noexcept(device_status(std::declval<D&>().read(std::declval<device_sample&>())))>;
+template <class D>
+using write = std::enable_if_t<noexcept(device_status(std::declval<D&>().write(std::declval<const actuation&>())))>;
+template <class D>
+using description =
+    std::enable_if_t<noexcept(static_cast<const device_description&>(std::declval<const D&>().description()))>;
+template <class D>
+using reset = std::enable_if_t<noexcept(device_status(std::declval<D&>().reset()))>;
+
+}  // namespace device_claim
+
+// Refuses, in words, to compile a class that is no device. Always true where it compiles.
+template <class Device>
+constexpr bool check_device() {
+  static_assert(is_detected<device_claim::read, Device>,
+                "the device needs 'dashpot::device_status read(dashpot::device_sample&) noexcept'");
+  static_assert(is_detected<device_claim::write, Device>,
+                "the device needs 'dashpot::device_status write(const dashpot::actuation&) noexcept'");
+  static_assert(is_detected<device_claim::description, Device>,
+                "the device needs 'const dashpot::device_description& description() const noexcept'");
+  return true;
+}
+
+}  // namespace dashpot

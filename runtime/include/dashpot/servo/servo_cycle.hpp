@@ -1,0 +1,159 @@
+// One period of the servo loop after another, in the only order that is allowed: read, answer, write, and then the rest.
+// servo_loop.hpp sets it up and paces it.
+#pragma once
+
+#include <cstdint>
+
+#include <dashpot/device.hpp>
+#include <dashpot/model.hpp>
+#include <dashpot/servo/command_path.hpp>
+#include <dashpot/servo/device_check.hpp>
+#include <dashpot/servo/period_grid.hpp>
+#include <dashpot/servo/servo_control.hpp>
+#include <dashpot/servo/servo_state.hpp>
+#include <dashpot/servo/servo_summary.hpp>
+#include <dashpot/servo/telemetry_writer.hpp>
+
+namespace dashpot {
+
+template <class Model, class Device, class Estimator, class Clock>
+class servo_cycle {
+ public:
+  // Refers to all but the options. Requires that the device can drive the model.
+  servo_cycle(Model& model, Device& device, Estimator& estimator, const command_options& options, Clock& clock,
+              servo_control& control, telemetry_writer& writer) noexcept
+      : model_(model),
+        device_(device),
+        clock_(clock),
+        control_(control),
+        writer_(writer),
+        loop_(device.description().loop),
+        path_(model, estimator, device.description(), facts_of(model).motion, options) {}
+
+  void serve(const wake_up& woken) {
+    device_sample sample;
+    const device_status status = device_.read(sample);
+    const bool running = machine_.is_running();
+    const fault_report found = running ? path_.answer(woken.missed, status, sample) : fault_report{};
+    const device_status taken = device_.write(running ? path_.demand() : path_.safe());
+    const std::int64_t left = clock_.now();
+    if (running) path_.finish();
+    if (running) trip(found ? found : path_.check_write(taken), woken);
+    account(woken, left, running);
+    publish(record_of(woken, left, running));
+    obey(woken.period + 1);
+    summary_.busy.record(clock_.now() - woken.instant);
+  }
+
+  // Requests of control(), acted on between two periods; `period` is the one that comes.
+  void obey(std::uint64_t period) {
+    const bool start = control_.take_start();  // taken first: a reset asked for before it is then visible too
+    if (control_.take_reset() && machine_.reset()) leave_safe_state(period);
+    if (start && machine_.start()) begin(period);
+  }
+
+  // Gives the device the safe command, again every period while it does not take it, as often as deadlines may be missed.
+  void leave_device_safe() noexcept {
+    for (unsigned attempt = 0; attempt <= loop_.missed_deadlines_allowed && !summary_.left_safe; ++attempt) {
+      if (attempt > 0) clock_.wait();
+      summary_.left_safe = device_.write(path_.safe()) == device_status::ok;
+    }
+  }
+
+  // Of everything served so far.
+  servo_summary summary() const noexcept {
+    servo_summary result = summary_;
+    result.state = machine_.state();
+    result.faults = machine_.counts();
+    result.last_fault = machine_.last_fault();
+    return result;
+  }
+
+ private:
+  void begin(std::uint64_t period) {
+    path_.start();
+    announce(period, {});
+  }
+
+  void leave_safe_state(std::uint64_t period) {
+    if constexpr (is_detected<device_claim::reset, Device>) device_.reset();
+    announce(period, {});
+  }
+
+  void trip(const fault_report& report, const wake_up& woken) {
+    if (report && machine_.trip(report)) announce(woken.period, report);
+  }
+
+  void announce(std::uint64_t period, const fault_report& cause) {
+    make_room(writer_.events());
+    writer_.events().push({time_of(period), period, machine_.state(), cause});
+  }
+
+  void account(const wake_up& woken, std::int64_t left, bool running) noexcept {
+    ++summary_.periods;
+    summary_.missed_deadlines += woken.missed;
+    summary_.lateness.record(woken.lateness);
+    summary_.response.record(left - woken.instant);
+    if (loop_.jitter > 0 && static_cast<double>(woken.lateness) > loop_.jitter * 1e9) ++summary_.beyond_jitter;
+    if (running && machine_.is_running()) account_answer();
+  }
+
+  void account_answer() noexcept {
+    if (!path_.has_answered()) ++summary_.held;
+    if (path_.has_answered() && path_.is_clipped()) ++summary_.clipped;
+    summary_.energy = path_.energy();
+    if (summary_.energy < summary_.lowest_energy) summary_.lowest_energy = summary_.energy;
+  }
+
+  telemetry_record record_of(const wake_up& woken, std::int64_t left, bool running) const noexcept {
+    telemetry_record record;
+    record.time = time_of(woken.period);
+    record.period = woken.period;
+    record.state = machine_.state();
+    record.lateness = woken.lateness;
+    record.response = left - woken.instant;
+    const actuation& sent = running ? path_.demand() : path_.safe();
+    record.motor_torque = sent.motor_torque;
+    record.brake_damping = sent.brake_damping;
+    record.stored_energy = static_cast<double>(model_.stored_energy());
+    if (running) describe_answer(record);
+    return record;
+  }
+
+  void describe_answer(telemetry_record& record) const noexcept {
+    if (!machine_.is_running()) record.tripped = machine_.last_fault().kind;
+    record.fresh = path_.has_answered();
+    record.position = path_.position();
+    record.velocity = path_.velocity();
+    record.damping = path_.wanted().damping;
+    record.motor_force = path_.wanted().force;
+    record.energy = path_.energy();
+  }
+
+  void publish(const telemetry_record& record) {
+    make_room(writer_.records());
+    writer_.records().push(record);
+  }
+
+  // In simulated time nothing is lost: the loop waits for the writer, which runs in this thread.
+  template <class Record>
+  void make_room([[maybe_unused]] spsc_ring<Record>& ring) {
+    if constexpr (!Clock::is_real) {
+      if (ring.is_full()) writer_.drain();
+    }
+  }
+
+  double time_of(std::uint64_t period) const noexcept { return static_cast<double>(period) * loop_.sample_period; }
+
+  Model& model_;
+  Device& device_;
+  Clock& clock_;
+  servo_control& control_;
+  telemetry_writer& writer_;
+  loop_description loop_;
+  command_path<Model, Estimator> path_;
+  servo_state_machine machine_;
+  servo_summary summary_;
+};
+
+}  // namespace dashpot

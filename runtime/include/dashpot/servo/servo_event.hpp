@@ -1,0 +1,23 @@
+// A change of the loop's state, for people: one line in the log.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <dashpot/command.hpp>
+#include <dashpot/servo/fault.hpp>
+#include <dashpot/servo/servo_state.hpp>
+
+namespace dashpot {
+
+struct servo_event {
+  double time = 0;  // since the loop's start [s]
+  std::uint64_t period = 0;
+  servo_state entered = servo_state::idle;
+  fault_report cause;  // of entering safe
+};
+
+// "0.4170 s: safe: encoder jump: moved 0.5 rad between two samples, at most 0.0031 rad". `joint` names the units.
+std::string to_text(const servo_event& event, motion joint);
+
+}  // namespace dashpot

@@ -1,0 +1,38 @@
+// What a run of the servo loop came to.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <dashpot/servo/admission.hpp>
+#include <dashpot/servo/fault.hpp>
+#include <dashpot/servo/histogram.hpp>
+#include <dashpot/servo/servo_state.hpp>
+
+namespace dashpot {
+
+struct servo_summary {
+  admission verdict = admission::admitted;  // where it refuses, the device was never touched and all below is zero
+  servo_state state = servo_state::idle;    // in which the loop ended
+  bool left_safe = false;                   // the device took the safe command at the end
+  std::uint64_t periods = 0;                // that were served
+  std::uint64_t missed_deadlines = 0;       // periods that were skipped
+  std::uint64_t beyond_jitter = 0;          // wake-ups later than the device's stated jitter
+  std::uint64_t held = 0;                   // periods without a fresh sample while running
+  std::uint64_t clipped = 0;                // commands beyond what motor or brake can give
+  fault_counts faults;
+  fault_report last_fault;
+  histogram lateness;        // of the wake-ups [ns]
+  histogram response;        // from wake-up until the command had left [ns]
+  histogram busy;            // from wake-up until everything was done [ns]
+  double energy = 0;         // taken from the tool by motor and brake since the last start, at least [J]
+  double lowest_energy = 0;  // its least value of the whole run; below zero energy was given to the tool [J]
+  std::uint64_t telemetry_dropped = 0;
+  std::uint64_t events_dropped = 0;
+  int telemetry_error = 0;  // errno of the first failed write, 0: none
+};
+
+// Several lines for people, without the log's lines again.
+std::string to_text(const servo_summary& summary);
+
+}  // namespace dashpot

@@ -1,0 +1,56 @@
+// Feeds an estimator on its uniform grid. Where periods passed without a sample, their samples are put on the straight
+// line between the two around them: an estimator would otherwise take a gap of n periods for n times the velocity.
+#pragma once
+
+#include <cstdint>
+
+#include <dashpot/device.hpp>
+#include <dashpot/servo/estimator_check.hpp>
+
+namespace dashpot {
+
+template <class Estimator>
+class velocity_feed {
+  static constexpr bool takes_samples = is_detected<estimator_claim::update_by_sample, Estimator>;
+  using scalar = estimate_of<Estimator>;
+
+ public:
+  explicit velocity_feed(Estimator& estimator) noexcept : estimator_(estimator) {}
+
+  void reset(const device_sample& sample) noexcept {
+    estimator_.reset(static_cast<scalar>(sample.position));
+    last_ = sample;
+  }
+
+  // The estimate [rad/s] or [m/s] at `sample`, which lies `periods` ≥ 1 after the one before. At most `periods` calls.
+  double update(const device_sample& sample, unsigned periods) noexcept {
+    for (unsigned period = 1; period < periods; ++period) estimate(between(sample, period, periods));
+    last_ = sample;
+    return estimate(sample);
+  }
+
+ private:
+  double estimate(const device_sample& sample) noexcept {
+    if constexpr (takes_samples) {
+      return static_cast<double>(estimator_.update(sample));
+    } else {
+      return static_cast<double>(estimator_.update(static_cast<scalar>(sample.position)));
+    }
+  }
+
+  // Edges are not invented: the newest one before the gap stays the newest.
+  device_sample between(const device_sample& sample, unsigned period, unsigned periods) const noexcept {
+    const double part = static_cast<double>(period) / static_cast<double>(periods);
+    device_sample filled = last_;
+    filled.position += part * (sample.position - last_.position);
+    filled.velocity += part * (sample.velocity - last_.velocity);
+    const auto elapsed = static_cast<double>(sample.timestamp_ns - last_.timestamp_ns);  // [ns]
+    filled.timestamp_ns += static_cast<std::uint64_t>(part * elapsed);
+    return filled;
+  }
+
+  Estimator& estimator_;
+  device_sample last_;
+};
+
+}  // namespace dashpot

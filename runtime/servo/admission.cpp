@@ -1,0 +1,76 @@
+#include <dashpot/servo/admission.hpp>
+
+#include <charconv>
+#include <cstring>
+
+#include <dashpot/transmission.hpp>
+
+namespace dashpot {
+namespace {
+
+bool same(const char* one, const char* other) noexcept { return std::strcmp(one, other) == 0; }
+
+bool same_period(double one, double other) noexcept { return static_cast<float>(one) == static_cast<float>(other); }
+
+admission hold_against_certificate(const model_facts& model, const loop_facts& loop) noexcept {
+  if (!same(model.device, loop.identity.name)) return admission::other_device;
+  if (!same(model.device_digest, loop.identity.digest)) return admission::other_digest;
+  if (!same(model.estimator, loop.estimator)) return admission::other_estimator;
+  if (model.loop_delay != loop.device.loop.delay_samples) return admission::other_delay;
+  return admission::admitted;
+}
+
+std::string number(double value) {
+  char digits[32];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string quoted(const char* text) { return "'" + std::string(text) + "'"; }
+
+const char* word_of(motion which) { return which == motion::rotation ? "rotation" : "translation"; }
+
+std::string certified(const model_facts& model) { return "model is certified for device " + quoted(model.device); }
+
+}  // namespace
+
+admission admit(const model_facts& model, const loop_facts& loop, bool require_certified) noexcept {
+  if (!(loop.device.loop.sample_period > 0)) return admission::no_period;
+  if (!same_period(model.sample_period, loop.device.loop.sample_period)) return admission::other_rate;
+  if (!can_drive(loop.device, model.motion)) return admission::other_motion;
+  if (!model.any_device) return hold_against_certificate(model, loop);
+  return require_certified ? admission::not_certified : admission::admitted_uncertified;
+}
+
+std::string to_text(admission verdict, const model_facts& model, const loop_facts& loop) {
+  const loop_description& timing = loop.device.loop;
+  switch (verdict) {
+    case admission::admitted: return {};
+    case admission::admitted_uncertified:
+      return "model is compiled for the ideal device; nothing is certified about device " + quoted(loop.identity.name);
+    case admission::no_period:
+      return "device " + quoted(loop.identity.name) + " states a sample period of " + number(timing.sample_period) +
+             " s; a loop needs one above zero";
+    case admission::other_rate:
+      return "model is made for a period of " + number(model.sample_period) + " s, device " +
+             quoted(loop.identity.name) + " runs at " + number(timing.sample_period) + " s";
+    case admission::other_motion:
+      return std::string("model is made for ") + word_of(model.motion) + ", device " + quoted(loop.identity.name) +
+             " moves in " + word_of(loop.device.motion) + " and states no arm radius that would convert it";
+    case admission::not_certified:
+      return "model is compiled for the ideal device; this loop requires one certified for device " +
+             quoted(loop.identity.name);
+    case admission::other_device: return certified(model) + ", this is device " + quoted(loop.identity.name);
+    case admission::other_digest:
+      return certified(model) + " with digest " + quoted(model.device_digest) + ", this one's is " +
+             quoted(loop.identity.digest);
+    case admission::other_estimator:
+      return certified(model) + " with estimator " + quoted(model.estimator) + ", this loop uses " +
+             quoted(loop.estimator);
+    case admission::other_delay:
+      return certified(model) + " with a loop delay of " + std::to_string(model.loop_delay) +
+             " samples, the device states " + std::to_string(timing.delay_samples);
+  }
+  return "unknown verdict";
+}
+
+}  // namespace dashpot

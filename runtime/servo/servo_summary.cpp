@@ -1,0 +1,61 @@
+#include <dashpot/servo/servo_summary.hpp>
+
+#include <cstdio>
+#include <cstring>
+
+namespace dashpot {
+namespace {
+
+template <class... Values>
+std::string print(const char* format, Values... values) {
+  char line[256];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+double microseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) / 1e3; }
+
+std::string durations(const char* what, const histogram& times) {
+  return print("%-9s median %8.1f us, 99 %% %8.1f us, 99.9 %% %8.1f us, longest %8.1f us\n", what,
+               microseconds(times.percentile(50)), microseconds(times.percentile(99)),
+               microseconds(times.percentile(99.9)), microseconds(times.max()));
+}
+
+std::string faults(const fault_counts& counts) {
+  if (counts.total() == 0) return "faults    none\n";
+  std::string text = "faults   ";
+  for (unsigned i = 1; i < fault_kinds; ++i) {
+    const auto which = static_cast<fault>(i);
+    if (counts.of(which) != 0) text += print(" %s %llu,", name_of(which), static_cast<unsigned long long>(counts.of(which)));
+  }
+  text.back() = '\n';
+  return text;
+}
+
+std::string losses(const servo_summary& summary) {
+  std::string text;
+  if (summary.telemetry_dropped + summary.events_dropped != 0) {
+    text += print("telemetry %llu records and %llu events dropped\n",
+                  static_cast<unsigned long long>(summary.telemetry_dropped),
+                  static_cast<unsigned long long>(summary.events_dropped));
+  }
+  if (summary.telemetry_error != 0) text += print("telemetry stopped: %s\n", std::strerror(summary.telemetry_error));
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const servo_summary& summary) {
+  if (!is_admitted(summary.verdict)) return "refused before the device was touched\n";
+  const auto count = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  return print("periods   %llu served, %llu missed, %llu woken beyond the stated jitter, %llu held, %llu clipped\n",
+               count(summary.periods), count(summary.missed_deadlines), count(summary.beyond_jitter),
+               count(summary.held), count(summary.clipped)) +
+         durations("wake-up", summary.lateness) + durations("response", summary.response) +
+         durations("busy", summary.busy) + faults(summary.faults) +
+         print("energy    %.6g J taken from the tool, at least %.6g J\n", summary.energy, summary.lowest_energy) +
+         losses(summary) +
+         print("ended     %s, device %s\n", name_of(summary.state), summary.left_safe ? "left safe" : "NOT left safe");
+}
+
+}  // namespace dashpot

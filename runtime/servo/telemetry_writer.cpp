@@ -1,0 +1,111 @@
+#include <dashpot/servo/telemetry_writer.hpp>
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <cerrno>
+#include <charconv>
+#include <chrono>
+#include <utility>
+
+#include <dashpot/servo/unit_names.hpp>
+
+namespace dashpot {
+namespace {
+
+constexpr std::size_t event_capacity = 256;
+// Long enough to cost nothing, short against the time in which a ring of the usual size fills.
+constexpr std::chrono::milliseconds pause{5};
+
+template <class Number>
+void append(std::string& row, Number value) {
+  char digits[32];
+  row.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+template <class Number>
+void append_cell(std::string& row, Number value) {
+  row += ',';
+  append(row, value);
+}
+
+std::string column(const char* name, const char* unit) { return std::string(",") + name + " [" + unit + "]"; }
+
+}  // namespace
+
+std::string csv_header(telemetry_units units) {
+  return "time [s],period,state,fault,fresh,lateness [ns],response [ns]" +
+         column("position", position_unit(units.model)) + column("velocity", velocity_unit(units.model)) +
+         column("damping", damping_unit(units.model)) + column("motor_force", force_unit(units.model)) +
+         column("motor_torque", force_unit(units.joint)) + column("brake_damping", damping_unit(units.joint)) +
+         column("stored_energy", "J") + column("energy", "J") + "\n";
+}
+
+std::string csv_row(const telemetry_record& record) {
+  std::string row;
+  append(row, record.time);
+  append_cell(row, record.period);
+  row.append(",").append(name_of(record.state)).append(",").append(name_of(record.tripped));
+  append_cell(row, record.fresh ? 1 : 0);
+  append_cell(row, record.lateness);
+  append_cell(row, record.response);
+  for (const double value : {record.position, record.velocity, record.damping, record.motor_force, record.motor_torque,
+                             record.brake_damping, record.stored_energy, record.energy}) {
+    append_cell(row, value);
+  }
+  return row += '\n';
+}
+
+telemetry_writer::telemetry_writer(std::size_t capacity, telemetry_outputs outputs, telemetry_units units)
+    : records_(capacity), events_(event_capacity), outputs_(std::move(outputs)), units_(units) {
+  if (outputs_.csv != nullptr) put(csv_header(units_));
+}
+
+telemetry_writer::~telemetry_writer() { stop(); }
+
+void telemetry_writer::start() {
+  stopping_.store(false);
+  thread_ = std::thread([this] { run(); });
+}
+
+void telemetry_writer::stop() {
+  stopping_.store(true);
+  if (thread_.joinable()) thread_.join();
+  drain();
+}
+
+void telemetry_writer::run() {
+  // A thread inherits the scheduling of the one that starts it; this one must never hold up a real-time loop.
+  const sched_param ordinary{};
+  pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
+  while (!stopping_.load()) {
+    drain();
+    std::this_thread::sleep_for(pause);
+  }
+}
+
+void telemetry_writer::drain() {
+  servo_event event;
+  while (events_.pop(event)) say(to_text(event, units_.joint));
+  telemetry_record record;
+  while (records_.pop(record)) write(record);
+  if (outputs_.csv != nullptr && std::fflush(outputs_.csv) != 0 && write_error_ == 0) write_error_ = errno;
+}
+
+void telemetry_writer::say(const std::string& line) {
+  if (outputs_.log == nullptr || line.empty()) return;
+  std::fputs((line + '\n').c_str(), outputs_.log);
+  std::fflush(outputs_.log);
+}
+
+void telemetry_writer::write(const telemetry_record& record) {
+  if (outputs_.csv != nullptr) put(csv_row(record));
+  if (outputs_.observe) outputs_.observe(record);
+}
+
+void telemetry_writer::put(const std::string& text) {
+  if (write_error_ != 0) return;
+  if (std::fwrite(text.data(), 1, text.size(), outputs_.csv) != text.size()) write_error_ = errno;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,40 @@
+// A simulated clock that oversleeps where a test tells it to.
+#pragma once
+
+#include <cstdint>
+
+#include <dashpot/servo/period_grid.hpp>
+
+namespace dashpot::tests {
+
+class scripted_clock {
+ public:
+  static constexpr bool is_real = false;
+
+  // Before serving `period` the loop oversleeps `periods` whole ones.
+  void oversleep(std::uint64_t period, unsigned periods) {
+    late_period_ = period;
+    late_by_ = periods;
+  }
+
+  void start(double period) noexcept {
+    grid_ = period_grid(period);
+    period_ns_ = static_cast<std::int64_t>(period * 1e9 + 0.5);
+  }
+  wake_up wait() noexcept {
+    const std::int64_t late = waits_++ == late_period_ ? late_by_ * period_ns_ : 0;
+    now_ = grid_.next_release() + late;
+    return grid_.arrive(now_);
+  }
+  std::int64_t now() const noexcept { return now_; }
+
+ private:
+  period_grid grid_{1};
+  std::int64_t period_ns_ = 0;
+  std::int64_t now_ = 0;
+  std::uint64_t waits_ = 0;
+  std::uint64_t late_period_ = ~std::uint64_t{0};
+  std::int64_t late_by_ = 0;
+};
+
+}  // namespace dashpot::tests

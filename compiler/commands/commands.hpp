@@ -1,0 +1,32 @@
+// One function a command: architecture, section 4. Each reports into `diagnostics`, which main() renders.
+#pragma once
+
+#include <memory>
+
+#include "commands/options.hpp"
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+// Files that the diagnostics point into must outlive them; they are kept here.
+class SourceFiles {
+ public:
+  const SourceFile* open(const std::string& path, Diagnostics& diagnostics);
+
+ private:
+  std::vector<std::unique_ptr<SourceFile>> files_;
+};
+
+ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+
+// The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
+struct DeviceChoice {
+  std::optional<Device> device;  // empty where none was asked for
+  ExitStatus status = ExitStatus::done;
+};
+DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,22 @@
+// A motion to simulate: a table of time, position and perhaps velocity.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+struct Motion {
+  std::vector<double> time;      // [s]
+  std::vector<double> position;  // [m] or [rad]
+  std::vector<double> velocity;  // [m/s] or [rad/s]; empty where the file has none
+  std::optional<double> period;  // [s], the median; empty for a single row
+};
+
+// In: comma-separated text with a header that names `time` and `position`, optionally `velocity`, in any order among
+// other columns. Refuses: missing columns, cells that are no finite numbers, a period that is not uniform to 1e-6.
+std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

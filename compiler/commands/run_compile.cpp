@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "compile.hpp"
+#include "emit/write_files.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string stage_text(const Compilation& c, const std::string& stage) {
+  if (stage == "network") {
+    const std::optional<Tree> tree = series_parallel_tree(c.network);
+    return to_text(c.network) + (tree ? to_text(*tree, c.network) : "no series-parallel tree\n");
+  }
+  if (stage == "linear") return to_text(c.form, c.network);
+  if (stage == "decomposition") return to_text(c.decomposition, c.network);
+  if (stage == "law") return to_text(c.law, c.network);
+  return "certificate of " + c.network.name + ": not computed\n";
+}
+
+// Spaces, colons and dollars mean something in a makefile.
+std::string escaped(const std::string& path) {
+  std::string text;
+  for (char c : path) {
+    if (c == ' ' || c == '#') text += '\\';
+    if (c == '$') text += '$';
+    text += c;
+  }
+  return text;
+}
+
+OutputFile dependencies(const Options& options, const std::vector<OutputFile>& files) {
+  const std::filesystem::path folder = options.output.value_or(".");
+  std::string text;
+  for (const OutputFile& file : files) text += (text.empty() ? "" : " ") + escaped((folder / file.name).string());
+  text += ":";
+  for (const std::string& network : options.networks) text += " \\\n  " + escaped(network);
+  if (options.device) text += " \\\n  " + escaped(*options.device);
+  if (options.emission.templates)
+    for (const char* name : {"network.hpp.in", "network_test.cpp.in"})
+      text += " \\\n  " + escaped((std::filesystem::path(*options.emission.templates) / name).string());
+  return {*options.depfile, text + "\n"};
+}
+
+void report_same_names(const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (files[i].name == files[j].name) diagnostics.report<DiagnosticCode::same_output>({}, files[i].name);
+}
+
+}  // namespace
+
+ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const DeviceChoice device = open_device(options, files, diagnostics);
+  if (device.status != ExitStatus::done) return device.status;
+  std::vector<OutputFile> outputs;
+  std::string shown;
+  for (const std::string& path : options.networks) {
+    const SourceFile* file = files.open(path, diagnostics);
+    const std::optional<Compilation> compilation =
+        file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
+    if (!compilation) continue;
+    if (options.print) {
+      shown += stage_text(*compilation, *options.print);
+    } else if (const auto emitted = emit_cpp(*compilation, options.emission, diagnostics)) {
+      outputs.insert(outputs.end(), emitted->begin(), emitted->end());
+    }
+  }
+  report_same_names(outputs, diagnostics);
+  if (diagnostics.has_errors()) return ExitStatus::input_refused;
+  fmt::print("{}", shown);
+  if (options.print) return ExitStatus::done;
+  const bool written = write_files(options.output.value_or("."), outputs, diagnostics) &&
+                       (!options.depfile || write_files("", {dependencies(options, outputs)}, diagnostics));
+  return written ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

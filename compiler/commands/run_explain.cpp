@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.hpp"
+#include "compile.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const Candidate& c) {
+  Json inputs = Json::array();
+  for (const StateInputMerit& merit : c.state_inputs)
+    inputs.push_back({{"state_input", name_of(merit.state_input)},
+                      {"largest_error", merit.largest_error},
+                      {"extra_damping_any_delay", or_null(merit.extra_damping_any_delay)}});
+  return {{"name", c.name},
+          {"damping", c.damping},
+          {"wanted_damping", c.wanted_damping},
+          {"state_input", name_of(c.state_input)},
+          {"velocity_gain", c.velocity_gain},
+          {"motor_noise", or_null(c.motor_noise)},
+          {"largest_error", c.largest_error},
+          {"extra_damping_any_delay", or_null(c.extra_damping_any_delay)},
+          {"minimum_damping", or_null(c.minimum_damping)},
+          {"certified", or_null(c.certified)},
+          {"reason", c.reason},
+          {"state_inputs", inputs}};
+}
+
+Json json_of(const Compilation& c) {
+  Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
+  for (const Mode& mode : c.form.modes)
+    modes.push_back({{"stiffness", to_double(mode.stiffness)}, {"relaxation_rate", to_double(mode.relaxation_rate)}});
+  const KelvinForm creep = kelvin_form(c.form);
+  for (const KelvinElement& element : creep.elements)
+    kelvin.push_back({{"stiffness", to_double(element.stiffness)}, {"damping", to_double(element.damping)}});
+  for (const Candidate& candidate : c.decomposition.candidates) candidates.push_back(json_of(candidate));
+  const Candidate& choice = c.decomposition.choice();
+  return {{"name", c.network.name},
+          {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
+          {"static_stiffness", to_double(c.form.static_stiffness)},
+          {"feedthrough_damping", to_double(c.form.feedthrough_damping)},
+          {"modes", modes},
+          {"zero_frequency_damping", to_double(zero_frequency_damping(c.form))},
+          {"kelvin", {{"glass_compliance", to_double(creep.glass_compliance)},
+                      {"fluidity", to_double(creep.fluidity)},
+                      {"elements", kelvin}}},
+          {"scheme", name_of(c.law.scheme)},
+          {"rate", c.rate},
+          {"device", c.device ? Json(c.device->name) : Json(nullptr)},
+          {"candidates", candidates},
+          {"chosen", choice.name},
+          {"state_input", name_of(choice.state_input)},
+          {"reason", choice.reason + "; " + c.decomposition.reason}};
+}
+
+std::string kelvin_text(const Compilation& c) {
+  const KelvinForm creep = kelvin_form(c.form);
+  std::string text = fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g}, fluidity {:.8g}\n",
+                                 to_double(creep.glass_compliance), to_double(creep.fluidity));
+  for (const KelvinElement& element : creep.elements)
+    text += fmt::format("  Kelvin element      {:.10g} and {:.10g}\n", to_double(element.stiffness), to_double(element.damping));
+  return text;
+}
+
+std::string pace_text(const Compilation& c) {
+  if (c.form.modes.empty()) return "";
+  const double fastest = to_double(1 / c.form.modes.back().relaxation_rate);
+  return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", fastest, fastest * c.rate, c.rate);
+}
+
+std::string text_of(const Compilation& c) {
+  const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
+  const Candidate& choice = c.decomposition.choice();
+  std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
+  text += to_text(c.form, c.network);
+  text += fmt::format("zero-frequency damping {:.10g}\n", to_double(zero_frequency_damping(c.form)));
+  text += pace_text(c) + kelvin_text(c) + "\n" + to_text(c.decomposition, c.network);
+  text += fmt::format("passivity             {:.6g} of extra damping for any delay of the estimate; sampled: not computed\n",
+                      choice.extra_damping_any_delay.value_or(0));
+  text += fmt::format("cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
+                      output.additions, output.multiplications, update.additions, update.multiplications, update.guards,
+                      output.states);
+  return text;
+}
+
+}  // namespace
+
+ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const DeviceChoice device = open_device(options, files, diagnostics);
+  if (device.status != ExitStatus::done) return device.status;
+  const SourceFile* file = files.open(options.networks.front(), diagnostics);
+  if (file == nullptr) return ExitStatus::input_refused;
+  const std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
+  if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  fmt::print("{}", options.json ? json_of(*compilation).dump(2) + "\n" : text_of(*compilation));
+  return ExitStatus::done;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "commands/motion_csv.hpp"
+#include "compile.hpp"
+#include "discretise/evaluate.hpp"
+#include "emit/write_files.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double same_rate = 1e-6;  // relative: times in a file are decimal numbers of limited length
+
+// The rate that the file means: a whole number of hertz, or a period with few digits, rather than the rounding of times.
+double rate_meant(double period) {
+  const double rate = 1 / period;
+  if (const double whole = std::round(rate); whole > 0 && std::abs(rate - whole) <= same_rate * rate) return whole;
+  return 1 / std::strtod(fmt::format("{:.7g}", period).c_str(), nullptr);
+}
+
+// False where --rate or the device contradicts the motion. Leaves in `choices` the rate to compile for.
+bool settle_rate(const Motion& motion, const std::optional<Device>& device, Choices& choices, const SourceFile& file,
+                 Diagnostics& diagnostics) {
+  if (!choices.rate && device) choices.rate = 1 / device->description.loop.sample_period;
+  if (!motion.period) return true;
+  if (!choices.rate) choices.rate = rate_meant(*motion.period);
+  if (std::abs(*choices.rate * *motion.period - 1) <= same_rate) return true;
+  diagnostics.report<DiagnosticCode::csv_rate_contradicts>({&file, 0, 0}, 1 / *motion.period, *choices.rate);
+  return false;
+}
+
+void warn_once_outside(const std::optional<Range>& range, double value, double time, const char* what, bool& warned,
+                       const Network& network, Diagnostics& diagnostics) {
+  if (warned || !range || range->contains(value)) return;
+  warned = true;
+  diagnostics.report<DiagnosticCode::outside_valid_range>(network.valid.span, what, value, time, range->low, range->high);
+}
+
+template <class Scalar>
+std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) {
+  Evaluation<Scalar> law(c.law);
+  law.reset(0);
+  std::string text = "time,position,velocity,force,damping,motor_force\n";
+  double last_position = 0;
+  bool warned_displacement = false, warned_rate = false;
+  for (std::size_t i = 0; i < motion.time.size(); ++i) {
+    const double position = motion.position[i];
+    const double slope = i == 0 ? 0 : (position - last_position) * c.rate;
+    const Scalar velocity = static_cast<Scalar>(motion.velocity.empty() ? slope : motion.velocity[i]);
+    last_position = position;
+    const command<Scalar> now = law.step(static_cast<Scalar>(position), velocity);
+    text += fmt::format("{},{},{},{},{},{}\n", motion.time[i], static_cast<Scalar>(position), velocity,
+                        now.damping * velocity + now.force, now.damping, now.force);
+    warn_once_outside(c.network.valid.displacement, position, motion.time[i], "displacement", warned_displacement,
+                      c.network, diagnostics);
+    warn_once_outside(c.network.valid.rate, std::abs(double(velocity)), motion.time[i], "rate", warned_rate, c.network,
+                      diagnostics);
+  }
+  return text;
+}
+
+}  // namespace
+
+ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const DeviceChoice device = open_device(options, files, diagnostics);
+  if (device.status != ExitStatus::done) return device.status;
+  const SourceFile* network = files.open(options.networks.front(), diagnostics);
+  const SourceFile* input = files.open(options.input, diagnostics);
+  const std::optional<Motion> motion = input ? parse_motion(*input, diagnostics) : std::nullopt;
+  if (network == nullptr || !motion) return ExitStatus::input_refused;
+  Choices choices = options.choices;
+  if (!settle_rate(*motion, device.device, choices, *input, diagnostics)) return ExitStatus::command_line_wrong;
+  const std::optional<Compilation> compilation = compile(*network, choices, device.device, diagnostics);
+  if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  const std::string text = choices.scalar == ScalarType::float64 ? simulate<double>(*compilation, *motion, diagnostics)
+                                                                 : simulate<float>(*compilation, *motion, diagnostics);
+  if (!options.output) {
+    fmt::print("{}", text);
+    return ExitStatus::done;
+  }
+  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,30 @@
+#include <cmath>
+
+#include "commands/commands.hpp"
+#include "syntax/parse_device.hpp"
+
+namespace dashpot::compiler {
+
+const SourceFile* SourceFiles::open(const std::string& path, Diagnostics& diagnostics) {
+  std::optional<SourceFile> file = read_source(path, diagnostics);
+  if (!file) return nullptr;
+  files_.push_back(std::make_unique<SourceFile>(std::move(*file)));
+  return files_.back().get();
+}
+
+DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  if (!options.device) return {};
+  const SourceFile* file = files.open(*options.device, diagnostics);
+  if (file == nullptr) return {std::nullopt, ExitStatus::input_refused};
+  const std::optional<DeviceDecl> decl = parse_device(*file, diagnostics);
+  std::optional<Device> device = decl ? build_device(*decl, diagnostics) : std::nullopt;
+  if (!device) return {std::nullopt, ExitStatus::input_refused};
+  const double period = device->description.loop.sample_period;
+  if (options.choices.rate && std::abs(*options.choices.rate * period - 1) > 1e-9) {
+    diagnostics.report<DiagnosticCode::device_rate_contradicts>({}, *options.choices.rate, device->name, 1 / period);
+    return {std::nullopt, ExitStatus::command_line_wrong};
+  }
+  return {std::move(device), ExitStatus::done};
+}
+
+}  // namespace dashpot::compiler

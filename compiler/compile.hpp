@@ -1,0 +1,20 @@
+// The compiler as one function: every stage in order.
+#pragma once
+
+#include <optional>
+
+#include "decompose/choices.hpp"
+#include "emit/emission.hpp"
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+// In: a network file's text, the user's choices, a device or none. Out: everything about it. Refuses: what any stage
+// refuses; all that can be found is reported.
+std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
+                                   Diagnostics& diagnostics);
+
+// The front end alone: errors and warnings about the file.
+std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,29 @@
+// What the user may choose about the update law.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace dashpot::compiler {
+
+enum class Scheme { exact, backward_euler };
+enum class StateInput { position, velocity, nodal };
+enum class ScalarType { float64, float32 };
+
+std::string_view name_of(Scheme scheme);          // "exact", "backward-euler"
+std::string_view name_of(StateInput input);       // "position", "velocity", "nodal"
+std::string_view name_of(ScalarType scalar);      // "double", "float"
+
+struct Choices {
+  std::optional<double> rate;  // [Hz]; the device's, or 1000 Hz
+  Scheme scheme = Scheme::exact;
+  std::optional<StateInput> state_input;                        // empty: auto
+  std::variant<std::string, double> decomposition = "most-dissipative";  // a name of theory, section 4, or a damping [SI]
+  ScalarType scalar = ScalarType::float64;
+};
+
+inline constexpr double default_rate = 1000;  // [Hz]
+
+}  // namespace dashpot::compiler

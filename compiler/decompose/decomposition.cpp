@@ -1,0 +1,194 @@
+#include "decompose/decomposition.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "decompose/observer.hpp"
+#include "decompose/spectrum.hpp"
+#include "network/tree.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// A split before the brake's reach and the state input are decided.
+struct Split {
+  std::string name;
+  double damping;
+  std::string reason;
+  std::optional<StateInput> fixed_input;  // where the name implies one
+};
+
+class Decomposer {
+ public:
+  Decomposer(const Network& network, const LinearForm& form, const Choices& choices, const PortDevice& device)
+      : network_(network), form_(form), choices_(choices), device_(device), tree_(series_parallel_tree(network)) {}
+
+  std::vector<Split> splits() const {
+    const double feedthrough = to_double(form_.feedthrough_damping);
+    const double viscosity = to_double(zero_frequency_damping(form_));
+    const double half = to_double(zero_frequency_damping(form_) / 2);
+    const bool needs_no_estimate = half <= feedthrough;
+    std::vector<Split> list;
+    list.push_back(observed("most-dissipative", ObserverRule::most_dissipative));
+    list.push_back({"zero-frequency", viscosity, "the network's own viscosity at low frequency", {}});
+    list.push_back({"quietest-passive", std::max(half, feedthrough),
+                    "half the viscosity at low frequency: the least that is passive under any delay",
+                    needs_no_estimate ? StateInput::position : StateInput::velocity});
+    list.push_back({"velocity-free", feedthrough, "the feedthrough damping: no velocity estimate in the motor",
+                    StateInput::position});
+    list.push_back(observed("largest-observer", ObserverRule::largest));
+    list.push_back({"virtual", 0, "no brake: everything computed", {}});
+    if (const double* given = std::get_if<double>(&choices_.decomposition))
+      list.push_back({fmt::format("{}", *given), *given, "given", {}});
+    return list;
+  }
+
+  // The canonical form with the spring shares of the realisation whose observer is next to the tool.
+  LinearForm realisation() const {
+    if (!tree_) return form_;
+    const auto* name = std::get_if<std::string>(&choices_.decomposition);
+    const bool largest = name != nullptr && *name == "largest-observer";
+    return linear_form(observe(*tree_, network_, largest ? ObserverRule::largest : ObserverRule::most_dissipative,
+                               device_.reference_frequency())
+                           .realisation);
+  }
+
+  Candidate weigh(const Split& split, const LinearForm& realisation) const {
+    Candidate candidate;
+    candidate.name = split.name;
+    candidate.reason = split.reason;
+    candidate.wanted_damping = split.damping;
+    candidate.damping = std::min(split.damping, device_.max_damping().value_or(split.damping));
+    for (StateInput input : inputs_to_compare(split)) candidate.state_inputs.push_back(merit(candidate, input, realisation));
+    const StateInputMerit& best = best_of(candidate.state_inputs);
+    candidate.state_input = best.state_input;
+    candidate.largest_error = best.largest_error;
+    candidate.extra_damping_any_delay = best.extra_damping_any_delay;
+    candidate.velocity_gain = std::abs(to_double(form_.feedthrough_damping - Real(candidate.damping)));
+    if (const std::optional<double> noise = device_.velocity_noise())
+      candidate.motor_noise = candidate.velocity_gain * *noise;
+    return candidate;
+  }
+
+ private:
+  Split observed(const char* name, ObserverRule rule) const {
+    if (!tree_)
+      return {name, to_double(zero_frequency_damping(form_)),
+              "no series-parallel tree, so the viscosity at low frequency", {}};
+    const Observation observation = observe(*tree_, network_, rule, device_.reference_frequency());
+    return {name, to_double(observation.damping), observation.reason, {}};
+  }
+
+  // `position` first: it is preferred where nothing else tells the inputs apart.
+  std::vector<StateInput> inputs_to_compare(const Split& split) const {
+    if (choices_.state_input) return {*choices_.state_input};
+    const bool velocity_may_drive = device_.estimate_sums_to_displacement();
+    if (split.fixed_input && (velocity_may_drive || *split.fixed_input == StateInput::position))
+      return {*split.fixed_input};
+    std::vector<StateInput> inputs = {StateInput::position};
+    if (velocity_may_drive) inputs.push_back(StateInput::velocity);
+    if (velocity_may_drive && choices_.scheme == Scheme::backward_euler) inputs.push_back(StateInput::nodal);
+    return inputs;
+  }
+
+  StateInputMerit merit(const Candidate& candidate, StateInput input, const LinearForm& realisation) const {
+    const LinearForm& form = input == StateInput::nodal ? realisation : form_;
+    return {input, largest_error(form, candidate.damping, input, device_),
+            extra_damping_any_delay(form, candidate.damping, input, device_.tolerance())};
+  }
+
+  static const StateInputMerit& best_of(const std::vector<StateInputMerit>& merits) {
+    constexpr double noticeable = 1 - 1e-9;  // beyond rounding
+    const StateInputMerit* best = &merits.front();
+    for (const StateInputMerit& merit : merits)
+      if (merit.largest_error < best->largest_error * noticeable) best = &merit;
+    return *best;
+  }
+
+  const Network& network_;
+  const LinearForm& form_;
+  const Choices& choices_;
+  const PortDevice& device_;
+  std::optional<Tree> tree_;
+};
+
+bool refuse_impossible_choices(const Network& network, const Choices& choices, const PortDevice& device,
+                               Diagnostics& diagnostics) {
+  bool refused = contradicts_itself(choices, diagnostics);
+  if (choices.state_input && *choices.state_input != StateInput::position && !device.estimate_sums_to_displacement()) {
+    diagnostics.report<DiagnosticCode::velocity_input_drifts>({}, name_of(*choices.state_input), network.name);
+    refused = true;
+  }
+  return refused;
+}
+
+void warn_about(const Candidate& chosen, const Decomposition& all, const LinearForm& form, Diagnostics& diagnostics) {
+  if (chosen.capped())
+    diagnostics.report<DiagnosticCode::damping_capped>({}, chosen.name, chosen.wanted_damping, chosen.damping);
+  const double viscosity = to_double(zero_frequency_damping(form));
+  if (chosen.damping > viscosity * (1 + 1e-12))
+    diagnostics.report<DiagnosticCode::injects_power>({}, chosen.name, chosen.damping, viscosity);
+  const auto is_virtual = [](const Candidate& candidate) { return candidate.name == "virtual"; };
+  const auto single_motor = std::find_if(all.candidates.begin(), all.candidates.end(), is_virtual);
+  if (chosen.largest_error > single_motor->largest_error * (1 + 1e-9))
+    diagnostics.report<DiagnosticCode::more_error_than_virtual>({}, chosen.name, 100 * chosen.largest_error,
+                                                                100 * single_motor->largest_error);
+}
+
+std::string reason_for_input(const Candidate& chosen, const Choices& choices, const PortDevice& device) {
+  if (choices.state_input) return fmt::format("{} driven as asked", name_of(chosen.state_input));
+  if (chosen.state_inputs.size() == 1) return fmt::format("{} driven by definition", name_of(chosen.state_input));
+  if (device.is_ideal()) return "position driven: on an ideal device nothing tells the inputs apart";
+  std::string text = fmt::format("{} driven; largest error in the band:", name_of(chosen.state_input));
+  for (const StateInputMerit& merit : chosen.state_inputs)
+    text += fmt::format(" {} {:.4g} %", name_of(merit.state_input), 100 * merit.largest_error);
+  return text;
+}
+
+}  // namespace
+
+bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics) {
+  if (choices.state_input != StateInput::nodal || choices.scheme != Scheme::exact) return false;
+  diagnostics.report<DiagnosticCode::nodal_needs_backward_euler>({});
+  diagnostics.note<DiagnosticCode::nodal_remedy>({});
+  return true;
+}
+
+std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& choices,
+                                       const Device* device, Diagnostics& diagnostics) {
+  std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
+  if (!port || refuse_impossible_choices(network, choices, *port, diagnostics)) return std::nullopt;
+  const Decomposer decomposer(network, form, choices, *port);
+  Decomposition result;
+  if (choices.scheme == Scheme::backward_euler) result.realisation = decomposer.realisation();
+  for (const Split& split : decomposer.splits())
+    result.candidates.push_back(decomposer.weigh(split, result.realisation));
+  const auto* name = std::get_if<std::string>(&choices.decomposition);
+  const auto chosen = std::find_if(result.candidates.begin(), result.candidates.end(),
+                                   [&](const Candidate& candidate) { return name && candidate.name == *name; });
+  result.chosen = name ? static_cast<std::size_t>(chosen - result.candidates.begin()) : result.candidates.size() - 1;
+  if (result.chosen == result.candidates.size()) {
+    diagnostics.report<DiagnosticCode::unknown_decomposition>({}, *name);
+    return std::nullopt;
+  }
+  result.reason = reason_for_input(result.choice(), choices, *port);
+  warn_about(result.choice(), result, form, diagnostics);
+  return result;
+}
+
+std::string to_text(const Decomposition& decomposition, const Network& network) {
+  const char* unit = network.port_motion == motion::rotation ? "N m s/rad" : "N s/m";
+  std::string text = fmt::format("{:<18}{:>14}  {:<9}{:>14}{:>16}{:>12}  reason\n", "candidate", unit, "states",
+                                 "velocity gain", "any-delay extra", "error");
+  for (const Candidate& c : decomposition.candidates)
+    text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>11.4g}%  {}{}\n", c.name, c.damping,
+                        name_of(c.state_input), c.velocity_gain, c.extra_damping_any_delay.value_or(0),
+                        100 * c.largest_error, c.reason,
+                        c.capped() ? fmt::format(" (capped from {:.8g})", c.wanted_damping) : "");
+  text += fmt::format("chosen             {}: {}\n", decomposition.choice().name, decomposition.reason);
+  return text;
+}
+
+}  // namespace dashpot::compiler

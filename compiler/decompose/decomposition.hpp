@@ -1,0 +1,59 @@
+// The choice between brake and motor: f = b·u̇ + m (theory, section 4).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "decompose/choices.hpp"
+#include "linear/linear_form.hpp"
+#include "network/device.hpp"
+#include "network/network.hpp"
+
+namespace dashpot::compiler {
+
+// One state input for a given damping, with what it costs on the device.
+struct StateInputMerit {
+  StateInput state_input;
+  double largest_error;                           // max |Z_rendered − Z|/|Z| over the device's band [1]
+  std::optional<double> extra_damping_any_delay;  // [N·s/m]; empty: not computed
+};
+
+struct Candidate {
+  std::string name;
+  double damping;         // b, what the brake is asked for [N·s/m] or [N·m·s/rad]
+  double wanted_damping;  // before capping at what the brake can give
+  StateInput state_input;
+  double velocity_gain;   // |b∞ − b|, of the estimate into the motor [N·s/m]
+  double largest_error;   // of the chosen state input [1]
+  std::optional<double> motor_noise;  // rms motor force from quantisation through the estimate [N]; empty: not linear
+  std::optional<double> extra_damping_any_delay;  // [N·s/m]
+  std::optional<double> minimum_damping;          // [N·s/m]; needs a certificate
+  std::optional<bool> certified;
+  std::vector<StateInputMerit> state_inputs;      // the pairs that were compared
+  std::string reason;
+
+  bool capped() const { return damping < wanted_damping; }
+};
+
+struct Decomposition {
+  std::vector<Candidate> candidates;  // the named ones in the order of theory, section 4, then a given damping
+  std::size_t chosen;
+  std::string reason;       // why the chosen state input
+  LinearForm realisation;   // the canonical form with the spring shares of the observer's realisation, for `nodal`
+
+  const Candidate& choice() const { return candidates[chosen]; }
+};
+
+// In: the network, its canonical form, the user's choices, the device if there is one. Ensures: every damping ≥ 0 and
+// within the brake's reach. Warns: capping, b > Z_d(0), more error than `virtual`. Refuses: nodal with exact, an unknown
+// name, a negative damping, a device whose motion does not fit.
+std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& choices,
+                                       const Device* device, Diagnostics& diagnostics);
+
+// True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
+bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);
+
+std::string to_text(const Decomposition& decomposition, const Network& network);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,251 @@
+#include "decompose/observer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace dashpot::compiler {
+namespace {
+
+const Real equal_to{"1e-12"};
+
+bool nearly_equal(const Real& x, const Real& y) { return abs(x - y) <= equal_to * (abs(x) + abs(y)); }
+
+// Re(1/Z) = Re(jω/D), to leading order c·ωⁿ: in series all children carry the same force F, and child i dissipates
+// |F|² Re(1/Z_i). At a finite reference frequency the order is 0 and c is the value there.
+struct Dissipation {
+  int order;
+  Real coefficient;
+
+  bool exceeds(const Dissipation& other) const {
+    if (coefficient == 0 || other.coefficient == 0) return coefficient > other.coefficient;
+    return order != other.order ? order < other.order : coefficient > other.coefficient;
+  }
+  bool ties_with(const Dissipation& other) const {
+    return coefficient == 0 ? other.coefficient == 0
+                            : order == other.order && nearly_equal(coefficient, other.coefficient);
+  }
+};
+
+Dissipation dissipation_of(const LinearForm& form, const Real& reference) {
+  if (reference > 0) {
+    const ComplexReal d = dynamic_stiffness(form, reference);
+    return {0, reference * d.imaginary / (d.real * d.real + d.imaginary * d.imaginary)};
+  }
+  const Real viscosity = zero_frequency_damping(form);
+  if (form.static_stiffness == 0) return {0, 1 / viscosity};
+  return {2, viscosity / (form.static_stiffness * form.static_stiffness)};
+}
+
+// D_first/D_second where it is one number at all frequencies, else zero.
+Real constant_ratio(const LinearForm& first, const LinearForm& second) {
+  if (first.modes.size() != second.modes.size()) return 0;
+  Real first_total = first.static_stiffness + first.feedthrough_damping;
+  Real second_total = second.static_stiffness + second.feedthrough_damping;
+  for (std::size_t i = 0; i < first.modes.size(); ++i) {
+    if (!nearly_equal(first.modes[i].relaxation_rate, second.modes[i].relaxation_rate)) return 0;
+    first_total += first.modes[i].stiffness;
+    second_total += second.modes[i].stiffness;
+  }
+  const Real ratio = first_total / second_total;
+  bool constant = nearly_equal(first.static_stiffness, ratio * second.static_stiffness) &&
+                  nearly_equal(first.feedthrough_damping, ratio * second.feedthrough_damping);
+  for (std::size_t i = 0; i < first.modes.size(); ++i)
+    constant = constant && nearly_equal(first.modes[i].stiffness, ratio * second.modes[i].stiffness);
+  return constant ? ratio : Real(0);
+}
+
+LinearForm scaled(LinearForm form, const Real& factor) {
+  form.static_stiffness *= factor;
+  form.feedthrough_damping *= factor;
+  for (Mode& mode : form.modes) mode.stiffness *= factor;
+  return form;
+}
+
+// A subtree with its observers chosen: children of a series are reordered, the observed ones first.
+struct Observed {
+  Tree tree;
+  LinearForm form;
+  Real damping;
+};
+
+// Children in series that are multiples of one another.
+struct Group {
+  std::vector<Observed> members;
+  Real compliance_ratio = 0;  // Σ D_first/D_i
+  Real damping = 0;
+
+  LinearForm form() const { return scaled(members.front().form, 1 / compliance_ratio); }
+};
+
+void join(std::vector<Group>& groups, Observed child) {
+  for (Group& group : groups) {
+    const Real ratio = constant_ratio(group.members.front().form, child.form);
+    if (ratio == 0) continue;
+    const Real sum = group.compliance_ratio + ratio;
+    group.damping = std::max(Real(group.damping * group.compliance_ratio), Real(child.damping * ratio)) / sum;
+    group.compliance_ratio = sum;
+    group.members.push_back(std::move(child));
+    return;
+  }
+  const Real damping = child.damping;
+  groups.push_back({{std::move(child)}, 1, damping});
+}
+
+std::string names_in(const Tree& tree, const Network& network) {
+  if (tree.kind == Tree::Kind::leaf) return network.elements[tree.element].name;
+  std::string names;
+  const char* separator = tree.kind == Tree::Kind::series ? " - " : " | ";
+  for (const Tree& child : tree.children) names += (names.empty() ? "" : separator) + names_in(child, network);
+  return tree.kind == Tree::Kind::parallel ? "(" + names + ")" : names;
+}
+
+class Observer {
+ public:
+  Observer(const Network& network, ObserverRule rule, double reference)
+      : network_(network), rule_(rule), reference_(reference) {}
+
+  Observed visit(const Tree& tree) {
+    switch (tree.kind) {
+      case Tree::Kind::leaf: return visit_leaf(tree);
+      case Tree::Kind::parallel: return visit_parallel(tree);
+      case Tree::Kind::series: return visit_series(tree);
+    }
+    return visit_leaf(tree);
+  }
+
+  std::string reason() const {
+    std::string text;
+    const std::size_t shown = std::min<std::size_t>(clauses_.size(), 4);
+    for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : "; ") + clauses_[i];
+    if (clauses_.size() > shown) text += fmt::format("; and {} more series connections likewise", clauses_.size() - shown);
+    return text.empty() ? "dampers at the tool in parallel add" : text;
+  }
+
+ private:
+  Observed visit_leaf(const Tree& tree) const {
+    LinearForm form;
+    const Law& law = network_.elements[tree.element].law;
+    if (const Spring* spring = std::get_if<Spring>(&law)) form.static_stiffness = spring->stiffness;
+    if (const Damper* damper = std::get_if<Damper>(&law)) form.feedthrough_damping = damper->damping;
+    const Real damping = form.feedthrough_damping;
+    return {tree, std::move(form), damping};
+  }
+
+  Observed visit_parallel(const Tree& tree) {
+    Observed whole{{Tree::Kind::parallel, 0, {}}, {}, 0};
+    for (const Tree& child : tree.children) {
+      Observed part = visit(child);
+      whole.damping += part.damping;
+      append(whole.form, part.form);
+      whole.tree.children.push_back(std::move(part.tree));
+    }
+    whole.form = in_parallel(std::move(whole.form), {});
+    return whole;
+  }
+
+  static void append(LinearForm& sum, const LinearForm& part) {
+    sum.static_stiffness += part.static_stiffness;
+    sum.feedthrough_damping += part.feedthrough_damping;
+    sum.modes.insert(sum.modes.end(), part.modes.begin(), part.modes.end());
+  }
+
+  Observed visit_series(const Tree& tree) {
+    std::vector<Group> groups;
+    for (const Tree& child : tree.children) join(groups, visit(child));
+    const auto observed = std::min_element(groups.begin(), groups.end(),
+                                           [this](const Group& x, const Group& y) { return is_preferred(x, y); });
+    Observed whole{{Tree::Kind::series, 0, {}}, form_in_series(groups), observed->damping};
+    explain_choice(groups, *observed);
+    std::rotate(groups.begin(), observed, observed + 1);
+    for (Group& group : groups)
+      for (Observed& member : group.members) whole.tree.children.push_back(std::move(member.tree));
+    return whole;
+  }
+
+  bool is_preferred(const Group& x, const Group& y) const {
+    if (rule_ == ObserverRule::largest) return x.damping > y.damping;
+    const Dissipation of_x = dissipation_of(x.form(), reference_), of_y = dissipation_of(y.form(), reference_);
+    return of_x.ties_with(of_y) ? x.damping > y.damping : of_x.exceeds(of_y);
+  }
+
+  static LinearForm form_in_series(const std::vector<Group>& groups) {
+    if (groups.size() == 1) return groups.front().form();
+    LinearForm mobility;
+    for (const Group& group : groups) append(mobility, reciprocal(group.form()));
+    return reciprocal(in_parallel(std::move(mobility), {}));
+  }
+
+  // The observed group's share of what all groups dissipate, in percent.
+  double share_of(const Group& observed, const std::vector<Group>& groups) const {
+    const Dissipation own = dissipation_of(observed.form(), reference_);
+    Real total = 0;
+    for (const Group& group : groups) {
+      const Dissipation other = dissipation_of(group.form(), reference_);
+      if (other.order == own.order) total += other.coefficient;
+    }
+    return total > 0 ? to_double(100 * own.coefficient / total) : 0;
+  }
+
+  void explain_choice(const std::vector<Group>& groups, const Group& observed) {
+    std::string names;
+    for (const Observed& member : observed.members)
+      names += (names.empty() ? "" : " - ") + names_in(member.tree, network_);
+    if (names.size() > 60) names = names.substr(0, 57) + "...";
+    const double damping = to_double(observed.damping);
+    if (groups.size() == 1)
+      clauses_.push_back(fmt::format("{} in series act as one of {:.6g}", names, damping));
+    else if (rule_ == ObserverRule::largest)
+      clauses_.push_back(fmt::format("in series the largest damping, {:.6g}, is that of {}", damping, names));
+    else
+      clauses_.push_back(fmt::format("in series {} dissipates {:.4g} % at {} and is observed", names,
+                                     share_of(observed, groups), where()));
+  }
+
+  std::string where() const {
+    return reference_ > 0 ? fmt::format("{:.6g} rad/s", to_double(reference_)) : std::string("low frequency");
+  }
+
+  const Network& network_;
+  ObserverRule rule_;
+  Real reference_;
+  std::vector<std::string> clauses_;
+};
+
+// Lays the reordered tree out as a graph again.
+void lay_out(const Tree& tree, NodeIndex from, NodeIndex to, Network& network) {
+  if (tree.kind == Tree::Kind::leaf) {
+    network.elements[tree.element].a = from;
+    network.elements[tree.element].b = to;
+  } else if (tree.kind == Tree::Kind::parallel) {
+    for (const Tree& child : tree.children) lay_out(child, from, to, network);
+  } else {
+    NodeIndex here = from;
+    for (std::size_t i = 0; i < tree.children.size(); ++i) {
+      NodeIndex next = to;
+      if (i + 1 < tree.children.size()) {
+        next = network.nodes.size();
+        network.nodes.push_back(fmt::format("node_{}", next - tool));
+      }
+      lay_out(tree.children[i], here, next, network);
+      here = next;
+    }
+  }
+}
+
+Network laid_out(const Tree& tree, Network network) {
+  network.nodes.resize(2);
+  lay_out(tree, tool, ground, network);
+  return network;
+}
+
+}  // namespace
+
+Observation observe(const Tree& tree, const Network& network, ObserverRule rule, double reference_frequency) {
+  Observer observer(network, rule, reference_frequency);
+  const Observed whole = observer.visit(tree);
+  return {whole.damping, observer.reason(), laid_out(whole.tree, network)};
+}
+
+}  // namespace dashpot::compiler

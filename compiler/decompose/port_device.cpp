@@ -1,0 +1,85 @@
+#include "decompose/port_device.hpp"
+
+#include <cmath>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <dashpot/estimators/frequency_response.hpp>
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+// (1/2π) ∮ |E|² dθ: the variance that white noise of unit variance leaves in the estimate, by the trapezoidal rule, which
+// converges geometrically for a rational E.
+double noise_power_gain(const pulse_transfer<longest_window>& transfer, double sample_period) {
+  constexpr int points = 4096;
+  double sum = 0;
+  for (int i = 0; i < points; ++i) {
+    const double w = 2 * pi * i / points / sample_period;
+    sum += std::norm(position_response(transfer, w, sample_period));
+  }
+  return sum / points;
+}
+
+}  // namespace
+
+std::optional<PortDevice> PortDevice::of(const Device& device, const Network& network, Diagnostics& diagnostics) {
+  const device_description& d = device.description;
+  PortDevice port;
+  port.device_ = &device;
+  if (d.motion == network.port_motion) return port;
+  if (network.port_motion == motion::translation && d.arm_radius > 0) {
+    // B_joint = B r², u = q r (theory, section 7).
+    port.damping_scale_ = 1 / (d.arm_radius * d.arm_radius);
+    port.position_scale_ = d.arm_radius;
+    return port;
+  }
+  diagnostics.report<DiagnosticCode::motion_mismatch>(network.name_span, network.name, device.name);
+  return std::nullopt;
+}
+
+std::optional<double> PortDevice::max_damping() const {
+  if (is_ideal()) return std::nullopt;
+  const brake_description& brake = device_->description.brake;
+  return brake.kind == brake_kind::none ? 0 : brake.max_damping * damping_scale_;
+}
+
+double PortDevice::tolerance() const { return is_ideal() ? 0 : device_->description.brake.tolerance; }
+double PortDevice::band_low() const { return 2 * pi * device_->description.loop.band_low; }
+double PortDevice::band_high() const { return 2 * pi * device_->description.loop.band_high; }
+
+double PortDevice::reference_frequency() const {
+  return is_ideal() ? 0 : 2 * pi * device_->description.loop.reference_frequency;
+}
+
+PortDevice::Estimator PortDevice::estimator() const {
+  const device_description& d = device_->description;
+  return Estimator(d.velocity, d.loop.sample_period, d.encoder.step);
+}
+
+bool PortDevice::estimator_is_linear() const {
+  return is_ideal() || is_linear(device_->description.velocity.estimator);
+}
+
+std::complex<double> PortDevice::velocity_response(double angular_frequency) const {
+  if (is_ideal()) return 1;
+  const velocity_description& velocity = device_->description.velocity;
+  if (velocity.estimator == estimator_kind::sensor)
+    return velocity.bandwidth > 0 ? 1.0 / std::complex(1.0, angular_frequency / (2 * pi * velocity.bandwidth)) : 1.0;
+  if (!estimator_is_linear()) return std::polar(1.0, -angular_frequency * estimator().delay());
+  return dashpot::velocity_response(estimator().transfer(), angular_frequency, device_->description.loop.sample_period);
+}
+
+// A linear estimator with gain 1 at rest follows the displacement in the long run; the others do not promise it.
+bool PortDevice::estimate_sums_to_displacement() const { return estimator_is_linear(); }
+
+std::optional<double> PortDevice::velocity_noise() const {
+  if (is_ideal()) return 0;
+  const device_description& d = device_->description;
+  if (d.velocity.estimator == estimator_kind::sensor) return d.velocity.noise * position_scale_;
+  if (!estimator_is_linear()) return std::nullopt;
+  const double quantum = d.encoder.step / std::sqrt(12.0);
+  return quantum * position_scale_ * std::sqrt(noise_power_gain(estimator().transfer(), d.loop.sample_period));
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,42 @@
+// A device as the network's port sees it: dampings and velocities at the tool, estimator as a transfer function.
+#pragma once
+
+#include <complex>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <optional>
+
+#include "network/device.hpp"
+#include "network/network.hpp"
+
+namespace dashpot::compiler {
+
+class PortDevice {
+ public:
+  static PortDevice ideal() { return PortDevice(); }
+
+  // Refuses: a rotary device without an arm radius under a translational network, and the reverse.
+  static std::optional<PortDevice> of(const Device& device, const Network& network, Diagnostics& diagnostics);
+
+  bool is_ideal() const { return device_ == nullptr; }
+  std::optional<double> max_damping() const;  // at the tool [N·s/m]; empty: any
+  double tolerance() const;                   // ε of the brake [1]
+  double band_low() const;                    // [rad/s]
+  double band_high() const;                   // [rad/s]
+  double reference_frequency() const;         // [rad/s]; 0: the limit ω → 0
+
+  // G(jω) = V̂/U̇ of the estimator; a pure delay where the estimator is not linear. 1 for an ideal device.
+  std::complex<double> velocity_response(double angular_frequency) const;
+  bool estimator_is_linear() const;
+  bool estimate_sums_to_displacement() const;  // so that velocity-driven slow modes do not drift
+  std::optional<double> velocity_noise() const;  // rms of the estimate under quantisation [m/s]; empty: not linear
+
+ private:
+  using Estimator = any_estimator<double>;
+  Estimator estimator() const;
+
+  const Device* device_ = nullptr;
+  double damping_scale_ = 1;   // from the joint to the tool
+  double position_scale_ = 1;
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,39 @@
+// Runs an update law without emission, in the same order of the same operations as the emitted code: with
+// -ffp-contract=off the two agree to the last bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+#include <vector>
+
+#include "discretise/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// Scalar is float or double, as the law's scalar type.
+template <class Scalar>
+class Evaluation {
+ public:
+  explicit Evaluation(const UpdateLaw& law);
+
+  void reset(Scalar position = 0);
+  command<Scalar> output(Scalar position, Scalar velocity);
+  void update();
+  command<Scalar> step(Scalar position, Scalar velocity);
+  Scalar stored_energy();
+
+ private:
+  void run(const std::vector<Statement>& program);
+  Scalar value(ExpressionId expression, std::size_t place) const;
+  Scalar sum(ExpressionId vector) const;
+
+  const UpdateLaw& law_;
+  std::vector<std::vector<Scalar>> variables_;
+  std::vector<std::vector<Scalar>> coefficients_;
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+extern template class Evaluation<float>;
+extern template class Evaluation<double>;
+
+}  // namespace dashpot::compiler

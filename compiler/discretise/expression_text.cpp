@@ -1,0 +1,55 @@
+#include "discretise/expression_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+int precedence(Operation operation) {
+  switch (operation) {
+    case Operation::add:
+    case Operation::subtract: return 1;
+    case Operation::multiply: return 2;
+    default: return 3;
+  }
+}
+
+class Printer {
+ public:
+  Printer(const UpdateLaw& law, const Spelling& spelling) : law_(law), spelling_(spelling) {}
+
+  std::string text(ExpressionId id) const {
+    const Expression& e = law_.expressions[id];
+    switch (e.operation) {
+      case Operation::read: return spelling_.variable(law_.variables[e.left]);
+      case Operation::constant: return spelling_.coefficient(law_.coefficients[e.left]);
+      case Operation::add: return binary(e, " + ");
+      case Operation::subtract: return binary(e, " - ");
+      case Operation::multiply: return binary(e, " * ");
+      case Operation::flush: return spelling_.flush(text(e.left));
+      case Operation::sum: return spelling_.sum(law_.variables[law_.expressions[e.left].left]);
+    }
+    return "";
+  }
+
+ private:
+  // Operators associate to the left: a right operand of equal precedence needs its parentheses.
+  std::string binary(const Expression& e, const char* sign) const {
+    const int own = precedence(e.operation);
+    return grouped(e.left, own) + sign + grouped(e.right, own + 1);
+  }
+
+  std::string grouped(ExpressionId id, int least_precedence) const {
+    const std::string inner = text(id);
+    return precedence(law_.expressions[id].operation) < least_precedence ? "(" + inner + ")" : inner;
+  }
+
+  const UpdateLaw& law_;
+  const Spelling& spelling_;
+};
+
+}  // namespace
+
+std::string expression_text(const UpdateLaw& law, ExpressionId expression, const Spelling& spelling) {
+  return Printer(law, spelling).text(expression);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,22 @@
+// An expression as infix text, for people and for back ends of the C family.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "discretise/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// How leaves and functions are spelt.
+struct Spelling {
+  std::function<std::string(const Variable&)> variable;
+  std::function<std::string(const Coefficient&)> coefficient;
+  std::function<std::string(const std::string& value)> flush;
+  std::function<std::string(const Variable& vector)> sum;
+};
+
+// Parentheses stand exactly where leaving them out would change the order of operations.
+std::string expression_text(const UpdateLaw& law, ExpressionId expression, const Spelling& spelling);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,19 @@
+#include "discretise/mode_coefficients.hpp"
+
+#include <boost/math/special_functions/expm1.hpp>
+
+namespace dashpot::compiler {
+
+ModeCoefficients mode_coefficients(const Mode& mode, Scheme scheme, StateInput input, const Real& sample_period) {
+  const Real x = mode.relaxation_rate * sample_period;
+  const bool exact = scheme == Scheme::exact;
+  const Real loss = exact ? Real(-boost::math::expm1(Real(-x))) : Real(x / (1 + x));
+  const Real gain = exact ? Real(mode.stiffness * loss / x) : Real(mode.stiffness / (1 + x));
+  const Real decay = exact ? Real(exp(-x)) : Real(1 / (1 + x));
+  const Real spring_share = input == StateInput::position ? Real(1)
+                            : input == StateInput::velocity ? Real(0)
+                                                            : mode.spring_share;
+  return {decay, loss, gain * spring_share, gain * (1 - spring_share) * sample_period};
+}
+
+}  // namespace dashpot::compiler

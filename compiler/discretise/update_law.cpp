@@ -1,0 +1,81 @@
+#include "discretise/update_law.hpp"
+
+#include <fmt/format.h>
+
+#include "discretise/expression_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+void count(const UpdateLaw& law, ExpressionId id, std::size_t places, Cost& cost) {
+  const Expression& expression = law.expressions[id];
+  switch (expression.operation) {
+    case Operation::read:
+    case Operation::constant: return;
+    case Operation::add:
+    case Operation::subtract: cost.additions += places; break;
+    case Operation::multiply: cost.multiplications += places; break;
+    case Operation::flush:
+      cost.guards += places;
+      return count(law, expression.left, places, cost);
+    case Operation::sum:
+      cost.additions += law.variables[law.expressions[expression.left].left].size - 1;
+      return;
+  }
+  count(law, expression.left, places, cost);
+  count(law, expression.right, places, cost);
+}
+
+const Spelling& plain_spelling() {
+  static const Spelling spelling{[](const Variable& variable) { return variable.name; },
+                                 [](const Coefficient& coefficient) { return coefficient.name; },
+                                 [](const std::string& value) { return "flush(" + value + ")"; },
+                                 [](const Variable& vector) { return "sum(" + vector.name + ")"; }};
+  return spelling;
+}
+
+std::string program_text(const UpdateLaw& law, const char* title, const std::vector<Statement>& program) {
+  std::string text = fmt::format("{}\n", title);
+  for (const Statement& statement : program) {
+    const Variable& target = law.variables[statement.target];
+    const std::string places = target.size > 1 ? fmt::format("[{}]", target.size) : "";
+    text += fmt::format("  {}{} = {}{}{}\n", target.name, places, expression_text(law, statement.value, plain_spelling()),
+                        statement.purpose.empty() ? "" : "  // ", statement.purpose);
+  }
+  return text;
+}
+
+std::string_view name_of(ModeForm form) {
+  switch (form) {
+    case ModeForm::product: return "product";
+    case ModeForm::delta: return "delta";
+    case ModeForm::compensated: return "compensated";
+  }
+  return "";
+}
+
+}  // namespace
+
+Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
+  Cost cost;
+  for (const Statement& statement : program)
+    count(law, statement.value, law.variables[statement.target].size, cost);
+  for (const Variable& variable : law.variables)
+    if (variable.role == Role::state) cost.states += variable.size;
+  return cost;
+}
+
+std::string to_text(const UpdateLaw& law, const Network& network) {
+  std::string text = fmt::format("law of {}: {}, {} driven, {}, period {} s, damping {}, modes in {} form\n", network.name,
+                                 name_of(law.scheme), name_of(law.state_input), name_of(law.scalar), law.sample_period,
+                                 law.damping, name_of(law.mode_form));
+  for (const Coefficient& coefficient : law.coefficients) {
+    text += fmt::format("  {} [{}]", coefficient.name, coefficient.unit);
+    for (double value : coefficient.values) text += fmt::format(" {}", value);
+    text += fmt::format("  // {}\n", coefficient.meaning);
+  }
+  return text + program_text(law, "output", law.output) + program_text(law, "keep", law.keep) +
+         program_text(law, "update", law.update) + program_text(law, "energy", law.energy);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,121 @@
+// The update law as a small typed program: what evaluate() runs, what the back ends print, what a certificate proves.
+//
+// Two phases (theory, section 3): `output` turns the sample into a command in O(1) and, where everything is finite, `keep`
+// remembers the sample; `update` follows, O(states), after the command has left. `energy` gives the stored energy. Variables are vectors of `size` scalars; statements
+// act elementwise, and `sum` reduces in a stated order. So a law has the same few statements at any number of states.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "decompose/choices.hpp"
+#include "decompose/decomposition.hpp"
+#include "linear/linear_form.hpp"
+#include "network/network.hpp"
+
+namespace dashpot::compiler {
+
+using VariableId = std::uint32_t;
+using CoefficientId = std::uint32_t;
+using ExpressionId = std::uint32_t;
+
+inline constexpr VariableId no_variable = static_cast<VariableId>(-1);
+
+enum class Role : std::uint8_t {
+  input,  // given with the sample
+  state,  // kept from one call to the next
+  local,  // of one phase
+};
+
+struct Variable {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  Role role;
+  std::size_t size = 1;
+  std::vector<std::string> element_names = {};  // of a vector, one name a place; empty for a scalar
+};
+
+// A constant of the emitted code, already rounded to the law's scalar type.
+struct Coefficient {
+  std::string name;
+  std::string unit;
+  std::string meaning;
+  std::vector<double> values;              // one, or one a place
+  std::vector<std::string> element_names = {};  // of a vector, one name a place; empty for a scalar
+};
+
+enum class Operation : std::uint8_t {
+  read,      // a variable
+  constant,  // a coefficient
+  add,
+  subtract,
+  multiply,
+  flush,  // zero below the law's threshold, so that no state becomes subnormal
+  sum,    // of a vector: `lanes` partial sums in turn, then those from the first to the last
+};
+
+struct Expression {
+  Operation operation;
+  std::uint32_t left = 0;   // VariableId of read, CoefficientId of constant, else ExpressionId
+  std::uint32_t right = 0;  // ExpressionId
+};
+
+struct Statement {
+  VariableId target;
+  ExpressionId value;
+  std::string purpose;                              // the equation, as the literature writes it
+  std::vector<std::vector<std::size_t>> origins;    // for each place of the target, indices into Network::elements
+};
+
+// How one mode is advanced; chosen by the error bound.
+enum class ModeForm {
+  product,      // G ← a G + …
+  delta,        // G ← G + (… − α G)
+  compensated,  // delta, with the rounding error of the sum carried along (Kahan)
+};
+
+struct UpdateLaw {
+  ScalarType scalar = ScalarType::float64;
+  Scheme scheme = Scheme::exact;
+  StateInput state_input = StateInput::position;
+  double sample_period = 0;     // [s]
+  double damping = 0;           // b, the brake's command [N·s/m]
+  double flush_threshold = 0;   // [N]: magnitudes below become zero
+  ModeForm mode_form = ModeForm::product;
+  double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
+  std::size_t lanes = 1;        // partial sums of a `sum`
+
+  std::vector<Variable> variables;
+  std::vector<Coefficient> coefficients;
+  std::vector<Expression> expressions;
+  std::vector<Statement> output;  // locals only; ends with the assignment of `force`
+  std::vector<Statement> keep;    // states that remember the sample; only where inputs and force are finite
+  std::vector<Statement> update;
+  std::vector<Statement> energy;  // ends with the assignment of `stored`
+
+  VariableId position = 0;  // the inputs
+  VariableId velocity = 0;
+  VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
+  VariableId force = 0;     // m_k, the motor's command [N]
+  VariableId stored = 0;    // [J]
+};
+
+struct Cost {
+  std::size_t additions = 0;  // and subtractions
+  std::size_t multiplications = 0;
+  std::size_t guards = 0;  // against subnormals
+  std::size_t states = 0;
+};
+Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);
+
+// In: canonical form, decomposition, scheme, rate, scalar. Out: the law. Ensures: constants rounded once from extended
+// precision. Warns: a relaxation faster than two samples; a float that cannot carry stiffest and slowest mode together.
+UpdateLaw discretise(const Network& network, const LinearForm& form, const Decomposition& decomposition,
+                     const Choices& choices, double rate, Diagnostics& diagnostics);
+
+std::string to_text(const UpdateLaw& law, const Network& network);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,237 @@
+#include "emit/cpp_program.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "discretise/expression_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr std::size_t line_width = 112;
+
+std::string origin_names(const std::vector<std::size_t>& elements, const Network& network) {
+  std::string names;
+  for (std::size_t i = 0; i < elements.size() && i < 4; ++i)
+    names += (i == 0 ? "" : ", ") + network.elements[elements[i]].name;
+  return elements.size() > 4 ? fmt::format("{} and {} more", names, elements.size() - 4) : names;
+}
+
+// Breaks after an operator of the outermost level where a line is too long.
+std::vector<std::string> wrapped(std::string text) {
+  std::vector<std::string> lines;
+  while (text.size() > line_width) {
+    std::size_t cut = text.rfind(" + ", line_width);
+    if (cut == text.npos || cut < 20) cut = text.rfind(", ", line_width);
+    if (cut == text.npos || cut < 20) break;
+    const std::size_t keep = text[cut] == ',' ? 1 : 2;
+    lines.push_back(text.substr(0, cut + keep));
+    text = "    " + text.substr(cut + keep + 1);
+  }
+  lines.push_back(std::move(text));
+  return lines;
+}
+
+void append(std::vector<std::string>& lines, const std::string& text) {
+  for (std::string& line : wrapped(text)) lines.push_back(std::move(line));
+}
+
+class CppPrinter {
+ public:
+  CppPrinter(const UpdateLaw& law, const Network& network) : law_(law), network_(network), rolled_(law.lanes > 1) {}
+
+  CppProgram print() {
+    CppProgram program;
+    program.output = lines_of(law_.output);
+    program.keep = lines_of(law_.keep);
+    program.update = lines_of(law_.update);
+    program.energy = lines_of(law_.energy);
+    if (law_.rest_position != no_variable)
+      program.reset.push_back(fmt::format("{} = position;", scalar_name(law_.variables[law_.rest_position])));
+    else
+      program.reset.push_back("static_cast<void>(position);");
+    program.constants = constants();
+    program.states = states();
+    program.functions = functions();
+    return program;
+  }
+
+ private:
+  std::vector<std::string> lines_of(const std::vector<Statement>& program) {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < program.size();) {
+      if (law_.variables[program[i].target].size == 1 || !rolled_) {
+        print_unrolled(program[i++], lines);
+        continue;
+      }
+      const std::size_t first = i;
+      while (i < program.size() && law_.variables[program[i].target].size > 1) ++i;
+      print_loop(program, first, i, lines);
+    }
+    return lines;
+  }
+
+  void print_unrolled(const Statement& statement, std::vector<std::string>& lines) {
+    const Variable& target = law_.variables[statement.target];
+    if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
+    for (std::size_t place = 0; place < target.size; ++place) {
+      std::string line = assignment(target, place) + expression(statement.value, place) + ";";
+      if (target.size > 1 && place < statement.origins.size())
+        line += "  // " + origin_names(statement.origins[place], network_);
+      append(lines, line);
+    }
+  }
+
+  // Elementwise statements in one loop, with the partial sums of any vector that the next statement adds up.
+  void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last,
+                  std::vector<std::string>& lines) {
+    summed_.clear();
+    if (last < program.size()) find_sums(program[last].value);
+    if (!summed_.empty()) lines.push_back(fmt::format("{} lane[{}] = {{}};", scalar(), law_.lanes));
+    lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", padded_size(program[first]), law_.lanes));
+    lines.push_back(fmt::format("  for (int j = 0; j < {}; ++j) {{", law_.lanes));
+    for (std::size_t i = first; i < last; ++i) {
+      const Variable& target = law_.variables[program[i].target];
+      append(lines, "    " + assignment(target, 0) + expression(program[i].value, 0) + ";  // " + program[i].purpose);
+    }
+    for (VariableId vector : summed_)
+      lines.push_back(fmt::format("    lane[j] += {};", vector_name(law_.variables[vector], 0)));
+    lines.push_back("  }");
+  }
+
+  void find_sums(ExpressionId id) {
+    const Expression& e = law_.expressions[id];
+    if (e.operation == Operation::sum) summed_.insert(law_.expressions[e.left].left);
+    if (e.operation == Operation::read || e.operation == Operation::constant || e.operation == Operation::sum) return;
+    find_sums(e.left);
+    if (e.operation != Operation::flush) find_sums(e.right);
+  }
+
+  std::string assignment(const Variable& target, std::size_t place) const {
+    const std::string name = target.size == 1 ? scalar_name(target) : vector_name(target, place);
+    return (target.role == Role::local ? fmt::format("const {} ", scalar()) : std::string()) + name + " = ";
+  }
+
+  std::string expression(ExpressionId id, std::size_t place) {
+    Spelling spelling;
+    spelling.variable = [&](const Variable& variable) {
+      used_variables_.insert(&variable);
+      return variable.size == 1 ? scalar_name(variable) : vector_name(variable, place);
+    };
+    spelling.coefficient = [&](const Coefficient& coefficient) {
+      used_coefficients_.insert(&coefficient);
+      if (coefficient.element_names.empty()) return coefficient.name;
+      return rolled_ ? coefficient.name + "[i + j]" : coefficient.element_names[place];
+    };
+    spelling.flush = [&](const std::string& value) {
+      uses_flush_ = true;
+      return fmt::format("dashpot::flush_below(threshold, {})", value);
+    };
+    // A sum is one operand: inside a longer expression its terms keep together.
+    const bool is_whole = law_.expressions[id].operation == Operation::sum;
+    spelling.sum = [&](const Variable& vector) {
+      const std::string terms = sum_text(vector);
+      return is_whole || rolled_ || vector.size == 1 ? terms : "(" + terms + ")";
+    };
+    return expression_text(law_, id, spelling);
+  }
+
+  std::string sum_text(const Variable& vector) {
+    if (rolled_) {
+      uses_total_ = true;
+      return "total(lane)";
+    }
+    std::string text;
+    for (std::size_t place = 0; place < vector.size; ++place)
+      text += (place == 0 ? "" : " + ") + vector_name(vector, place);
+    return text;
+  }
+
+  static std::string scalar_name(const Variable& variable) {
+    return variable.role == Role::state ? variable.name + "_" : variable.name;
+  }
+
+  std::string vector_name(const Variable& variable, std::size_t place) const {
+    if (rolled_) return variable.role == Role::state ? variable.name + "_[i + j]" : variable.name;
+    return variable.role == Role::state ? variable.element_names[place] + "_" : variable.element_names[place];
+  }
+
+  std::size_t padded_size(const Statement& statement) const { return padded(law_.variables[statement.target].size); }
+  std::size_t padded(std::size_t size) const { return (size + law_.lanes - 1) / law_.lanes * law_.lanes; }
+
+  std::vector<std::string> constants() const {
+    std::vector<std::string> lines;
+    lines.push_back(fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
+    if (uses_flush_)
+      lines.push_back(fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
+                                  literal(law_.flush_threshold)));
+    for (const Coefficient& coefficient : law_.coefficients)
+      if (used_coefficients_.count(&coefficient) != 0) append_constant(coefficient, lines);
+    return lines;
+  }
+
+  void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {
+    const std::string note = fmt::format("  // {} [{}]", coefficient.meaning, coefficient.unit);
+    if (coefficient.element_names.empty()) {
+      lines.push_back(fmt::format("static constexpr scalar {} = {};{}", coefficient.name, literal(coefficient.values[0]), note));
+    } else if (!rolled_) {
+      for (std::size_t place = 0; place < coefficient.values.size(); ++place)
+        lines.push_back(fmt::format("static constexpr scalar {} = {};{}", coefficient.element_names[place],
+                                    literal(coefficient.values[place]), note));
+    } else {
+      std::string table = fmt::format("static constexpr scalar {}[{}] = {{", coefficient.name, padded(coefficient.values.size()));
+      for (std::size_t place = 0; place < coefficient.values.size(); ++place)
+        table += (place == 0 ? "" : ", ") + literal(coefficient.values[place]);
+      lines.push_back("//" + note.substr(4));
+      append(lines, table + "};");
+    }
+  }
+
+  std::vector<std::string> states() const {
+    std::vector<std::string> lines;
+    for (const Variable& variable : law_.variables) {
+      if (variable.role != Role::state) continue;
+      const std::string note = fmt::format("  // {} [{}]", variable.meaning, variable.unit);
+      if (variable.size == 1)
+        lines.push_back(fmt::format("scalar {} = 0;{}", scalar_name(variable), note));
+      else if (rolled_)
+        lines.push_back(fmt::format("scalar {}_[{}] = {{}};{}", variable.name, padded(variable.size), note));
+      else
+        for (const std::string& name : variable.element_names) lines.push_back(fmt::format("scalar {}_ = 0;{}", name, note));
+    }
+    return lines;
+  }
+
+  std::vector<std::string> functions() const {
+    if (!uses_total_) return {};
+    return {fmt::format("static scalar total(const scalar (&lane)[{}]) noexcept {{", law_.lanes),
+            "  scalar sum = lane[0];",
+            fmt::format("  for (int j = 1; j < {}; ++j) sum += lane[j];", law_.lanes),
+            "  return sum;",
+            "}",
+            ""};
+  }
+
+  std::string literal(double value) const { return cpp_literal(value, law_.scalar); }
+  static const char* scalar() { return "scalar"; }
+
+  const UpdateLaw& law_;
+  const Network& network_;
+  bool rolled_;
+  bool uses_flush_ = false, uses_total_ = false;
+  std::set<const Variable*> used_variables_;
+  std::set<const Coefficient*> used_coefficients_;
+  std::set<VariableId> summed_;
+};
+
+}  // namespace
+
+std::string cpp_literal(double value, ScalarType scalar) {
+  return scalar == ScalarType::float64 ? fmt::format("{:#}", value) : fmt::format("{:#}f", static_cast<float>(value));
+}
+
+CppProgram cpp_program(const UpdateLaw& law, const Network& network) { return CppPrinter(law, network).print(); }
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,38 @@
+// From an update law to the text of files, per target.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+#include "discretise/update_law.hpp"
+#include "network/device.hpp"
+
+namespace dashpot::compiler {
+
+// Everything that the stages before found out about one network.
+struct Compilation {
+  Network network;
+  LinearForm form;
+  Decomposition decomposition;
+  UpdateLaw law;
+  double rate = 0;  // [Hz]
+  std::optional<Device> device;
+};
+
+struct EmissionOptions {
+  bool with_test = false;
+  std::optional<std::string> templates;  // folder in place of the built-in ones
+};
+
+struct OutputFile {
+  std::string name;  // relative to the output folder
+  std::string text;
+};
+
+// <name>.hpp, and <name>_test.cpp where asked for. Refuses: templates that do not fit.
+std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
+                                                Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,149 @@
+#include <fmt/format.h>
+
+#include <dashpot/estimators/estimator_names.hpp>
+
+#include "emit/cpp_program.hpp"
+#include "emit/emission.hpp"
+#include "emit/template_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::vector<Fields> as_list(const std::vector<std::string>& lines) {
+  std::vector<Fields> list;
+  for (const std::string& line : lines) list.push_back({{"line", line}});
+  return list;
+}
+
+std::string length_unit(const Network& network) { return network.port_motion == motion::rotation ? "[rad]" : "[m]"; }
+std::string velocity_unit(const Network& network) {
+  return network.port_motion == motion::rotation ? "[rad/s]" : "[m/s]";
+}
+std::string damping_unit(const Network& network) {
+  return network.port_motion == motion::rotation ? "N·m·s/rad" : "N·s/m";
+}
+
+std::string cost_line(const char* phase, const Cost& cost) {
+  return fmt::format("{} {} additions, {} multiplications, {} guards against subnormals", phase, cost.additions,
+                     cost.multiplications, cost.guards);
+}
+
+std::vector<std::string> split_lines(std::string text, std::size_t width) {
+  std::vector<std::string> lines;
+  while (text.size() > width) {
+    const std::size_t space = text.rfind(' ', width);
+    const std::size_t cut = space == text.npos || space == 0 ? width : space;
+    lines.push_back(text.substr(0, cut));
+    text = "  " + text.substr(text.find_first_not_of(' ', cut));
+  }
+  lines.push_back(text);
+  return lines;
+}
+
+std::vector<std::string> banner(const Compilation& c) {
+  const Candidate& choice = c.decomposition.choice();
+  const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
+  const std::string unit = damping_unit(c.network);
+  std::vector<std::string> facts;
+  if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
+  facts.push_back(fmt::format("scheme: {} at {} Hz, {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
+  facts.push_back(fmt::format("decomposition: {}, b = {} {}: {}", choice.name, choice.damping, unit, choice.reason));
+  if (choice.capped())
+    facts.push_back(fmt::format("  capped from {} {} at what the brake can give", choice.wanted_damping, unit));
+  facts.push_back("states: " + c.decomposition.reason);
+  facts.push_back(fmt::format("passivity: under any delay of the estimate {:.6g} {} of extra damping; sampled: not computed",
+                              choice.extra_damping_any_delay.value_or(0), unit));
+  facts.push_back(fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
+  facts.push_back(cost_line("cost of output():", output));
+  facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
+  if (c.law.relative_error_bound > 0)
+    facts.push_back(fmt::format("rounding: a mode's force is off by at most {:.2g} of its peak", c.law.relative_error_bound));
+  std::vector<std::string> lines;
+  for (const std::string& fact : facts)
+    for (const std::string& line : split_lines(fact, 112)) lines.push_back(line);
+  return lines;
+}
+
+void describe_device(const Compilation& c, Fields& fields) {
+  fields["any_device"] = c.device ? "false" : "true";
+  fields["device"] = c.device ? c.device->name : "ideal";
+  fields["device_digest"] = c.device ? c.device->digest : "";
+  fields["estimator"] = c.device ? name_of(c.device->description.velocity.estimator) : "exact";
+  fields["loop_delay"] = std::to_string(c.device ? c.device->description.loop.delay_samples : 0u);
+}
+
+CodeModel header_model(const Compilation& c) {
+  const CppProgram program = cpp_program(c.law, c.network);
+  CodeModel model;
+  Fields& fields = model.fields;
+  fields["title"] = c.network.title.empty() ? c.network.name : c.network.title;
+  fields["version"] = DASHPOT_VERSION;
+  fields["digest"] = c.network.digest;
+  fields["name"] = c.network.name;
+  fields["scalar"] = name_of(c.law.scalar);
+  fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
+  fields["motion"] = c.network.port_motion == motion::rotation ? "rotation" : "translation";
+  fields["position_unit"] = length_unit(c.network);
+  fields["velocity_unit"] = velocity_unit(c.network);
+  describe_device(c, fields);
+  model.lists["banner"] = as_list(banner(c));
+  model.lists["reset"] = as_list(program.reset);
+  model.lists["output"] = as_list(program.output);
+  model.lists["keep"] = as_list(program.keep);
+  model.lists["update"] = as_list(program.update);
+  model.lists["energy"] = as_list(program.energy);
+  model.lists["functions"] = as_list(program.functions);
+  model.lists["constants"] = as_list(program.constants);
+  model.lists["states"] = as_list(program.states);
+  return model;
+}
+
+// How far rounding may take the force from the closed form, relative to the peak: the modes' bound, and one roundoff
+// for each of the products and sums of a sample.
+double test_tolerance(const UpdateLaw& law) {
+  const double roundoff = law.scalar == ScalarType::float64 ? 0x1p-53 : 0x1p-24;
+  const Cost cost = cost_of(law, law.output);
+  return law.relative_error_bound + roundoff * double(8 + cost.additions + cost.multiplications);
+}
+
+CodeModel test_model(const Compilation& c) {
+  CodeModel model;
+  Fields& fields = model.fields;
+  fields["name"] = c.network.name;
+  fields["scheme"] = name_of(c.law.scheme);
+  fields["rate"] = fmt::format("{:#}", c.rate);
+  fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.static_stiffness));
+  fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.feedthrough_damping));
+  fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
+  fields["power"] = c.law.scheme == Scheme::exact ? "std::exp(-rate * samples * period)"
+                                                  : "std::pow(1 + rate * period, -samples)";
+  for (const Mode& mode : c.form.modes)
+    model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},
+                                    {"relaxation_rate", fmt::format("{:#}", to_double(mode.relaxation_rate))}});
+  model.lists["modes"];
+  return model;
+}
+
+bool append(const std::string& template_name, const std::string& file, const CodeModel& model,
+            const EmissionOptions& options, std::vector<OutputFile>& files, Diagnostics& diagnostics) {
+  const std::optional<SourceFile> shape = find_template(template_name, options.templates, diagnostics);
+  if (!shape) return false;
+  std::optional<std::string> text = fill(*shape, model, diagnostics);
+  if (text) files.push_back({file, std::move(*text)});
+  return text.has_value();
+}
+
+}  // namespace
+
+std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
+                                                Diagnostics& diagnostics) {
+  const std::string& name = compilation.network.name;
+  std::vector<OutputFile> files;
+  bool ok = append("network.hpp.in", name + ".hpp", header_model(compilation), options, files, diagnostics);
+  if (options.with_test)
+    ok &= append("network_test.cpp.in", name + "_test.cpp", test_model(compilation), options, files, diagnostics);
+  if (!ok) return std::nullopt;
+  return files;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,15 @@
+// All files or none.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// Writes beside each target first, then renames: a reader sees an old or a new file, never half of one, and a failure
+// before the renames leaves the folder as it was. Creates the folder. Reports what could not be written.
+bool write_files(const std::string& folder, const std::vector<OutputFile>& files, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,205 @@
+#include "linear/modal_reduction.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+// Boost's own traits of this version lack members that Eigen 3.4 asks for.
+template <>
+struct Eigen::NumTraits<dashpot::compiler::Real> : Eigen::GenericNumTraits<dashpot::compiler::Real> {
+  using Real = dashpot::compiler::Real;
+  using NonInteger = Real;
+  using Nested = Real;
+  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 40, MulCost = 60 };
+};
+
+namespace dashpot::compiler {
+namespace {
+
+using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  std::size_t find(std::size_t x) {
+    while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
+    return x;
+  }
+  void unite(std::size_t x, std::size_t y) { parent_[find(x)] = find(y); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+double stiffness_of(const Element& element) {
+  const Spring* spring = std::get_if<Spring>(&element.law);
+  return spring ? spring->stiffness : 0;
+}
+
+double damping_of(const Element& element) {
+  const Damper* damper = std::get_if<Damper>(&element.law);
+  return damper ? damper->damping : 0;
+}
+
+// K + sB over the internal nodes, and their coupling to the port: K_ii, B_ii, K_ip, B_ip, K_pp, B_pp.
+struct NodalEquations {
+  Matrix stiffness, damping;
+  Vector port_stiffness, port_damping;
+  Real tool_stiffness = 0, tool_damping = 0;
+};
+
+void stamp(const Element& element, const Part& part, const std::map<NodeIndex, Eigen::Index>& row,
+           NodalEquations& equations) {
+  const Real k = stiffness_of(element), b = damping_of(element);
+  const NodeIndex ends[2] = {element.a, element.b};
+  for (int end = 0; end < 2; ++end) {
+    const NodeIndex here = ends[end], there = ends[1 - end];
+    if (here == part.port) {
+      equations.tool_stiffness += k;
+      equations.tool_damping += b;
+    } else if (here != part.held) {
+      const Eigen::Index i = row.at(here);
+      equations.stiffness(i, i) += k;
+      equations.damping(i, i) += b;
+      if (there == part.port) {
+        equations.port_stiffness(i) -= k;
+        equations.port_damping(i) -= b;
+      } else if (there != part.held) {
+        equations.stiffness(i, row.at(there)) -= k;
+        equations.damping(i, row.at(there)) -= b;
+      }
+    }
+  }
+}
+
+NodalEquations nodal_equations(const Part& part, const Network& network) {
+  std::map<NodeIndex, Eigen::Index> row;
+  for (NodeIndex node : part.internal) row.emplace(node, static_cast<Eigen::Index>(row.size()));
+  const auto size = static_cast<Eigen::Index>(row.size());
+  NodalEquations equations{Matrix::Zero(size, size), Matrix::Zero(size, size), Vector::Zero(size), Vector::Zero(size)};
+  for (std::size_t element : part.elements) stamp(network.elements[element], part, row, equations);
+  return equations;
+}
+
+// Clusters of internal nodes that elements of one kind tie together but not to port or held node: each is one
+// direction in which the matrix of that kind is singular.
+template <class ValueOf>
+std::size_t floating_clusters(const Part& part, const Network& network, ValueOf value_of) {
+  DisjointSets sets(network.nodes.size());
+  sets.unite(part.port, part.held);
+  for (std::size_t element : part.elements)
+    if (value_of(network.elements[element]) > 0)
+      sets.unite(network.elements[element].a, network.elements[element].b);
+  std::size_t clusters = 0;
+  for (NodeIndex node : part.internal)
+    clusters += sets.find(node) == node && sets.find(part.port) != node ? 1 : 0;
+  return clusters;
+}
+
+// Whether elements of one kind alone lead from the port to the held node.
+template <class ValueOf>
+bool leads_through(const Part& part, const Network& network, ValueOf value_of) {
+  DisjointSets sets(network.nodes.size());
+  for (std::size_t element : part.elements)
+    if (value_of(network.elements[element]) > 0)
+      sets.unite(network.elements[element].a, network.elements[element].b);
+  return sets.find(part.port) == sets.find(part.held);
+}
+
+// K v = μ (K + ω0 B) v, VᵀKV = diag(μ), Vᵀ(K + ω0 B)V = I.
+struct Pencil {
+  Vector mu;  // ascending
+  Matrix vectors;
+  Real shift;  // ω0 [1/s]
+};
+
+Pencil solve_pencil(const NodalEquations& equations) {
+  const Real stiffness_trace = equations.stiffness.trace(), damping_trace = equations.damping.trace();
+  const Real shift = stiffness_trace > 0 && damping_trace > 0 ? Real(stiffness_trace / damping_trace) : Real(1);
+  const Matrix metric = equations.stiffness + shift * equations.damping;
+  const Eigen::LLT<Matrix> cholesky(metric);
+  Matrix reduced = cholesky.matrixL().solve(equations.stiffness);
+  reduced = cholesky.matrixL().solve(Matrix(reduced.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix((reduced + reduced.transpose()) / Real(2)));
+  return {solver.eigenvalues(), cholesky.matrixL().transpose().solve(solver.eigenvectors()), shift};
+}
+
+// One mode's −(p + s q)²/(m + s d), as in theory, section 2.
+void add_relaxing_mode(LinearForm& form, const Real& p, const Real& q, const Real& m, const Real& d, const Part& part) {
+  const Real rate = m / d;
+  const Real drive = p - q * rate;
+  const Real c = drive * drive / d;
+  form.feedthrough_damping -= q * q / d;
+  form.static_stiffness -= (2 * p * q - q * q * rate) / d + c / rate;
+  if (c > 0) form.modes.push_back({c / rate, rate, p / drive, part.elements});
+}
+
+void add_modes(LinearForm& form, const Part& part, const Network& network, const NodalEquations& equations) {
+  const Pencil pencil = solve_pencil(equations);
+  const auto held_by_dampers = static_cast<Eigen::Index>(floating_clusters(part, network, stiffness_of));
+  const auto held_by_springs = static_cast<Eigen::Index>(floating_clusters(part, network, damping_of));
+  const Vector p = pencil.vectors.transpose() * equations.port_stiffness;
+  const Vector q = pencil.vectors.transpose() * equations.port_damping;
+  const Eigen::Index size = p.size();
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (i < held_by_dampers)
+      form.feedthrough_damping -= q(i) * q(i) * pencil.shift;
+    else if (i >= size - held_by_springs)
+      form.static_stiffness -= p(i) * p(i);
+    else
+      add_relaxing_mode(form, p(i), q(i), pencil.mu(i), (1 - pencil.mu(i)) / pencil.shift, part);
+  }
+}
+
+}  // namespace
+
+std::vector<Part> independent_parts(const Network& network, std::span<const std::size_t> elements, NodeIndex port,
+                                    NodeIndex held) {
+  const auto is_terminal = [&](NodeIndex node) { return node == port || node == held; };
+  DisjointSets sets(network.nodes.size());
+  for (std::size_t element : elements) {
+    const Element& e = network.elements[element];
+    if (!is_terminal(e.a) && !is_terminal(e.b)) sets.unite(e.a, e.b);
+  }
+  std::map<std::size_t, std::size_t> index;  // from a set's representative, or an element between the terminals
+  std::vector<Part> parts;
+  for (std::size_t element : elements) {
+    const Element& e = network.elements[element];
+    const bool direct = is_terminal(e.a) && is_terminal(e.b);
+    const std::size_t key = direct ? network.nodes.size() + element : sets.find(is_terminal(e.a) ? e.b : e.a);
+    const auto [place, is_new] = index.emplace(key, parts.size());
+    if (is_new) parts.push_back({{}, {}, port, held});
+    parts[place->second].elements.push_back(element);
+    for (NodeIndex node : {e.a, e.b})
+      if (!is_terminal(node)) parts[place->second].internal.push_back(node);
+  }
+  for (Part& part : parts) {
+    std::sort(part.internal.begin(), part.internal.end());
+    part.internal.erase(std::unique(part.internal.begin(), part.internal.end()), part.internal.end());
+  }
+  return parts;
+}
+
+void add_part(LinearForm& form, const Part& part, const Network& network) {
+  const NodalEquations equations = nodal_equations(part, network);
+  LinearForm own;
+  own.static_stiffness = equations.tool_stiffness;
+  own.feedthrough_damping = equations.tool_damping;
+  if (!part.internal.empty()) add_modes(own, part, network, equations);
+  // What is zero by structure must not survive as a rounding error.
+  if (leads_through(part, network, stiffness_of)) {
+    form.static_stiffness += own.static_stiffness;
+    form.static_elements.insert(form.static_elements.end(), part.elements.begin(), part.elements.end());
+  }
+  if (leads_through(part, network, damping_of)) {
+    form.feedthrough_damping += own.feedthrough_damping;
+    form.feedthrough_elements.insert(form.feedthrough_elements.end(), part.elements.begin(), part.elements.end());
+  }
+  form.modes.insert(form.modes.end(), own.modes.begin(), own.modes.end());
+}
+
+}  // namespace dashpot::compiler

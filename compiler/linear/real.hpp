@@ -1,0 +1,13 @@
+// The extended precision in which constants are derived before they are rounded once, for emission.
+#pragma once
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+namespace dashpot::compiler {
+
+// 50 decimal digits: relaxation times may span 12 decades, and static stiffness is left over from cancellation.
+using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>, boost::multiprecision::et_off>;
+
+inline double to_double(const Real& value) { return value.convert_to<double>(); }
+
+}  // namespace dashpot::compiler

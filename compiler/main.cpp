@@ -1,0 +1,159 @@
+// The command line of dashpot: architecture, section 4.
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+
+#include "commands/commands.hpp"
+#include "source/render.hpp"
+
+namespace {
+
+using namespace dashpot::compiler;
+
+using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
+
+const std::map<std::string, Scheme> schemes = {{"exact", Scheme::exact}, {"backward-euler", Scheme::backward_euler}};
+const std::map<std::string, ScalarType> scalars = {{"double", ScalarType::float64}, {"float", ScalarType::float32}};
+const std::vector<std::string> decompositions = {"most-dissipative", "zero-frequency",   "quietest-passive",
+                                                 "velocity-free",    "largest-observer", "virtual"};
+
+struct CommandLine {
+  Options options;
+  std::string state_input = "auto";
+  std::string decomposition = "most-dissipative";
+  std::string diagnostics = "text";
+  std::string target = "cpp";
+};
+
+std::string check_rate(const std::string& text) {
+  char* end = nullptr;
+  const double rate = std::strtod(text.c_str(), &end);
+  const bool ok = *end == '\0' && end != text.c_str() && rate > 0 && rate <= 1e9;
+  return ok ? "" : "'" + text + "' is no rate; a number of hertz above 0 is expected";
+}
+
+std::string check_decomposition(const std::string& text) {
+  if (std::find(decompositions.begin(), decompositions.end(), text) != decompositions.end()) return "";
+  double damping = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), damping);
+  const bool ok = error == std::errc() && end == text.data() + text.size() && damping >= 0 && std::isfinite(damping);
+  return ok ? "" : "'" + text + "' is no decomposition; one of " + CLI::detail::join(decompositions) +
+                       " or a damping of zero or more is expected";
+}
+
+void add_choices(CLI::App& command, CommandLine& line) {
+  Choices& choices = line.options.choices;
+  command.add_option("--device", line.options.device, "Device file; without one an ideal device at --rate");
+  command.add_option("--rate", choices.rate, "Rate of the servo loop [Hz], default 1000 or the device's")->check(check_rate);
+  command.add_option("--scheme", choices.scheme, "exact (default) or backward-euler")
+      ->transform(CLI::Transformer(schemes))
+      ->option_text("exact|backward-euler");
+  command.add_option("--state-input", line.state_input, "What drives the states")
+      ->check(CLI::IsMember({"auto", "position", "velocity", "nodal"}))
+      ->option_text("auto|position|velocity|nodal");
+  command.add_option("--decomposition", line.decomposition, "What the brake takes over")
+      ->check(check_decomposition)
+      ->option_text("NAME|DAMPING (" + CLI::detail::join(decompositions) + ", or a number in SI)");
+  command.add_option("--scalar", choices.scalar, "Type of the emitted numbers")
+      ->transform(CLI::Transformer(scalars))
+      ->option_text("double|float");
+}
+
+CLI::App* add_command(CLI::App& app, CommandLine& line, const char* name, const char* what) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->add_option("--diagnostics", line.diagnostics, "Form of errors and warnings on standard error")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->option_text("text|json");
+  return command;
+}
+
+void add_networks(CLI::App& command, CommandLine& line, bool several) {
+  CLI::Option* networks = command.add_option("NETWORK", line.options.networks, "Network file")->required();
+  networks->expected(several ? -1 : 1);
+}
+
+void describe(CLI::App& app, CommandLine& line) {
+  Options& options = line.options;
+  CLI::App* check = add_command(app, line, "check", "Report errors and warnings only");
+  add_networks(*check, line, true);
+  add_choices(*check, line);
+
+  CLI::App* explain = add_command(app, line, "explain", "Show canonical form, candidate decompositions, and the choice");
+  add_networks(*explain, line, false);
+  add_choices(*explain, line);
+  explain->add_flag("--json", options.json, "As JSON, SI units");
+
+  CLI::App* compile = add_command(app, line, "compile", "Write the update law as C++");
+  add_networks(*compile, line, true);
+  add_choices(*compile, line);
+  compile->add_option("-o,--output", options.output, "Folder to write to, default the current one")->option_text("DIR");
+  compile->add_option("--target", line.target, "Language to write")->check(CLI::IsMember({"cpp"}))->option_text("cpp");
+  compile->add_flag("--with-test", options.emission.with_test, "Also write NAME_test.cpp against the closed forms");
+  compile->add_option("--templates", options.emission.templates, "Folder of templates in place of the built-in ones")
+      ->check(CLI::ExistingDirectory)
+      ->option_text("DIR");
+  compile->add_option("--depfile", options.depfile, "Also write a makefile of what the output depends on")->option_text("FILE");
+  compile->add_option("--print", options.print, "Print a stage and write nothing")
+      ->check(CLI::IsMember({"network", "linear", "decomposition", "law", "certificate"}))
+      ->option_text("network|linear|decomposition|law|certificate");
+
+  CLI::App* simulate = add_command(app, line, "simulate", "Run the law over a recorded motion");
+  add_networks(*simulate, line, false);
+  add_choices(*simulate, line);
+  simulate->add_option("--input", options.input, "Motion: time,position[,velocity] at a uniform period")
+      ->required()
+      ->option_text("FILE.csv");
+  simulate->add_option("-o,--output", options.output, "File to write to, default standard output")->option_text("FILE.csv");
+}
+
+void take_over_words(CommandLine& line) {
+  Choices& choices = line.options.choices;
+  if (line.state_input == "position") choices.state_input = StateInput::position;
+  if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
+  if (line.state_input == "nodal") choices.state_input = StateInput::nodal;
+  if (std::find(decompositions.begin(), decompositions.end(), line.decomposition) != decompositions.end())
+    choices.decomposition = line.decomposition;
+  else
+    choices.decomposition = std::strtod(line.decomposition.c_str(), nullptr);
+}
+
+ExitStatus run(const CLI::App& app, const CommandLine& line) {
+  static const std::map<std::string, Command> commands = {
+      {"check", run_check}, {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate}};
+  SourceFiles files;
+  Diagnostics diagnostics;
+  ExitStatus status = ExitStatus::command_line_wrong;
+  if (contradicts_itself(line.options.choices, diagnostics))
+    status = ExitStatus::command_line_wrong;
+  else
+    status = commands.at(app.get_subcommands().front()->get_name())(line.options, files, diagnostics);
+  std::cerr << (line.diagnostics == "json" ? render_json(diagnostics) : render_text(diagnostics));
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Compiles networks of springs, dampers and slips into update laws for haptic devices", "dashpot");
+  app.set_version_flag("--version", "dashpot " DASHPOT_VERSION);
+  app.require_subcommand(1);
+  CommandLine line;
+  describe(app, line);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool was_help = error.get_exit_code() == 0;
+    app.exit(error);
+    return was_help ? 0 : static_cast<int>(ExitStatus::command_line_wrong);
+  }
+  try {
+    take_over_words(line);
+    return static_cast<int>(run(app, line));
+  } catch (const std::exception& error) {
+    std::cerr << "dashpot: a defect in the compiler: " << error.what() << '\n';
+    return static_cast<int>(ExitStatus::defect);
+  }
+}

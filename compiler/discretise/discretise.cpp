@@ -198,9 +198,11 @@ class LawBuilder {
   }
 
   ExpressionId plain_update() {
-    if (law_.mode_form == ModeForm::product) return add(multiply(per_mode("decay", "1", "a = e^{−λh} or 1/(1 + λh)", &ModeCoefficients::decay), read(forces_)), drive());
+    if (law_.mode_form == ModeForm::product) return add(multiply(per_mode("decay", "1", decay_meaning(), &ModeCoefficients::decay), read(forces_)), drive());
     return add(read(forces_), increment());
   }
+
+  const char* decay_meaning() const { return law_.scheme == Scheme::exact ? "a = e^{−λh}" : "a = 1/(1 + λh)"; }
 
   ExpressionId increment() {
     return difference(drive(), multiply(per_mode("loss", "1", "α = 1 − a", &ModeCoefficients::loss), read(forces_)));

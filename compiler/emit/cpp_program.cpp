@@ -34,8 +34,12 @@ std::vector<std::string> wrapped(std::string text) {
   return lines;
 }
 
-void append(std::vector<std::string>& lines, const std::string& text) {
+// The remark stands behind the statement where there is room, else above it.
+void append(std::vector<std::string>& lines, const std::string& text, const std::string& remark = "") {
+  const bool fits = text.size() + remark.size() + 4 <= line_width;
+  if (!remark.empty() && !fits) lines.push_back("// " + remark);
   for (std::string& line : wrapped(text)) lines.push_back(std::move(line));
+  if (!remark.empty() && fits) lines.back() += "  // " + remark;
 }
 
 class CppPrinter {
@@ -77,10 +81,9 @@ class CppPrinter {
     const Variable& target = law_.variables[statement.target];
     if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
     for (std::size_t place = 0; place < target.size; ++place) {
-      std::string line = assignment(target, place) + expression(statement.value, place) + ";";
-      if (target.size > 1 && place < statement.origins.size())
-        line += "  // " + origin_names(statement.origins[place], network_);
-      append(lines, line);
+      const std::string line = assignment(target, place) + expression(statement.value, place) + ";";
+      const bool has_origin = target.size > 1 && place < statement.origins.size();
+      append(lines, line, has_origin ? origin_names(statement.origins[place], network_) : "");
     }
   }
 
@@ -94,7 +97,7 @@ class CppPrinter {
     lines.push_back(fmt::format("  for (int j = 0; j < {}; ++j) {{", law_.lanes));
     for (std::size_t i = first; i < last; ++i) {
       const Variable& target = law_.variables[program[i].target];
-      append(lines, "    " + assignment(target, 0) + expression(program[i].value, 0) + ";  // " + program[i].purpose);
+      append(lines, "    " + assignment(target, 0) + expression(program[i].value, 0) + ";", program[i].purpose);
     }
     for (VariableId vector : summed_)
       lines.push_back(fmt::format("    lane[j] += {};", vector_name(law_.variables[vector], 0)));

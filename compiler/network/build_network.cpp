@@ -141,7 +141,7 @@ class NetworkBuilder {
   }
 
   bool check_value(const LeafDecl& leaf, const Element& element, const ReadValue& read) {
-    const std::optional<Parameter> parameter = read.parameter ? std::optional(table_.parameters()[*read.parameter]) : std::nullopt;
+    const std::optional<Parameter> parameter = read.parameter ? std::optional(table_[*read.parameter]) : std::nullopt;
     const bool tunable = parameter && parameter->tunable;
     const double least = tunable ? parameter->min : read.value;
     if (least < 0) report_negative(leaf, element, least);
@@ -170,7 +170,7 @@ class NetworkBuilder {
   std::optional<double> read_constant(const ValueDecl& decl, std::string_view taker, const Dimension& due) {
     const auto value = table_.read(decl, {std::string(taker), due, network_.port_motion});
     if (!value) return std::nullopt;
-    if (value->parameter && table_.parameters()[*value->parameter].tunable)
+    if (value->parameter && table_[*value->parameter].tunable)
       diagnostics_.report<DiagnosticCode::tunable_outside_elements>(decl.span, decl.text, taker);
     return value->value;
   }

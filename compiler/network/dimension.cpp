@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 #include <string_view>
 
@@ -48,19 +47,30 @@ const NamedDimension* find_name(const Dimension& dimension) {
   return found == std::end(named_dimensions) ? nullptr : found;
 }
 
-std::string base_units(const Dimension& dimension) {
+struct BasePower {
+  std::string_view unit;
+  int exponent;
+};
+
+// The factors whose exponents have that sign, by their magnitudes.
+std::string factors(const Dimension& dimension, int sign) {
   std::string text;
-  const auto append = [&](std::string_view unit, int exponent) {
-    if (exponent == 0) return;
-    text += text.empty() ? "" : " ";
-    text += exponent == 1 ? std::string(unit) : fmt::format("{}^{}", unit, exponent);
-  };
-  append("kg", dimension.kilogram);
-  append("m", dimension.metre);
-  append("s", dimension.second);
-  append("A", dimension.ampere);
-  append("rad", dimension.radian);
+  for (const BasePower& base : {BasePower{"kg", dimension.kilogram}, {"m", dimension.metre}, {"s", dimension.second},
+                                {"A", dimension.ampere}, {"rad", dimension.radian}}) {
+    const int exponent = sign * base.exponent;
+    if (exponent <= 0) continue;
+    text += fmt::format("{}{}", text.empty() ? "" : " ", base.unit);
+    if (exponent > 1) text += fmt::format("^{}", exponent);
+  }
   return text;
+}
+
+std::string base_units(const Dimension& dimension) {
+  const std::string above = factors(dimension, 1);
+  const std::string below = factors(dimension, -1);
+  if (below.empty()) return above;
+  const bool is_product = below.find(' ') != std::string::npos;
+  return fmt::format("{}/{}", above.empty() ? "1" : above, is_product ? "(" + below + ")" : below);
 }
 
 }  // namespace

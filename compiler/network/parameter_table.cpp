@@ -1,58 +1,16 @@
 #include "network/parameter_table.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
-#include "network/name_rules.hpp"
+#include "network/quantity.hpp"
 #include "source/excerpt.hpp"
 #include "source/nearest_name.hpp"
 
 namespace dashpot::compiler {
-namespace {
-
-// Per radian, and not per radian: what somebody forgets or writes too much.
-void note_radian(const ValueDecl& decl, const Dimension& dimension, const Expectation& expected,
-                 Diagnostics& diagnostics) {
-  if (product(dimension, power(dimensions::angle, -1)) == expected.dimension)
-    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + "/rad");
-}
-
-// The same element in the other motion.
-bool is_of_other_motion(const Dimension& x, const Dimension& y) {
-  constexpr std::pair<Dimension, Dimension> pairs[] = {{dimensions::stiffness, dimensions::rotational_stiffness},
-                                                       {dimensions::damping, dimensions::rotational_damping},
-                                                       {dimensions::force, dimensions::torque},
-                                                       {dimensions::length, dimensions::angle},
-                                                       {dimensions::velocity, dimensions::angular_velocity}};
-  return std::any_of(std::begin(pairs), std::end(pairs), [&](const auto& pair) {
-    return pair == std::pair(x, y) || pair == std::pair(y, x);
-  });
-}
-
-bool is_not_finite_word(std::string_view text) {
-  const std::string word = folded(text);
-  return word == "inf" || word == "infinity" || word == "nan";
-}
-
-}  // namespace
-
-void report_wrong_unit(const ValueDecl& decl, const Dimension& dimension, const Expectation& expected,
-                       Diagnostics& diagnostics) {
-  diagnostics.report<DiagnosticCode::wrong_unit>(decl.span, excerpt(decl.text), describe(dimension), expected.taker,
-                                                 describe(expected.dimension));
-  if (dimension == dimensions::number)
-    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + " " + unit_of(expected.dimension));
-  else if (is_of_other_motion(dimension, expected.dimension))
-    diagnostics.note<DiagnosticCode::units_of_motion>(
-        {}, expected.port_motion == motion::rotation ? "rotation" : "translation");
-  else
-    note_radian(decl, dimension, expected, diagnostics);
-}
-
 ParameterTable::ParameterTable(const std::vector<ParameterDecl>& decls, Diagnostics& diagnostics)
     : diagnostics_(diagnostics) {
-  for (const ParameterDecl& decl : decls) entries_.push_back(read_entry(decl));
+  for (const ParameterDecl& decl : decls) {
+    index_of_name_.emplace(decl.name.text, entries_.size());
+    entries_.push_back(read_entry(decl));
+  }
 }
 
 ParameterTable::Entry ParameterTable::read_entry(const ParameterDecl& decl) {
@@ -67,7 +25,7 @@ ParameterTable::Entry ParameterTable::read_entry(const ParameterDecl& decl) {
 // Value, minimum and maximum share one dimension: the first one that is stated.
 std::optional<double> ParameterTable::read_part(const ValueDecl& decl, Entry& entry) {
   if (!is_quantity(decl)) {
-    diagnostics_.report<DiagnosticCode::malformed_quantity>(decl.span, excerpt(decl.text));
+    report_no_quantity(decl, diagnostics_);
     return std::nullopt;
   }
   const std::optional<Quantity> quantity = read_quantity(decl, diagnostics_);
@@ -104,17 +62,13 @@ void ParameterTable::read_range(Entry& entry) {
 }
 
 std::optional<ReadValue> ParameterTable::read(const ValueDecl& decl, const Expectation& expected) {
-  if (!is_quantity(decl)) {
-    const auto entry = std::find_if(entries_.begin(), entries_.end(),
-                                    [&](const Entry& e) { return e.parameter.name == decl.text; });
-    if (entry != entries_.end()) return use(*entry, decl, expected);
-    report_unknown(decl);
-    return std::nullopt;
+  if (is_quantity(decl)) {
+    const std::optional<double> value = read_quantity_as(decl, expected, diagnostics_);
+    return value ? std::optional(ReadValue{*value, std::nullopt}) : std::nullopt;
   }
-  const std::optional<Quantity> quantity = read_quantity(decl, diagnostics_);
-  if (!quantity) return std::nullopt;
-  if (!quantity->dimension || quantity->dimension == expected.dimension) return ReadValue{quantity->value, {}};
-  report_wrong_unit(decl, *quantity->dimension, expected, diagnostics_);
+  const auto index = index_of_name_.find(decl.text);
+  if (index != index_of_name_.end()) return use(entries_[index->second], decl, expected);
+  report_unknown(decl);
   return std::nullopt;
 }
 
@@ -126,13 +80,12 @@ std::optional<ReadValue> ParameterTable::use(Entry& entry, const ValueDecl& decl
   if (entry.dimension == expected.dimension) return ReadValue{entry.parameter.value, index};
   diagnostics_.report<DiagnosticCode::parameter_of_wrong_unit>(decl.span, decl.text, describe(*entry.dimension),
                                                                expected.taker, describe(expected.dimension));
-  diagnostics_.note<DiagnosticCode::parameter_given_here>(entry.decl.value->span);
+  diagnostics_.note<DiagnosticCode::given_here>(entry.decl.value->span);
   return std::nullopt;
 }
 
 void ParameterTable::report_unknown(const ValueDecl& decl) const {
-  if (is_not_finite_word(decl.text))
-    return diagnostics_.report<DiagnosticCode::not_finite>(decl.span, decl.text);
+  if (is_not_finite_word(decl.text)) return report_no_quantity(decl, diagnostics_);
   diagnostics_.report<DiagnosticCode::unknown_parameter>(decl.span, excerpt(decl.text));
   std::vector<std::string> names;
   for (const Entry& entry : entries_) names.push_back(entry.parameter.name);

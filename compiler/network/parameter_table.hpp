@@ -3,20 +3,13 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
-#include "network/dimension.hpp"
 #include "network/network.hpp"
-#include "network/quantity.hpp"
+#include "network/read_value.hpp"
 
 namespace dashpot::compiler {
-
-// What a value is for.
-struct Expectation {
-  std::string taker;     // "a damper", "the rate"
-  Dimension dimension;
-  motion port_motion;
-};
 
 struct ReadValue {
   double value;  // SI
@@ -35,6 +28,7 @@ class ParameterTable {
   // Warns about every parameter that no value names.
   void report_unused() const;
 
+  const Parameter& operator[](std::size_t index) const { return entries_[index].parameter; }
   std::vector<Parameter> parameters() const;
 
  private:
@@ -53,11 +47,8 @@ class ParameterTable {
   void report_unknown(const ValueDecl& decl) const;
 
   std::vector<Entry> entries_;
+  std::unordered_map<std::string, std::size_t> index_of_name_;
   Diagnostics& diagnostics_;
 };
-
-// Reports, with the remedy, a quantity of another dimension than is due.
-void report_wrong_unit(const ValueDecl& decl, const Dimension& dimension, const Expectation& expected,
-                       Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -1,51 +1,53 @@
 #include "source/nearest_name.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
+#include <utility>
 
 namespace dashpot::compiler {
 namespace {
 
-constexpr std::size_t longest_name = 64;  // bytes; nobody misspells longer ones
+constexpr std::size_t longest_name = 64;      // [bytes]; nobody misspells longer ones
+constexpr std::size_t most_candidates = 200;  // keeps a long file full of mistakes cheap
+
+using Row = std::array<std::size_t, longest_name + 1>;
+
+char lower(char byte) { return byte >= 'A' && byte <= 'Z' ? static_cast<char>(byte - 'A' + 'a') : byte; }
 
 // Costs are in half letters.
-std::size_t replacement_cost(char x, char y) {
-  if (x == y) return 0;
-  return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y)) ? 1 : 2;
-}
+std::size_t replacement_cost(char x, char y) { return x == y ? 0 : lower(x) == lower(y) ? 1 : 2; }
 
-// Optimal string alignment (Damerau 1964).
+// Optimal string alignment (Damerau 1964), three rows at a time: row[j] is the cost of turning x[0, i) into y[0, j).
 std::size_t edit_distance(std::string_view x, std::string_view y) {
-  std::vector<std::vector<std::size_t>> cost(x.size() + 1, std::vector<std::size_t>(y.size() + 1));
-  for (std::size_t i = 0; i <= x.size(); ++i)
-    for (std::size_t j = 0; j <= y.size(); ++j) {
-      if (i == 0 || j == 0) {
-        cost[i][j] = 2 * (i + j);
-        continue;
-      }
-      cost[i][j] = std::min({cost[i - 1][j] + 2, cost[i][j - 1] + 2,
-                             cost[i - 1][j - 1] + replacement_cost(x[i - 1], y[j - 1])});
-      if (i > 1 && j > 1 && x[i - 1] == y[j - 2] && x[i - 2] == y[j - 1])
-        cost[i][j] = std::min(cost[i][j], cost[i - 2][j - 2] + 2);
+  Row before{}, last{}, row{};
+  for (std::size_t j = 0; j <= y.size(); ++j) row[j] = 2 * j;
+  for (std::size_t i = 1; i <= x.size(); ++i) {
+    before = std::exchange(last, row);
+    row[0] = 2 * i;
+    for (std::size_t j = 1; j <= y.size(); ++j) {
+      row[j] = std::min({last[j] + 2, row[j - 1] + 2, last[j - 1] + replacement_cost(x[i - 1], y[j - 1])});
+      const bool swapped = i > 1 && j > 1 && x[i - 1] == y[j - 2] && x[i - 2] == y[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 2);
     }
-  return cost[x.size()][y.size()];
+  }
+  return row[y.size()];
 }
 
 }  // namespace
 
 std::optional<std::string> nearest_name(std::string_view name, const std::vector<std::string>& candidates) {
-  std::optional<std::string> nearest;
+  if (name.size() > longest_name) return std::nullopt;
+  const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, 2 * name.size() / 3) + 1;
-  if (name.size() > longest_name) return nearest;
-  for (const std::string& candidate : candidates) {
+  for (std::size_t i = 0; i < std::min(candidates.size(), most_candidates); ++i) {
+    const std::string& candidate = candidates[i];
     if (candidate.size() > longest_name) continue;
     const std::size_t distance = edit_distance(name, candidate);
-    if (distance < least && distance < 2 * std::max(name.size(), candidate.size())) {
-      least = distance;
-      nearest = candidate;
-    }
+    if (distance >= std::min(least, 2 * std::max(name.size(), candidate.size()))) continue;
+    least = distance;
+    nearest = &candidate;
   }
-  return nearest;
+  return nearest == nullptr ? std::nullopt : std::optional(*nearest);
 }
 
 }  // namespace dashpot::compiler

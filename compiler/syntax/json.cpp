@@ -1,8 +1,8 @@
 #include "syntax/json.hpp"
 
-#include <algorithm>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <unordered_map>
 #include <utility>
 
 #include "source/excerpt.hpp"
@@ -18,19 +18,18 @@ constexpr std::size_t most_values = 500'000;
 using Kind = JsonValue::Kind;
 using Next = JsonContext::Next;
 
-void report_duplicate_keys(const JsonValue& object, Diagnostics& diagnostics) {
-  std::vector<const JsonMember*> sorted;
-  for (const JsonMember& member : object.members) sorted.push_back(&member);
-  std::stable_sort(sorted.begin(), sorted.end(), [](auto* x, auto* y) { return x->key < y->key; });
-  const JsonMember* first = nullptr;
-  for (const JsonMember* member : sorted) {
-    if (first == nullptr || first->key != member->key) {
-      first = member;
-      continue;
-    }
-    diagnostics.report<DiagnosticCode::duplicate_key>(member->key_span, excerpt(member->key));
-    diagnostics.note<DiagnosticCode::first_given_here>(first->key_span);
+void refuse_duplicate_keys(JsonValue& object, Diagnostics& diagnostics) {
+  std::unordered_map<std::string_view, Span> first_places;
+  for (const JsonMember& member : object.members) {
+    const auto [first, is_new] = first_places.emplace(member.key, member.key_span);
+    if (is_new) continue;
+    diagnostics.report<DiagnosticCode::duplicate_key>(member.key_span, excerpt(member.key));
+    diagnostics.note<DiagnosticCode::first_given_here>(first->second);
   }
+  if (first_places.size() == object.members.size()) return;
+  std::erase_if(object.members, [&](const JsonMember& member) {
+    return first_places.at(member.key).begin != member.key_span.begin;
+  });
 }
 
 // Receives nlohmann's SAX events and follows them with a cursor over the text.
@@ -100,7 +99,7 @@ class JsonBuilder {
 
   bool close() {
     open_.back()->span.end = cursor_.next().end;
-    report_duplicate_keys(*open_.back(), diagnostics_);
+    refuse_duplicate_keys(*open_.back(), diagnostics_);
     open_.pop_back();
     return true;
   }

@@ -19,7 +19,7 @@ struct JsonValue {
   Span span;         // strings with their quotes, arrays and objects with their brackets
   std::string text;  // of a string its contents, escapes resolved; of a number or boolean the literal as written
   std::vector<JsonValue> items;     // of an array
-  std::vector<JsonMember> members;  // of an object, in file order; where a key comes twice, the first counts
+  std::vector<JsonMember> members;  // of an object, in file order; no key twice
 };
 
 struct JsonMember {
@@ -32,7 +32,8 @@ struct JsonMember {
 std::string_view kind_name(JsonValue::Kind kind);
 
 // In: a file. Out: its value. Refuses: what is not JSON (RFC 8259, in UTF-8, a byte order mark allowed), the first fault
-// only; numbers beyond a double; more than 100 levels or 500,000 values. Keys given twice are reported, no more.
+// only; numbers beyond a double; more than 100 levels or 500,000 values. Of equal keys the first
+// stays, the others are reported.
 std::optional<JsonValue> parse_json(const SourceFile& file, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -16,14 +16,9 @@ ObjectReader::ObjectReader(const JsonValue& value, std::string owner, Diagnostic
     : object_(value), owner_(std::move(owner)), diagnostics_(diagnostics) {}
 
 void ObjectReader::refuse_other_keys(const std::vector<std::string>& keys) const {
-  for (const JsonMember& member : object_.members) {
-    if (std::find(keys.begin(), keys.end(), member.key) != keys.end()) continue;
-    diagnostics_.report<DiagnosticCode::unknown_key>(member.key_span, owner_, excerpt(member.key));
-    if (const auto nearest = nearest_name(member.key, keys))
-      diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
-    else
-      diagnostics_.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
-  }
+  for (const JsonMember& member : object_.members)
+    if (std::find(keys.begin(), keys.end(), member.key) == keys.end())
+      report_unknown_key({member.key, member.key_span}, owner_, keys, diagnostics_);
 }
 
 const JsonMember* ObjectReader::find(std::string_view key) const {
@@ -85,6 +80,15 @@ std::optional<RangeDecl> ObjectReader::range(std::string_view key) const {
 }
 
 Span ObjectReader::opening() const { return {object_.span.file, object_.span.begin, object_.span.begin + 1}; }
+
+void report_unknown_key(const Text& key, std::string_view owner, const std::vector<std::string>& keys,
+                        Diagnostics& diagnostics) {
+  diagnostics.report<DiagnosticCode::unknown_key>(key.span, owner, excerpt(key.text));
+  if (const auto nearest = nearest_name(key.text, keys))
+    diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
+  else
+    diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
+}
 
 void report_wrong_type(std::string_view key, const JsonValue& value, std::string_view expected,
                        Diagnostics& diagnostics) {

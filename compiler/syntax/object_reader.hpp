@@ -38,6 +38,10 @@ class ObjectReader {
   Diagnostics& diagnostics_;
 };
 
+// With the nearest of `keys`, or all of them.
+void report_unknown_key(const Text& key, std::string_view owner, const std::vector<std::string>& keys,
+                        Diagnostics& diagnostics);
+
 void report_wrong_type(std::string_view key, const JsonValue& value, std::string_view expected,
                        Diagnostics& diagnostics);
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "source/digest.hpp"
-#include "source/excerpt.hpp"
+#include "syntax/file_format.hpp"
 #include "syntax/object_reader.hpp"
 #include "syntax/parse_structure.hpp"
 
@@ -15,21 +15,6 @@ using Kind = JsonValue::Kind;
 
 const std::vector<std::string> network_keys = {"dashpot", "name",     "title",   "source", "motion", "parameters",
                                                "network", "elements", "contact", "valid"};
-
-bool is_network_file(const JsonValue& root, const ObjectReader& reader, Diagnostics& diagnostics) {
-  if (root.kind != Kind::object) {
-    report_wrong_type("a network file", root, "an object", diagnostics);
-    return false;
-  }
-  if (const JsonMember* device = reader.find("dashpot_device")) {
-    diagnostics.report<DiagnosticCode::device_instead_of_network>(device->key_span);
-    return false;
-  }
-  const JsonMember* format = reader.require("dashpot");
-  if (format == nullptr || (format->value.kind == Kind::number && format->value.text == "1")) return true;
-  diagnostics.report<DiagnosticCode::unknown_format>(format->value.span, excerpt(format->value.text));
-  return false;
-}
 
 ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics) {
   ParameterDecl parameter{{member.key, member.key_span}, {}, false, {}, {}, member.value.span};
@@ -110,10 +95,8 @@ NetworkDecl parse_keys(const ObjectReader& reader, Diagnostics& diagnostics) {
 std::optional<NetworkDecl> parse_network(const SourceFile& file, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();
   const std::optional<JsonValue> root = parse_json(file, diagnostics);
-  if (!root) return std::nullopt;
-  const ObjectReader reader(*root, "the network file", diagnostics);
-  if (!is_network_file(*root, reader, diagnostics)) return std::nullopt;
-  NetworkDecl decl = parse_keys(reader, diagnostics);
+  if (!root || !is_format_1(FileKind::network, *root, diagnostics)) return std::nullopt;
+  NetworkDecl decl = parse_keys(ObjectReader(*root, "the network file", diagnostics), diagnostics);
   decl.digest = digest_of(file.text());
   decl.complete = diagnostics.error_count() == errors_before;
   return decl;

@@ -12,11 +12,9 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr std::size_t most_elements = 20'000;
-
 using Kind = JsonValue::Kind;
 
-const std::vector<std::string> branch_keys = {"spring", "damper", "slip", "series", "parallel", "name"};
+const std::vector<std::string> branch_keys = {"spring", "damper", "slip", "series", "parallel", "name", "nodes"};
 const std::vector<std::string> edge_keys = {"spring", "damper", "slip", "nodes", "name"};
 
 bool is_leaf_kind(std::string_view key) { return key == "spring" || key == "damper" || key == "slip"; }
@@ -119,6 +117,10 @@ std::optional<TreeDecl> parse_tree(const JsonValue& value, Diagnostics& diagnost
   if (kind == nullptr) return std::nullopt;
   const ObjectReader reader(value, "an element of a tree", diagnostics);
   reader.refuse_other_keys(branch_keys);
+  if (const JsonMember* nodes = reader.find("nodes")) {
+    diagnostics.report<DiagnosticCode::nodes_in_tree>(nodes->key_span);
+    diagnostics.note<DiagnosticCode::nodes_need_netlist>({});
+  }
   if (is_group_kind(kind->key)) return parse_group(value, *kind, diagnostics);
   return TreeDecl{TreeDecl::Kind::leaf, parse_leaf(value, *kind, diagnostics), {}, value.span};
 }

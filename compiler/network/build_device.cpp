@@ -1,0 +1,297 @@
+#include <dashpot/estimators/estimator_fault.hpp>
+#include <dashpot/estimators/estimator_names.hpp>
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "network/device.hpp"
+#include "network/read_motion.hpp"
+#include "network/read_value.hpp"
+#include "network/section_reader.hpp"
+#include "source/excerpt.hpp"
+#include "source/nearest_name.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// The dimensions of the joint's own coordinate.
+struct JointDimensions {
+  Dimension position, velocity, acceleration, force, damping, inertia, force_constant, damping_per_current_squared;
+};
+
+constexpr JointDimensions translation_dimensions = {
+    dimensions::length,  dimensions::velocity, dimensions::acceleration,   dimensions::force,
+    dimensions::damping, dimensions::mass,     dimensions::force_constant, dimensions::damping_per_current_squared};
+
+constexpr JointDimensions rotation_dimensions = {dimensions::angle,
+                                                 dimensions::angular_velocity,
+                                                 dimensions::angular_acceleration,
+                                                 dimensions::torque,
+                                                 dimensions::rotational_damping,
+                                                 dimensions::inertia,
+                                                 dimensions::torque_constant,
+                                                 dimensions::rotational_damping_per_current_squared};
+
+struct EstimatorKeys {
+  estimator_kind kind;
+  std::vector<std::string> required;
+  std::vector<std::string> optional;
+};
+
+const std::vector<EstimatorKeys> estimator_keys = {
+    {estimator_kind::backward_difference, {"window"}, {}},
+    {estimator_kind::least_squares, {"window"}, {}},
+    {estimator_kind::butterworth, {"order", "cutoff"}, {}},
+    {estimator_kind::inverse_time, {}, {}},
+    {estimator_kind::foaw, {"window"}, {"fit"}},
+    {estimator_kind::kalman, {"acceleration"}, {}},
+    {estimator_kind::super_twisting, {"acceleration"}, {}},
+    {estimator_kind::tracking_differentiator, {"acceleration"}, {"filter_factor"}},
+    {estimator_kind::sensor, {}, {"noise", "bandwidth"}},
+};
+
+const std::vector<std::string> all_velocity_keys = {"estimator",    "window",        "order", "cutoff",    "fit",
+                                                    "acceleration", "filter_factor", "noise", "bandwidth"};
+
+std::vector<std::string> keys_of(const EstimatorKeys& estimator) {
+  std::vector<std::string> keys{"estimator"};
+  keys.insert(keys.end(), estimator.required.begin(), estimator.required.end());
+  keys.insert(keys.end(), estimator.optional.begin(), estimator.optional.end());
+  return keys;
+}
+
+std::vector<std::string> estimator_names() {
+  std::vector<std::string> names;
+  for (const EstimatorKeys& estimator : estimator_keys) names.emplace_back(name_of(estimator.kind));
+  return names;
+}
+
+class DeviceBuilder {
+ public:
+  DeviceBuilder(const DeviceDecl& decl, Diagnostics& diagnostics)
+      : decl_(decl),
+        diagnostics_(diagnostics),
+        motion_(read_motion(decl.motion, diagnostics)),
+        due_(motion_ == motion::rotation ? rotation_dimensions : translation_dimensions) {}
+
+  Device build() {
+    device_.name = decl_.name ? decl_.name->text : std::string();
+    device_.source = decl_.source ? decl_.source->text : std::string();
+    device_.digest = decl_.digest;
+    device_.description.motion = motion_;
+    read_arm_radius();
+    read_loop();
+    read_encoder();
+    read_velocity();
+    read_motor();
+    read_brake();
+    read_mechanics();
+    read_assumed();
+    return std::move(device_);
+  }
+
+ private:
+  SectionReader section(const char* name) const { return {decl_, name, motion_, diagnostics_}; }
+
+  void read_arm_radius() {
+    if (!decl_.arm_radius) return;
+    const ValueDecl& decl = *decl_.arm_radius;
+    const auto radius = read_quantity_as(decl, {"'arm_radius'", dimensions::length, motion_}, diagnostics_);
+    if (radius && *radius <= 0)
+      diagnostics_.report<DiagnosticCode::not_above_zero>(decl.span, "'arm_radius'", fmt::format("{} m", *radius));
+    if (motion_ == motion::translation) diagnostics_.report<DiagnosticCode::arm_without_rotation>(decl.span);
+    device_.description.arm_radius = radius.value_or(0);
+  }
+
+  void read_loop() {
+    const SectionReader reader = section("loop");
+    loop_description& loop = device_.description.loop;
+    reader.refuse_other_keys({"rate", "jitter", "delay_samples", "band", "reference_frequency", "missed_deadlines_allowed"});
+    if (!reader.is_present()) diagnostics_.report<DiagnosticCode::missing_key>(decl_.opening, "the device file", "loop");
+    reader.require("rate");
+    double rate = 1 / loop.sample_period;
+    reader.read("rate", dimensions::frequency, Bound::above_zero, rate);
+    loop.sample_period = 1 / rate;
+    reader.read("jitter", dimensions::time, Bound::zero_or_more, loop.jitter);
+    reader.read_count("delay_samples", 0, loop.delay_samples);
+    reader.read_pair("band", dimensions::frequency, Bound::above_zero, loop.band_low, loop.band_high);
+    reader.read("reference_frequency", dimensions::frequency, Bound::zero_or_more, loop.reference_frequency);
+    reader.read_count("missed_deadlines_allowed", 0, loop.missed_deadlines_allowed);
+  }
+
+  void read_encoder() {
+    const SectionReader reader = section("encoder");
+    encoder_description& encoder = device_.description.encoder;
+    reader.refuse_other_keys({"counts_per_turn", "resolution", "quantiser", "range", "max_speed"});
+    read_encoder_step(reader, encoder);
+    if (const auto word = reader.read_word("quantiser", {"floor", "round"}))
+      encoder.rounding = *word == 0 ? quantiser::floor : quantiser::round;
+    reader.read_pair("range", due_.position, Bound::any, encoder.range_low, encoder.range_high);
+    reader.read("max_speed", due_.velocity, Bound::above_zero, encoder.max_speed);
+  }
+
+  void read_encoder_step(const SectionReader& reader, encoder_description& encoder) {
+    constexpr double turn = 6.283185307179586476925286766559;  // [rad]
+    unsigned counts = 0;
+    reader.read_count("counts_per_turn", 1, counts);
+    if (counts > 0) encoder.step = turn / counts;
+    reader.read("resolution", due_.position, Bound::above_zero, encoder.step);
+    if (reader.has("counts_per_turn") && reader.has("resolution"))
+      diagnostics_.report<DiagnosticCode::two_encoder_steps>(reader.place_of("resolution"));
+    if (reader.has("counts_per_turn") && motion_ == motion::translation)
+      diagnostics_.report<DiagnosticCode::counts_without_rotation>(reader.place_of("counts_per_turn"));
+  }
+
+  void read_velocity() {
+    const SectionReader reader = section("velocity");
+    if (!reader.is_present()) return;
+    reader.require("estimator");
+    const auto choice = reader.read_word("estimator", estimator_names());
+    if (!choice) return reader.refuse_other_keys(all_velocity_keys);
+    const EstimatorKeys& estimator = estimator_keys[*choice];
+    refuse_foreign_keys(reader, estimator);
+    for (const std::string& key : estimator.required) reader.require(key);
+    device_.description.velocity.estimator = estimator.kind;
+    const std::size_t errors_before = diagnostics_.error_count();
+    read_settings(reader, device_.description.velocity);
+    if (diagnostics_.error_count() == errors_before) check_settings(reader);
+  }
+
+  void refuse_foreign_keys(const SectionReader& reader, const EstimatorKeys& estimator) {
+    const std::vector<std::string> own = keys_of(estimator);
+    reader.refuse_other_keys(all_velocity_keys);
+    for (const std::string& key : all_velocity_keys)
+      if (reader.has(key) && std::find(own.begin(), own.end(), key) == own.end()) {
+        diagnostics_.report<DiagnosticCode::key_of_other_estimator>(reader.place_of(key), name_of(estimator.kind), key);
+        diagnostics_.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(own, ", ")));
+      }
+  }
+
+  void read_settings(const SectionReader& reader, velocity_description& velocity) {
+    reader.read_count("window", 1, velocity.window);
+    reader.read_count("order", 1, velocity.order);
+    reader.read("cutoff", dimensions::frequency, Bound::above_zero, velocity.cutoff);
+    if (const auto word = reader.read_word("fit", {"end", "best"})) velocity.best_fit = *word == 1;
+    reader.read("acceleration", due_.acceleration, Bound::above_zero, velocity.acceleration);
+    reader.read("filter_factor", dimensions::number, Bound::above_zero, velocity.filter_factor);
+    reader.read("noise", due_.velocity, Bound::zero_or_more, velocity.noise);
+    reader.read("bandwidth", dimensions::frequency, Bound::above_zero, velocity.bandwidth);
+  }
+
+  // The estimators themselves say what they can be built from.
+  void check_settings(const SectionReader& reader) {
+    const device_description& device = device_.description;
+    switch (fault_in(device.velocity, device.loop.sample_period, device.encoder.step)) {
+      case estimator_fault::none: return;
+      case estimator_fault::window: return report_setting(reader, "window", fmt::format("1 to {} samples", longest_window));
+      case estimator_fault::order: return report_setting(reader, "order", "2 or 4");
+      case estimator_fault::cutoff:
+        return report_setting(reader, "cutoff", fmt::format("less than half the rate, {} Hz,", 0.5 / device.loop.sample_period));
+      case estimator_fault::acceleration: return report_setting(reader, "acceleration", "more than zero");
+      case estimator_fault::filter_factor: return report_setting(reader, "filter_factor", "1 or more");
+      case estimator_fault::bandwidth: return report_setting(reader, "bandwidth", "more than zero");
+      case estimator_fault::encoder_step:
+        return diagnostics_.report<DiagnosticCode::estimator_needs_step>(reader.place_of("estimator"),
+                                                                        name_of(device.velocity.estimator));
+    }
+  }
+
+  // A key that is missing has been reported as such.
+  void report_setting(const SectionReader& reader, std::string_view key, std::string_view expected) {
+    if (reader.has(key))
+      diagnostics_.report<DiagnosticCode::estimator_setting>(reader.place_of(key), key, reader.text_of(key), expected);
+  }
+
+  void read_motor() {
+    const SectionReader reader = section("motor");
+    motor_description& motor = device_.description.motor;
+    reader.refuse_other_keys({"torque_constant", "max_torque", "amplifier_lag", "saturation_allowed"});
+    reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
+    reader.read("max_torque", due_.force, Bound::above_zero, motor.max_torque);
+    reader.read("amplifier_lag", dimensions::time, Bound::zero_or_more, motor.amplifier_lag);
+    reader.read("saturation_allowed", dimensions::time, Bound::above_zero, motor.saturation_allowed);
+  }
+
+  void read_brake() {
+    const SectionReader reader = section("brake");
+    brake_description& brake = device_.description.brake;
+    reader.refuse_other_keys({"kind", "max_damping", "damping_per_current_squared", "residual_damping", "tolerance",
+                              "coil_lag", "slew", "critical_speed", "safe_damping"});
+    reader.require("kind");
+    reader.require("max_damping");
+    if (const auto word = reader.read_word("kind", {"eddy_current", "shorted_motor"}))
+      brake.kind = *word == 0 ? brake_kind::eddy_current : brake_kind::shorted_motor;
+    reader.read("max_damping", due_.damping, Bound::above_zero, brake.max_damping);
+    reader.read("damping_per_current_squared", due_.damping_per_current_squared, Bound::above_zero,
+                brake.damping_per_current_squared);
+    reader.read("residual_damping", due_.damping, Bound::zero_or_more, brake.residual_damping);
+    reader.read("tolerance", dimensions::number, Bound::zero_or_more, brake.tolerance);
+    reader.read("coil_lag", dimensions::time, Bound::zero_or_more, brake.coil_lag);
+    reader.read("slew", dimensions::current_rate, Bound::above_zero, brake.slew);
+    reader.read("critical_speed", due_.velocity, Bound::above_zero, brake.critical_speed);
+    reader.read("safe_damping", due_.damping, Bound::zero_or_more, brake.safe_damping);
+    check_brake(reader, brake);
+  }
+
+  void check_brake(const SectionReader& reader, const brake_description& brake) {
+    if (brake.tolerance >= 1)
+      diagnostics_.report<DiagnosticCode::tolerance_too_large>(reader.place_of("tolerance"), reader.text_of("tolerance"));
+    if (brake.max_damping == 0) return;
+    if (brake.safe_damping > brake.max_damping) report_above_brake(reader, "safe_damping");
+    if (brake.residual_damping > brake.max_damping) report_above_brake(reader, "residual_damping");
+  }
+
+  void report_above_brake(const SectionReader& reader, std::string_view key) {
+    diagnostics_.report<DiagnosticCode::damping_above_brake>(reader.place_of(key), key, reader.text_of(key),
+                                                             reader.text_of("max_damping"));
+    diagnostics_.note<DiagnosticCode::given_here>(reader.place_of("max_damping"));
+  }
+
+  void read_mechanics() {
+    const SectionReader reader = section("mechanics");
+    mechanics_description& mechanics = device_.description.mechanics;
+    reader.refuse_other_keys({"inertia", "damping", "coulomb_friction"});
+    reader.read("inertia", due_.inertia, Bound::zero_or_more, mechanics.inertia);
+    reader.read("damping", due_.damping, Bound::zero_or_more, mechanics.damping);
+    reader.read("coulomb_friction", due_.force, Bound::zero_or_more, mechanics.coulomb_friction);
+  }
+
+  void read_assumed() {
+    const std::vector<std::string> given = dotted_keys();
+    for (const Text& name : decl_.assumed) {
+      device_.assumed.push_back(name.text);
+      if (std::find(given.begin(), given.end(), name.text) != given.end()) continue;
+      diagnostics_.report<DiagnosticCode::assumed_not_given>(name.span, excerpt(name.text));
+      if (const auto nearest = nearest_name(name.text, given))
+        diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
+    }
+  }
+
+  std::vector<std::string> dotted_keys() const {
+    std::vector<std::string> keys;
+    if (decl_.arm_radius) keys.emplace_back("arm_radius");
+    for (const SectionDecl& section : decl_.sections)
+      for (const EntryDecl& entry : section.entries) keys.push_back(section.name.text + "." + entry.key.text);
+    return keys;
+  }
+
+  const DeviceDecl& decl_;
+  Diagnostics& diagnostics_;
+  motion motion_;
+  const JointDimensions& due_;
+  Device device_;
+};
+
+}  // namespace
+
+std::optional<Device> build_device(const DeviceDecl& decl, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  Device device = DeviceBuilder(decl, diagnostics).build();
+  if (!decl.complete || diagnostics.error_count() > errors_before) return std::nullopt;
+  return device;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,69 @@
+#include "network/read_value.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "network/name_rules.hpp"
+#include "network/quantity.hpp"
+#include "source/excerpt.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// The same thing in the other motion.
+bool is_of_other_motion(const Dimension& x, const Dimension& y) {
+  constexpr std::pair<Dimension, Dimension> pairs[] = {
+      {dimensions::stiffness, dimensions::rotational_stiffness},
+      {dimensions::damping, dimensions::rotational_damping},
+      {dimensions::force, dimensions::torque},
+      {dimensions::length, dimensions::angle},
+      {dimensions::velocity, dimensions::angular_velocity},
+      {dimensions::acceleration, dimensions::angular_acceleration},
+      {dimensions::mass, dimensions::inertia},
+      {dimensions::force_constant, dimensions::torque_constant},
+      {dimensions::damping_per_current_squared, dimensions::rotational_damping_per_current_squared}};
+  return std::any_of(std::begin(pairs), std::end(pairs),
+                     [&](const auto& pair) { return pair == std::pair(x, y) || pair == std::pair(y, x); });
+}
+
+void report_wrong_unit(const ValueDecl& decl, const Dimension& found, const Expectation& expected,
+                       Diagnostics& diagnostics) {
+  diagnostics.report<DiagnosticCode::wrong_unit>(decl.span, excerpt(decl.text), describe(found), expected.taker,
+                                                 describe(expected.dimension));
+  const bool rotates = expected.port_motion == motion::rotation;
+  if (found == dimensions::number)
+    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + " " + unit_of(expected.dimension));
+  else if (product(found, power(dimensions::angle, -1)) == expected.dimension)
+    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + "/rad");
+  else if (is_of_other_motion(found, expected.dimension))
+    diagnostics.note<DiagnosticCode::units_of_motion>({}, rotates ? "rotation" : "translation");
+}
+
+}  // namespace
+
+std::optional<double> read_quantity_as(const ValueDecl& decl, const Expectation& expected, Diagnostics& diagnostics) {
+  if (!is_quantity(decl)) {
+    report_no_quantity(decl, diagnostics);
+    return std::nullopt;
+  }
+  const std::optional<Quantity> quantity = read_quantity(decl, diagnostics);
+  if (!quantity) return std::nullopt;
+  if (!quantity->dimension || quantity->dimension == expected.dimension) return quantity->value;
+  report_wrong_unit(decl, *quantity->dimension, expected, diagnostics);
+  return std::nullopt;
+}
+
+void report_no_quantity(const ValueDecl& decl, Diagnostics& diagnostics) {
+  if (is_not_finite_word(decl.text))
+    diagnostics.report<DiagnosticCode::not_finite>(decl.span, decl.text);
+  else
+    diagnostics.report<DiagnosticCode::malformed_quantity>(decl.span, excerpt(decl.text));
+}
+
+bool is_not_finite_word(const std::string& text) {
+  const std::string word = folded(text);
+  return word == "inf" || word == "infinity" || word == "nan";
+}
+
+}  // namespace dashpot::compiler

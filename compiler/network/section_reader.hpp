@@ -1,0 +1,54 @@
+// Reads the keys of one section of a device file into SI.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "network/dimension.hpp"
+#include "source/diagnostic.hpp"
+#include "syntax/device_decl.hpp"
+
+namespace dashpot::compiler {
+
+enum class Bound { any, zero_or_more, above_zero };
+
+// Every read leaves its target alone where the key is absent or, reported, not what is due.
+class SectionReader {
+ public:
+  SectionReader(const DeviceDecl& decl, std::string name, motion joint_motion, Diagnostics& diagnostics);
+
+  bool is_present() const { return section_ != nullptr; }
+  bool has(std::string_view key) const { return find(key) != nullptr; }
+  void require(std::string_view key) const;  // reports where the section, if present, lacks it
+  void refuse_other_keys(const std::vector<std::string>& keys) const;
+
+  void read(std::string_view key, const Dimension& due, Bound bound, double& target) const;
+  void read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high) const;
+  void read_count(std::string_view key, unsigned least, unsigned& target) const;
+
+  // The index of the word among `words`.
+  std::optional<std::size_t> read_word(std::string_view key, const std::vector<std::string>& words) const;
+
+  // Of the key's value; of the section where there is none.
+  Span place_of(std::string_view key) const;
+
+  // As the author wrote it.
+  std::string text_of(std::string_view key) const;
+
+ private:
+  const EntryDecl* find(std::string_view key) const;
+  const ValueDecl* find_single(std::string_view key) const;
+  std::optional<double> value_of(const ValueDecl& decl, std::string_view key, const Dimension& due, Bound bound) const;
+  std::string dotted(std::string_view key) const;
+
+  const SectionDecl* section_ = nullptr;
+  std::string name_;
+  motion motion_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace dashpot::compiler

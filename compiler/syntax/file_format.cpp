@@ -1,0 +1,41 @@
+#include "syntax/file_format.hpp"
+
+#include "source/excerpt.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr std::string_view network_key = "dashpot";
+constexpr std::string_view device_key = "dashpot_device";
+
+// True where the other kind's key stands alone.
+bool is_other_kind(FileKind kind, const ObjectReader& reader, Diagnostics& diagnostics) {
+  const JsonMember* network = reader.find(network_key);
+  const JsonMember* device = reader.find(device_key);
+  if (kind == FileKind::network && network == nullptr && device != nullptr)
+    diagnostics.report<DiagnosticCode::device_instead_of_network>(device->key_span);
+  else if (kind == FileKind::device && device == nullptr && network != nullptr)
+    diagnostics.report<DiagnosticCode::network_instead_of_device>(network->key_span);
+  else
+    return false;
+  return true;
+}
+
+}  // namespace
+
+bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics) {
+  const bool is_network = kind == FileKind::network;
+  if (root.kind != JsonValue::Kind::object) {
+    report_wrong_type(is_network ? "network file" : "device file", root, "an object", diagnostics);
+    return false;
+  }
+  const ObjectReader reader(root, is_network ? "the network file" : "the device file", diagnostics);
+  if (is_other_kind(kind, reader, diagnostics)) return false;
+  const JsonMember* format = reader.require(is_network ? network_key : device_key);
+  if (format == nullptr || (format->value.kind == JsonValue::Kind::number && format->value.text == "1")) return true;
+  const std::string_view found = format->value.text.empty() ? kind_name(format->value.kind) : format->value.text;
+  diagnostics.report<DiagnosticCode::unknown_format>(format->value.span, excerpt(found));
+  return false;
+}
+
+}  // namespace dashpot::compiler

@@ -20,9 +20,10 @@ admission hold_against_certificate(const model_facts& model, const loop_facts& l
   return admission::admitted;
 }
 
+// Nine digits tell any two periods apart that single precision does.
 std::string number(double value) {
   char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+  return {digits, std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 9).ptr};
 }
 
 std::string quoted(const char* text) { return "'" + std::string(text) + "'"; }

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include <dashpot/servo/servo_loop.hpp>
+
+#include "log_text.hpp"
+#include "scripted_device.hpp"
+#include "scripted_model.hpp"
+
+namespace dashpot::tests {
+namespace {
+
+constexpr model_facts certified{0.001, motion::translation, false, "arm", "2f9c", "backward_difference", 0};
+
+loop_facts fitting_loop() { return {{"arm", "2f9c"}, scripted_description(), "backward_difference"}; }
+
+struct mismatch {
+  const char* name;
+  admission verdict;
+  void (*change)(model_facts&, loop_facts&);
+  const char* text;
+};
+
+void PrintTo(const mismatch& which, std::ostream* out) { *out << which.name; }
+
+class Admission : public testing::TestWithParam<mismatch> {};
+
+// Broken, a model would drive a device it was not certified for, or the refusal would not say what differs.
+TEST_P(Admission, RefusesAndSaysWhatDiffers) {
+  model_facts model = certified;
+  loop_facts loop = fitting_loop();
+  GetParam().change(model, loop);
+  const admission verdict = admit(model, loop, false);
+  EXPECT_EQ(verdict, GetParam().verdict);
+  EXPECT_FALSE(is_admitted(verdict));
+  EXPECT_EQ(to_text(verdict, model, loop), GetParam().text);
+}
+
+constexpr mismatch mismatches[] = {
+    {"OtherRate", admission::other_rate, [](model_facts& model, loop_facts&) { model.sample_period = 0.0005; },
+     "model is made for a period of 0.0005 s, device 'arm' runs at 0.001 s"},
+    {"OtherDevice", admission::other_device, [](model_facts&, loop_facts& loop) { loop.identity.name = "leg"; },
+     "model is certified for device 'arm', this is device 'leg'"},
+    {"OtherDigest", admission::other_digest, [](model_facts&, loop_facts& loop) { loop.identity.digest = "77aa"; },
+     "model is certified for device 'arm' with digest '2f9c', this one's is '77aa'"},
+    {"UnknownIdentity", admission::other_device, [](model_facts&, loop_facts& loop) { loop.identity = {}; },
+     "model is certified for device 'arm', this is device ''"},
+    {"OtherEstimator", admission::other_estimator, [](model_facts&, loop_facts& loop) { loop.estimator = "foaw"; },
+     "model is certified for device 'arm' with estimator 'backward_difference', this loop uses 'foaw'"},
+    {"OtherDelay", admission::other_delay, [](model_facts&, loop_facts& loop) { loop.device.loop.delay_samples = 1; },
+     "model is certified for device 'arm' with a loop delay of 0 samples, the device states 1"},
+    {"OtherMotion", admission::other_motion, [](model_facts& model, loop_facts&) { model.motion = motion::rotation; },
+     "model is made for rotation, device 'arm' moves in translation and states no arm radius that would convert it"},
+    {"NoArmRadius", admission::other_motion,
+     [](model_facts&, loop_facts& loop) { loop.device.motion = motion::rotation; },
+     "model is made for translation, device 'arm' moves in rotation and states no arm radius that would convert it"},
+    {"NoPeriod", admission::no_period, [](model_facts&, loop_facts& loop) { loop.device.loop.sample_period = 0; },
+     "device 'arm' states a sample period of 0 s; a loop needs one above zero"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Every, Admission, testing::ValuesIn(mismatches),
+                         [](const auto& which) { return std::string(which.param.name); });
+
+// Broken, the device a model was made for would be refused.
+TEST(Admission, AdmitsTheDeviceOfTheCertificate) {
+  EXPECT_EQ(admit(certified, fitting_loop(), true), admission::admitted);
+  EXPECT_EQ(to_text(admission::admitted, certified, fitting_loop()), "");
+}
+
+// Broken, a float model, whose period is stated in single precision, could not run at most rates.
+TEST(Admission, PeriodsAgreeInSinglePrecision) {
+  model_facts model = certified;
+  loop_facts loop = fitting_loop();
+  loop.device.loop.sample_period = 1.0 / 3000;
+  model.sample_period = static_cast<double>(1.0f / 3000.0f);
+  EXPECT_EQ(admit(model, loop, false), admission::admitted);
+  model.sample_period = 0.0003333;
+  EXPECT_EQ(admit(model, loop, false), admission::other_rate);
+}
+
+// Broken, a translational network could not be rendered by a rotating arm.
+TEST(Admission, ArmRadiusCarriesTranslationToARotaryJoint) {
+  loop_facts loop = fitting_loop();
+  loop.device.motion = motion::rotation;
+  loop.device.arm_radius = 0.05;
+  EXPECT_EQ(admit(certified, loop, false), admission::admitted);
+}
+
+struct run_result {
+  servo_summary summary;
+  std::string log;
+  std::size_t reads;
+  std::size_t writes;
+};
+
+run_result run_uncertified(bool require_certified) {
+  scripted_device device;
+  scripted_model model;
+  scripted_estimator estimator;
+  log_text log;
+  servo_options options;
+  options.identity = {"arm", "2f9c"};
+  options.require_certified = require_certified;
+  options.duration = 0.01;
+  options.outputs.log = log.file();
+  servo_loop loop(model, device, estimator, options, simulated_clock{});
+  const servo_summary summary = loop.run();
+  return {summary, log.text(), device.reads(), device.written().size()};
+}
+
+// Broken, a model without a certificate would run in silence.
+TEST(Admission, UncertifiedModelRunsWithAWarning) {
+  const run_result result = run_uncertified(false);
+  EXPECT_EQ(result.summary.verdict, admission::admitted_uncertified);
+  EXPECT_EQ(result.log.find("model is compiled for the ideal device; nothing is certified about device 'arm'\n"), 0u);
+  EXPECT_EQ(result.reads, 10u);
+  EXPECT_EQ(result.writes, 11u);
+}
+
+// Broken, a refused model would still move the device once.
+TEST(Admission, RefusedModelNeverTouchesTheDevice) {
+  const run_result result = run_uncertified(true);
+  EXPECT_EQ(result.summary.verdict, admission::not_certified);
+  EXPECT_EQ(result.log, "model is compiled for the ideal device; this loop requires one certified for device 'arm'\n");
+  EXPECT_EQ(result.reads, 0u);
+  EXPECT_EQ(result.writes, 0u);
+  EXPECT_EQ(to_text(result.summary), "refused before the device was touched\n");
+}
+
+}  // namespace
+}  // namespace dashpot::tests

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <string>
+
+#include <dashpot/servo/telemetry_writer.hpp>
+
+#include "log_text.hpp"
+
+namespace dashpot::tests {
+namespace {
+
+telemetry_record full_record() {
+  telemetry_record record;
+  record.time = 0.017;
+  record.period = 17;
+  record.state = servo_state::safe;
+  record.tripped = fault::encoder_jump;
+  record.fresh = true;
+  record.lateness = 2300;
+  record.response = 900;
+  record.position = 0.1;
+  record.velocity = -1.0 / 3;
+  record.damping = 11;
+  record.motor_force = 1e-300;
+  record.motor_torque = -2.5;
+  record.brake_damping = 7.5;
+  record.stored_energy = 0.125;
+  record.energy = -1e-7;
+  return record;
+}
+
+// Broken, a column would have no unit, another unit than its motion's, or another place than its value.
+TEST(Telemetry, HeaderNamesEveryColumnWithItsUnit) {
+  EXPECT_EQ(csv_header({motion::translation, motion::rotation}),
+            "time [s],period,state,fault,fresh,lateness [ns],response [ns],position [m],velocity [m/s],damping [N s/m],"
+            "motor_force [N],motor_torque [N m],brake_damping [N m s/rad],stored_energy [J],energy [J]\n");
+  EXPECT_EQ(csv_header({motion::rotation, motion::rotation}),
+            "time [s],period,state,fault,fresh,lateness [ns],response [ns],position [rad],velocity [rad/s],"
+            "damping [N m s/rad],motor_force [N m],motor_torque [N m],brake_damping [N m s/rad],stored_energy [J],"
+            "energy [J]\n");
+}
+
+// Broken, a number read back from the log would not be the one in the loop.
+TEST(Telemetry, RowRoundTripsEveryNumber) {
+  EXPECT_EQ(csv_row(full_record()),
+            "0.017,17,safe,encoder jump,1,2300,900,0.1,-0.3333333333333333,11,1e-300,-2.5,7.5,0.125,-1e-07\n");
+}
+
+// Broken, what was queued when the loop ended would never be written.
+TEST(Telemetry, StopWritesWhatIsLeft) {
+  log_text csv, log;
+  telemetry_writer writer(64, {csv.file(), log.file(), {}}, {});
+  writer.start();
+  for (int i = 0; i < 10; ++i) writer.records().push(full_record());
+  writer.events().push({0.017, 17, servo_state::safe, {fault::overspeed, -2.5, 2}});
+  writer.stop();
+  std::string expected = csv_header({});
+  for (int i = 0; i < 10; ++i) expected += csv_row(full_record());
+  EXPECT_EQ(csv.text(), expected);
+  EXPECT_EQ(log.text(), "0.017000 s: safe: overspeed: -2.5 m/s, at most 2 m/s\n");
+  EXPECT_EQ(writer.write_error(), 0);
+}
+
+// Broken, a full disk would end the run, or go untold.
+TEST(Telemetry, FailedWriteIsToldAndSurvived) {
+  std::FILE* const full = std::fopen("/dev/full", "w");
+  ASSERT_NE(full, nullptr);
+  int observed = 0;
+  telemetry_writer writer(64, {full, nullptr, [&observed](const telemetry_record&) { ++observed; }}, {});
+  writer.records().push(full_record());
+  writer.drain();
+  EXPECT_EQ(writer.write_error(), ENOSPC);
+  writer.records().push(full_record());
+  writer.drain();
+  EXPECT_EQ(observed, 2);
+  std::fclose(full);
+}
+
+struct sentence {
+  fault_report cause;
+  const char* text;
+};
+
+// Broken, the log would name a fault without the numbers or units that explain it.
+TEST(ServoEvent, NamesEveryFaultWithItsEvidence) {
+  const sentence sentences[] = {
+      {{fault::missed_deadlines, 4, 3}, "missed deadlines: 4 in a row, at most 3"},
+      {{fault::no_data, 4, 3}, "no data: 4 periods without a fresh sample, at most 3"},
+      {{fault::device_error, 4, 0}, "device error: the device answers 'disconnected'"},
+      {{fault::position_not_finite, -1.0 / 0.0, 0}, "position not finite: the device reads -inf"},
+      {{fault::position_out_of_range, 0.9, 0.8}, "position out of range: 0.9 rad is beyond 0.8 rad"},
+      {{fault::encoder_jump, 0.3, 0.0033}, "encoder jump: moved 0.3 rad between two samples, at most 0.0033 rad"},
+      {{fault::velocity_not_finite, 1.0 / 0.0, 2}, "velocity not finite: the estimator returns inf"},
+      {{fault::overspeed, -31, 30}, "overspeed: -31 rad/s, at most 30 rad/s"},
+      {{fault::command_not_finite, 1.0 / 0.0, 0}, "command not finite: the model returns inf"},
+      {{fault::motor_saturated, 0.2001, 0.2}, "motor saturated: for 0.2001 s, at most 0.2 s"},
+  };
+  EXPECT_EQ(std::size(sentences), fault_kinds - 1);
+  for (const sentence& each : sentences) {
+    EXPECT_EQ(to_text({1.25, 1250, servo_state::safe, each.cause}, motion::rotation),
+              std::string("1.250000 s: safe: ") + each.text);
+  }
+  EXPECT_EQ(to_text({0, 0, servo_state::running, {}}, motion::rotation), "0.000000 s: running");
+}
+
+}  // namespace
+}  // namespace dashpot::tests

@@ -37,7 +37,7 @@ std::string certified(const model_facts& model) { return "model is certified for
 admission admit(const model_facts& model, const loop_facts& loop, bool require_certified) noexcept {
   if (!(loop.device.loop.sample_period > 0)) return admission::no_period;
   if (!same_period(model.sample_period, loop.device.loop.sample_period)) return admission::other_rate;
-  if (!can_drive(loop.device, model.motion)) return admission::other_motion;
+  if (!can_drive(loop.device, model.port_motion)) return admission::other_motion;
   if (!model.any_device) return hold_against_certificate(model, loop);
   return require_certified ? admission::not_certified : admission::admitted_uncertified;
 }
@@ -55,7 +55,7 @@ std::string to_text(admission verdict, const model_facts& model, const loop_fact
       return "model is made for a period of " + number(model.sample_period) + " s, device " +
              quoted(loop.identity.name) + " runs at " + number(timing.sample_period) + " s";
     case admission::other_motion:
-      return std::string("model is made for ") + word_of(model.motion) + ", device " + quoted(loop.identity.name) +
+      return std::string("model is made for ") + word_of(model.port_motion) + ", device " + quoted(loop.identity.name) +
              " moves in " + word_of(loop.device.motion) + " and states no arm radius that would convert it";
     case admission::not_certified:
       return "model is compiled for the ideal device; this loop requires one certified for device " +

@@ -2,7 +2,7 @@
 // section 5):
 //     using scalar = double;                                             // or float
 //     static constexpr scalar sample_period = 0.001;                     // [s]
-//     static constexpr dashpot::motion motion = dashpot::motion::translation;
+//     static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 //     struct certified_for {
 //       static constexpr bool any_device = false;                        // true: compiled for the ideal device
 //       static constexpr const char* device = "pantograph_brake_2009";   // its name
@@ -15,7 +15,7 @@
 //     void update() noexcept;                                            // after the command has left
 //     scalar stored_energy() const noexcept;                             // [J]
 // A model whose facts are known only at run time (loaded from a library) has `model_facts facts() const noexcept` in
-// place of sample_period, motion and certified_for.
+// place of sample_period, port_motion and certified_for.
 #pragma once
 
 #include <type_traits>
@@ -29,7 +29,7 @@ namespace dashpot {
 // What a model was made for. The strings live as long as the model.
 struct model_facts {
   double sample_period = 0;  // [s]
-  dashpot::motion motion = dashpot::motion::translation;
+  motion port_motion = motion::translation;
   bool any_device = true;
   const char* device = "";
   const char* device_digest = "";
@@ -44,7 +44,7 @@ using scalar = std::enable_if_t<std::is_floating_point_v<typename M::scalar>>;
 template <class M>
 using sample_period = std::enable_if_t<(M::sample_period > 0)>;
 template <class M>
-using motion = std::enable_if_t<M::motion == dashpot::motion::translation || M::motion == dashpot::motion::rotation>;
+using port_motion = std::enable_if_t<M::port_motion == motion::translation || M::port_motion == motion::rotation>;
 template <class M>
 using certified_for = std::enable_if_t<std::is_convertible_v<decltype(M::certified_for::any_device), bool> &&
                                        std::is_convertible_v<decltype(M::certified_for::device), const char*> &&
@@ -72,8 +72,8 @@ constexpr bool check_model() {
   static_assert(is_detected<model_claim::scalar, Model>, "the model needs 'using scalar = double;' or float");
   static_assert(own_facts || is_detected<model_claim::sample_period, Model>,
                 "the model needs 'static constexpr scalar sample_period' [s], more than zero");
-  static_assert(own_facts || is_detected<model_claim::motion, Model>,
-                "the model needs 'static constexpr dashpot::motion motion'");
+  static_assert(own_facts || is_detected<model_claim::port_motion, Model>,
+                "the model needs 'static constexpr dashpot::motion port_motion'");
   static_assert(own_facts || is_detected<model_claim::certified_for, Model>,
                 "the model needs 'struct certified_for' with static any_device, device, device_digest, estimator and "
                 "loop_delay: it says which device the model may run on");
@@ -93,8 +93,9 @@ model_facts facts_of([[maybe_unused]] const Model& model) noexcept {
     return model.facts();
   } else {
     using certified = typename Model::certified_for;
-    return {static_cast<double>(Model::sample_period), Model::motion,          certified::any_device, certified::device,
-            certified::device_digest,                  certified::estimator, certified::loop_delay};
+    return {static_cast<double>(Model::sample_period), Model::port_motion,
+            certified::any_device, certified::device, certified::device_digest, certified::estimator,
+            certified::loop_delay};
   }
 }
 

@@ -50,7 +50,7 @@ constexpr mismatch mismatches[] = {
      "model is certified for device 'arm' with estimator 'backward_difference', this loop uses 'foaw'"},
     {"OtherDelay", admission::other_delay, [](model_facts&, loop_facts& loop) { loop.device.loop.delay_samples = 1; },
      "model is certified for device 'arm' with a loop delay of 0 samples, the device states 1"},
-    {"OtherMotion", admission::other_motion, [](model_facts& model, loop_facts&) { model.motion = motion::rotation; },
+    {"OtherMotion", admission::other_motion, [](model_facts& model, loop_facts&) { model.port_motion = motion::rotation; },
      "model is made for rotation, device 'arm' moves in translation and states no arm radius that would convert it"},
     {"NoArmRadius", admission::other_motion,
      [](model_facts&, loop_facts& loop) { loop.device.motion = motion::rotation; },

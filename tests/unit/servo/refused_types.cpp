@@ -13,7 +13,7 @@ using complete_model = dashpot::generated::second_order_maxwell;
 struct model_without_certificate {
   using scalar = float;
   static constexpr scalar sample_period = 0.001f;
-  static constexpr dashpot::motion motion = dashpot::motion::translation;
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
   void reset(scalar) noexcept;
   command<scalar> output(scalar, scalar) noexcept;
   void update() noexcept;

@@ -28,7 +28,7 @@ class servo_cycle {
         control_(control),
         writer_(writer),
         loop_(device.description().loop),
-        path_(model, estimator, device.description(), facts_of(model).motion, options) {}
+        path_(model, estimator, device.description(), facts_of(model).port_motion, options) {}
 
   void serve(const wake_up& woken) {
     device_sample sample;

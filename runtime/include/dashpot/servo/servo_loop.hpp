@@ -47,7 +47,7 @@ class servo_loop {
   servo_summary run() {
     const loop_facts loop{options_.identity, device_.description(), estimator_name(estimator_)};
     const admission verdict = admit(facts_, loop, options_.require_certified);
-    telemetry_writer writer(options_.telemetry_capacity, options_.outputs, {facts_.motion, loop.device.motion});
+    telemetry_writer writer(options_.telemetry_capacity, options_.outputs, {facts_.port_motion, loop.device.motion});
     writer.say(to_text(verdict, facts_, loop));
     servo_summary summary = is_admitted(verdict) ? run_admitted(writer) : servo_summary{};
     writer.stop();

@@ -10,7 +10,7 @@ class second_order_maxwell {
  public:
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
-  static constexpr dashpot::motion motion = dashpot::motion::translation;
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
   struct certified_for {
     static constexpr bool any_device = true;
     static constexpr const char* device = "";

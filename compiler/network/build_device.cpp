@@ -53,7 +53,7 @@ const std::vector<EstimatorKeys> estimator_keys = {
     {estimator_kind::sensor, {}, {"noise", "bandwidth"}},
 };
 
-const std::vector<std::string> all_velocity_keys = {"estimator",    "window",        "order", "cutoff",    "fit",
+const std::vector<std::string> all_velocity_keys = {"estimator",    "window",        "order", "cutoff",   "fit",
                                                     "acceleration", "filter_factor", "noise", "bandwidth"};
 
 std::vector<std::string> keys_of(const EstimatorKeys& estimator) {
@@ -109,8 +109,10 @@ class DeviceBuilder {
   void read_loop() {
     const SectionReader reader = section("loop");
     loop_description& loop = device_.description.loop;
-    reader.refuse_other_keys({"rate", "jitter", "delay_samples", "band", "reference_frequency", "missed_deadlines_allowed"});
-    if (!reader.is_present()) diagnostics_.report<DiagnosticCode::missing_key>(decl_.opening, "the device file", "loop");
+    reader.refuse_other_keys(
+        {"rate", "jitter", "delay_samples", "band", "reference_frequency", "missed_deadlines_allowed"});
+    if (!reader.is_present())
+      diagnostics_.report<DiagnosticCode::missing_key>(decl_.opening, "the device file", "loop");
     reader.require("rate");
     double rate = 1 / loop.sample_period;
     reader.read("rate", dimensions::frequency, Bound::above_zero, rate);
@@ -186,16 +188,18 @@ class DeviceBuilder {
     const device_description& device = device_.description;
     switch (fault_in(device.velocity, device.loop.sample_period, device.encoder.step)) {
       case estimator_fault::none: return;
-      case estimator_fault::window: return report_setting(reader, "window", fmt::format("1 to {} samples", longest_window));
+      case estimator_fault::window:
+        return report_setting(reader, "window", fmt::format("1 to {} samples", longest_window));
       case estimator_fault::order: return report_setting(reader, "order", "2 or 4");
       case estimator_fault::cutoff:
-        return report_setting(reader, "cutoff", fmt::format("less than half the rate, {} Hz,", 0.5 / device.loop.sample_period));
+        return report_setting(reader, "cutoff",
+                              fmt::format("less than half the rate, {} Hz,", 0.5 / device.loop.sample_period));
       case estimator_fault::acceleration: return report_setting(reader, "acceleration", "more than zero");
       case estimator_fault::filter_factor: return report_setting(reader, "filter_factor", "1 or more");
       case estimator_fault::bandwidth: return report_setting(reader, "bandwidth", "more than zero");
       case estimator_fault::encoder_step:
         return diagnostics_.report<DiagnosticCode::estimator_needs_step>(reader.place_of("estimator"),
-                                                                        name_of(device.velocity.estimator));
+                                                                         name_of(device.velocity.estimator));
     }
   }
 
@@ -238,7 +242,8 @@ class DeviceBuilder {
 
   void check_brake(const SectionReader& reader, const brake_description& brake) {
     if (brake.tolerance >= 1)
-      diagnostics_.report<DiagnosticCode::tolerance_too_large>(reader.place_of("tolerance"), reader.text_of("tolerance"));
+      diagnostics_.report<DiagnosticCode::tolerance_too_large>(reader.place_of("tolerance"),
+                                                               reader.text_of("tolerance"));
     if (brake.max_damping == 0) return;
     if (brake.safe_damping > brake.max_damping) report_above_brake(reader, "safe_damping");
     if (brake.residual_damping > brake.max_damping) report_above_brake(reader, "residual_damping");

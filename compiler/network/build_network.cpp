@@ -52,8 +52,8 @@ class NetworkBuilder {
   }
 
   void place_leaves() {
-    if (const auto* tree = std::get_if<TreeDecl>(&decl_.structure)) place_tree(*tree, tool, ground);
-    else for (const EdgeDecl& edge : std::get<std::vector<EdgeDecl>>(decl_.structure)) place_edge(edge);
+    if (const auto* tree = std::get_if<TreeDecl>(&decl_.structure)) return place_tree(*tree, tool, ground);
+    for (const EdgeDecl& edge : std::get<std::vector<EdgeDecl>>(decl_.structure)) place_edge(edge);
   }
 
   void place_tree(const TreeDecl& tree, NodeIndex a, NodeIndex b) {
@@ -122,7 +122,8 @@ class NetworkBuilder {
     if (leaves_.size() > most_elements)
       diagnostics_.report<DiagnosticCode::too_many_elements>(decl_.structure_span, leaves_.size(), most_elements);
     for (const PlacedLeaf& placed : leaves_) {
-      Element element{name_of(*placed.leaf, network_.elements.size() + 1), {}, placed.a, placed.b, placed.leaf->span, {}};
+      Element element{
+          name_of(*placed.leaf, network_.elements.size() + 1), {}, placed.a, placed.b, placed.leaf->span, {}};
       read_law(*placed.leaf, element);
       network_.elements.push_back(std::move(element));
     }
@@ -134,19 +135,21 @@ class NetworkBuilder {
     if (!leaf.value) return;
     const Dimension due = dimension_of(element.law, network_.port_motion);
     const auto value = table_.read(*leaf.value, {fmt::format("a {}", kind_of(element.law)), due, network_.port_motion});
-    if (!value) return;
-    if (!check_value(leaf, element, *value)) return;
+    if (!value || !check_value(leaf, element, *value)) return;
     element.law = make_law(leaf.kind, value->value);
     element.parameter = value->parameter;
   }
 
   bool check_value(const LeafDecl& leaf, const Element& element, const ReadValue& read) {
-    const std::optional<Parameter> parameter = read.parameter ? std::optional(table_[*read.parameter]) : std::nullopt;
-    const bool tunable = parameter && parameter->tunable;
-    const double least = tunable ? parameter->min : read.value;
-    if (least < 0) report_negative(leaf, element, least);
-    else if (leaf.kind == ElementKind::slip && (tunable ? parameter->max : read.value) == 0) report_zero_yield(leaf, element);
-    else return true;
+    const bool tunable = read.parameter && table_[*read.parameter].tunable;
+    const double least = tunable ? table_[*read.parameter].min : read.value;
+    const double greatest = tunable ? table_[*read.parameter].max : read.value;
+    if (least < 0)
+      report_negative(leaf, element, least);
+    else if (leaf.kind == ElementKind::slip && greatest == 0)
+      report_zero_yield(leaf, element);
+    else
+      return true;
     return false;
   }
 
@@ -163,7 +166,8 @@ class NetworkBuilder {
   }
 
   void report_zero_yield(const LeafDecl& leaf, const Element& element) {
-    diagnostics_.report<DiagnosticCode::zero_yield>(leaf.value->span, element.name, unit_of(element.law, network_.port_motion));
+    diagnostics_.report<DiagnosticCode::zero_yield>(leaf.value->span, element.name,
+                                                    unit_of(element.law, network_.port_motion));
     diagnostics_.note<DiagnosticCode::remove_slip>({});
   }
 
@@ -175,9 +179,7 @@ class NetworkBuilder {
     return value->value;
   }
 
-  Dimension length() const {
-    return network_.port_motion == motion::rotation ? dimensions::angle : dimensions::length;
-  }
+  Dimension length() const { return network_.port_motion == motion::rotation ? dimensions::angle : dimensions::length; }
 
   void read_contact() {
     if (!decl_.contact) return;
@@ -199,14 +201,15 @@ class NetworkBuilder {
                                   bool is_signed) {
     if (!decl) return std::nullopt;
     const auto high = read_constant(decl->high, taker, due);
-    const auto low = decl->low ? read_constant(*decl->low, taker, due) : high ? std::optional(is_signed ? -*high : 0.0) : high;
+    const auto low = decl->low ? read_constant(*decl->low, taker, due) : std::optional(0.0);
     if (!low || !high) return std::nullopt;
-    if (!is_signed && *low < 0) {
+    if (*low < 0 && !is_signed)
       diagnostics_.report<DiagnosticCode::negative_value>(decl->span, taker, fmt::format("{} {}", *low, unit_of(due)));
-      return std::nullopt;
-    }
-    if (*low <= *high) return Range{*low, *high};
-    diagnostics_.report<DiagnosticCode::range_reversed>(decl->span, excerpt(decl->high.text), decl->low ? excerpt(decl->low->text) : fmt::format("{}", *low));
+    else if (*high < *low)
+      diagnostics_.report<DiagnosticCode::range_reversed>(decl->span, excerpt(decl->high.text),
+                                                          decl->low ? excerpt(decl->low->text) : "0");
+    else
+      return Range{decl->low || !is_signed ? *low : -*high, *high};
     return std::nullopt;
   }
 

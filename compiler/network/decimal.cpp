@@ -68,7 +68,7 @@ long magnitude(const Decimal& decimal) {
 bool is_zero(const Decimal& decimal) { return decimal.digits.find_first_of("123456789") == std::string_view::npos; }
 
 RoundedDecimal checked(double value, const Decimal& decimal) {
-  if (is_zero(decimal)) return {value, Rounding::finite};
+  if (is_zero(decimal)) return {0, Rounding::finite};  // zero has no sign here
   if (std::isfinite(value) && value != 0) return {value, Rounding::finite};
   return {value, magnitude(decimal) > 0 ? Rounding::overflow : Rounding::underflow};
 }

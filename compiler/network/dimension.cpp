@@ -37,8 +37,7 @@ constexpr NamedDimension named_dimensions[] = {
     {dimensions::force_constant, "a force constant", "N/A"},
     {dimensions::torque_constant, "a torque constant", "N m/A"},
     {dimensions::damping_per_current_squared, "a damping per squared current", "N s/(m A^2)"},
-    {dimensions::rotational_damping_per_current_squared, "a rotational damping per squared current",
-     "N m s/(rad A^2)"},
+    {dimensions::rotational_damping_per_current_squared, "a rotational damping per squared current", "N m s/(rad A^2)"},
 };
 
 const NamedDimension* find_name(const Dimension& dimension) {
@@ -55,8 +54,11 @@ struct BasePower {
 // The factors whose exponents have that sign, by their magnitudes.
 std::string factors(const Dimension& dimension, int sign) {
   std::string text;
-  for (const BasePower& base : {BasePower{"kg", dimension.kilogram}, {"m", dimension.metre}, {"s", dimension.second},
-                                {"A", dimension.ampere}, {"rad", dimension.radian}}) {
+  for (const BasePower& base : {BasePower{"kg", dimension.kilogram},
+                                {"m", dimension.metre},
+                                {"s", dimension.second},
+                                {"A", dimension.ampere},
+                                {"rad", dimension.radian}}) {
     const int exponent = sign * base.exponent;
     if (exponent <= 0) continue;
     text += fmt::format("{}{}", text.empty() ? "" : " ", base.unit);

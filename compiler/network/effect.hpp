@@ -7,10 +7,10 @@
 
 namespace dashpot::compiler {
 
-// One entry an element: true where some path without repeated nodes leads from tool to ground through it, along elements
-// for which `passable` is true. Ensures: linear in the size of the network.
-// By the blocks of the graph with one more edge from tool to ground (Hopcroft & Tarjan 1973): an element lies on such a
-// path exactly when it shares a block with that edge.
+// One entry an element: true where some path without repeated nodes leads from tool to ground through it, along
+// elements for which `passable` is true. Ensures: linear in the size of the network. By the blocks of the graph with
+// one more edge from tool to ground (Hopcroft & Tarjan 1973): an element lies on such a path exactly when it shares a
+// block with that edge.
 std::vector<bool> on_path_between_ends(const Network& network, const std::vector<bool>& passable);
 
 // One entry an element: false where its value is zero and cannot become anything else.

@@ -12,7 +12,9 @@ struct ValueOf {
 struct DimensionOf {
   bool rotates;
 
-  Dimension operator()(const Spring&) const { return rotates ? dimensions::rotational_stiffness : dimensions::stiffness; }
+  Dimension operator()(const Spring&) const {
+    return rotates ? dimensions::rotational_stiffness : dimensions::stiffness;
+  }
   Dimension operator()(const Damper&) const { return rotates ? dimensions::rotational_damping : dimensions::damping; }
   Dimension operator()(const Slip&) const { return rotates ? dimensions::torque : dimensions::force; }
 };

@@ -10,31 +10,30 @@
 namespace dashpot::compiler {
 namespace {
 
-// C++20 keywords and alternative tokens, and macros that some compilers predefine or common headers define.
+// C++20 keywords and alternative tokens, and object-like macros that compilers predefine or common headers define.
 constexpr std::string_view keywords[] = {
-    "alignas",      "alignof",   "and",          "and_eq",    "asm",         "auto",          "bitand",
-    "bitor",        "bool",      "break",        "case",      "catch",       "char",          "char16_t",
-    "char32_t",     "char8_t",   "class",        "co_await",  "co_return",   "co_yield",      "compl",
-    "concept",      "const",     "const_cast",   "consteval", "constexpr",   "constinit",     "continue",
-    "decltype",     "default",   "delete",       "do",        "double",      "dynamic_cast",  "else",
-    "enum",         "explicit",  "export",       "extern",    "false",       "float",         "for",
-    "friend",       "goto",      "if",           "inline",    "int",         "long",          "mutable",
-    "namespace",    "new",       "noexcept",     "not",       "not_eq",      "nullptr",       "operator",
-    "or",           "or_eq",     "private",      "protected", "public",      "register",      "reinterpret_cast",
-    "requires",     "return",    "short",        "signed",    "sizeof",      "static",        "static_assert",
-    "static_cast",  "struct",    "switch",       "template",  "this",        "thread_local",  "throw",
-    "true",         "try",       "typedef",      "typeid",    "typename",    "union",         "unsigned",
-    "using",        "virtual",   "void",         "volatile",  "wchar_t",     "while",         "xor",
-    "xor_eq",       "linux",     "unix",         "i386",      "NULL",        "NAN",           "INFINITY",
-    "EOF",          "assert",    "errno",        "I",         "near",        "far"};
+    "alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
+    "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
+    "char32_t",    "char8_t",  "class",      "co_await",  "co_return", "co_yield",     "compl",
+    "concept",     "const",    "const_cast", "consteval", "constexpr", "constinit",    "continue",
+    "decltype",    "default",  "delete",     "do",        "double",    "dynamic_cast", "else",
+    "enum",        "explicit", "export",     "extern",    "false",     "float",        "for",
+    "friend",      "goto",     "if",         "inline",    "int",       "long",         "mutable",
+    "namespace",   "new",      "noexcept",   "not",       "not_eq",    "nullptr",      "operator",
+    "or",          "or_eq",    "private",    "protected", "public",    "register",     "reinterpret_cast",
+    "requires",    "return",   "short",      "signed",    "sizeof",    "static",       "static_assert",
+    "static_cast", "struct",   "switch",     "template",  "this",      "thread_local", "throw",
+    "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
+    "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
+    "xor_eq",      "linux",    "unix",       "i386",      "NULL",      "NAN",          "INFINITY",
+    "EOF",         "errno"};
 
-// Members of the emitted class (architecture, section 5), the arguments of its functions, and the namespaces around it.
+// Members of the emitted class (architecture, section 5), names inside its functions, and the namespaces around it.
 constexpr std::string_view members[] = {
-    "scalar",        "sample_period", "parameters",    "reset",        "output",   "update",
-    "step",          "set",           "stored_energy", "position",     "velocity", "command",
-    "damping",       "force",         "port_motion",   "motion",       "estimator", "loop_delay",
-    "delay_samples", "device",        "device_digest", "input_digest", "digest",   "dashpot",
-    "generated",     "std"};
+    "scalar",        "sample_period", "parameters",    "reset",     "output",    "update",     "step",
+    "set",           "stored_energy", "position",      "velocity",  "command",   "damping",    "force",
+    "port_motion",   "motion",        "certified_for", "estimator", "device",    "loop_delay", "any_device",
+    "device_digest", "now",           "stored",        "dashpot",   "generated", "std"};
 
 bool is_letter(char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); }
 bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
@@ -63,7 +62,7 @@ std::optional<std::string> legal_proposal(std::string_view name) {
     else if (!proposal.empty() && proposal.back() != '_')
       proposal += '_';
   if (proposal.ends_with('_')) proposal.pop_back();
-  if (!proposal.empty() && is_digit(proposal.front())) proposal.insert(0, "n");
+  if (!proposal.empty() && is_digit(proposal.front())) proposal.insert(0, 1, 'n');
   if (!proposal.empty() && !is_legal(proposal)) proposal += "_1";
   return is_legal(proposal) ? std::optional(proposal) : std::nullopt;
 }

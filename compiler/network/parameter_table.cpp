@@ -14,7 +14,7 @@ ParameterTable::ParameterTable(const std::vector<ParameterDecl>& decls, Diagnost
 }
 
 ParameterTable::Entry ParameterTable::read_entry(const ParameterDecl& decl) {
-  Entry entry{{decl.name.text, 0, decl.tunable, 0, 0, decl.span}, decl, {}, true, false};
+  Entry entry{{decl.name.text, 0, decl.tunable, 0, 0, decl.span}, decl, {}, {}, true, false};
   const std::optional<double> value = decl.value ? read_part(*decl.value, entry) : std::nullopt;
   entry.readable = value.has_value();
   entry.parameter.value = value.value_or(0);
@@ -76,11 +76,17 @@ std::optional<ReadValue> ParameterTable::use(Entry& entry, const ValueDecl& decl
   entry.used = true;
   if (!entry.readable) return std::nullopt;
   const auto index = static_cast<std::size_t>(&entry - entries_.data());
-  if (!entry.dimension) entry.dimension = expected.dimension;  // a plain number is SI of whatever its first use takes
+  if (!entry.dimension) {
+    entry.dimension = expected.dimension;
+    entry.first_use = decl.span;
+  }
   if (entry.dimension == expected.dimension) return ReadValue{entry.parameter.value, index};
   diagnostics_.report<DiagnosticCode::parameter_of_wrong_unit>(decl.span, decl.text, describe(*entry.dimension),
                                                                expected.taker, describe(expected.dimension));
-  diagnostics_.note<DiagnosticCode::given_here>(entry.decl.value->span);
+  if (entry.first_use)
+    diagnostics_.note<DiagnosticCode::first_used_here>(*entry.first_use);
+  else
+    diagnostics_.note<DiagnosticCode::given_here>(entry.decl.value->span);
   return std::nullopt;
 }
 

@@ -35,7 +35,8 @@ class ParameterTable {
   struct Entry {
     Parameter parameter;
     ParameterDecl decl;
-    std::optional<Dimension> dimension;  // nothing where value and range are plain numbers
+    std::optional<Dimension> dimension;  // nothing where value and range are plain numbers, until the first use
+    std::optional<Span> first_use;       // that told the dimension
     bool readable = true;
     bool used = false;
   };

@@ -1,5 +1,7 @@
 #include "network/quantity.hpp"
 
+#include <algorithm>
+#include <string>
 #include <string_view>
 #include <variant>
 
@@ -16,18 +18,28 @@ Span part_of(const ValueDecl& decl, std::size_t begin, std::size_t end) {
   return {decl.span.file, decl.span.begin + 1 + begin, decl.span.begin + 1 + end};
 }
 
-void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const UnitFault& fault, Diagnostics& diagnostics) {
-  const std::size_t begin = unit_begin + fault.begin;
-  const std::size_t end = unit_begin + fault.end;
-  const Span place = part_of(decl, begin, end);
-  const std::string text = decl.text.substr(begin, end - begin);
-  if (fault.kind == UnitFault::Kind::product_after_slash)
-    return diagnostics.report<DiagnosticCode::product_after_slash>(place, excerpt(decl.text.substr(unit_begin)));
+void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const UnitFault& fault,
+                       Diagnostics& diagnostics) {
+  const std::string unit = decl.text.substr(unit_begin);
   if (fault.kind == UnitFault::Kind::malformed)
-    return diagnostics.report<DiagnosticCode::malformed_unit>(decl.span, excerpt(decl.text.substr(unit_begin)));
-  diagnostics.report<DiagnosticCode::unknown_unit>(place, excerpt(text));
-  if (const std::string spaced = spaced_unit(text); !spaced.empty())
+    return diagnostics.report<DiagnosticCode::malformed_unit>(decl.span, excerpt(unit));
+  const Span place = part_of(decl, unit_begin + fault.begin, unit_begin + fault.end);
+  if (fault.kind == UnitFault::Kind::product_after_slash)
+    return diagnostics.report<DiagnosticCode::product_after_slash>(place, excerpt(unit));
+  const std::string symbol = unit.substr(fault.begin, fault.end - fault.begin);
+  diagnostics.report<DiagnosticCode::unknown_unit>(place, excerpt(symbol));
+  if (const std::string spaced = spaced_unit(symbol); !spaced.empty())
     diagnostics.note<DiagnosticCode::write_instead>({}, spaced);
+}
+
+// A plain number where nothing but blanks follows.
+std::optional<Unit> read_unit(const ValueDecl& decl, std::size_t number_end, Diagnostics& diagnostics) {
+  const std::size_t begin = std::min(decl.text.find_first_not_of(' ', number_end), decl.text.size());
+  if (begin == decl.text.size()) return Unit{};
+  const std::variant<Unit, UnitFault> unit = parse_unit(std::string_view(decl.text).substr(begin));
+  if (const auto* known = std::get_if<Unit>(&unit)) return *known;
+  report_unit_fault(decl, begin, std::get<UnitFault>(unit), diagnostics);
+  return std::nullopt;
 }
 
 std::optional<double> read_number(const ValueDecl& decl, std::string_view literal, const Unit& unit,
@@ -44,30 +56,24 @@ std::optional<double> read_number(const ValueDecl& decl, std::string_view litera
 }  // namespace
 
 bool is_quantity(const ValueDecl& decl) {
-  return decl.form == ValueDecl::Form::number || decl.text.find_first_of("0123456789+-.") == 0;
+  const std::size_t begin = decl.text.find_first_not_of(' ');
+  return decl.form == ValueDecl::Form::number || decl.text.find_first_of("0123456789+-.") == begin;
 }
 
 std::optional<Quantity> read_quantity(const ValueDecl& decl, Diagnostics& diagnostics) {
   const std::string_view text = decl.text;
-  const std::size_t length = decimal_length(text);
+  const std::size_t begin = std::min(text.find_first_not_of(' '), text.size());
+  const std::size_t length = decimal_length(text.substr(begin));
   if (length == 0) {
     diagnostics.report<DiagnosticCode::malformed_quantity>(decl.span, excerpt(text));
     return std::nullopt;
   }
-  const std::size_t unit_begin = std::min(text.find_first_not_of(' ', length), text.size());
-  if (unit_begin == text.size()) {
-    const std::optional<double> value = read_number(decl, text.substr(0, length), {}, diagnostics);
-    if (!value) return std::nullopt;
-    return Quantity{*value, decl.form == ValueDecl::Form::number ? std::nullopt : std::optional(dimensions::number)};
-  }
-  const std::variant<Unit, UnitFault> unit = parse_unit(text.substr(unit_begin));
-  if (const auto* fault = std::get_if<UnitFault>(&unit)) {
-    report_unit_fault(decl, unit_begin, *fault, diagnostics);
-    return std::nullopt;
-  }
-  const std::optional<double> value = read_number(decl, text.substr(0, length), std::get<Unit>(unit), diagnostics);
+  const std::optional<Unit> unit = read_unit(decl, begin + length, diagnostics);
+  if (!unit) return std::nullopt;
+  const std::optional<double> value = read_number(decl, text.substr(begin, length), *unit, diagnostics);
   if (!value) return std::nullopt;
-  return Quantity{*value, std::get<Unit>(unit).dimension};
+  const bool is_number = decl.form == ValueDecl::Form::number;
+  return Quantity{*value, is_number ? std::nullopt : std::optional(unit->dimension)};
 }
 
 }  // namespace dashpot::compiler

@@ -18,7 +18,8 @@ struct Quantity {
 bool is_quantity(const ValueDecl& decl);
 
 // In: a number, or a string for which is_quantity holds. Out: its value: the decimal literal times the exact factor of
-// the unit, rounded once. Refuses: unknown or ambiguous units, malformed numbers, and numbers that a double cannot hold.
+// the unit, rounded once. Refuses: unknown or ambiguous units, malformed numbers, and numbers that a double cannot
+// hold.
 std::optional<Quantity> read_quantity(const ValueDecl& decl, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -41,14 +41,13 @@ void SectionReader::read_pair(std::string_view key, const Dimension& due, Bound 
                               double& high) const {
   const EntryDecl* entry = find(key);
   if (entry == nullptr) return;
-  if (entry->values.size() != 2)
-    return diagnostics_.report<DiagnosticCode::not_a_pair>(entry->span, dotted(key));
+  if (entry->values.size() != 2) return diagnostics_.report<DiagnosticCode::not_a_pair>(entry->span, dotted(key));
   const auto first = value_of(entry->values[0], key, due, bound);
   const auto second = value_of(entry->values[1], key, due, bound);
   if (!first || !second) return;
   if (*first >= *second)
-    return diagnostics_.report<DiagnosticCode::range_reversed>(entry->span, excerpt(entry->values[1].text),
-                                                               excerpt(entry->values[0].text));
+    return diagnostics_.report<DiagnosticCode::empty_range>(entry->span, dotted(key), excerpt(entry->values[0].text),
+                                                            excerpt(entry->values[1].text));
   low = *first;
   high = *second;
 }
@@ -105,7 +104,8 @@ std::optional<double> SectionReader::value_of(const ValueDecl& decl, std::string
                                               Bound bound) const {
   const auto value = read_quantity_as(decl, {dotted(key), due, motion_}, diagnostics_);
   if (!value || bound == Bound::any || *value > 0 || (bound == Bound::zero_or_more && *value == 0)) return value;
-  const std::string text = due == dimensions::number ? fmt::format("{}", *value) : fmt::format("{} {}", *value, unit_of(due));
+  const std::string text =
+      due == dimensions::number ? fmt::format("{}", *value) : fmt::format("{} {}", *value, unit_of(due));
   if (bound == Bound::zero_or_more)
     diagnostics_.report<DiagnosticCode::negative_value>(decl.span, dotted(key), text);
   else

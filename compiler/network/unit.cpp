@@ -46,7 +46,8 @@ constexpr Prefix prefixes[] = {
 };
 
 const Symbol* find_symbol(std::string_view text) {
-  const auto found = std::find_if(std::begin(symbols), std::end(symbols), [&](auto& symbol) { return symbol.text == text; });
+  const auto found =
+      std::find_if(std::begin(symbols), std::end(symbols), [&](auto& symbol) { return symbol.text == text; });
   return found == std::end(symbols) ? nullptr : found;
 }
 

@@ -27,9 +27,8 @@ void refuse_duplicate_keys(JsonValue& object, Diagnostics& diagnostics) {
     diagnostics.note<DiagnosticCode::first_given_here>(first->second);
   }
   if (first_places.size() == object.members.size()) return;
-  std::erase_if(object.members, [&](const JsonMember& member) {
-    return first_places.at(member.key).begin != member.key_span.begin;
-  });
+  std::erase_if(object.members,
+                [&](const JsonMember& member) { return first_places.at(member.key).begin != member.key_span.begin; });
 }
 
 // Receives nlohmann's SAX events and follows them with a cursor over the text.
@@ -84,9 +83,7 @@ class JsonBuilder {
     return add({Kind::number, span, std::string(text_of(span)), {}, {}}) != nullptr;
   }
 
-  bool scalar(Kind kind, std::string text) {
-    return add({kind, cursor_.next(), std::move(text), {}, {}}) != nullptr;
-  }
+  bool scalar(Kind kind, std::string text) { return add({kind, cursor_.next(), std::move(text), {}, {}}) != nullptr; }
 
   bool open(Kind kind) {
     JsonValue* value = add({kind, cursor_.next(), {}, {}, {}});
@@ -118,7 +115,8 @@ class JsonBuilder {
 
   JsonContext context() const {
     if (open_.empty()) return {count_ == 0 ? Next::value : Next::end_of_file, cursor_.offset(), std::nullopt};
-    return {next_inside(*open_.back()), cursor_.offset(), Span{&file_, open_.back()->span.begin, open_.back()->span.begin + 1}};
+    return {next_inside(*open_.back()), cursor_.offset(),
+            Span{&file_, open_.back()->span.begin, open_.back()->span.begin + 1}};
   }
 
   Next next_inside(const JsonValue& value) const {

@@ -31,9 +31,9 @@ struct JsonMember {
 // "a string", "a list", …
 std::string_view kind_name(JsonValue::Kind kind);
 
-// In: a file. Out: its value. Refuses: what is not JSON (RFC 8259, in UTF-8, a byte order mark allowed), the first fault
-// only; numbers beyond a double; more than 100 levels or 500,000 values. Of equal keys the first
-// stays, the others are reported.
+// In: a file. Out: its value. Refuses: what is not JSON (RFC 8259, in UTF-8, a byte order mark allowed), the first
+// fault only; numbers beyond a double; more than 100 levels or 500,000 values. Of equal keys the first stays, the
+// others are reported.
 std::optional<JsonValue> parse_json(const SourceFile& file, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

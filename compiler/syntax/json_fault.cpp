@@ -101,7 +101,8 @@ void report_json_fault(const SourceFile& file, const JsonContext& context, Diagn
   if (token.starts_with('"') && (wants_value || fault.next == Next::first_key))
     return report_string_fault(fault.place, diagnostics);
   if (token == "/" || token == "#") return diagnostics.report<DiagnosticCode::comment_in_json>(fault.place);
-  if (wants_value && looks_numeric(token)) return diagnostics.report<DiagnosticCode::malformed_number>(fault.place, excerpt(token));
+  if (wants_value && looks_numeric(token))
+    return diagnostics.report<DiagnosticCode::malformed_number>(fault.place, excerpt(token));
   report_unexpected(fault, context, diagnostics);
 }
 

@@ -12,8 +12,8 @@ struct JsonContext {
   enum class Next { value, first_item, first_key, colon, more_items, more_members, end_of_file };
 
   Next next = Next::value;
-  std::size_t offset = 0;             // behind the last accepted token
-  std::optional<Span> open_bracket;   // of the innermost list or object still open
+  std::size_t offset = 0;            // behind the last accepted token
+  std::optional<Span> open_bracket;  // of the innermost list or object still open
 };
 
 // Reports the fault that follows `context`, at its place.

@@ -13,7 +13,8 @@ namespace dashpot::compiler {
 
 class ObjectReader {
  public:
-  // `owner` names the object in messages: "the network", "a parameter". `value` must be an object and outlive the reader.
+  // `owner` names the object in messages: "the network", "a parameter". `value` must be an object and outlive the
+  // reader.
   ObjectReader(const JsonValue& value, std::string owner, Diagnostics& diagnostics);
 
   // Reports every key that is not one of `keys`, with the nearest of them.
@@ -25,7 +26,7 @@ class ObjectReader {
   // Nothing where the key is absent or, reported, of another type.
   std::optional<Text> text(std::string_view key) const;
   std::optional<ValueDecl> value(std::string_view key) const;
-  bool flag(std::string_view key) const;                                       // false where absent
+  bool flag(std::string_view key) const;  // false where absent
   const JsonValue* object(std::string_view key) const;
   const JsonValue* list(std::string_view key) const;
   std::optional<RangeDecl> range(std::string_view key) const;

@@ -13,9 +13,9 @@ using Kind = JsonValue::Kind;
 
 const std::vector<std::string> section_names = {"loop", "encoder", "velocity", "motor", "brake", "mechanics"};
 
-const std::vector<std::string> device_keys = {"dashpot_device", "name",     "source",   "motion", "arm_radius",
-                                              "loop",           "encoder",  "velocity", "motor",  "brake",
-                                              "mechanics",      "assumed"};
+const std::vector<std::string> device_keys = {"dashpot_device", "name",  "source",    "motion",
+                                              "arm_radius",     "loop",  "encoder",   "velocity",
+                                              "motor",          "brake", "mechanics", "assumed"};
 
 std::optional<EntryDecl> parse_entry(const JsonMember& member, Diagnostics& diagnostics) {
   EntryDecl entry{{member.key, member.key_span}, {}, member.value.kind == Kind::array, member.value.span};
@@ -25,11 +25,13 @@ std::optional<EntryDecl> parse_entry(const JsonMember& member, Diagnostics& diag
     entry.values.push_back(*value);
   }
   for (const JsonValue& item : member.value.items)
-    if (const std::optional<ValueDecl> value = read_value(member.key, item, diagnostics)) entry.values.push_back(*value);
+    if (const std::optional<ValueDecl> value = read_value(member.key, item, diagnostics))
+      entry.values.push_back(*value);
   return entry;
 }
 
-SectionDecl parse_section(const std::string& name, const Span& name_span, const JsonValue& object, Diagnostics& diagnostics) {
+SectionDecl parse_section(const std::string& name, const Span& name_span, const JsonValue& object,
+                          Diagnostics& diagnostics) {
   const ObjectReader reader(object, name, diagnostics);
   SectionDecl section{{name, name_span}, {}, reader.opening()};
   for (const JsonMember& member : object.members)

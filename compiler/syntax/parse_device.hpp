@@ -8,8 +8,8 @@
 
 namespace dashpot::compiler {
 
-// In: a device file of format 1. Out: its declaration. Ensures: sections known, unless `complete` is false. Refuses: what
-// is not JSON, not a device file, or another format; everything else is reported and survives as an incomplete
+// In: a device file of format 1. Out: its declaration. Ensures: sections known, unless `complete` is false. Refuses:
+// what is not JSON, not a device file, or another format; everything else is reported and survives as an incomplete
 // declaration, so that build_device can find further problems.
 std::optional<DeviceDecl> parse_device(const SourceFile& file, Diagnostics& diagnostics);
 

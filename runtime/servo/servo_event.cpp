@@ -56,6 +56,7 @@ std::string evidence(const fault_report& report, motion joint) {
 std::string to_text(const servo_event& event, motion joint) {
   const std::string what = number(event.time, std::chars_format::fixed) + " s: " + name_of(event.entered);
   if (!event.cause) return what;
+  if (event.entered == servo_state::idle) return what + ": cannot start: " + evidence(event.cause, joint);
   return what + ": " + name_of(event.cause.kind) + ": " + evidence(event.cause, joint);
 }
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <random>
@@ -9,10 +9,7 @@
 
 #include <dashpot/servo/servo_loop.hpp>
 
-#include "log_text.hpp"
-#include "scripted_clock.hpp"
-#include "scripted_device.hpp"
-#include "scripted_model.hpp"
+#include "loop_fixture.hpp"
 
 namespace dashpot::tests {
 namespace {
@@ -150,10 +147,6 @@ std::vector<scenario> scenarios() {
          });
        }},
   };
-}
-
-bool same_bits(const actuation& one, const actuation& other) {
-  return std::memcmp(&one, &other, sizeof one) == 0;
 }
 
 bool is_safe(const actuation& sent) { return sent.motor_torque == 0 && sent.brake_damping == 7.5; }

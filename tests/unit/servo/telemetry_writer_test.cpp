@@ -103,6 +103,8 @@ TEST(ServoEvent, NamesEveryFaultWithItsEvidence) {
               std::string("1.250000 s: safe: ") + each.text);
   }
   EXPECT_EQ(to_text({0, 0, servo_state::running, {}}, motion::rotation), "0.000000 s: running");
+  EXPECT_EQ(to_text({0, 0, servo_state::idle, {fault::device_error, 1, 0}}, motion::rotation),
+            "0.000000 s: idle: cannot start: the device answers 'no data'");
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ class command_path {
     energy_.settle(output_, position_, hold_time());
   }
 
-  fault_report check_write(device_status status) const noexcept { return monitor_.check_write(status); }
+  fault_report check_write(device_status status) noexcept { return monitor_.check_write(status); }
 
   const actuation& demand() const noexcept { return demand_; }
   const actuation& safe() const noexcept { return safe_; }

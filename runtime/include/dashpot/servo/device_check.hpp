@@ -1,5 +1,5 @@
 // The device concept of device.hpp, checked in words, and its optional part:
-//     device_status reset() noexcept;   // leaves the device's own safe state; called when the loop's is left
+//     device_status reset() noexcept;   // asks the device to leave a safe state of its own; called with the loop's reset
 #pragma once
 
 #include <type_traits>

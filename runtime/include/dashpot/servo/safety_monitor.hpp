@@ -23,6 +23,7 @@ class safety_monitor {
     periods_blind_ = 0;
     periods_since_last_ = 0;
     periods_saturated_ = 0;
+    commands_lost_ = 0;
     has_last_ = false;
   }
 
@@ -37,7 +38,7 @@ class safety_monitor {
   // What the device answered, in sequence after check_wake_up. Sets is_fresh() and periods_since_last().
   constexpr fault_report check_sample(device_status status, const device_sample& sample) noexcept {
     fresh_ = false;
-    if (status == device_status::fault || status == device_status::disconnected) return device_error(status);
+    if (is_broken(status)) return device_error(status);
     if (!is_new(status, sample)) return one_more_blind_period();
     const fault_report report = check_position(sample);
     if (!report) accept(sample);
@@ -75,16 +76,22 @@ class safety_monitor {
     return {};
   }
 
-  // What the device answered to the command.
-  constexpr fault_report check_write(device_status status) const noexcept {
-    return status == device_status::ok ? fault_report{} : device_error(status);
+  // What the device answered to the command. One that could not be sent leaves the command before in force, like a missed
+  // deadline, and as many in a row are allowed.
+  constexpr fault_report check_write(device_status status) noexcept {
+    commands_lost_ = status == device_status::ok ? 0 : commands_lost_ + 1;
+    if (is_broken(status) || commands_lost_ > allowed()) return device_error(status);
+    return {};
   }
 
- private:
   static constexpr fault_report device_error(device_status status) noexcept {
     return {fault::device_error, static_cast<double>(status), 0};
   }
 
+ private:
+  static constexpr bool is_broken(device_status status) noexcept {
+    return status == device_status::fault || status == device_status::disconnected;
+  }
   constexpr unsigned allowed() const noexcept { return device_.loop.missed_deadlines_allowed; }
 
   // Signed, so that the number may wrap around and an overtaken sample is not new.
@@ -148,6 +155,7 @@ class safety_monitor {
   unsigned periods_blind_ = 0;       // whole periods before this one without a fresh sample
   unsigned periods_since_last_ = 0;  // between the two newest fresh samples
   unsigned periods_saturated_ = 0;
+  unsigned commands_lost_ = 0;
   double last_position_ = 0;  // [rad] or [m]
   std::uint32_t last_sequence_ = 0;
   bool has_last_ = false;

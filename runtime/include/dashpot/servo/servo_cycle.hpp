@@ -33,23 +33,27 @@ class servo_cycle {
   void serve(const wake_up& woken) {
     device_sample sample;
     const device_status status = device_.read(sample);
+    const bool starts = start_asked_ && status == device_status::ok && begin();
     const bool running = machine_.is_running();
-    const fault_report found = running ? path_.answer(woken.missed, status, sample) : fault_report{};
+    const fault_report found = running ? path_.answer(starts ? 0 : woken.missed, status, sample) : fault_report{};
     const device_status taken = device_.write(running ? path_.demand() : path_.safe());
     const std::int64_t left = clock_.now();
     if (running) path_.finish();
-    if (running) trip(found ? found : path_.check_write(taken), woken);
+    if (starts) announce(woken.period, {});
+    if (running) trip(found ? found : path_.check_write(taken), woken.period);
+    if (start_asked_) announce_waiting(woken.period, status);
     account(woken, left, running);
     publish(record_of(woken, left, running));
     obey(woken.period + 1);
     summary_.busy.record(clock_.now() - woken.instant);
   }
 
-  // Requests of control(), acted on between two periods; `period` is the one that comes.
+  // Requests of control(), acted on between two periods; `period` is the one that comes. A start waits in idle for the
+  // first sample that is ok: a device may need some periods to leave a safe state of its own.
   void obey(std::uint64_t period) {
     const bool start = control_.take_start();  // taken first: a reset asked for before it is then visible too
-    if (control_.take_reset() && machine_.reset()) leave_safe_state(period);
-    if (start && machine_.start()) begin(period);
+    if (control_.take_reset() && !machine_.is_running()) reset(period);
+    if (start && machine_.state() == servo_state::idle) start_asked_ = true;
   }
 
   // Gives the device the safe command, again every period while it does not take it, as often as deadlines may be missed.
@@ -70,18 +74,25 @@ class servo_cycle {
   }
 
  private:
-  void begin(std::uint64_t period) {
+  bool begin() noexcept {
+    start_asked_ = false;
     path_.start();
-    announce(period, {});
+    return machine_.start();
   }
 
-  void leave_safe_state(std::uint64_t period) {
+  void reset(std::uint64_t period) {
     if constexpr (is_detected<device_claim::reset, Device>) device_.reset();
-    announce(period, {});
+    waiting_announced_ = false;
+    if (machine_.reset()) announce(period, {});
   }
 
-  void trip(const fault_report& report, const wake_up& woken) {
-    if (report && machine_.trip(report)) announce(woken.period, report);
+  void trip(const fault_report& report, std::uint64_t period) {
+    if (report && machine_.trip(report)) announce(period, report);
+  }
+
+  void announce_waiting(std::uint64_t period, device_status status) {
+    if (!waiting_announced_) announce(period, safety_monitor::device_error(status));
+    waiting_announced_ = true;
   }
 
   void announce(std::uint64_t period, const fault_report& cause) {
@@ -153,6 +164,8 @@ class servo_cycle {
   loop_description loop_;
   command_path<Model, Estimator> path_;
   servo_state_machine machine_;
+  bool start_asked_ = false;
+  bool waiting_announced_ = false;
   servo_summary summary_;
 };
 

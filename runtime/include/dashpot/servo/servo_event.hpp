@@ -14,7 +14,7 @@ struct servo_event {
   double time = 0;  // since the loop's start [s]
   std::uint64_t period = 0;
   servo_state entered = servo_state::idle;
-  fault_report cause;  // of entering safe
+  fault_report cause;  // of entering safe, or what keeps the loop in idle although a start was asked for
 };
 
 // "0.4170 s: safe: encoder jump: moved 0.5 rad between two samples, at most 0.0031 rad". `joint` names the units.

@@ -1,0 +1,151 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <dashpot/servo/servo_loop.hpp>
+
+#include "loop_fixture.hpp"
+
+namespace dashpot::tests {
+namespace {
+
+using ServoRestart = loop_fixture;
+
+// Broken, idle would move the motor, or model and estimator would start from somewhere else than the first sample.
+TEST_F(ServoRestart, IdleSendsTheSafeCommandUntilStarted) {
+  options.start_running = false;
+  run(40, [](std::size_t write, servo_control& control) {
+    if (write == 19) control.start();
+  });
+  for (std::size_t k = 0; k < 20; ++k) EXPECT_TRUE(is_safe(k)) << k;
+  for (std::size_t k = 20; k < 40; ++k) EXPECT_FALSE(is_safe(k)) << k;
+  EXPECT_EQ(model.resets(), 1u);
+  EXPECT_EQ(model.outputs(), 20u);
+  EXPECT_EQ(events(), "0.020000 s: running\n");
+}
+
+// Broken, safe would be left by itself, by a start alone, or a reset would set the motor going.
+TEST_F(ServoRestart, LeavesSafeOnlyByResetAndRunsOnlyByStart) {
+  make_position_nan_at(10);
+  const servo_summary summary = run(60, [](std::size_t write, servo_control& control) {
+    if (write == 20) control.start();
+    if (write == 30) control.reset();
+    if (write == 40) control.start();
+  });
+  for (std::size_t k = 0; k < 60; ++k) EXPECT_EQ(is_safe(k), k >= 10 && k <= 40) << k;
+  EXPECT_EQ(summary.faults.of(fault::position_not_finite), 1u);
+  EXPECT_EQ(model.resets(), 2u);
+  EXPECT_EQ(events(),
+            "0.000000 s: running\n0.010000 s: safe: position not finite: the device reads nan\n"
+            "0.031000 s: idle\n0.041000 s: running\n");
+}
+
+// Broken, a reset and a start asked for together would need a third request.
+TEST_F(ServoRestart, ResetAndStartTogetherRunAgainWithTheNextSample) {
+  make_position_nan_at(10);
+  run(30, [](std::size_t write, servo_control& control) {
+    if (write == 15) control.reset(), control.start();
+  });
+  for (std::size_t k = 0; k < 30; ++k) EXPECT_EQ(is_safe(k), k >= 10 && k <= 15) << k;
+}
+
+// Broken, the history before a fault would leak into the run after it.
+TEST_F(ServoRestart, RunAfterARestartIsThatOfAFreshModel) {
+  make_position_nan_at(10);
+  run(40, [](std::size_t write, servo_control& control) {
+    if (write == 15) control.reset(), control.start();
+  });
+  scripted_device later;
+  device_sample sample;
+  for (int read = 0; read < 16; ++read) later.read(sample);
+  scripted_model fresh_model;
+  scripted_estimator fresh_estimator;
+  servo_options quiet;
+  quiet.duration = 0.024;
+  quiet.outputs.log = nullptr;
+  servo_loop(fresh_model, later, fresh_estimator, quiet, scripted_clock{}).run();
+  for (std::size_t k = 0; k < 24; ++k) {
+    EXPECT_TRUE(same_bits(later.written()[k], device.written()[16 + k])) << k;
+  }
+}
+
+// Broken, a deadline missed before the start would be held against the run after it.
+TEST_F(ServoRestart, DeadlinesMissedInIdleDoNotCountAgainstTheRun) {
+  options.start_running = false;
+  clock.oversleep(20, 9);
+  const servo_summary summary = run(60, [](std::size_t write, servo_control& control) {
+    if (write == 19) control.start();
+  });
+  EXPECT_EQ(summary.faults.total(), 0u);
+  EXPECT_EQ(summary.missed_deadlines, 9u);
+}
+
+// A device with a safe state of its own, which it leaves three periods after a reset that it understands.
+class stubborn_device : public scripted_device {
+ public:
+  explicit stubborn_device(int deaf_to = 0) : deaf_to_(deaf_to) {}
+
+  device_status read(device_sample& sample) noexcept {
+    scripted_device::read(sample);
+    if (reads() == 11) safe_for_ = 1'000'000;
+    return safe_for_ > 0 && safe_for_-- > 0 ? device_status::fault : device_status::ok;
+  }
+  device_status reset() noexcept {
+    if (++resets > deaf_to_) safe_for_ = 3;
+    return device_status::ok;
+  }
+  int resets = 0;
+
+ private:
+  int deaf_to_;
+  int safe_for_ = 0;
+};
+
+struct stubborn_run {
+  servo_summary summary;
+  std::vector<actuation> written;
+  std::string log;
+  int resets;
+};
+
+stubborn_run run_stubborn(int deaf_to, std::function<void(std::size_t, servo_control&)> act) {
+  stubborn_device device(deaf_to);
+  scripted_model model;
+  scripted_estimator estimator;
+  log_text log;
+  servo_options options;
+  options.duration = 0.05;
+  options.outputs.log = log.file();
+  servo_loop loop(model, device, estimator, options, simulated_clock{});
+  device.on_write([&](std::size_t write) { return act(write, loop.control()), device_status::ok; });
+  const servo_summary summary = loop.run();
+  return {summary, device.written(), log.text(), device.resets};
+}
+
+// Broken, a board that has gone safe by itself would stay so after the loop's reset, or trip it again before it has left.
+TEST(ServoRestartOfADevice, WaitsForADeviceThatLeavesItsOwnSafeState) {
+  const stubborn_run result = run_stubborn(0, [](std::size_t write, servo_control& control) {
+    if (write == 20) control.reset(), control.start();
+  });
+  EXPECT_EQ(result.resets, 1);
+  EXPECT_EQ(result.summary.faults.total(), 1u);
+  for (std::size_t k = 0; k < 50; ++k) EXPECT_EQ(result.written[k].brake_damping == 7.5, k >= 10 && k <= 23) << k;
+  EXPECT_EQ(result.log.substr(result.log.find('\n') + 1),
+            "0.000000 s: running\n0.010000 s: safe: device error: the device answers 'fault'\n0.021000 s: idle\n"
+            "0.021000 s: idle: cannot start: the device answers 'fault'\n0.024000 s: running\n");
+}
+
+// Broken, a reset that was lost on its way to the board could not be repeated.
+TEST(ServoRestartOfADevice, MayBeRepeatedWhileTheDeviceDoesNotHear) {
+  const stubborn_run result = run_stubborn(1, [](std::size_t write, servo_control& control) {
+    if (write == 20) control.reset(), control.start();
+    if (write == 30) control.reset();
+  });
+  EXPECT_EQ(result.resets, 2);
+  for (std::size_t k = 0; k < 50; ++k) EXPECT_EQ(result.written[k].brake_damping == 7.5, k >= 10 && k <= 33) << k;
+}
+
+}  // namespace
+}  // namespace dashpot::tests

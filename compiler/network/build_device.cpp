@@ -107,7 +107,7 @@ class DeviceBuilder {
   }
 
   void read_loop() {
-    const SectionReader reader = section("loop");
+    SectionReader reader = section("loop");
     loop_description& loop = device_.description.loop;
     reader.refuse_other_keys(
         {"rate", "jitter", "delay_samples", "band", "reference_frequency", "missed_deadlines_allowed"});
@@ -125,7 +125,7 @@ class DeviceBuilder {
   }
 
   void read_encoder() {
-    const SectionReader reader = section("encoder");
+    SectionReader reader = section("encoder");
     encoder_description& encoder = device_.description.encoder;
     reader.refuse_other_keys({"counts_per_turn", "resolution", "quantiser", "range", "max_speed"});
     read_encoder_step(reader, encoder);
@@ -148,11 +148,12 @@ class DeviceBuilder {
   }
 
   void read_velocity() {
-    const SectionReader reader = section("velocity");
+    SectionReader reader = section("velocity");
     if (!reader.is_present()) return;
+    reader.refuse_other_keys(all_velocity_keys);
     reader.require("estimator");
     const auto choice = reader.read_word("estimator", estimator_names());
-    if (!choice) return reader.refuse_other_keys(all_velocity_keys);
+    if (!choice) return;
     const EstimatorKeys& estimator = estimator_keys[*choice];
     refuse_foreign_keys(reader, estimator);
     for (const std::string& key : estimator.required) reader.require(key);
@@ -164,7 +165,6 @@ class DeviceBuilder {
 
   void refuse_foreign_keys(const SectionReader& reader, const EstimatorKeys& estimator) {
     const std::vector<std::string> own = keys_of(estimator);
-    reader.refuse_other_keys(all_velocity_keys);
     for (const std::string& key : all_velocity_keys)
       if (reader.has(key) && std::find(own.begin(), own.end(), key) == own.end()) {
         diagnostics_.report<DiagnosticCode::key_of_other_estimator>(reader.place_of(key), name_of(estimator.kind), key);
@@ -193,7 +193,7 @@ class DeviceBuilder {
       case estimator_fault::order: return report_setting(reader, "order", "2 or 4");
       case estimator_fault::cutoff:
         return report_setting(reader, "cutoff",
-                              fmt::format("less than half the rate, {} Hz,", 0.5 / device.loop.sample_period));
+                              fmt::format("less than {} Hz, half the rate,", 0.5 / device.loop.sample_period));
       case estimator_fault::acceleration: return report_setting(reader, "acceleration", "more than zero");
       case estimator_fault::filter_factor: return report_setting(reader, "filter_factor", "1 or more");
       case estimator_fault::bandwidth: return report_setting(reader, "bandwidth", "more than zero");
@@ -210,7 +210,7 @@ class DeviceBuilder {
   }
 
   void read_motor() {
-    const SectionReader reader = section("motor");
+    SectionReader reader = section("motor");
     motor_description& motor = device_.description.motor;
     reader.refuse_other_keys({"torque_constant", "max_torque", "amplifier_lag", "saturation_allowed"});
     reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
@@ -220,7 +220,7 @@ class DeviceBuilder {
   }
 
   void read_brake() {
-    const SectionReader reader = section("brake");
+    SectionReader reader = section("brake");
     brake_description& brake = device_.description.brake;
     reader.refuse_other_keys({"kind", "max_damping", "damping_per_current_squared", "residual_damping", "tolerance",
                               "coil_lag", "slew", "critical_speed", "safe_damping"});
@@ -256,7 +256,7 @@ class DeviceBuilder {
   }
 
   void read_mechanics() {
-    const SectionReader reader = section("mechanics");
+    SectionReader reader = section("mechanics");
     mechanics_description& mechanics = device_.description.mechanics;
     reader.refuse_other_keys({"inertia", "damping", "coulomb_friction"});
     reader.read("inertia", due_.inertia, Bound::zero_or_more, mechanics.inertia);

@@ -82,20 +82,16 @@ class NetworkBuilder {
   NodeIndex named_node(const Text& name) {
     if (name.text == "tool") return tool;
     if (name.text == "ground") return ground;
+    for (const NodeIndex reserved : {tool, ground})
+      if (folded(name.text) == network_.nodes[reserved]) {
+        diagnostics_.report<DiagnosticCode::reserved_node_case>(name.span, name.text, network_.nodes[reserved]);
+        return reserved;
+      }
     const auto [known, is_new] = node_of_name_.emplace(name.text, network_.nodes.size());
     if (!is_new) return known->second;
-    network_.nodes.push_back(name.text);
-    check_node_name(name);
-    return known->second;
-  }
-
-  void check_node_name(const Text& name) {
-    for (const std::string_view reserved : {"tool", "ground"})
-      if (folded(name.text) == reserved) {
-        diagnostics_.report<DiagnosticCode::reserved_node_case>(name.span, name.text, reserved);
-        return;
-      }
     check_name(name, "node", diagnostics_);
+    network_.nodes.push_back(name.text);
+    return known->second;
   }
 
   void check_names() {
@@ -144,12 +140,13 @@ class NetworkBuilder {
     const bool tunable = read.parameter && table_[*read.parameter].tunable;
     const double least = tunable ? table_[*read.parameter].min : read.value;
     const double greatest = tunable ? table_[*read.parameter].max : read.value;
-    if (least < 0)
+    const bool negative = least < 0;
+    if (!negative && !(leaf.kind == ElementKind::slip && greatest == 0)) return true;
+    if (negative)
       report_negative(leaf, element, least);
-    else if (leaf.kind == ElementKind::slip && greatest == 0)
-      report_zero_yield(leaf, element);
     else
-      return true;
+      report_zero_yield(leaf, element);
+    if (read.parameter) diagnostics_.note<DiagnosticCode::given_here>(table_.place_of_least(*read.parameter));
     return false;
   }
 

@@ -57,7 +57,8 @@ void check_ends(const Network& network, Span structure, Parts& parts, Diagnostic
 
 void check_floating_parts(const Network& network, Parts& parts, Diagnostics& diagnostics) {
   std::vector<std::vector<const Element*>> members(network.nodes.size());
-  for (const Element& element : network.elements) members[parts.find(element.a)].push_back(&element);
+  for (const Element& element : network.elements)
+    if (element.a != element.b) members[parts.find(element.a)].push_back(&element);
   members[parts.find(tool)].clear();
   members[parts.find(ground)].clear();
   for (const std::vector<const Element*>& part : members)

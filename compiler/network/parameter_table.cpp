@@ -104,6 +104,11 @@ void ParameterTable::report_unused() const {
     if (!entry.used) diagnostics_.report<DiagnosticCode::unused_parameter>(entry.decl.name.span, entry.parameter.name);
 }
 
+Span ParameterTable::place_of_least(std::size_t index) const {
+  const ParameterDecl& decl = entries_[index].decl;
+  return decl.tunable && decl.min ? decl.min->span : decl.value->span;
+}
+
 std::vector<Parameter> ParameterTable::parameters() const {
   std::vector<Parameter> parameters;
   for (const Entry& entry : entries_) parameters.push_back(entry.parameter);

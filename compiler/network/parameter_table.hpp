@@ -29,6 +29,7 @@ class ParameterTable {
   void report_unused() const;
 
   const Parameter& operator[](std::size_t index) const { return entries_[index].parameter; }
+  Span place_of_least(std::size_t index) const;  // of the smallest value that the parameter takes
   std::vector<Parameter> parameters() const;
 
  private:

@@ -18,18 +18,35 @@ Span part_of(const ValueDecl& decl, std::size_t begin, std::size_t end) {
   return {decl.span.file, decl.span.begin + 1 + begin, decl.span.begin + 1 + end};
 }
 
+// "N/m s" is meant to be "N s/m" or "N/(m s)".
+void report_two_readings(const Span& place, const std::string& unit, Diagnostics& diagnostics) {
+  diagnostics.report<DiagnosticCode::product_after_slash>(place, excerpt(unit));
+  const std::size_t slash = unit.find('/');
+  const std::size_t blank = unit.find(' ', slash);
+  if (blank == std::string::npos || unit.find_first_of("/(", slash + 1) != std::string::npos) return;
+  const std::string above = unit.substr(0, slash);
+  const std::string below = unit.substr(slash + 1);
+  const std::string divisor = unit.substr(slash + 1, blank - slash - 1);
+  diagnostics.note<DiagnosticCode::write_either>({}, fmt::format("{}{}/{}", above, unit.substr(blank), divisor),
+                                                 fmt::format("{}/({})", above, below));
+}
+
 void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const UnitFault& fault,
                        Diagnostics& diagnostics) {
   const std::string unit = decl.text.substr(unit_begin);
-  if (fault.kind == UnitFault::Kind::malformed)
-    return diagnostics.report<DiagnosticCode::malformed_unit>(decl.span, excerpt(unit));
+  if (fault.kind == UnitFault::Kind::malformed) {
+    diagnostics.report<DiagnosticCode::malformed_unit>(decl.span, excerpt(unit));
+    if (unit.starts_with(',')) diagnostics.note<DiagnosticCode::decimal_point>({});
+    return;
+  }
   const Span place = part_of(decl, unit_begin + fault.begin, unit_begin + fault.end);
-  if (fault.kind == UnitFault::Kind::product_after_slash)
-    return diagnostics.report<DiagnosticCode::product_after_slash>(place, excerpt(unit));
+  if (fault.kind == UnitFault::Kind::product_after_slash) return report_two_readings(place, unit, diagnostics);
   const std::string symbol = unit.substr(fault.begin, fault.end - fault.begin);
   diagnostics.report<DiagnosticCode::unknown_unit>(place, excerpt(symbol));
   if (const std::string spaced = spaced_unit(symbol); !spaced.empty())
     diagnostics.note<DiagnosticCode::write_instead>({}, spaced);
+  else
+    diagnostics.note<DiagnosticCode::known_units>({});
 }
 
 // A plain number where nothing but blanks follows.

@@ -34,7 +34,7 @@ void report_wrong_unit(const ValueDecl& decl, const Dimension& found, const Expe
   const bool rotates = expected.port_motion == motion::rotation;
   if (found == dimensions::number)
     diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + " " + unit_of(expected.dimension));
-  else if (product(found, power(dimensions::angle, -1)) == expected.dimension)
+  else if (expected.dimension.radian < 0 && product(found, power(dimensions::angle, -1)) == expected.dimension)
     diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + "/rad");
   else if (is_of_other_motion(found, expected.dimension))
     diagnostics.note<DiagnosticCode::units_of_motion>({}, rotates ? "rotation" : "translation");

@@ -22,14 +22,17 @@ SectionReader::SectionReader(const DeviceDecl& decl, std::string name, motion jo
 }
 
 void SectionReader::require(std::string_view key) const {
-  if (is_present() && !has(key)) diagnostics_.report<DiagnosticCode::missing_key>(section_->opening, name_, key);
+  const bool misspelt = std::find(misspelt_.begin(), misspelt_.end(), key) != misspelt_.end();
+  if (is_present() && !has(key) && !misspelt)
+    diagnostics_.report<DiagnosticCode::missing_key>(section_->opening, name_, key);
 }
 
-void SectionReader::refuse_other_keys(const std::vector<std::string>& keys) const {
+void SectionReader::refuse_other_keys(const std::vector<std::string>& keys) {
   if (!is_present()) return;
-  for (const EntryDecl& entry : section_->entries)
-    if (std::find(keys.begin(), keys.end(), entry.key.text) == keys.end())
-      report_unknown_key(entry.key, name_, keys, diagnostics_);
+  for (const EntryDecl& entry : section_->entries) {
+    if (std::find(keys.begin(), keys.end(), entry.key.text) != keys.end()) continue;
+    if (const auto nearest = report_unknown_key(entry.key, name_, keys, diagnostics_)) misspelt_.push_back(*nearest);
+  }
 }
 
 void SectionReader::read(std::string_view key, const Dimension& due, Bound bound, double& target) const {

@@ -23,8 +23,8 @@ class SectionReader {
 
   bool is_present() const { return section_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
-  void require(std::string_view key) const;  // reports where the section, if present, lacks it
-  void refuse_other_keys(const std::vector<std::string>& keys) const;
+  void require(std::string_view key) const;  // reports where the section, if present, lacks it and did not misspell it
+  void refuse_other_keys(const std::vector<std::string>& keys);
 
   void read(std::string_view key, const Dimension& due, Bound bound, double& target) const;
   void read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high) const;
@@ -49,6 +49,7 @@ class SectionReader {
   std::string name_;
   motion motion_;
   Diagnostics& diagnostics_;
+  std::vector<std::string> misspelt_;
 };
 
 }  // namespace dashpot::compiler

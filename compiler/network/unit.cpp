@@ -206,7 +206,8 @@ std::optional<std::string> split_prefixed(std::string_view symbol) {
   if (const auto plain = split(symbol)) return plain;
   for (const Prefix& prefix : prefixes)
     if (symbol.starts_with(prefix.text))
-      if (const auto rest = split(symbol.substr(prefix.text.size()))) return std::string(prefix.text) + *rest;
+      if (const auto rest = split(symbol.substr(prefix.text.size())); rest && !rest->empty())
+        return std::string(prefix.text) + *rest;
   return std::nullopt;
 }
 

@@ -32,9 +32,13 @@ bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics)
   const ObjectReader reader(root, is_network ? "the network file" : "the device file", diagnostics);
   if (is_other_kind(kind, reader, diagnostics)) return false;
   const JsonMember* format = reader.require(is_network ? network_key : device_key);
-  if (format == nullptr || (format->value.kind == JsonValue::Kind::number && format->value.text == "1")) return true;
-  const std::string_view found = format->value.text.empty() ? kind_name(format->value.kind) : format->value.text;
-  diagnostics.report<DiagnosticCode::unknown_format>(format->value.span, excerpt(found));
+  if (format == nullptr) return true;
+  if (format->value.kind != JsonValue::Kind::number)
+    report_wrong_type(format->key, format->value, "the number 1", diagnostics);
+  else if (format->value.text != "1")
+    diagnostics.report<DiagnosticCode::unknown_format>(format->value.span, excerpt(format->value.text));
+  else
+    return true;
   return false;
 }
 

@@ -37,12 +37,12 @@ class JsonBuilder {
   JsonBuilder(const SourceFile& file, Diagnostics& diagnostics)
       : file_(file), diagnostics_(diagnostics), cursor_(file) {}
 
-  bool null() { return scalar(Kind::null, {}); }
-  bool boolean(bool value) { return scalar(Kind::boolean, value ? "true" : "false"); }
+  bool null() { return word(Kind::null, "null"); }
+  bool boolean(bool value) { return word(Kind::boolean, value ? "true" : "false"); }
   bool number_integer(std::int64_t) { return number(); }
   bool number_unsigned(std::uint64_t) { return number(); }
   bool number_float(double, const std::string&) { return number(); }
-  bool string(std::string& text) { return scalar(Kind::string, std::move(text)); }
+  bool string(std::string& text) { return add({Kind::string, cursor_.next(), std::move(text), {}, {}}) != nullptr; }
   bool binary(nlohmann::json::binary_t&) { return false; }  // never sent for text
   bool start_object(std::size_t) { return open(Kind::object); }
   bool start_array(std::size_t) { return open(Kind::array); }
@@ -78,12 +78,21 @@ class JsonBuilder {
     return false;
   }
 
+  // The parser takes the longest beginning that is a number ("0" of "0x10"); the token is what the author wrote.
   bool number() {
     const Span span = cursor_.next();
-    return add({Kind::number, span, std::string(text_of(span)), {}, {}}) != nullptr;
+    if (nlohmann::json::accept(text_of(span)))
+      return add({Kind::number, span, std::string(text_of(span)), {}, {}}) != nullptr;
+    diagnostics_.report<DiagnosticCode::malformed_number>(span, excerpt(text_of(span)));
+    return false;
   }
 
-  bool scalar(Kind kind, std::string text) { return add({kind, cursor_.next(), std::move(text), {}, {}}) != nullptr; }
+  bool word(Kind kind, std::string_view expected) {
+    const Span span = cursor_.next();
+    if (text_of(span) == expected) return add({kind, span, std::string(expected), {}, {}}) != nullptr;
+    diagnostics_.report<DiagnosticCode::unexpected_token>(span, fmt::format("'{}'", excerpt(text_of(span))), "a value");
+    return false;
+  }
 
   bool open(Kind kind) {
     JsonValue* value = add({kind, cursor_.next(), {}, {}, {}});

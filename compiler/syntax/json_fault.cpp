@@ -1,6 +1,7 @@
 #include "syntax/json_fault.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <string>
 
 #include "source/excerpt.hpp"
@@ -82,12 +83,20 @@ bool looks_numeric(std::string_view token) {
   return token.find_first_of("0123456789") == token.find_first_not_of("+-.") && !token.empty();
 }
 
+std::string shown(std::string_view token) {
+  if (token.empty()) return "the end of the file";
+  const auto byte = static_cast<unsigned char>(token.front());
+  return byte < 0x20 ? fmt::format("control character U+{:04X}", byte) : fmt::format("'{}'", excerpt(token));
+}
+
 void report_unexpected(const Fault& fault, const JsonContext& context, Diagnostics& diagnostics) {
   const std::string_view token = text_of(fault.place);
-  const std::string found = token.empty() ? "the end of the file" : fmt::format("'{}'", excerpt(token));
+  const std::string found = shown(token);
   diagnostics.report<DiagnosticCode::unexpected_token>(fault.place, found, expectation(fault));
   if (fault.comma && (token == "}" || token == "]")) diagnostics.note<DiagnosticCode::needless_comma>(*fault.comma);
-  if (token == "'") diagnostics.note<DiagnosticCode::double_quotes>({});
+  const bool is_bare_key =
+      fault.next == Next::first_key && !token.empty() && std::isalpha(static_cast<unsigned char>(token.front()));
+  if (token == "'" || is_bare_key) diagnostics.note<DiagnosticCode::double_quotes>({});
   if (token.empty() && context.open_bracket)
     diagnostics.note<DiagnosticCode::unclosed_bracket>(*context.open_bracket, text_of(*context.open_bracket));
 }

@@ -15,10 +15,12 @@ using Kind = JsonValue::Kind;
 ObjectReader::ObjectReader(const JsonValue& value, std::string owner, Diagnostics& diagnostics)
     : object_(value), owner_(std::move(owner)), diagnostics_(diagnostics) {}
 
-void ObjectReader::refuse_other_keys(const std::vector<std::string>& keys) const {
-  for (const JsonMember& member : object_.members)
-    if (std::find(keys.begin(), keys.end(), member.key) == keys.end())
-      report_unknown_key({member.key, member.key_span}, owner_, keys, diagnostics_);
+void ObjectReader::refuse_other_keys(const std::vector<std::string>& keys) {
+  for (const JsonMember& member : object_.members) {
+    if (std::find(keys.begin(), keys.end(), member.key) != keys.end()) continue;
+    if (const auto nearest = report_unknown_key({member.key, member.key_span}, owner_, keys, diagnostics_))
+      misspelt_.push_back(*nearest);
+  }
 }
 
 const JsonMember* ObjectReader::find(std::string_view key) const {
@@ -29,8 +31,12 @@ const JsonMember* ObjectReader::find(std::string_view key) const {
 
 const JsonMember* ObjectReader::require(std::string_view key) const {
   const JsonMember* member = find(key);
-  if (member == nullptr) diagnostics_.report<DiagnosticCode::missing_key>(opening(), owner_, key);
+  if (member == nullptr && !is_misspelt(key)) diagnostics_.report<DiagnosticCode::missing_key>(opening(), owner_, key);
   return member;
+}
+
+bool ObjectReader::is_misspelt(std::string_view key) const {
+  return std::find(misspelt_.begin(), misspelt_.end(), key) != misspelt_.end();
 }
 
 std::optional<Text> ObjectReader::text(std::string_view key) const {
@@ -81,13 +87,15 @@ std::optional<RangeDecl> ObjectReader::range(std::string_view key) const {
 
 Span ObjectReader::opening() const { return {object_.span.file, object_.span.begin, object_.span.begin + 1}; }
 
-void report_unknown_key(const Text& key, std::string_view owner, const std::vector<std::string>& keys,
-                        Diagnostics& diagnostics) {
+std::optional<std::string> report_unknown_key(const Text& key, std::string_view owner,
+                                              const std::vector<std::string>& keys, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::unknown_key>(key.span, owner, excerpt(key.text));
-  if (const auto nearest = nearest_name(key.text, keys))
+  const std::optional<std::string> nearest = nearest_name(key.text, keys);
+  if (nearest)
     diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
   else
     diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
+  return nearest;
 }
 
 void report_wrong_type(std::string_view key, const JsonValue& value, std::string_view expected,

@@ -18,10 +18,11 @@ class ObjectReader {
   ObjectReader(const JsonValue& value, std::string owner, Diagnostics& diagnostics);
 
   // Reports every key that is not one of `keys`, with the nearest of them.
-  void refuse_other_keys(const std::vector<std::string>& keys) const;
+  void refuse_other_keys(const std::vector<std::string>& keys);
 
   const JsonMember* find(std::string_view key) const;     // null where absent
-  const JsonMember* require(std::string_view key) const;  // reports where absent
+  const JsonMember* require(std::string_view key) const;  // reports where absent and not reported as misspelt
+  bool is_misspelt(std::string_view key) const;           // known after refuse_other_keys
 
   // Nothing where the key is absent or, reported, of another type.
   std::optional<Text> text(std::string_view key) const;
@@ -37,11 +38,12 @@ class ObjectReader {
   const JsonValue& object_;
   std::string owner_;
   Diagnostics& diagnostics_;
+  std::vector<std::string> misspelt_;  // keys that were probably meant by unknown ones
 };
 
-// With the nearest of `keys`, or all of them.
-void report_unknown_key(const Text& key, std::string_view owner, const std::vector<std::string>& keys,
-                        Diagnostics& diagnostics);
+// Returns the nearest of `keys`, which the report names; where there is none it names all of them.
+std::optional<std::string> report_unknown_key(const Text& key, std::string_view owner,
+                                              const std::vector<std::string>& keys, Diagnostics& diagnostics);
 
 void report_wrong_type(std::string_view key, const JsonValue& value, std::string_view expected,
                        Diagnostics& diagnostics);

@@ -55,7 +55,7 @@ std::vector<Text> parse_assumed(const ObjectReader& device, Diagnostics& diagnos
   return assumed;
 }
 
-DeviceDecl parse_keys(const ObjectReader& reader, Diagnostics& diagnostics) {
+DeviceDecl parse_keys(ObjectReader reader, Diagnostics& diagnostics) {
   DeviceDecl decl;
   reader.refuse_other_keys(device_keys);
   reader.require("name");

@@ -22,7 +22,7 @@ ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics
     parameter.value = read_value(member.key, member.value, diagnostics);
     return parameter;
   }
-  const ObjectReader reader(member.value, "a parameter", diagnostics);
+  ObjectReader reader(member.value, "a parameter", diagnostics);
   reader.refuse_other_keys({"value", "tunable", "min", "max"});
   reader.require("value");
   parameter.value = reader.value("value");
@@ -42,7 +42,7 @@ std::vector<ParameterDecl> parse_parameters(const ObjectReader& network, Diagnos
 std::optional<ContactDecl> parse_contact(const ObjectReader& network, Diagnostics& diagnostics) {
   const JsonValue* object = network.object("contact");
   if (object == nullptr) return std::nullopt;
-  const ObjectReader reader(*object, "contact", diagnostics);
+  ObjectReader reader(*object, "contact", diagnostics);
   reader.refuse_other_keys({"at"});
   reader.require("at");
   const std::optional<ValueDecl> at = reader.value("at");
@@ -52,7 +52,7 @@ std::optional<ContactDecl> parse_contact(const ObjectReader& network, Diagnostic
 std::optional<ValidDecl> parse_valid(const ObjectReader& network, Diagnostics& diagnostics) {
   const JsonValue* object = network.object("valid");
   if (object == nullptr) return std::nullopt;
-  const ObjectReader reader(*object, "valid", diagnostics);
+  ObjectReader reader(*object, "valid", diagnostics);
   reader.refuse_other_keys({"rate", "displacement", "frequency"});
   return ValidDecl{reader.range("rate"), reader.range("displacement"), reader.range("frequency"), object->span};
 }
@@ -65,7 +65,9 @@ void parse_structure(const ObjectReader& reader, NetworkDecl& decl, Diagnostics&
     diagnostics.report<DiagnosticCode::tree_and_netlist>(tree_first ? netlist->key_span : tree->key_span);
     diagnostics.note<DiagnosticCode::first_given_here>(tree_first ? tree->key_span : netlist->key_span);
   }
-  if (tree == nullptr && netlist == nullptr) diagnostics.report<DiagnosticCode::no_structure>(reader.opening());
+  const bool misspelt = reader.is_misspelt("network") || reader.is_misspelt("elements");
+  if (tree == nullptr && netlist == nullptr && !misspelt)
+    diagnostics.report<DiagnosticCode::no_structure>(reader.opening());
   if (tree != nullptr) {
     decl.structure_span = tree->key_span;
     if (auto root = parse_tree(tree->value, diagnostics)) decl.structure = std::move(*root);
@@ -75,7 +77,7 @@ void parse_structure(const ObjectReader& reader, NetworkDecl& decl, Diagnostics&
   }
 }
 
-NetworkDecl parse_keys(const ObjectReader& reader, Diagnostics& diagnostics) {
+NetworkDecl parse_keys(ObjectReader reader, Diagnostics& diagnostics) {
   NetworkDecl decl;
   reader.refuse_other_keys(network_keys);
   reader.require("name");

@@ -61,9 +61,9 @@ LeafDecl parse_leaf(const JsonValue& value, const JsonMember& kind, Diagnostics&
   return {element_kind(kind.key), kind.key_span, reader.value(kind.key), reader.text("name"), value.span};
 }
 
-bool is_object(std::string_view owner, const JsonValue& value, Diagnostics& diagnostics) {
+bool is_object(const JsonValue& value, Diagnostics& diagnostics) {
   if (value.kind == Kind::object) return true;
-  report_wrong_type(owner, value, "an object such as { \"spring\": \"5 N/m\" }", diagnostics);
+  report_wrong_type("element", value, "an object such as { \"spring\": \"5 N/m\" }", diagnostics);
   return false;
 }
 
@@ -81,7 +81,8 @@ std::optional<TreeDecl> parse_group(const JsonValue& value, const JsonMember& ki
 }
 
 std::optional<std::array<Text, 2>> parse_nodes(const JsonValue& value, Diagnostics& diagnostics) {
-  const ObjectReader reader(value, "an element of a netlist", diagnostics);
+  ObjectReader reader(value, "an element of a netlist", diagnostics);
+  reader.refuse_other_keys(edge_keys);
   const JsonMember* nodes = reader.require("nodes");
   if (nodes == nullptr) return std::nullopt;
   if (nodes->value.kind != Kind::array || nodes->value.items.size() != 2) {
@@ -95,14 +96,13 @@ std::optional<std::array<Text, 2>> parse_nodes(const JsonValue& value, Diagnosti
 }
 
 std::optional<EdgeDecl> parse_edge(const JsonValue& value, Diagnostics& diagnostics) {
-  if (!is_object("elements", value, diagnostics)) return std::nullopt;
+  if (!is_object(value, diagnostics)) return std::nullopt;
   const JsonMember* kind = kind_of(value, diagnostics);
   if (kind == nullptr) return std::nullopt;
   if (is_group_kind(kind->key)) {
     diagnostics.report<DiagnosticCode::group_in_netlist>(kind->key_span, kind->key);
     return std::nullopt;
   }
-  ObjectReader(value, "an element of a netlist", diagnostics).refuse_other_keys(edge_keys);
   const std::optional<std::array<Text, 2>> nodes = parse_nodes(value, diagnostics);
   LeafDecl leaf = parse_leaf(value, *kind, diagnostics);
   if (!nodes) return std::nullopt;
@@ -112,10 +112,10 @@ std::optional<EdgeDecl> parse_edge(const JsonValue& value, Diagnostics& diagnost
 }  // namespace
 
 std::optional<TreeDecl> parse_tree(const JsonValue& value, Diagnostics& diagnostics) {
-  if (!is_object("network", value, diagnostics)) return std::nullopt;
+  if (!is_object(value, diagnostics)) return std::nullopt;
   const JsonMember* kind = kind_of(value, diagnostics);
   if (kind == nullptr) return std::nullopt;
-  const ObjectReader reader(value, "an element of a tree", diagnostics);
+  ObjectReader reader(value, "an element of a tree", diagnostics);
   reader.refuse_other_keys(branch_keys);
   if (const JsonMember* nodes = reader.find("nodes")) {
     diagnostics.report<DiagnosticCode::nodes_in_tree>(nodes->key_span);

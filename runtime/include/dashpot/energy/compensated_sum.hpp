@@ -1,0 +1,23 @@
+// A running sum that keeps what rounding takes from it (Kahan 1965), so that a float can count energy for hours: the error
+// stays at two units in the last place of the sum, however many terms there are.
+#pragma once
+
+namespace dashpot {
+
+template <class Scalar>
+class compensated_sum {
+ public:
+  constexpr void add(Scalar term) noexcept {
+    const Scalar corrected = term - lost_;
+    const Scalar sum = sum_ + corrected;
+    lost_ = (sum - sum_) - corrected;
+    sum_ = sum;
+  }
+  constexpr Scalar value() const noexcept { return sum_; }
+
+ private:
+  Scalar sum_ = 0;
+  Scalar lost_ = 0;
+};
+
+}  // namespace dashpot

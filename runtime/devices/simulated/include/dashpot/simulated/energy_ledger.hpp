@@ -1,0 +1,20 @@
+// Where every joule of a simulated device came from and went. Each entry is accumulated from its own force and velocity;
+// none is the remainder of the others (except hand in a prescribed motion, where nobody asks what the hand can give).
+#pragma once
+
+namespace dashpot::simulated {
+
+struct energy_ledger {
+  double hand = 0;      // work of the hand on the device [J]
+  double motor = 0;     // work of the motor on the device [J]
+  double brake = 0;     // dissipated by the brake, its residual damping included [J]
+  double friction = 0;  // dissipated by Coulomb friction [J]
+  double damping = 0;   // dissipated by the device's own viscous damping [J]
+  double stop = 0;      // taken up by the end-stops, stored or dissipated [J]
+  double kinetic = 0;   // of the device's inertia, gained since the start [J]
+
+  // What went in and is not accounted for [J]: rounding only.
+  double imbalance() const noexcept { return hand + motor - brake - friction - damping - stop - kinetic; }
+};
+
+}  // namespace dashpot::simulated

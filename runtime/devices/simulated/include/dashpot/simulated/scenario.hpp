@@ -1,0 +1,33 @@
+// What a simulated device is put through: who holds it, what stands in its way, what goes wrong.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <dashpot/simulated/end_stop.hpp>
+#include <dashpot/simulated/hand.hpp>
+#include <dashpot/simulated/sample_fault.hpp>
+#include <dashpot/simulated/trajectory.hpp>
+
+namespace dashpot::simulated {
+
+// Where the brake's true gain lies within 1 ± tolerance.
+enum class brake_gain : unsigned char { nominal, lowest, highest, drawn };
+
+// Everything in the tool's coordinate: [m], [N] where an arm radius relates it to a rotary joint, else the joint's own.
+struct scenario {
+  hand user;                    // of the tool
+  trajectory intended;          // of the user; empty: stays at 0
+  bool prescribed = false;      // the tool itself follows `intended`, whatever force that takes; `user` is not used
+  double initial_position = 0;  // [m] or [rad]; a prescribed motion has its own
+  double initial_velocity = 0;  // [m/s] or [rad/s]
+  std::optional<end_stop> low;   // below which the tool does not go freely
+  std::optional<end_stop> high;  // above which
+  brake_gain gain = brake_gain::nominal;
+  std::uint64_t seed = 0;  // of jitter, drawn gain and sensor noise
+  unsigned substeps = 0;   // integration steps a period; 0: chosen so that every rate of the plant is resolved
+  std::vector<sample_fault> faults;
+};
+
+}  // namespace dashpot::simulated

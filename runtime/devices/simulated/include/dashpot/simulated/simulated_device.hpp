@@ -1,0 +1,60 @@
+// A device that exists only as numbers, with the interface of real ones (device.hpp).
+//
+// Time belongs to the device: the first read() is the sample at time 0, every later one goes on by one sample period
+// (plus the drawn jitter, 0 … loop.jitter), whatever the wall clock says. What write() asks for takes effect at the sample
+// just read, loop.delay_samples later where the device says so, and stays until it is replaced. The same description,
+// scenario and calls give the same bytes. Nothing allocates after construction.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <dashpot/device.hpp>
+#include <dashpot/simulated/energy_ledger.hpp>
+#include <dashpot/simulated/plant.hpp>
+#include <dashpot/simulated/scenario.hpp>
+#include <dashpot/simulated/shaft_sensors.hpp>
+
+namespace dashpot {
+
+class simulated_device {
+ public:
+  // Throws std::invalid_argument with refusal()'s words where they are not null.
+  explicit simulated_device(const device_description& device, simulated::scenario scene = {});
+
+  // Why these two make no simulation, one clause; null where they do.
+  static const char* refusal(const device_description& device, const simulated::scenario& scene) noexcept;
+
+  device_status read(device_sample& sample) noexcept;
+
+  // A demand that is not finite is answered with `fault` and replaced by the safe command: motor 0, brake at
+  // safe_damping. Any other is cut to what motor and brake can do.
+  device_status write(const actuation& demand) noexcept;
+
+  const device_description& description() const noexcept { return description_; }
+
+  // What only a simulation can know: the truth at the newest sample, and all energy until then.
+  simulated::plant_view truth() const noexcept { return plant_.view(); }
+  const simulated::energy_ledger& ledger() const noexcept { return plant_.ledger(); }
+
+ private:
+  void go_on() noexcept;
+  void take_sample() noexcept;
+  double jitter_of(std::uint64_t index) const noexcept;  // [s]
+  const simulated::sample_fault* fault_at(std::uint64_t index) const noexcept;
+  device_status deliver(const simulated::sample_fault* fault, device_sample& sample) noexcept;
+
+  device_description description_;
+  simulated::scenario scene_;
+  simulated::plant plant_;
+  simulated::shaft_sensors sensors_;
+  std::vector<actuation> line_;  // [0]: written last; back(): in effect
+  bool started_ = false;
+  std::uint64_t index_ = 0;  // of the newest sample
+  double postponed_ = 0;     // by late samples until now [s]
+  device_sample newest_;     // as a sound device would deliver it
+  device_sample delivered_;  // the newest that was delivered
+};
+
+}  // namespace dashpot

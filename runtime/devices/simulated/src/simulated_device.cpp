@@ -1,0 +1,126 @@
+#include <dashpot/simulated/simulated_device.hpp>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include <dashpot/simulated/draw.hpp>
+
+namespace dashpot {
+
+using simulated::sample_fault;
+using simulated::sample_fault_kind;
+using simulated::scenario;
+
+namespace {
+
+const scenario& checked(const device_description& device, const scenario& scene) {
+  if (const char* reason = simulated_device::refusal(device, scene)) throw std::invalid_argument(reason);
+  return scene;
+}
+
+std::uint64_t nanoseconds(double seconds) {
+  return seconds > 0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
+}
+
+}  // namespace
+
+const char* simulated_device::refusal(const device_description& device, const scenario& scene) noexcept {
+  if (!(device.loop.sample_period > 0)) return "the sample period is not positive";
+  if (!(device.loop.jitter >= 0 && device.loop.jitter < device.loop.sample_period)) {
+    return "the jitter is not shorter than the sample period: samples would overtake each other";
+  }
+  if (!(device.mechanics.inertia > 0)) return "the device has no inertia: nothing says how it moves";
+  if (scene.prescribed && !scene.intended) return "a prescribed motion is not given";
+  if (scene.prescribed && (scene.low || scene.high)) return "a prescribed motion does not heed end-stops";
+  if (!simulated::is_passive(scene.user)) return "the hand is not passive";
+  return nullptr;
+}
+
+simulated_device::simulated_device(const device_description& device, scenario scene)
+    : description_(device),
+      scene_(std::move(scene)),
+      plant_(device, checked(device, scene_)),
+      sensors_(device, plant_.shaft()),
+      line_(device.loop.delay_samples + 1) {}
+
+device_status simulated_device::read(device_sample& sample) noexcept {
+  if (started_) go_on();
+  started_ = true;
+  take_sample();
+  return deliver(fault_at(index_), sample);
+}
+
+void simulated_device::go_on() noexcept {
+  const double lateness_before = jitter_of(index_);
+  ++index_;
+  const sample_fault* fault = fault_at(index_);
+  const double delay = fault && fault->kind == sample_fault_kind::late ? fault->size : 0;
+  postponed_ += delay;
+  const double period = description_.loop.sample_period;
+  const double lateness = jitter_of(index_);
+  plant_.advance(period + (lateness - lateness_before) + delay,
+                 static_cast<double>(index_) * period + postponed_ + lateness, line_.back(), sensors_);
+  for (std::size_t slot = line_.size() - 1; slot > 0; --slot) line_[slot] = line_[slot - 1];
+}
+
+// The first sample marks the start of time and is never late.
+double simulated_device::jitter_of(std::uint64_t index) const noexcept {
+  if (!(description_.loop.jitter > 0) || index == 0) return 0;
+  return description_.loop.jitter * draw_uniform(scene_.seed, simulated::draw_stream::jitter, index);
+}
+
+void simulated_device::take_sample() noexcept {
+  const simulated::shaft_motion shaft = plant_.shaft();
+  newest_.position = sensors_.quantised(shaft.position);
+  newest_.counts = sensors_.counts(shaft.position);
+  newest_.velocity = sensors_.sensed_velocity();
+  if (description_.velocity.estimator == estimator_kind::sensor && description_.velocity.noise > 0) {
+    newest_.velocity +=
+        description_.velocity.noise * draw_normal(scene_.seed, simulated::draw_stream::sensor_noise, index_);
+  }
+  newest_.timestamp_ns = nanoseconds(shaft.time);
+  newest_.edge_time_ns = nanoseconds(sensors_.newest_edge());
+  newest_.sequence = static_cast<std::uint32_t>(index_);
+}
+
+const sample_fault* simulated_device::fault_at(std::uint64_t index) const noexcept {
+  for (const sample_fault& fault : scene_.faults) {
+    if (index >= fault.first && index - fault.first < fault.count) return &fault;
+  }
+  return nullptr;
+}
+
+device_status simulated_device::deliver(const sample_fault* fault, device_sample& sample) noexcept {
+  device_sample answer = newest_;
+  if (fault) {
+    switch (fault->kind) {
+      case sample_fault_kind::lost: return device_status::no_data;
+      case sample_fault_kind::corrupted: return device_status::corrupted;
+      case sample_fault_kind::disconnected: return device_status::disconnected;
+      case sample_fault_kind::device_error: return device_status::fault;
+      case sample_fault_kind::repeated: sample = delivered_; return device_status::stale;
+      case sample_fault_kind::late: break;
+      case sample_fault_kind::not_a_number: answer.position = std::numeric_limits<double>::quiet_NaN(); break;
+      case sample_fault_kind::jump: {
+        answer.position += sensors_.quantised(fault->size);
+        answer.counts += sensors_.counts(fault->size);
+        break;
+      }
+    }
+  }
+  sample = delivered_ = answer;
+  return device_status::ok;
+}
+
+device_status simulated_device::write(const actuation& demand) noexcept {
+  if (all_finite(demand.motor_torque, demand.brake_damping, 0.0)) {
+    line_.front() = demand;
+    return device_status::ok;
+  }
+  line_.front() = {0, description_.brake.safe_damping};
+  return device_status::fault;
+}
+
+}  // namespace dashpot

@@ -1,0 +1,152 @@
+// What the firmware does, on any hardware: serves the host's frames, takes samples, runs the board's own model where it is
+// asked to, and lets the supervisor decide what reaches motor and brake.
+//
+// Hardware is any type with
+//     encoder_reading read_encoder() noexcept;
+//     void drive(const outputs&) noexcept;               // motor and brake, at once
+//     void set_period(std::uint32_t nanoseconds) noexcept;
+//     bool send(const encoded_frame&) noexcept;          // the whole frame or, with false, nothing of it
+// and calls of pass_period() from its timer, at that period. One thread: no call from within an interrupt.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <dashpot/board/frame.hpp>
+#include <dashpot/board/frame_decoder.hpp>
+#include <dashpot/board/supervisor.hpp>
+
+#include "model_runner.hpp"
+
+namespace dashpot::board {
+
+struct encoder_reading {
+  std::int32_t counts = 0;
+  std::uint64_t timestamp = 0;  // [ns]
+  std::uint64_t edge_time = 0;  // [ns]; 0: not measured
+};
+
+// What a firmware states about its board at compile time.
+struct board_facts {
+  description_message description;  // model_period is filled in by the application
+  float power_on_damping = 0;       // safe damping until the host states another [N·m·s/rad] or [N·s/m]
+  float arm_radius = 1;             // of the own model (model_runner.hpp) [m]
+};
+
+struct model_cost {
+  std::uint32_t ticks = 0;  // of the board's clock
+  std::uint32_t calls = 0;
+};
+
+template <class Hardware, class Model>
+class application {
+ public:
+  application(Hardware& hardware, const board_facts& facts, model_cost cost = {}) noexcept
+      : hardware_(hardware),
+        description_(with_model(facts.description)),
+        cost_(cost),
+        supervisor_(description_, facts.power_on_damping),
+        runner_(static_cast<float>(facts.description.encoder_step), facts.arm_radius) {
+    hardware_.drive(supervisor_.applied());
+  }
+
+  void receive(const std::uint8_t* bytes, std::size_t count) noexcept {
+    for_each_frame(decoder_, bytes, count, [this](const frame& from) { serve(from); });
+  }
+
+  // The timer's period is over; `periods` of them where some were slept through.
+  void pass_period(unsigned periods) noexcept {
+    for (unsigned i = 0; i < periods; ++i) supervisor_.pass_period();
+    hardware_.drive(supervisor_.applied());
+    if (!free_running()) return;
+    missed_periods_ += periods - 1;
+    take_sample();
+  }
+
+  const supervisor& state() const noexcept { return supervisor_; }
+
+ private:
+  static description_message with_model(description_message facts) noexcept {
+    facts.model_period = model_runner<Model>::period;
+    return facts;
+  }
+
+  bool free_running() const noexcept {
+    return supervisor_.configured() && supervisor_.configuration().sampling == sampling::free_running;
+  }
+
+  // Frames that only a board sends are an echo: nothing to do.
+  void serve(const frame& from) noexcept {
+    switch (from.type) {
+      case message_type::hello: send(description_); break;
+      case message_type::configure: configure(decode<configure_message>(from)); break;
+      case message_type::reset: reset(decode<reset_message>(from)); break;
+      case message_type::command: obey(from.sequence, decode<command_message>(from)); break;
+      case message_type::ask_statistics: send(statistics()); break;
+      default: break;
+    }
+  }
+
+  void configure(const configure_message& wish) noexcept {
+    const configured_message answer = supervisor_.configure(wish);
+    hardware_.drive(supervisor_.applied());
+    if (answer.verdict == verdict::accepted) hardware_.set_period(wish.period);
+    send(answer);
+  }
+
+  void reset(const reset_message& wish) noexcept {
+    if (supervisor_.reset(wish)) runner_.restart();
+    send_sample(hardware_.read_encoder());
+  }
+
+  void obey(std::uint32_t sequence, const command_message& wish) noexcept {
+    if (!supervisor_.obey(sequence, wish)) return;
+    hardware_.drive(supervisor_.applied());
+    if (!free_running()) take_sample();
+  }
+
+  // The command leaves before anything else is done with the sample.
+  void take_sample() noexcept {
+    const encoder_reading reading = hardware_.read_encoder();
+    if (supervisor_.running() && supervisor_.own_model()) {
+      const model_answer answer = runner_.step(reading.counts);
+      supervisor_.obey_model(answer.wish, answer.speed);
+      hardware_.drive(supervisor_.applied());
+    }
+    send_sample(reading);
+  }
+
+  void send_sample(const encoder_reading& reading) noexcept {
+    sample_message sample;
+    sample.counts = reading.counts;
+    sample.timestamp = reading.timestamp;
+    sample.edge_time = reading.edge_time;
+    supervisor_.describe(sample);
+    send(sample, samples_sent_++);
+  }
+
+  statistics_message statistics() const noexcept {
+    const decoder_statistics& frames = decoder_.statistics();
+    const sequence_statistics& commands = supervisor_.command_statistics();
+    return {frames.received, frames.corrupted, frames.discarded_bytes, frames.foreign_version,
+            commands.lost,   commands.repeated, commands.late,         dropped_,
+            missed_periods_, cost_.ticks,       cost_.calls};
+  }
+
+  template <class Message>
+  void send(const Message& message, std::uint32_t sequence = 0) noexcept {
+    if (!hardware_.send(encode(message, sequence))) ++dropped_;
+  }
+
+  Hardware& hardware_;
+  description_message description_;
+  model_cost cost_;
+  supervisor supervisor_;
+  model_runner<Model> runner_;
+  frame_decoder decoder_;
+  std::uint32_t samples_sent_ = 0;
+  std::uint32_t dropped_ = 0;
+  std::uint32_t missed_periods_ = 0;
+};
+
+}  // namespace dashpot::board

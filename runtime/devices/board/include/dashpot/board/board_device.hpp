@@ -1,0 +1,126 @@
+// A board at the other end of a byte stream, as a device of the servo loop (dashpot/device.hpp).
+//
+//     std::string error;
+//     auto stream = dashpot::board::open_transport("serial:/dev/ttyACM0?baud=921600", error);
+//     dashpot::board_device device(std::move(*stream), description);
+//     device.start(error);                            // speaks to the board, compares, configures, resets
+//     device.read(sample); device.write(actuation);   // once a period; no heap, no lock, no blocking call
+//
+// One thread at a time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <dashpot/board/delay_gauge.hpp>
+#include <dashpot/board/link.hpp>
+#include <dashpot/board/sequence_tracker.hpp>
+#include <dashpot/device.hpp>
+
+namespace dashpot {
+
+namespace board {
+std::uint64_t monotonic_nanoseconds() noexcept;  // CLOCK_MONOTONIC [ns]
+}
+
+struct board_options {
+  board::sampling sampling = board::sampling::on_command;  // on_command: the host's clock paces the board
+  board::controller controller = board::controller::host;
+  std::uint16_t watchdog_periods = 10;  // without a command, before the board goes safe by itself
+  double late_limit = 0;                // a sample later than this is stale [s]; 0: missed_deadlines_allowed + 1 periods
+  int start_time = 2000;                // the board must have answered everything by then [ms]
+  std::uint64_t (*now)() noexcept = &board::monotonic_nanoseconds;  // [ns]
+};
+
+// Wrapping around.
+struct board_statistics {
+  board::decoder_statistics frames;   // what came from the board
+  board::sequence_statistics samples;
+  std::uint32_t delayed = 0;          // samples that came in order but later than the limit
+  std::uint32_t commands_sent = 0;
+  std::uint32_t commands_dropped = 0;  // not sent because the stream was full
+};
+
+class board_device {
+ public:
+  board_device(board::transport stream, const device_description& description, board_options options = {}) noexcept;
+
+  // Brings the board to running: hello, comparison of its description with ours, configure, reset. Blocks up to
+  // options.start_time; repeats what is not answered. False with the reason in `error`: silence, another protocol
+  // version, a board that is not the described one, a configuration that the board refuses.
+  bool start(std::string& error);
+
+  // ok            `sample` is new
+  // no_data       nothing came, in no more reads in a row than loop.missed_deadlines_allowed
+  // stale         nothing new came for longer, or only repeated or overtaken samples, or the sample is later than the
+  //               limit; in the last case it is stored
+  // corrupted     only damaged frames came
+  // fault         the board has left running (state and cause in board_state(), stop_cause()); `sample` is new
+  // disconnected  the stream is closed, or start() has not succeeded
+  // Where `sample` is not new it is left as it was. `velocity` is never measured.
+  device_status read(device_sample& sample) noexcept;
+
+  // ok            the command has left
+  // stale         the stream is full; the board still obeys an older command
+  // fault         not finite; motor 0 and the safe damping were sent instead
+  // disconnected  as above
+  device_status write(const actuation& command) noexcept;
+
+  const device_description& description() const noexcept { return description_; }
+
+  // Blocks until something came from the board or the time is over. Not for the loop.
+  void wait_for_sample(int milliseconds) noexcept { link_.stream().wait_readable(milliseconds); }
+
+  // Asks the board to leave its safe state. Does not wait: the samples tell when it has.
+  device_status reset() noexcept;
+
+  // Asks for the board's own counts; after some reads they are in counts_of_board(), all zero until then.
+  device_status ask_statistics() noexcept;
+  const board::statistics_message& counts_of_board() const noexcept { return counts_of_board_; }
+
+  board_statistics statistics() const noexcept;
+  board::board_state board_state() const noexcept { return newest_.state; }
+  board::stop_cause stop_cause() const noexcept { return newest_.cause; }
+  const board::description_message& description_of_board() const noexcept { return *description_of_board_; }  // after start()
+  // As the board sent it: with the commands in force and which command was obeyed.
+  const board::sample_message& newest_sample() const noexcept { return newest_; }
+
+ private:
+  bool greet(std::string& error);
+  bool configure(std::string& error);
+  bool set_running(std::string& error);
+  template <class Message, class Answer>
+  bool ask(const Message& question, std::optional<Answer>& answer);
+  template <class Message, class Answered>
+  bool ask(const Message& question, Answered&& answered);
+  bool explain_silence(const char* question, std::string& error) const;
+
+  template <class Message>
+  device_status send(const Message& message, std::uint32_t sequence = 0) noexcept;
+  void receive() noexcept;
+  void take(const board::frame& from) noexcept;
+  void take_sample(const board::frame& from) noexcept;
+  device_status hand_out(device_sample& sample) noexcept;
+
+  board::link link_;
+  device_description description_;
+  board_options options_;
+  std::int64_t late_limit_;  // [ns]
+  board::sequence_tracker samples_;
+  board::delay_gauge gauge_;
+  std::optional<board::description_message> description_of_board_;
+  std::optional<board::configured_message> configured_;
+  board::sample_message newest_;
+  board::statistics_message counts_of_board_;
+  std::int64_t counts_ = 0;  // of newest_, unwrapped
+  std::uint64_t deadline_ = 0;      // of start() [ns]
+  std::uint32_t commands_sent_ = 0;
+  std::uint32_t delayed_ = 0;
+  unsigned reads_in_vain_ = 0;  // in a row
+  bool sampled_ = false;        // newest_ and counts_ hold a sample
+  bool fresh_ = false;          // that read() has not handed out
+  bool started_ = false;
+};
+
+}  // namespace dashpot

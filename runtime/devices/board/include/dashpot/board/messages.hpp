@@ -1,0 +1,191 @@
+// What host and board say to each other, protocol version 1: the payloads of README.md, field by field in wire order.
+//
+// Everything is in the joint's own coordinate: [rad], [N·m], [N·m·s/rad] where motion is rotation, [m], [N], [N·s/m]
+// where it is translation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <dashpot/board/wire_scalars.hpp>
+#include <dashpot/command.hpp>
+
+namespace dashpot::board {
+
+// Any two types differ in four bits or more (words of the extended Hamming code), and a type fixes the length: an error of
+// up to three bits can never make one message look like another of a different length.
+enum class message_type : std::uint8_t {
+  hello = 0x0F,           // host → board
+  configure = 0x33,       // host → board
+  reset = 0x3C,           // host → board
+  command = 0x55,         // host → board
+  ask_statistics = 0x5A,  // host → board
+  description = 0x96,     // board → host, answers hello
+  configured = 0x99,      // board → host, answers configure
+  sample = 0xA5,          // board → host, answers reset and, as configured, command or the board's clock
+  statistics = 0xC3,      // board → host, answers ask_statistics
+};
+
+enum class sampling : std::uint8_t { on_command, free_running };
+
+enum class controller : std::uint8_t { host, own_model };
+
+// Idle and safe are alike to the hand: motor 0, brake at its safe damping.
+enum class board_state : std::uint8_t { idle, running, safe };
+
+enum class stop_cause : std::uint8_t { none, host_silent, bad_command, bad_model_command, overspeed };
+
+enum class verdict : std::uint8_t {
+  accepted,
+  period_too_short,
+  watchdog_needed,       // the host controls and asks for no watchdog
+  damping_out_of_range,  // the safe damping is not within 0 … max_damping
+  no_model,              // the firmware was built without one
+  model_period_differs,
+  no_such_choice,        // a sampling or controller not named here, or an own model sampled on command
+};
+
+struct hello_message {
+  static constexpr message_type type = message_type::hello;
+  template <class Self, class Visitor>
+  static constexpr void fields(Self&, Visitor&&) noexcept {}
+};
+
+struct description_message {
+  static constexpr message_type type = message_type::description;
+  double encoder_step = 0;              // [rad] or [m] a count
+  float max_torque = 0;                 // [N·m] or [N]
+  float max_damping = 0;                // [N·m·s/rad] or [N·s/m]
+  std::uint32_t shortest_period = 0;    // [ns]
+  std::uint32_t model_period = 0;       // of the board's own model [ns]; 0: it has none
+  dashpot::motion motion = dashpot::motion::translation;
+  char name[16] = {};                   // of the firmware; filled up with zeros, not necessarily ended by one
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& m, Visitor&& visit) noexcept {
+    visit(m.encoder_step, m.max_torque, m.max_damping, m.shortest_period, m.model_period, m.motion, m.name);
+  }
+};
+
+struct configure_message {
+  static constexpr message_type type = message_type::configure;
+  std::uint32_t period = 0;            // [ns]
+  float safe_damping = 0;              // [N·m·s/rad] or [N·s/m]
+  float max_speed = 0;                 // above it the board's own model is stopped [rad/s] or [m/s]; 0: unlimited
+  std::uint16_t watchdog_periods = 0;  // without a command, before the board goes safe; 0: never (own model only)
+  board::sampling sampling = sampling::on_command;
+  board::controller controller = controller::host;
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& m, Visitor&& visit) noexcept {
+    visit(m.period, m.safe_damping, m.max_speed, m.watchdog_periods, m.sampling, m.controller);
+  }
+};
+
+struct configured_message {
+  static constexpr message_type type = message_type::configured;
+  board::verdict verdict = verdict::accepted;
+  std::uint16_t stops = 0;  // what reset must quote
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& m, Visitor&& visit) noexcept {
+    visit(m.verdict, m.stops);
+  }
+};
+
+// Quoting the number of the stop that it ends makes a reset harmless when it arrives twice or late.
+struct reset_message {
+  static constexpr message_type type = message_type::reset;
+  std::uint16_t stops = 0;  // as last seen in a sample or in configured
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& m, Visitor&& visit) noexcept {
+    visit(m.stops);
+  }
+};
+
+struct command_message {
+  static constexpr message_type type = message_type::command;
+  float motor_torque = 0;   // along +q [N·m] or [N]
+  float brake_damping = 0;  // [N·m·s/rad] or [N·s/m]
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& m, Visitor&& visit) noexcept {
+    visit(m.motor_torque, m.brake_damping);
+  }
+};
+
+struct sample_message {
+  static constexpr message_type type = message_type::sample;
+  std::uint64_t timestamp = 0;         // board clock when the counts were taken [ns]
+  std::uint64_t edge_time = 0;         // board clock at the newest encoder edge [ns]; 0: not measured
+  std::int32_t counts = 0;             // encoder; wraps around
+  float motor_torque = 0;              // in force from this sample on [N·m] or [N]
+  float brake_damping = 0;             // in force from this sample on [N·m·s/rad] or [N·s/m]
+  std::uint32_t command_sequence = 0;  // of the newest command obeyed
+  std::uint16_t stops = 0;             // how often the board has left running or was configured
+  board_state state = board_state::idle;
+  stop_cause cause = stop_cause::none;  // of the newest stop
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& m, Visitor&& visit) noexcept {
+    visit(m.timestamp, m.edge_time, m.counts, m.motor_torque, m.brake_damping, m.command_sequence, m.stops, m.state,
+          m.cause);
+  }
+};
+
+struct ask_statistics_message {
+  static constexpr message_type type = message_type::ask_statistics;
+  template <class Self, class Visitor>
+  static constexpr void fields(Self&, Visitor&&) noexcept {}
+};
+
+// Counted since power-on and wrapping around.
+struct statistics_message {
+  static constexpr message_type type = message_type::statistics;
+  std::uint32_t received = 0;         // intact frames
+  std::uint32_t corrupted = 0;        // frames whose CRC was wrong
+  std::uint32_t discarded_bytes = 0;  // bytes that belonged to no intact frame
+  std::uint32_t foreign_version = 0;  // intact frames of another protocol version
+  std::uint32_t lost = 0;             // commands that never came, by their sequence numbers
+  std::uint32_t repeated = 0;         // commands that came again
+  std::uint32_t late = 0;             // commands that came after a newer one
+  std::uint32_t dropped = 0;          // own frames not sent because the stream was full
+  std::uint32_t missed_periods = 0;   // periods in which the board took no sample though it should have
+  std::uint32_t model_ticks = 0;      // board clock ticks that model_calls steps of the own model take
+  std::uint32_t model_calls = 0;      // 0: not measured
+
+  template <class Self, class Visitor>
+  static constexpr void fields(Self& m, Visitor&& visit) noexcept {
+    visit(m.received, m.corrupted, m.discarded_bytes, m.foreign_version, m.lost, m.repeated, m.late, m.dropped,
+          m.missed_periods, m.model_ticks, m.model_calls);
+  }
+};
+
+template <class Message>
+constexpr std::size_t payload_size() noexcept {
+  byte_counter counter;
+  const Message message;
+  Message::fields(message, counter);
+  return counter.count();
+}
+
+inline constexpr std::size_t no_such_message = static_cast<std::size_t>(-1);
+
+// Bytes of payload that a type byte stands for.
+constexpr std::size_t payload_size(std::uint8_t type) noexcept {
+  switch (static_cast<message_type>(type)) {
+    case message_type::hello: return payload_size<hello_message>();
+    case message_type::configure: return payload_size<configure_message>();
+    case message_type::reset: return payload_size<reset_message>();
+    case message_type::command: return payload_size<command_message>();
+    case message_type::ask_statistics: return payload_size<ask_statistics_message>();
+    case message_type::description: return payload_size<description_message>();
+    case message_type::configured: return payload_size<configured_message>();
+    case message_type::sample: return payload_size<sample_message>();
+    case message_type::statistics: return payload_size<statistics_message>();
+  }
+  return no_such_message;
+}
+
+}  // namespace dashpot::board

@@ -1,0 +1,161 @@
+#include "application.hpp"
+
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "in_process_board.hpp"
+#include "stream_pair.hpp"
+
+namespace dashpot::board {
+namespace {
+
+// The host's end of the stream, frame by frame.
+class listener {
+ public:
+  explicit listener(transport stream) : stream_(std::move(stream)) {}
+
+  template <class Message>
+  void say(const Message& message, std::uint32_t sequence = 0) {
+    const encoded_frame frame = encode(message, sequence);
+    ASSERT_EQ(stream_.write(frame.bytes, frame.size), frame.size);
+  }
+
+  // Every message of this kind that has come; the others are forgotten.
+  template <class Message>
+  std::vector<Message> hear() {
+    std::vector<Message> heard;
+    std::uint8_t bytes[4096];
+    while (const std::size_t count = stream_.read(bytes, sizeof bytes)) {
+      for_each_frame(decoder_, bytes, count, [&](const frame& from) {
+        if (from.type == Message::type) heard.push_back(decode<Message>(from));
+      });
+    }
+    return heard;
+  }
+
+ private:
+  transport stream_;
+  frame_decoder decoder_;
+};
+
+struct conversation {
+  stream_pair ends = connected_pair();
+  listener host{std::move(ends.near)};
+  in_process_board<> board{std::move(ends.far)};
+
+  void start(const configure_message& wish) {
+    host.say(wish);
+    board.serve();
+    host.say(reset_message{host.hear<configured_message>().at(0).stops});
+    board.serve();
+  }
+};
+
+constexpr configure_message own_model = {1'000'000, 4, 0, 0, sampling::free_running, controller::own_model};
+constexpr configure_message on_command = {1'000'000, 4, 0, 5, sampling::on_command, controller::host};
+
+// The host decides by this answer whether it talks to the device it was compiled for.
+TEST(Application, describes_itself_and_its_model) {
+  conversation talk;
+  talk.host.say(hello_message());
+  talk.board.serve();
+  const auto answers = talk.host.hear<description_message>();
+  ASSERT_EQ(answers.size(), 1U);
+  EXPECT_EQ(answers[0].encoder_step, 1e-5);
+  EXPECT_EQ(answers[0].model_period, 1'000'000U);
+}
+
+// One command, one sample: anything else would make the host's loop see samples that it did not pace.
+TEST(Application, samples_once_for_each_new_command) {
+  conversation talk;
+  talk.start(on_command);
+  talk.host.hear<sample_message>();
+  for (std::uint32_t i = 0; i < 10; ++i) talk.host.say(command_message{1, 2}, i);
+  talk.host.say(command_message{1, 2}, 9);
+  talk.host.say(command_message{1, 2}, 3);
+  talk.board.serve();
+  talk.board.pass_period();
+  const auto samples = talk.host.hear<sample_message>();
+  ASSERT_EQ(samples.size(), 10U);
+  for (std::uint32_t i = 0; i < 10; ++i) EXPECT_EQ(samples[i].command_sequence, i);
+  EXPECT_EQ(samples[9].motor_torque, 1.0F);
+  EXPECT_EQ(samples[9].brake_damping, 2.0F);
+}
+
+// Free running, the board's clock paces the samples, and a period slept through must show in the statistics.
+TEST(Application, samples_once_each_period_when_free_running) {
+  conversation talk;
+  talk.start(own_model);
+  talk.host.hear<sample_message>();
+  for (int i = 0; i < 10; ++i) talk.board.pass_period();
+  EXPECT_EQ(talk.host.hear<sample_message>().size(), 10U);
+  talk.board.pass_period(3);
+  EXPECT_EQ(talk.host.hear<sample_message>().size(), 1U);
+  talk.host.say(ask_statistics_message());
+  talk.board.serve();
+  EXPECT_EQ(talk.host.hear<statistics_message>().at(0).missed_periods, 2U);
+}
+
+// Periods slept through are silence too: a board that stalls must not keep the motor on for longer.
+TEST(Application, counts_slept_periods_as_silence) {
+  conversation talk;
+  talk.start(on_command);
+  talk.host.say(command_message{1, 2}, 0);
+  talk.board.serve();
+  EXPECT_EQ(talk.board.hardware().driven().motor_torque, 1.0F);
+  talk.board.pass_period(5);
+  EXPECT_EQ(talk.board.hardware().driven().motor_torque, 0.0F);
+  EXPECT_EQ(talk.board.hardware().driven().brake_damping, 4.0F);
+}
+
+// The emitted model must get the position and the velocity that it was compiled for, and its force must oppose them.
+TEST(Application, runs_the_model_on_counts) {
+  conversation talk;
+  talk.start(own_model);
+  talk.host.hear<sample_message>();
+  std::vector<sample_message> samples;
+  for (int i = 0; i < 500; ++i) {
+    talk.board.pass_period();
+    for (const sample_message& sample : talk.host.hear<sample_message>()) samples.push_back(sample);
+  }
+  ASSERT_EQ(samples.size(), 500U);
+  generated::stand_in_model model;
+  std::int32_t before = samples[0].counts;
+  model.reset(static_cast<float>(before) * 1e-5F);
+  for (const sample_message& sample : samples) {
+    const float velocity = static_cast<float>(sample.counts - before) * 1e-5F / 0.001F;
+    const auto expected = model.step(static_cast<float>(sample.counts) * 1e-5F, velocity);
+    ASSERT_EQ(sample.motor_torque, -expected.force);
+    ASSERT_EQ(sample.brake_damping, expected.damping);
+    before = sample.counts;
+  }
+  EXPECT_GT(before, 100);
+}
+
+// A translational network at the tool of a rotary joint: K r², B r², torque = F r (theory, section 7).
+TEST(ModelRunner, converts_between_tool_and_joint) {
+  constexpr float radius = 0.05F, step = 1e-4F;
+  model_runner<generated::stand_in_model> runner(step, radius);
+  runner.step(0);
+  const model_answer answer = runner.step(3);
+  generated::stand_in_model model;
+  model.reset(0);
+  model.step(0, 0);
+  const float speed = 3.0F * step / 0.001F;
+  const auto at_tool = model.step(3.0F * step * radius, speed * radius);
+  EXPECT_EQ(answer.speed, speed);
+  EXPECT_EQ(answer.wish.motor_torque, -at_tool.force * radius);
+  EXPECT_EQ(answer.wish.brake_damping, at_tool.damping * radius * radius);
+}
+
+// The counts wrap around after 2³² steps: the velocity must not jump there.
+TEST(ModelRunner, crosses_the_end_of_the_counter) {
+  model_runner<generated::stand_in_model> runner(1e-5F, 1);
+  runner.step(std::numeric_limits<std::int32_t>::max());
+  EXPECT_EQ(runner.step(std::numeric_limits<std::int32_t>::min() + 1).speed, 2.0F * 1e-5F / 0.001F);
+}
+
+}  // namespace
+}  // namespace dashpot::board

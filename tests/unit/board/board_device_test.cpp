@@ -1,0 +1,263 @@
+#include <dashpot/board/board_device.hpp>
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "in_process_board.hpp"
+#include "stream_pair.hpp"
+
+namespace dashpot {
+namespace {
+
+using namespace board;
+
+// The host's clock, moved by hand.
+std::uint64_t host_time = 0;  // [ns]
+std::uint64_t now_by_hand() noexcept { return host_time; }
+
+constexpr std::uint64_t period = 1'000'000;  // [ns]
+
+board_options by_hand(sampling when = sampling::on_command) {
+  board_options options;
+  options.sampling = when;
+  options.watchdog_periods = 5;
+  options.now = now_by_hand;
+  return options;
+}
+
+class session {
+ public:
+  explicit session(sampling when = sampling::on_command, stream_pair ends = connected_pair())
+      : board(std::move(ends.far)), device(std::move(ends.near), described_board(), by_hand(when)) {
+    host_time = 77 * period;
+    std::string error;
+    EXPECT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+    EXPECT_EQ(device.read(sample), device_status::ok);
+  }
+
+  // One period of a healthy loop.
+  device_status exchange(const actuation& command = {}) {
+    EXPECT_EQ(device.write(command), device_status::ok);
+    board.serve();
+    host_time += period;
+    const device_status status = device.read(sample);
+    board.pass_period();
+    return status;
+  }
+
+  in_process_board<> board;
+  board_device device;
+  device_sample sample;
+};
+
+// Where both clocks pace, the numbers that the loop gets must be the board's.
+TEST(BoardDevice, hands_out_what_the_board_measured) {
+  session with;
+  std::uint32_t sequence = with.sample.sequence;
+  for (int i = 0; i < 600; ++i) {
+    const encoder_reading truth = with.board.hardware().read_encoder();
+    ASSERT_EQ(with.exchange(), device_status::ok);
+    ASSERT_EQ(with.sample.counts, truth.counts);
+    ASSERT_EQ(with.sample.position, static_cast<double>(truth.counts) * test_plant::encoder_step);
+    ASSERT_EQ(with.sample.timestamp_ns, truth.timestamp);
+    ASSERT_EQ(with.sample.edge_time_ns, truth.edge_time);
+    ASSERT_EQ(with.sample.sequence, ++sequence);
+  }
+  EXPECT_GT(with.sample.counts, 100);
+  EXPECT_NE(with.sample.edge_time_ns, 0U);
+}
+
+// The command must reach motor and brake unchanged in sign and unit, in the same period.
+TEST(BoardDevice, delivers_commands) {
+  session with;
+  with.exchange({-3.25, 7.5});
+  EXPECT_EQ(with.board.hardware().driven().motor_torque, -3.25F);
+  EXPECT_EQ(with.board.hardware().driven().brake_damping, 7.5F);
+  EXPECT_EQ(with.device.newest_sample().motor_torque, -3.25F);
+  EXPECT_EQ(with.device.newest_sample().command_sequence, 0U);
+}
+
+// A number that is none must stop the motor at once, and the loop must hear of it.
+TEST(BoardDevice, sends_the_safe_command_in_place_of_a_bad_one) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300}) {
+    session with;
+    with.exchange({2, 3});
+    EXPECT_EQ(with.device.write({bad, 3}), device_status::fault);
+    with.board.serve();
+    EXPECT_EQ(with.board.hardware().driven().motor_torque, 0.0F);
+    EXPECT_EQ(with.board.hardware().driven().brake_damping, 4.0F);
+  }
+}
+
+// The servo loop tells a pause from an outage by these two.
+TEST(BoardDevice, calls_a_pause_no_data_and_an_outage_stale) {
+  session with;
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(with.device.read(with.sample), device_status::no_data);
+  EXPECT_EQ(with.device.read(with.sample), device_status::stale);
+  EXPECT_EQ(with.exchange(), device_status::ok);
+  EXPECT_EQ(with.device.read(with.sample), device_status::no_data);
+}
+
+// Only the newest of several waiting samples is worth computing with.
+TEST(BoardDevice, hands_out_the_newest) {
+  session with(sampling::free_running);
+  for (int i = 0; i < 20; ++i) with.board.pass_period();
+  const std::uint32_t before = with.sample.sequence;
+  EXPECT_EQ(with.device.read(with.sample), device_status::ok);
+  EXPECT_EQ(with.sample.sequence, before + 20);
+  EXPECT_EQ(with.sample.counts, with.board.hardware().read_encoder().counts);
+  EXPECT_EQ(with.device.read(with.sample), device_status::no_data);
+}
+
+// A stream that has fallen behind delivers one sample a period like a healthy one: only its age gives it away.
+TEST(BoardDevice, calls_a_delayed_stream_stale) {
+  session with(sampling::free_running);
+  const auto pass = [&](std::uint64_t host_periods) {
+    with.board.pass_period();
+    host_time += host_periods * period;
+    return with.device.read(with.sample);
+  };
+  for (int i = 0; i < 10; ++i) ASSERT_EQ(pass(1), device_status::ok);
+  EXPECT_EQ(pass(5), device_status::ok) << "four periods late, as many as missed_deadlines_allowed + 1";
+  EXPECT_EQ(pass(2), device_status::stale);
+  EXPECT_EQ(pass(1), device_status::stale);
+  EXPECT_EQ(with.sample.counts, with.board.hardware().read_encoder().counts) << "the sample is handed out all the same";
+  EXPECT_EQ(with.device.statistics().delayed, 2U);
+}
+
+// Damage must be told from silence: it points at the cable.
+TEST(BoardDevice, reports_damage) {
+  stream_pair ends = connected_pair();
+  transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
+  session with(sampling::on_command, std::move(ends));
+  encoded_frame damaged = encode(with.device.newest_sample(), 99);
+  damaged.bytes[20] ^= 1;
+  intruder.write(damaged.bytes, damaged.size);
+  const std::int64_t before = with.sample.counts;
+  EXPECT_EQ(with.device.read(with.sample), device_status::corrupted);
+  EXPECT_EQ(with.sample.counts, before);
+  EXPECT_EQ(with.device.statistics().frames.corrupted, 1U);
+  EXPECT_EQ(with.exchange(), device_status::ok);
+}
+
+// A sample that comes again must not be computed with as if the handle had stopped.
+TEST(BoardDevice, calls_a_repeated_sample_stale) {
+  stream_pair ends = connected_pair();
+  transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
+  session with(sampling::on_command, std::move(ends));
+  with.exchange();
+  const encoded_frame again = encode(with.device.newest_sample(), with.sample.sequence);
+  intruder.write(again.bytes, again.size);
+  EXPECT_EQ(with.device.read(with.sample), device_status::stale);
+  EXPECT_EQ(with.device.statistics().samples.repeated, 1U);
+}
+
+// The counter of 32 bits turns over; the position must go on.
+TEST(BoardDevice, unwraps_the_counter) {
+  stream_pair ends = connected_pair();
+  transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
+  session with(sampling::on_command, std::move(ends));
+  sample_message sample = with.device.newest_sample();
+  std::uint32_t sequence = with.sample.sequence;
+  std::int64_t expected = sample.counts;
+  for (const std::int32_t move : {2'000'000'000, 2'000'000'000, 1'000'000'000, -2'000'000'000}) {
+    expected += move;
+    sample.counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(sample.counts) + static_cast<std::uint32_t>(move));
+    const encoded_frame frame = encode(sample, ++sequence);
+    intruder.write(frame.bytes, frame.size);
+    with.device.read(with.sample);
+    EXPECT_EQ(with.sample.counts, expected);
+  }
+}
+
+// Watchdog, report and recovery from end to end: the loop must see the stop and end it only by asking.
+TEST(BoardDevice, reports_the_watchdog_and_recovers_on_reset) {
+  session with;
+  with.exchange({2, 3});
+  for (int i = 0; i < 5; ++i) with.board.pass_period();
+  EXPECT_EQ(with.board.hardware().driven().motor_torque, 0.0F);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(with.exchange({2, 3}), device_status::fault);
+  EXPECT_EQ(with.device.board_state(), board_state::safe);
+  EXPECT_EQ(with.device.stop_cause(), stop_cause::host_silent);
+  EXPECT_EQ(with.board.hardware().driven().motor_torque, 0.0F);
+  EXPECT_EQ(with.device.reset(), device_status::ok);
+  EXPECT_EQ(with.exchange({2, 3}), device_status::ok);
+  EXPECT_EQ(with.board.hardware().driven().motor_torque, 2.0F);
+}
+
+// A pulled cable must be an answer of its own, for reading and writing, and for good.
+TEST(BoardDevice, reports_a_closed_stream) {
+  stream_pair ends = connected_pair();
+  board_device device(std::move(ends.near), described_board());
+  {
+    in_process_board<> board(std::move(ends.far));
+    std::string error;
+    ASSERT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+  }
+  device_sample sample;
+  EXPECT_EQ(device.read(sample), device_status::ok) << "what came before the end counts";
+  EXPECT_EQ(device.read(sample), device_status::disconnected);
+  EXPECT_EQ(device.write({}), device_status::disconnected);
+  EXPECT_EQ(device.reset(), device_status::disconnected);
+}
+
+// Before start() nothing must reach the board.
+TEST(BoardDevice, is_disconnected_before_start) {
+  stream_pair ends = connected_pair();
+  board_device device(std::move(ends.near), described_board());
+  device_sample sample;
+  EXPECT_EQ(device.read(sample), device_status::disconnected);
+  EXPECT_EQ(device.write({1, 1}), device_status::disconnected);
+  std::uint8_t byte = 0;
+  EXPECT_EQ(ends.far.read(&byte, 1), 0U);
+}
+
+// A board that does not listen must neither block the loop nor get a backlog of old commands later.
+TEST(BoardDevice, drops_commands_that_a_full_stream_does_not_take) {
+  session with;
+  unsigned left = 0;
+  while (with.device.write({1, 1}) == device_status::ok) ++left;
+  EXPECT_EQ(with.device.write({2, 2}), device_status::stale);
+  EXPECT_EQ(with.device.statistics().commands_dropped, 2U);
+  EXPECT_EQ(with.device.statistics().commands_sent, left);
+  with.board.serve();
+  EXPECT_EQ(with.device.write({3, 3}), device_status::ok);
+  with.board.serve();
+  EXPECT_EQ(with.board.hardware().driven().motor_torque, 3.0F);
+  EXPECT_EQ(with.board.state().command_statistics().lost, 0U) << "what never left is not lost";
+}
+
+// The whole driver over a terminal: a byte that the line discipline ate would show here.
+TEST(BoardDevice, works_over_a_pseudo_terminal) {
+  std::string error;
+  auto near = open_transport("pty:", error);
+  ASSERT_TRUE(near) << error;
+  auto far = open_transport("serial:" + near->far_end(), error);
+  ASSERT_TRUE(far) << error;
+  session with(sampling::on_command, {std::move(*near), std::move(*far)});
+  for (int i = 0; i < 1000; ++i) {
+    const double torque = 0.001 * i;
+    ASSERT_EQ(with.device.write({torque, 5}), device_status::ok);
+    with.board.hardware().stream().wait_readable(1000);
+    with.board.serve();
+    with.device.wait_for_sample(1000);
+    ASSERT_EQ(with.device.read(with.sample), device_status::ok);
+    ASSERT_EQ(with.device.newest_sample().motor_torque, static_cast<float>(torque));
+    with.board.pass_period();
+  }
+  EXPECT_EQ(with.device.statistics().frames.discarded_bytes, 0U);
+}
+
+// The counts of the board itself are half of what a user needs to find a bad cable.
+TEST(BoardDevice, fetches_the_counts_of_the_board) {
+  session with;
+  for (int i = 0; i < 10; ++i) with.exchange();
+  EXPECT_EQ(with.device.counts_of_board().received, 0U);
+  EXPECT_EQ(with.device.ask_statistics(), device_status::ok);
+  with.exchange();
+  EXPECT_EQ(with.device.counts_of_board().received, 3U + 10U + 1U) << "hello, configure, reset, commands, the question";
+}
+
+}  // namespace
+}  // namespace dashpot

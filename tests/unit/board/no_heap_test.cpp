@@ -1,0 +1,87 @@
+#include <dashpot/board/board_device.hpp>
+
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "in_process_board.hpp"
+#include "stream_pair.hpp"
+
+namespace {
+
+thread_local bool watched = false;
+thread_local unsigned allocations = 0;
+
+void note() noexcept {
+  if (watched) ++allocations;
+}
+
+}  // namespace
+
+// The linker sends every call from our objects here (-Wl,--wrap).
+extern "C" {
+void* __real_malloc(std::size_t size);
+void* __real_calloc(std::size_t count, std::size_t size);
+void* __real_realloc(void* block, std::size_t size);
+void* __wrap_malloc(std::size_t size);
+void* __wrap_calloc(std::size_t count, std::size_t size);
+void* __wrap_realloc(void* block, std::size_t size);
+
+void* __wrap_malloc(std::size_t size) { return note(), __real_malloc(size); }
+void* __wrap_calloc(std::size_t count, std::size_t size) { return note(), __real_calloc(count, size); }
+void* __wrap_realloc(void* block, std::size_t size) { return note(), __real_realloc(block, size); }
+}
+
+void* operator new(std::size_t size) {
+  if (void* block = std::malloc(size)) return block;
+  throw std::bad_alloc();
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+
+namespace dashpot {
+namespace {
+
+using namespace board;
+
+template <class Body>
+unsigned allocations_in(Body&& body) {
+  allocations = 0;
+  watched = true;
+  body();
+  watched = false;
+  return allocations;
+}
+
+// A trap that catches nothing would let the next test pass whatever the driver does.
+TEST(NoHeap, the_trap_works) {
+  EXPECT_EQ(allocations_in([] { delete new volatile int(1); }), 1U);
+}
+
+// One allocation in the loop is a missed deadline sooner or later.
+TEST(NoHeap, reading_and_writing_allocate_nothing) {
+  stream_pair ends = connected_pair();
+  in_process_board<> board(std::move(ends.far));
+  board_options patient;
+  patient.late_limit = 1e6;  // the board's clock stands still
+  board_device device(std::move(ends.near), described_board(), patient);
+  std::string error;
+  ASSERT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+  device_sample sample;
+  int samples = 0;
+  const unsigned allocated = allocations_in([&] {
+    for (int i = 0; i < 1000; ++i) {
+      device.write({1, 2});
+      board.serve();
+      samples += device.read(sample) == device_status::ok;
+      device.ask_statistics();
+      device.reset();
+    }
+  });
+  EXPECT_EQ(allocated, 0U);
+  EXPECT_GT(samples, 900);
+}
+
+}  // namespace
+}  // namespace dashpot

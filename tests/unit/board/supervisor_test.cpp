@@ -1,0 +1,207 @@
+#include <dashpot/board/supervisor.hpp>
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace dashpot::board {
+namespace {
+
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float infinite = std::numeric_limits<float>::infinity();
+
+description_message facts(std::uint32_t model_period = 0) {
+  return {1e-5, 2.0F, 30.0F, 100'000, model_period, motion::translation, ""};
+}
+
+configure_message wish(controller who = controller::host) {
+  return {1'000'000, 4.0F, 0.5F, 5, who == controller::host ? sampling::on_command : sampling::free_running, who};
+}
+
+sample_message seen(const supervisor& board) {
+  sample_message sample;
+  board.describe(sample);
+  return sample;
+}
+
+supervisor running(controller who = controller::host) {
+  supervisor board(facts(1'000'000), 5.0F);
+  board.reset({board.configure(wish(who)).stops});
+  return board;
+}
+
+void expect_applied(const supervisor& board, float torque, float damping) {
+  EXPECT_EQ(board.applied().motor_torque, torque);
+  EXPECT_EQ(board.applied().brake_damping, damping);
+}
+
+void expect_stopped(const supervisor& board, stop_cause cause) {
+  EXPECT_EQ(seen(board).state, board_state::safe);
+  EXPECT_EQ(seen(board).cause, cause);
+  expect_applied(board, 0, 4.0F);
+}
+
+// A board that makes torque at power-on, or before it is configured, would hit whoever switches it on.
+TEST(Supervisor, makes_nothing_until_configured_and_reset) {
+  supervisor board(facts(), 5.0F);
+  board.obey(0, {1.0F, 20.0F});
+  expect_applied(board, 0, 5.0F);
+  EXPECT_FALSE(board.reset({0}));
+  board.obey(1, {1.0F, 20.0F});
+  expect_applied(board, 0, 5.0F);
+  const configured_message answer = board.configure(wish());
+  EXPECT_EQ(answer.verdict, verdict::accepted);
+  board.obey(2, {1.0F, 20.0F});
+  expect_applied(board, 0, 4.0F);
+  EXPECT_TRUE(board.reset({answer.stops}));
+  expect_applied(board, 0, 4.0F);
+  board.obey(3, {1.0F, 20.0F});
+  expect_applied(board, 1.0F, 20.0F);
+}
+
+// The promise of the watchdog: after the stated number of silent periods, not one more, the motor makes nothing.
+TEST(Supervisor, stops_after_the_stated_silence) {
+  supervisor board = running();
+  board.obey(0, {1.0F, 20.0F});
+  for (int period = 0; period < 4; ++period) board.pass_period();
+  expect_applied(board, 1.0F, 20.0F);
+  board.pass_period();
+  expect_stopped(board, stop_cause::host_silent);
+}
+
+// A host that talks again, or repeats itself, must not bring the motor back by that alone.
+TEST(Supervisor, leaves_safe_only_on_reset) {
+  supervisor board = running();
+  board.obey(0, {1.0F, 20.0F});
+  for (int period = 0; period < 5; ++period) board.pass_period();
+  for (std::uint32_t i = 1; i < 20; ++i) board.obey(i, {1.0F, 20.0F});
+  expect_stopped(board, stop_cause::host_silent);
+  EXPECT_TRUE(board.reset({seen(board).stops}));
+  EXPECT_EQ(seen(board).state, board_state::running);
+  expect_applied(board, 0, 4.0F);
+  board.obey(20, {-1.0F, 10.0F});
+  expect_applied(board, -1.0F, 10.0F);
+}
+
+// A reset that was repeated or delayed on the way would end a later stop that nobody has looked at.
+TEST(Supervisor, ignores_a_reset_for_an_earlier_stop) {
+  supervisor board = running();
+  const std::uint16_t earlier = seen(board).stops;
+  board.obey(0, {nan, 0});
+  EXPECT_FALSE(board.reset({earlier}));
+  expect_stopped(board, stop_cause::bad_command);
+}
+
+// Repeated and overtaken commands must neither move the motor nor count as a sign of life.
+TEST(Supervisor, obeys_only_newer_commands) {
+  supervisor board = running();
+  board.obey(10, {1.0F, 20.0F});
+  EXPECT_FALSE(board.obey(10, {0.5F, 1.0F}));
+  EXPECT_FALSE(board.obey(9, {0.5F, 1.0F}));
+  expect_applied(board, 1.0F, 20.0F);
+  for (int period = 0; period < 5; ++period) {
+    board.obey(10, {0.5F, 1.0F});
+    board.pass_period();
+  }
+  expect_stopped(board, stop_cause::host_silent);
+}
+
+// Silence between reset and the first command is the host starting up; the motor makes nothing then anyway.
+TEST(Supervisor, waits_for_the_first_command_of_the_host) {
+  supervisor board = running();
+  for (int period = 0; period < 1000; ++period) board.pass_period();
+  EXPECT_TRUE(board.running());
+}
+
+// A command beyond the limits is limited; one that is no number is a defect of the host and stops the board.
+TEST(Supervisor, limits_commands_and_stops_at_bad_ones) {
+  supervisor board = running();
+  board.obey(0, {5.0F, 100.0F});
+  expect_applied(board, 2.0F, 30.0F);
+  board.obey(1, {-5.0F, -1.0F});
+  expect_applied(board, -2.0F, 0.0F);
+  std::uint32_t sequence = 2;
+  for (const command_message bad : {command_message{nan, 1}, {infinite, 1}, {0, nan}, {0, -infinite}}) {
+    supervisor fresh = running();
+    fresh.obey(sequence, {1, 1});
+    fresh.obey(++sequence, bad);
+    expect_stopped(fresh, stop_cause::bad_command);
+  }
+}
+
+// With its own model the board must take the host's commands as signs of life only, and need them if so configured.
+TEST(Supervisor, runs_its_own_model_under_the_watchdog) {
+  supervisor board = running(controller::own_model);
+  board.obey_model({1.5F, 11.0F}, 0.1F);
+  expect_applied(board, 1.5F, 11.0F);
+  board.obey(0, {-2.0F, 1.0F});
+  expect_applied(board, 1.5F, 11.0F);
+  for (int period = 0; period < 5; ++period) board.pass_period();
+  expect_stopped(board, stop_cause::host_silent);
+  board.obey_model({1.5F, 11.0F}, 0.1F);
+  expect_stopped(board, stop_cause::host_silent);
+}
+
+// Alone on its own model nobody else watches over the board.
+TEST(Supervisor, stops_its_own_model_when_it_fails_or_runs_away) {
+  for (const outputs bad : {outputs{nan, 1}, {1, infinite}}) {
+    supervisor board = running(controller::own_model);
+    board.obey_model(bad, 0);
+    expect_stopped(board, stop_cause::bad_model_command);
+  }
+  for (const float speed : {0.51F, -0.51F, nan}) {
+    supervisor board = running(controller::own_model);
+    board.obey_model({1, 1}, speed);
+    expect_stopped(board, stop_cause::overspeed);
+  }
+}
+
+// A board alone on its model may run without a host for ever; one that the host controls may not.
+TEST(Supervisor, needs_a_watchdog_where_the_host_controls) {
+  supervisor board(facts(1'000'000), 5.0F);
+  configure_message alone = wish(controller::own_model);
+  alone.watchdog_periods = 0;
+  board.reset({board.configure(alone).stops});
+  board.obey_model({1, 1}, 0);
+  for (int period = 0; period < 100'000; ++period) board.pass_period();
+  EXPECT_TRUE(board.running());
+  configure_message careless = wish();
+  careless.watchdog_periods = 0;
+  EXPECT_EQ(board.configure(careless).verdict, verdict::watchdog_needed);
+}
+
+// Each refusal that the README names, and that a refused board stays idle whatever the host sends.
+TEST(Supervisor, refuses_what_it_cannot_do) {
+  const auto verdict_on = [](auto change, std::uint32_t model_period = 1'000'000) {
+    configure_message changed = wish(controller::own_model);
+    change(changed);
+    supervisor board(facts(model_period), 5.0F);
+    const configured_message answer = board.configure(changed);
+    EXPECT_FALSE(board.reset({answer.stops}));
+    return answer.verdict;
+  };
+  EXPECT_EQ(verdict_on([](auto& w) { w.sampling = sampling{2}; }), verdict::no_such_choice);
+  EXPECT_EQ(verdict_on([](auto& w) { w.controller = controller{2}; }), verdict::no_such_choice);
+  EXPECT_EQ(verdict_on([](auto& w) { w.sampling = sampling::on_command; }), verdict::no_such_choice);
+  EXPECT_EQ(verdict_on([](auto& w) { w.period = 99'999; }), verdict::period_too_short);
+  EXPECT_EQ(verdict_on([](auto& w) { w.safe_damping = -1; }), verdict::damping_out_of_range);
+  EXPECT_EQ(verdict_on([](auto& w) { w.safe_damping = 30.1F; }), verdict::damping_out_of_range);
+  EXPECT_EQ(verdict_on([](auto& w) { w.safe_damping = nan; }), verdict::damping_out_of_range);
+  EXPECT_EQ(verdict_on([](auto&) {}, 0), verdict::no_model);
+  EXPECT_EQ(verdict_on([](auto&) {}, 500'000), verdict::model_period_differs);
+}
+
+// A new session must find a quiet board, whatever the last one left, and be numbered from wherever it begins.
+TEST(Supervisor, configure_stops_whatever_runs) {
+  supervisor board = running();
+  board.obey(1000, {1.0F, 20.0F});
+  const configured_message answer = board.configure(wish());
+  EXPECT_EQ(seen(board).state, board_state::idle);
+  expect_applied(board, 0, 4.0F);
+  board.reset({answer.stops});
+  EXPECT_TRUE(board.obey(0, {1.0F, 20.0F}));
+  expect_applied(board, 1.0F, 20.0F);
+}
+
+}  // namespace
+}  // namespace dashpot::board

@@ -48,6 +48,7 @@ outcome run(rig& parts) {
   log_text log;
   servo_options options;
   options.duration = 0.001 * static_cast<double>(periods);
+  options.telemetry_capacity = 64;
   options.outputs.log = log.file();
   options.outputs.observe = [&result](const telemetry_record& record) { result.records.push_back(record); };
   servo_loop loop(parts.model, parts.device, parts.estimator, options, parts.clock);

@@ -47,6 +47,26 @@ TEST_F(ServoLoop, SendsTheModelsCommandForTheSampleJustRead) {
   }
 }
 
+// Broken, a translational network on a rotating arm would be rendered r or r² times too strong.
+TEST_F(ServoLoop, CarriesTranslationToARotaryJoint) {
+  device_description arm = scripted_description();
+  arm.motion = motion::rotation;
+  arm.arm_radius = 0.25;
+  device = scripted_device(arm);
+  run(50);
+  scripted_device same_motion;
+  generated::second_order_maxwell law;
+  backward_difference<double> difference(10, 0.001);
+  for (std::size_t k = 0; k < 50; ++k) {
+    device_sample sample;
+    same_motion.read(sample);
+    if (k == 0) law.reset(0.25 * sample.position), difference.reset(sample.position);
+    const command<double> wanted = law.step(0.25 * sample.position, 0.25 * difference.update(sample.position));
+    EXPECT_DOUBLE_EQ(device.written()[k].motor_torque, -0.25 * wanted.force) << k;
+    EXPECT_DOUBLE_EQ(device.written()[k].brake_damping, 0.0625 * wanted.damping) << k;
+  }
+}
+
 // Broken, the model would be updated without its output, or before the command has left.
 TEST_F(ServoLoop, UpdatesTheModelOnceAfterEachCommand) {
   std::vector<std::size_t> updates_at_write;

@@ -9,6 +9,7 @@ ParameterTable::ParameterTable(const std::vector<ParameterDecl>& decls, Diagnost
     : diagnostics_(diagnostics) {
   for (const ParameterDecl& decl : decls) {
     index_of_name_.emplace(decl.name.text, entries_.size());
+    names_.push_back(decl.name.text);
     entries_.push_back(read_entry(decl));
   }
 }
@@ -93,9 +94,7 @@ std::optional<ReadValue> ParameterTable::use(Entry& entry, const ValueDecl& decl
 void ParameterTable::report_unknown(const ValueDecl& decl) const {
   if (is_not_finite_word(decl.text)) return report_no_quantity(decl, diagnostics_);
   diagnostics_.report<DiagnosticCode::unknown_parameter>(decl.span, excerpt(decl.text));
-  std::vector<std::string> names;
-  for (const Entry& entry : entries_) names.push_back(entry.parameter.name);
-  if (const auto nearest = nearest_name(decl.text, names))
+  if (const auto nearest = nearest_name(decl.text, names_))
     diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
 }
 

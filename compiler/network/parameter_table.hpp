@@ -50,6 +50,7 @@ class ParameterTable {
 
   std::vector<Entry> entries_;
   std::unordered_map<std::string, std::size_t> index_of_name_;
+  std::vector<std::string> names_;
   Diagnostics& diagnostics_;
 };
 

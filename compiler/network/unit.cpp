@@ -201,14 +201,13 @@ std::optional<std::string> split(std::string_view symbol) {
   return std::nullopt;
 }
 
-// The prefix, if any, stays with the first symbol.
+// A prefix in front is the likelier reading: "mNm" is rather "mN m" than "m N m".
 std::optional<std::string> split_prefixed(std::string_view symbol) {
-  if (const auto plain = split(symbol)) return plain;
-  for (const Prefix& prefix : prefixes)
-    if (symbol.starts_with(prefix.text))
-      if (const auto rest = split(symbol.substr(prefix.text.size())); rest && !rest->empty())
-        return std::string(prefix.text) + *rest;
-  return std::nullopt;
+  for (const Prefix& prefix : prefixes) {
+    if (!symbol.starts_with(prefix.text) || symbol == prefix.text) continue;
+    if (const auto rest = split(symbol.substr(prefix.text.size()))) return std::string(prefix.text) + *rest;
+  }
+  return split(symbol);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // From an update law's command at the tool to what the device's motor and brake are asked to do, once a period.
 //
 //     torque = r F,   B_joint = r² B,   i = √(b/κ)                                     (theory.md, section 7)
-// within max_damping and max_torque. What a limit took away is reported, so that the safety monitor can count saturation,
-// and so is how far the coil, with its slew and lag, stays behind. That is predicted (brake_coil.hpp) from the demands made
-// here; the energy observer may credit the prediction and the motor may make up for it. The residual damping at zero
-// current comes on top of all figures here and is never subtracted: it belongs to the device's own damping.
-// No heap, no <cmath>; `Scalar` is float or double. Commands must be finite: the safety monitor refuses the others before.
+// within max_damping and max_torque. What a limit took away is reported, so that the safety monitor can count
+// saturation, and so is how far the coil, with its slew and lag, stays behind. That is predicted (brake_coil.hpp) from
+// the demands made here; the energy observer may credit the prediction and the motor may make up for it. The residual
+// damping at zero current comes on top of all figures here and is never subtracted: it belongs to the device's own.
+// No heap, no <cmath>; `Scalar` is float or double. Commands must be finite: the safety monitor refuses others before.
 #pragma once
 
 #include <dashpot/brake_coil.hpp>
@@ -18,8 +18,8 @@ namespace dashpot {
 
 struct actuator_options {
   // The motor adds (b_commanded − b_actual)·v̂ while the coil lags. Better fidelity, but not covered by any passivity
-  // statement: while the brake rises it is a virtual damper, which a late v̂ makes active. While the brake falls, what it
-  // takes away stays below the damping that is assured through the coming hold.
+  // statement: while the brake rises it is a virtual damper, which a late v̂ makes active. While the brake falls, what
+  // it takes away stays below the damping that is assured through the coming hold.
   bool make_up_with_motor = false;
   // The coil is driven beyond the commanded current, within its limits, to arrive at the end of the period.
   bool lead_coil = false;
@@ -62,8 +62,8 @@ class actuator {
 
   constexpr const transmission<Scalar>& gear() const noexcept { return transmission_; }
 
-  // `velocity`: the estimate v̂ at the tool [m/s] or [rad/s]; read only where the motor makes up for the coil. Predicts the
-  // coil over the coming period.
+  // `velocity`: the estimate v̂ at the tool [m/s] or [rad/s]; read only where the motor makes up for the coil. Predicts
+  // the coil over the coming period.
   constexpr actuator_output<Scalar> drive(const command<Scalar>& wanted, Scalar velocity) noexcept {
     actuator_output<Scalar> output;
     const Scalar before = coil_.root_damping();
@@ -74,8 +74,10 @@ class actuator {
     return output;
   }
 
-  // The coil is without current.
-  constexpr void reset() noexcept { coil_.reset(0); }
+  // The coil has settled at `brake_damping`, joint: 0, or the safe damping of a device that comes from its safe state.
+  constexpr void reset(Scalar brake_damping = 0) noexcept {
+    coil_.reset(square_root(clamp(brake_damping, 0, max_damping_)));
+  }
 
  private:
   static constexpr double limit_of(const brake_description& brake) noexcept {

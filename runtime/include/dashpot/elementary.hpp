@@ -1,4 +1,4 @@
-// The two transcendental functions that the runtime's core needs, without <cmath>, so that firmware needs no mathematics
+// The two elementary functions that the runtime's core needs, without <cmath>, so that firmware needs no mathematics
 // library and every target rounds alike. Both are constexpr and correct to a few units in the last place.
 #pragma once
 

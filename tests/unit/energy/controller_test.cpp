@@ -96,8 +96,8 @@ void record(const simulated_device& plant, const hold_observer<double>& observer
   if (at_the_end) seen.final_speed = std::max(seen.final_speed, std::abs(truth.velocity));
 }
 
-// A light tool is thrown against a spring, to either side, that comes two samples late: it needs K T/2 (1 + 2·2) = 5 N·s/m
-// of damping (theory.md, section 6), twice what the device has.
+// A light tool is thrown against a spring, to either side, that comes two samples late: it needs K T/2 (1 + 2·2)
+// = 5 N·s/m of damping (theory.md, section 6), twice what the device has.
 outcome throw_against_late_spring(guard guard, double encoder_step = 0) {
   const device_description device = weak_device(encoder_step);
   simulated_device plant(device, throw_it());

@@ -1,5 +1,5 @@
-// Everything that the loop needs of actuation and energy, compiled as firmware would: without a standard library, exceptions
-// or run-time types. Nothing in here may need a symbol from elsewhere.
+// Everything that the loop needs of actuation and energy, compiled as firmware would: without a standard library,
+// exceptions or run-time types. Nothing in here may need a symbol from elsewhere.
 #include <dashpot/actuator.hpp>
 #include <dashpot/energy/brake_controller.hpp>
 #include <dashpot/energy/hold_observer.hpp>

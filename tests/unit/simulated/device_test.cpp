@@ -188,10 +188,12 @@ TEST(Device, LateSamplesComeLate) {
 
 // A demand that is no number would reach motor or brake.
 TEST(Device, DemandsThatAreNoNumbersAreRefusedSafely) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
   device_description description = plain_device();
   description.brake.safe_damping = 4;
-  for (const actuation& demand : {actuation{nan, 1}, actuation{1, nan}, actuation{infinity, 1}, actuation{1, infinity}}) {
+  const actuation demands[] = {{nan, 1}, {1, nan}, {infinite, 1}, {1, infinite}};
+  for (const actuation& demand : demands) {
     simulated_device device(description);
     run(device, 2, {1, 1});
     EXPECT_EQ(device.write(demand), device_status::fault);
@@ -229,6 +231,9 @@ TEST(Device, RefusesWhatCannotBeSimulated) {
   scenario pushy;
   pushy.user.damping = -1;
   expect_refusal("hand", plain_device(), pushy);
+  scenario hasty;
+  hasty.faults = {{sample_fault_kind::late, 3, 1, -0.002}};
+  expect_refusal("early", plain_device(), hasty);
 }
 
 }  // namespace

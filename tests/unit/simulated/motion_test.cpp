@@ -78,7 +78,8 @@ double maxwell_hand_error(unsigned substeps) {
   const std::complex<double> fast = -half - root, slow = -half + root;
   const double time = 0.050;
   // v(0) = speed, v̇(0) = 0.
-  const std::complex<double> velocity = speed * (fast * std::exp(slow * time) - slow * std::exp(fast * time)) / (fast - slow);
+  const std::complex<double> velocity =
+      speed * (fast * std::exp(slow * time) - slow * std::exp(fast * time)) / (fast - slow);
   return std::abs(device.truth().velocity - velocity.real());
 }
 
@@ -117,6 +118,27 @@ TEST(Motion, DrivenHandFollowsItsFrequencyResponse) {
   const std::complex<double> expected = 0.01 * response * std::exp(s * 4.0);
   // After 4 s the transient has decayed by e^(−6.5/1.5 · 4).
   EXPECT_NEAR(device.truth().position, expected.imag(), 0.02 * std::exp(-6.5 / 1.5 * 4));
+}
+
+// A lag much shorter than the period would be stepped over.
+TEST(Motion, StepsAreShortAgainstTheActuators) {
+  device_description description = plain_device();
+  description.motor.amplifier_lag = 0.00005;
+  simulated_device device(description);
+  run(device, 2, {0.4, 0});
+  // From rest: v = a (t − lag (1 − e^(−t/lag))). A step of half a lag is wrong by (½)⁴/4320 of what the lag costs.
+  const double lag = 0.00005, time = 0.001, acceleration = 2;
+  const double expected = acceleration * (time - lag * (1 - std::exp(-time / lag)));
+  EXPECT_NEAR(device.truth().velocity, expected, acceleration * lag * std::pow(0.5, 4) / 4320);
+}
+
+// A simulation that runs away would come back as a small number.
+TEST(Motion, RunawayStaysARunaway) {
+  device_description description = plain_device();
+  description.encoder.step = 1e-6;
+  simulated_device device(description);
+  const device_sample sample = run(device, 100, {1e300, 0});
+  EXPECT_GT(sample.position, 1e290);
 }
 
 // A hand that has let go would still push, or would take its speed away from the tool.

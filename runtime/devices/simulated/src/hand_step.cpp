@@ -21,7 +21,7 @@ double force_of(const hand& user, const hand_state& state, const motion_point& i
   return force;
 }
 
-// The slopes k of the hand's states at both stages: (I − h 𝒜⊗A) k = A (y_0 + B x_d) − B u̇, stage by stage.
+// Answers a drive r, given at both stages, with the slopes k of the hand's states there: (I − h 𝒜⊗A) k = r.
 class hand_step::solver {
  public:
   solver(const hand& user, double duration) : user_(user), n_(user.states), duration_(duration) {
@@ -35,41 +35,26 @@ class hand_step::solver {
     for (unsigned k = 0; k < 2 * n_; ++k) eliminate(k);
   }
 
-  response respond(const hand_state& state, const motion_point (&intended)[2], const double (&velocity)[2]) const {
-    double slope[2][hand::max_states];
-    solve(state, intended, velocity, slope);
-    response answer;
-    answer.end = state;
-    for (unsigned i = 0; i < n_; ++i) answer.end.shifted[i] += duration_ / 2 * (slope[0][i] + slope[1][i]);
-    for (unsigned stage = 0; stage < 2; ++stage) {
-      hand_state there = state;
-      for (unsigned i = 0; i < n_; ++i) {
-        there.shifted[i] += duration_ * (gauss::a[stage][0] * slope[0][i] + gauss::a[stage][1] * slope[1][i]);
-      }
-      answer.force[stage] = force_of(user_, there, intended[stage], velocity[stage]);
+  // `drive` acts at stage `at` alone.
+  void push(unsigned at, const double (&drive)[hand::max_states]) {
+    for (unsigned row = 0; row < 2 * n_; ++row) {
+      slope_[row] = 0;
+      for (unsigned j = 0; j < n_; ++j) slope_[row] += inverse_[row][at * n_ + j] * drive[j];
     }
-    return answer;
+  }
+
+  // Of the slopes: what they add to state i by the end of the step, and to the force at a stage.
+  double end(unsigned i) const { return duration_ / 2 * (slope_[i] + slope_[n_ + i]); }
+  double force(unsigned stage) const {
+    double sum = 0;
+    for (unsigned i = 0; i < n_; ++i) {
+      sum += user_.output[i] * (gauss::a[stage][0] * slope_[i] + gauss::a[stage][1] * slope_[n_ + i]);
+    }
+    return duration_ * sum;
   }
 
  private:
   static constexpr unsigned most = 2 * hand::max_states;
-
-  void solve(const hand_state& state, const motion_point (&intended)[2], const double (&velocity)[2],
-             double (&slope)[2][hand::max_states]) const {
-    double right[most];
-    for (unsigned row = 0; row < 2 * n_; ++row) {
-      const unsigned stage = row / n_;
-      right[row] = -user_.input[row % n_] * velocity[stage];
-      for (unsigned j = 0; j < n_; ++j) {
-        right[row] += user_.dynamics[row % n_][j] * (state.shifted[j] + user_.input[j] * intended[stage].position);
-      }
-    }
-    for (unsigned row = 0; row < 2 * n_; ++row) {
-      double sum = 0;
-      for (unsigned column = 0; column < 2 * n_; ++column) sum += inverse_[row][column] * right[column];
-      slope[row / n_][row % n_] = sum;
-    }
-  }
 
   // Gauss and Jordan, with pivoting: in the end left_ is the identity, and inverse_ what was its inverse.
   void eliminate(unsigned k) {
@@ -77,11 +62,17 @@ class hand_step::solver {
     for (unsigned row = k + 1; row < 2 * n_; ++row) {
       if (std::abs(left_[row][k]) > std::abs(left_[pivot][k])) pivot = row;
     }
-    std::swap(left_[k], left_[pivot]);
-    std::swap(inverse_[k], inverse_[pivot]);
-    add_row(k, k, 1 / left_[k][k] - 1);
+    swap_rows(k, pivot);
+    if (left_[k][k] != 1) add_row(k, k, 1 / left_[k][k] - 1);
     for (unsigned row = 0; row < 2 * n_; ++row) {
       if (row != k && left_[row][k] != 0) add_row(row, k, -left_[row][k]);
+    }
+  }
+
+  void swap_rows(unsigned first, unsigned second) {
+    for (unsigned column = 0; first != second && column < 2 * n_; ++column) {
+      std::swap(left_[first][column], left_[second][column]);
+      std::swap(inverse_[first][column], inverse_[second][column]);
     }
   }
 
@@ -97,31 +88,55 @@ class hand_step::solver {
   double duration_;
   double left_[most][most];
   double inverse_[most][most];
+  double slope_[most];
 };
 
+// ż = A (y + B x_d) − B u̇ and f = C (y + B x_d) + D (ẋ_d − u̇), for a unit of each x_d, u̇ and y in turn.
 hand_step::hand_step(const hand& user, double duration)
     : states_(user.states), duration_(duration), damping_(user.damping) {
-  const solver solve(user, duration);
-  const motion_point still[2] = {};
-  for (unsigned j = 0; j < states_; ++j) {
-    hand_state unit;
-    unit.shifted[j] = 1;
-    const response answer = solve.respond(unit, still, {0, 0});
-    for (unsigned stage = 0; stage < 2; ++stage) force_per_state_[stage][j] = answer.force[stage];
-    for (unsigned i = 0; i < states_; ++i) end_per_state_[i][j] = answer.end.shifted[i];
-  }
+  solver answer(user, duration);
   for (unsigned at = 0; at < 2; ++at) {
-    const double share[2] = {at == 0 ? 1.0 : 0.0, at == 1 ? 1.0 : 0.0};
-    const response moved = solve.respond({}, {{share[0], 0}, {share[1], 0}}, {0, 0});
-    const response pushed = solve.respond({}, still, share);
-    for (unsigned stage = 0; stage < 2; ++stage) {
-      force_per_position_[stage][at] = moved.force[stage];
-      coupling_[stage][at] = pushed.force[stage];
-    }
-    for (unsigned i = 0; i < states_; ++i) {
-      end_per_position_[i][at] = moved.end.shifted[i];
-      end_per_velocity_[i][at] = pushed.end.shifted[i];
-    }
+    push_position(user, answer, at);
+    push_velocity(user, answer, at);
+  }
+  for (unsigned j = 0; j < states_; ++j) push_state(user, answer, j);
+}
+
+void hand_step::push_position(const hand& user, solver& answer, unsigned at) {
+  double drive[hand::max_states];  // A B
+  double prompt = 0;               // C B
+  for (unsigned i = 0; i < states_; ++i) {
+    drive[i] = 0;
+    for (unsigned j = 0; j < states_; ++j) drive[i] += user.dynamics[i][j] * user.input[j];
+    prompt += user.output[i] * user.input[i];
+  }
+  answer.push(at, drive);
+  for (unsigned i = 0; i < states_; ++i) end_per_position_[i][at] = answer.end(i);
+  for (unsigned stage = 0; stage < 2; ++stage) {
+    force_per_position_[stage][at] = answer.force(stage) + (stage == at ? prompt : 0);
+  }
+}
+
+void hand_step::push_velocity(const hand& user, solver& answer, unsigned at) {
+  answer.push(at, user.input);
+  for (unsigned i = 0; i < states_; ++i) end_per_velocity_[i][at] = -answer.end(i);
+  for (unsigned stage = 0; stage < 2; ++stage) {
+    coupling_[stage][at] = -answer.force(stage) - (stage == at ? damping_ : 0);
+  }
+}
+
+// A state drives the others at both stages alike.
+void hand_step::push_state(const hand& user, solver& answer, unsigned j) {
+  double drive[hand::max_states];
+  for (unsigned i = 0; i < states_; ++i) {
+    drive[i] = user.dynamics[i][j];
+    end_per_state_[i][j] = i == j ? 1 : 0;
+  }
+  for (auto& per_state : force_per_state_) per_state[j] = user.output[j];
+  for (unsigned at = 0; at < 2; ++at) {
+    answer.push(at, drive);
+    for (unsigned i = 0; i < states_; ++i) end_per_state_[i][j] += answer.end(i);
+    for (unsigned stage = 0; stage < 2; ++stage) force_per_state_[stage][j] += answer.force(stage);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <dashpot/simulated/gauss.hpp>
+#include <dashpot/simulated/longest_step.hpp>
 
 namespace dashpot::simulated {
 namespace {
@@ -23,7 +24,7 @@ plant::plant(const device_description& device, const scenario& scene)
       prescribed_(scene.prescribed),
       low_(scene.low, -1, ratio_),
       high_(scene.high, +1, ratio_),
-      longest_step_(longest_step(device, scene)) {
+      longest_step_(longest_step(device, scene, user_, ratio_)) {
   const motion_point start =
       prescribed_ ? intended(0) : motion_point{scene.initial_position / ratio_, scene.initial_velocity / ratio_};
   shaft_ = {0, start.position, start.velocity};
@@ -132,7 +133,7 @@ plant::step plant::slide(double duration, const hand_step& grip) const noexcept 
     s.damping[i] = drives_.damping_after(time);
   }
   grip.forces_at_rest(grip_, intention, s.grip);
-  balance(s, grip, duration);
+  balance(s, equations(s, grip, duration));
   step done;
   done.duration = duration;
   done.shaft = {shaft_.time + duration, shaft_.position + duration / 2 * (s.velocity[0] + s.velocity[1]),
@@ -142,35 +143,38 @@ plant::step plant::slide(double duration, const hand_step& grip) const noexcept 
   return done;
 }
 
-// Stage velocities v_i with (J + m)/h Σ_j ā_ij (v_j − v_0) = forces at stage i, ā the inverse of a. The brake's damping
-// comes at no speed and leaves at the stages' speed.
-void plant::balance(stages& s, const hand_step& grip, double duration) const noexcept {
+// (J + m)/h Σ_j ā_ij (v_j − v_0) = forces at stage i, ā the inverse of a; all but the brake's.
+plant::stage_equations plant::equations(const stages& s, const hand_step& grip, double duration) const noexcept {
   const double rate = inertia() / duration;
   const double stiffness = low_.stiffness() + high_.stiffness();
-  const double damping = mechanics_.damping + low_.damping() + high_.damping();
   const double steady = direction_ * mechanics_.coulomb_friction + stop_force(shaft_.position, 0);
-  double matrix[2][2];
-  double right[2];
+  stage_equations e;
   for (unsigned i = 0; i < 2; ++i) {
-    right[i] = s.torque[i] + s.grip[i] - steady;
+    e.right[i] = s.torque[i] + s.grip[i] - steady;
     for (unsigned j = 0; j < 2; ++j) {
-      right[i] += rate * gauss::a_inverse[i][j] * shaft_.velocity;
-      matrix[i][j] = rate * gauss::a_inverse[i][j] - grip.coupling(i, j) + stiffness * duration * gauss::a[i][j];
+      e.right[i] += rate * gauss::a_inverse[i][j] * shaft_.velocity;
+      e.matrix[i][j] =
+          rate * gauss::a_inverse[i][j] - grip.coupling(i, j) + stiffness * duration * gauss::a[i][j];
     }
-    matrix[i][i] += damping;
+    e.matrix[i][i] += mechanics_.damping + low_.damping() + high_.damping();
   }
+  return e;
+}
+
+// Solves for the stage velocities. The brake's damping comes at no speed and leaves at theirs: it fades by a share that
+// changes little within a step, so that each round gains several digits.
+void plant::balance(stages& s, const stage_equations& e) const noexcept {
+  constexpr int most_rounds = 8;
   const double at_no_speed[2] = {s.damping[0], s.damping[1]};
   s.velocity[0] = s.velocity[1] = shaft_.velocity;
-  // The brake fades with speed by a share that changes little within a step: each round gains several digits.
-  constexpr int most_rounds = 8;
   for (int round = 0; round < most_rounds; ++round) {
     const double guess[2] = {s.velocity[0], s.velocity[1]};
-    for (unsigned i = 0; i < 2; ++i) s.damping[i] = drives_.at_speed(at_no_speed[i], s.velocity[i]);
-    const double first = matrix[0][0] + s.damping[0];
-    const double second = matrix[1][1] + s.damping[1];
-    const double determinant = first * second - matrix[0][1] * matrix[1][0];
-    s.velocity[0] = (right[0] * second - matrix[0][1] * right[1]) / determinant;
-    s.velocity[1] = (first * right[1] - matrix[1][0] * right[0]) / determinant;
+    for (unsigned i = 0; i < 2; ++i) s.damping[i] = drives_.at_speed(at_no_speed[i], guess[i]);
+    const double first = e.matrix[0][0] + s.damping[0];
+    const double second = e.matrix[1][1] + s.damping[1];
+    const double determinant = first * second - e.matrix[0][1] * e.matrix[1][0];
+    s.velocity[0] = (e.right[0] * second - e.matrix[0][1] * e.right[1]) / determinant;
+    s.velocity[1] = (first * e.right[1] - e.matrix[1][0] * e.right[0]) / determinant;
     if (!drives_.fades_with_speed() || (s.velocity[0] == guess[0] && s.velocity[1] == guess[1])) break;
   }
 }
@@ -280,33 +284,6 @@ plant_view plant::view() const noexcept {
   seen.friction_torque = seen.stuck ? driving : sliding;
   seen.hand_torque = prescribed_ ? 0 : grip - user_.mass / inertia() * (driving - seen.friction_torque);
   return seen;
-}
-
-// Short against the lags of the actuators, the damping rate and the natural frequency with everything engaged, and the
-// hand's own rates: at half of the fastest a step is wrong by less than 1e-4 of what that one does within it, falling
-// with its fourth power.
-double plant::longest_step(const device_description& device, const scenario& scene) const noexcept {
-  const double period = device.loop.sample_period;
-  if (scene.substeps > 0) return period / scene.substeps;
-  double stiffness = 0;
-  double damping = mechanics_.damping + user_.damping + device.brake.max_damping + device.brake.residual_damping;
-  double fastest = 1 / period;
-  for (unsigned i = 0; i < user_.states; ++i) {
-    double row = 0;
-    for (unsigned j = 0; j < user_.states; ++j) row += std::abs(user_.dynamics[i][j]);
-    fastest = std::max(fastest, row);
-    stiffness += std::abs(user_.input[i] * user_.output[i]);
-  }
-  for (const auto& stop : {scene.low, scene.high}) {
-    if (!stop || std::isinf(stop->stiffness)) continue;
-    stiffness += stop->stiffness * ratio_ * ratio_;
-    damping += stop->damping * ratio_ * ratio_;
-  }
-  for (const double lag : {device.motor.amplifier_lag, device.brake.coil_lag}) {
-    if (lag > 0) fastest = std::max(fastest, 1 / lag);
-  }
-  fastest = std::max({fastest, damping / inertia(), 5 * std::sqrt(stiffness / inertia())});
-  return std::max(0.5 / fastest, period / 64);
 }
 
 }  // namespace dashpot::simulated

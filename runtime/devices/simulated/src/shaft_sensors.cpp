@@ -10,7 +10,7 @@ double shaft_sensors::cubic::position(double share) const noexcept {
   return before.position * rest * rest * (1 + 2 * share) + after.position * share * share * (1 + 2 * rest) + bend;
 }
 
-// Where the path reaches `level`, by false position (Illinois), to a nanosecond and better: it is nearly straight.
+// Where the path reaches `level`, by false position (Illinois), to well below a nanosecond: it is nearly straight.
 double shaft_sensors::cubic::crossing(double level, double from, double to) const noexcept {
   double before_level = position(from) - level;
   double after_level = position(to) - level;
@@ -29,7 +29,7 @@ double shaft_sensors::cubic::crossing(double level, double from, double to) cons
       before_level = there;
       after_level /= 2;
     }
-    if (std::abs(moved) * duration() < 1e-10) break;
+    if (std::abs(moved) * duration() < 1e-9) break;
   }
   return share;
 }
@@ -53,15 +53,20 @@ void shaft_sensors::follow(const shaft_motion& before, const shaft_motion& after
   }
 }
 
+double shaft_sensors::whole_steps(double position) const noexcept {
+  return std::floor(position / encoder_.step + (encoder_.rounding == quantiser::round ? 0.5 : 0.0));
+}
+
 std::int64_t shaft_sensors::counts(double position) const noexcept {
-  if (!(encoder_.step > 0) || !std::isfinite(position)) return 0;
-  const double offset = encoder_.rounding == quantiser::round ? 0.5 : 0.0;
-  return static_cast<std::int64_t>(std::floor(position / encoder_.step + offset));
+  if (!(encoder_.step > 0)) return 0;
+  // A simulation that runs away must not take the counter with it.
+  constexpr double most = 0x1p62;
+  const double steps = whole_steps(position);
+  return std::abs(steps) < most ? static_cast<std::int64_t>(steps) : 0;
 }
 
 double shaft_sensors::quantised(double position) const noexcept {
-  if (!(encoder_.step > 0) || !std::isfinite(position)) return position;
-  return static_cast<double>(counts(position)) * encoder_.step;
+  return encoder_.step > 0 ? whole_steps(position) * encoder_.step : position;
 }
 
 // Notes the last edge on a stretch of the path that does not turn back.

@@ -35,6 +35,9 @@ const char* simulated_device::refusal(const device_description& device, const sc
   if (scene.prescribed && !scene.intended) return "a prescribed motion is not given";
   if (scene.prescribed && (scene.low || scene.high)) return "a prescribed motion does not heed end-stops";
   if (!simulated::is_passive(scene.user)) return "the hand is not passive";
+  for (const sample_fault& fault : scene.faults) {
+    if (fault.kind == sample_fault_kind::late && !(fault.size >= 0)) return "a late sample cannot come early";
+  }
   return nullptr;
 }
 

@@ -1,10 +1,10 @@
-// The passivity controller of a device with a brake, from cycle to cycle: it raises the brake so that it dissipates what
-// the motor has created or is about to create (theory.md, section 6(c); Gosline & Hayward 2008).
+// The passivity controller of a device with a brake, from cycle to cycle: it raises the brake so that it dissipates
+// what the motor has created or is about to create (theory.md, section 6(c); Gosline & Hayward 2008).
 //
 // A debt is an energy that should be there and is not. The brake repays it in the hold that begins now, over which the
 // tool is expected to move by Δu, with the least damping for which b Δu²/Δt covers the debt. It never goes below the
-// damping that the model wants, and never touches the motor. What the brake cannot give at once, for its limit or its coil,
-// stays in the balance of hold_observer and is sought again in the next period. No heap, no <cmath>, no state.
+// damping that the model wants, and never touches the motor. What the brake cannot give at once, for its limit or its
+// coil, stays in the balance of hold_observer and is sought again in the next period. No heap, no <cmath>, no state.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -2,9 +2,9 @@
 //
 // No velocity is estimated. For any motion, and any damping b(t) over a stretch of time, by Cauchy and Schwarz
 //     ∫b v² dt ≥ (∫v dt)² / ∫dt/b = Δu² / Σ Δt/b.
-// Positions read from an encoder of step `quantum` are known to less than one step, so only (|Δu| − quantum)⁺ is credited,
-// over stretches of several steps: the credit is a rigorous lower bound, and for steady motion at least (7/8)² of the truth.
-// With quantum = 0 every hold is a stretch of its own. No heap, no <cmath>.
+// Positions read from an encoder of step `quantum` are known to less than one step, so only (|Δu| − quantum)⁺ is
+// credited, over stretches of several steps: the credit is a rigorous lower bound, and for steady motion at least
+// (7/8)² of the truth. With quantum = 0 every hold is a stretch of its own. No heap, no <cmath>.
 #pragma once
 
 #include <dashpot/energy/compensated_sum.hpp>
@@ -31,8 +31,8 @@ class brake_dissipation {
     const Scalar certain = moved > quantum_ + half ? moved - quantum_ : Scalar(0);
     const Scalar bound = certain * certain / inverse_;
     if (bound > best_) best_ = bound;
-    // Waiting where the stretch began would only dilute it, and so would going on after a pause or a reversal. In steady
-    // motion the bound falls between two steps to half of its best at most.
+    // Waiting where the stretch began would only dilute it, and so would going on after a pause or a reversal. In
+    // steady motion the bound falls between two steps to half of its best at most.
     if (moved <= half || moved >= steps_in_a_stretch * quantum_ - half || bound < best_ / 4) settle(position);
   }
 

@@ -2,11 +2,11 @@
 //
 // The motor holds the force m_k while the tool moves from u_k to u_{k+1}, so without any velocity, and exactly,
 //     E ← E + m_k (u_{k+1} − u_k),
-// positive where energy flowed from the tool into the motor (sign of command.hpp). What the brake dissipated is added as
-// a lower bound (brake_dissipation.hpp). The rendering has given away no energy that it did not receive while
+// positive where energy flowed from the tool into the motor (sign of command.hpp). What the brake dissipated is added
+// as a lower bound (brake_dissipation.hpp). The rendering has given away no energy that it did not receive while
 //     balance = motor_energy + brake_energy ≥ 0.
-// Exact for the positions given: an encoder's step q moves the motor's part by at most q (|m_0| + |m_n| + Σ|m_k − m_{k−1}|).
-// Amplifier lag is not seen. No heap, no <cmath>.
+// Exact for the positions given: an encoder's step q moves the motor's part by q (|m_0| + |m_n| + Σ|m_k − m_{k−1}|) at
+// most. Amplifier lag is not seen. No heap, no <cmath>.
 #pragma once
 
 #include <dashpot/energy/brake_dissipation.hpp>
@@ -17,8 +17,8 @@ namespace dashpot {
 template <class Scalar, unsigned MaxDelay = 8>
 class hold_observer {
  public:
-  // `delay_samples` (≤ MaxDelay): whole samples from hold() until a command takes effect. `quantum`: the encoder's step at
-  // the tool [m] or [rad].
+  // `delay_samples` (≤ MaxDelay): whole samples from hold() until a command takes effect; they count observe() calls.
+  // `quantum`: the encoder's step at the tool [m] or [rad].
   explicit constexpr hold_observer(unsigned delay_samples = 0, Scalar quantum = 0) noexcept
       : delay_(delay_samples < MaxDelay ? delay_samples : MaxDelay), brake_(quantum) {}
 
@@ -40,11 +40,11 @@ class hold_observer {
   }
 
   // With every command that leaves: the force opposing +u that the motor holds [N] or [N·m], and the damping that the
-  // brake has at least [N·s/m] or [N·m·s/rad] (actuator_output: applied_force, assured_damping). Without a call the last
-  // command stays.
+  // brake has at least [N·s/m] or [N·m·s/rad] (actuator_output: applied_force, assured_damping). Without a call the
+  // last command stays.
   constexpr void hold(Scalar force, Scalar damping) noexcept { line_[0] = {force, damping}; }
 
-  constexpr Scalar motor_energy() const noexcept { return motor_.value(); }  // [J]; negative: the motor gave energy away
+  constexpr Scalar motor_energy() const noexcept { return motor_.value(); }  // [J]; negative: the motor gave it away
   constexpr Scalar brake_energy() const noexcept { return brake_.value(); }  // [J] dissipated, at least
   constexpr Scalar balance() const noexcept { return motor_energy() + brake_energy(); }  // [J]
 

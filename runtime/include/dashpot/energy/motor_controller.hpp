@@ -12,7 +12,8 @@ namespace dashpot {
 template <class Scalar>
 class motor_controller {
  public:
-  explicit constexpr motor_controller(Scalar max_damping) noexcept : max_damping_(max_damping) {}  // [N·s/m], [N·m·s/rad]
+  explicit constexpr motor_controller(Scalar max_damping) noexcept  // [N·s/m] or [N·m·s/rad]
+      : max_damping_(max_damping) {}
 
   // The force to apply [N] or [N·m] in place of `force`, both opposing +u; `velocity` [m/s] or [rad/s]; `period` [s].
   constexpr Scalar limit(Scalar force, Scalar velocity, Scalar period) noexcept {

@@ -1,5 +1,5 @@
-// The two actuators of a simulated device as functions of time: the motor behind its amplifier, a first-order lag, and the
-// brake behind its coil,
+// The two actuators of a simulated device as functions of time: the motor behind its amplifier, a first-order lag, and
+// the brake behind its coil,
 //     b = (gain·κ i² + residual)/(1 + (q̇/v_c)²),     gain = 1 ± tolerance.
 // Both are solved exactly; nothing here depends on the integration step. In the joint's coordinate.
 #pragma once

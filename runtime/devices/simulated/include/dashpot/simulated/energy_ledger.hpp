@@ -1,5 +1,5 @@
-// Where every joule of a simulated device came from and went. Each entry is accumulated from its own force and velocity;
-// none is the remainder of the others (except hand in a prescribed motion, where nobody asks what the hand can give).
+// Where every joule of a simulated device came from and went. Each entry is accumulated from its own force and
+// velocity; none is the remainder of the others (but for the hand in a prescribed motion, which does what that takes).
 #pragma once
 
 namespace dashpot::simulated {

@@ -1,7 +1,7 @@
 // Gauss's two-stage collocation, order 4 (Hairer, Lubich & Wanner 2006, II.1.3): slopes k_i at the times c_i h,
 //     y_i = y_0 + h Σ_j a_ij k_j,     y_1 = y_0 + (h/2)(k_1 + k_2).
-// It keeps quadratic invariants: the kinetic energy gained in a step is exactly (h/2) Σ_i F_i v_i, whatever the forces, so a
-// ledger of these products closes to rounding.
+// It keeps quadratic invariants: the kinetic energy gained in a step is exactly (h/2) Σ_i F_i v_i, whatever the forces,
+// so a ledger of these products closes to rounding.
 #pragma once
 
 namespace dashpot::simulated::gauss {

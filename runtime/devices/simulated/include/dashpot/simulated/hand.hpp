@@ -1,7 +1,7 @@
 // A linear hand at the tool: an impedance, moved by an intended trajectory.
 //
-// By Thévenin's theorem any linear hand is the force that it would need no force to follow its intention x_d with, and an
-// impedance towards it. With w = ẋ_d − u̇, the tool's velocity u̇, and states z whose energy is ½|z|²,
+// By Thévenin's theorem any linear hand is a motion x_d, which it would make with nothing in its way, and an impedance
+// towards it. With w = ẋ_d − u̇, the tool's velocity u̇, and states z whose energy is ½|z|²,
 //     ż = A z + B w,     force on the tool = C z + D w − mass · ü.
 // Whatever its size, such a hand is passive exactly when is_passive() says so. All numbers at the tool, in SI
 // ([N·m/rad], [kg·m²], … where the device is rotary and has no arm radius).

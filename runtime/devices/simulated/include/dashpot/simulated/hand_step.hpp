@@ -33,12 +33,10 @@ class hand_step {
                       const double (&velocity)[2]) const noexcept;
 
  private:
-  // What comes of one unit of a state, an intended position or a velocity.
-  struct response {
-    double force[2];
-    hand_state end;
-  };
   class solver;
+  void push_position(const hand& user, solver& answer, unsigned at);
+  void push_velocity(const hand& user, solver& answer, unsigned at);
+  void push_state(const hand& user, solver& answer, unsigned j);
 
   unsigned states_ = 0;
   double duration_ = 0;

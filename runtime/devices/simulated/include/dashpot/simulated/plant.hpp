@@ -1,8 +1,8 @@
 // The mechanics of a simulated device between samples, in the joint's coordinate:
 //     (J + m) q̈ = τ(t) + f_hand − (c + b(t, q̇)) q̇ − friction − stops.
-// The motion is integrated by Gauss's collocation of order 4 (gauss.hpp), the actuators are exact (drives.hpp). Coulomb
-// friction and stops are no smooth forces: the shaft either slides or is stuck, with a velocity of exactly zero, and every
-// change between the two, and every touch and release of a stop, ends a step at the instant at which it happens.
+// The motion is integrated by Gauss's collocation of order 4 (gauss.hpp), the actuators are exact (drives.hpp).
+// Coulomb friction and stops are no smooth forces: the shaft either slides or is stuck, with a velocity of exactly
+// zero, and every change between the two, and every touch and release of a stop, ends a step at the instant it happens.
 #pragma once
 
 #include <dashpot/device.hpp>
@@ -33,8 +33,8 @@ class plant {
  public:
   plant(const device_description& device, const scenario& scene);
 
-  // Goes on by `duration` [s], to the instant `end` [s], under `demand`, which must be finite; `sensors` see every step.
-  // The caller knows both without accumulated rounding; equal durations are faster than merely similar ones.
+  // Goes on by `duration` [s], to the instant `end` [s], under `demand`, which must be finite; `sensors` see every
+  // step. The caller knows both without accumulated rounding; equal durations are faster than merely similar ones.
   void advance(double duration, double end, const actuation& demand, shaft_sensors& sensors) noexcept;
 
   shaft_motion shaft() const noexcept { return shaft_; }
@@ -56,6 +56,11 @@ class plant {
     double grip[2];      // of the hand without its mass, the shaft at rest [N·m] or [N]
     double velocity[2];  // [rad/s] or [m/s]
   };
+  // Linear in the two stage velocities.
+  struct stage_equations {
+    double matrix[2][2];  // [N·m·s/rad] or [N·s/m]
+    double right[2];      // [N·m] or [N]
+  };
 
   void integrate_evenly(double duration, shaft_sensors& sensors) noexcept;
   void integrate(double duration, shaft_sensors& sensors) noexcept;
@@ -66,7 +71,8 @@ class plant {
   step hold_or_slide(double duration, const hand_step& grip) const noexcept;
   step stay(double duration, const hand_step& grip) const noexcept;
   step slide(double duration, const hand_step& grip) const noexcept;
-  void balance(stages& s, const hand_step& grip, double duration) const noexcept;
+  stage_equations equations(const stages& s, const hand_step& grip, double duration) const noexcept;
+  void balance(stages& s, const stage_equations& without_brake) const noexcept;
   void add_sliding_work(const stages& s, const hand_step& grip, step& done) const noexcept;
 
   double first_event(double duration) const noexcept;
@@ -80,7 +86,6 @@ class plant {
   double kinetic(double velocity) const noexcept { return mechanics_.inertia * velocity * velocity / 2; }
   double stop_force(double position, double velocity) const noexcept;
   double force_at_rest(const shaft_motion& shaft, const hand_state& grip, double torque) const noexcept;
-  double longest_step(const device_description& device, const scenario& scene) const noexcept;
 
   mechanics_description mechanics_;
   drives drives_;

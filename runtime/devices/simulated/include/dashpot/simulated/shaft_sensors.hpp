@@ -1,5 +1,5 @@
-// What is mounted on the shaft: an incremental encoder that notes the time of its edges, and where the device has one, a
-// velocity sensor. Both follow the true motion; the position is quantised before anything else sees it.
+// What is mounted on the shaft: an incremental encoder that notes the time of its edges, and where the device has one,
+// a velocity sensor. Both follow the true motion; the position is quantised before anything else sees it.
 #pragma once
 
 #include <cstdint>
@@ -44,6 +44,7 @@ class shaft_sensors {
     double to = 0;
     bool exists = false;
   };
+  double whole_steps(double position) const noexcept;
   void find_edge(const cubic& path, double from, double to) noexcept;
   void sense_velocity(const shaft_motion& before, const shaft_motion& after) noexcept;
 

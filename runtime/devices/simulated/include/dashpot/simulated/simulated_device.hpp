@@ -1,9 +1,9 @@
 // A device that exists only as numbers, with the interface of real ones (device.hpp).
 //
 // Time belongs to the device: the first read() is the sample at time 0, every later one goes on by one sample period
-// (plus the drawn jitter, 0 … loop.jitter), whatever the wall clock says. What write() asks for takes effect at the sample
-// just read, loop.delay_samples later where the device says so, and stays until it is replaced. The same description,
-// scenario and calls give the same bytes. Nothing allocates after construction.
+// (plus the drawn jitter, 0 … loop.jitter), whatever the wall clock says. What write() asks for takes effect at the
+// sample just read, loop.delay_samples later where the device says so, and stays until it is replaced. The same
+// description, scenario and calls give the same bytes. Nothing allocates after construction.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// One end-stop and the shaft against it, in the joint's coordinate. A rigid stop holds the shaft, or lets it go; a compliant
-// one pushes with stiffness·depth + damping·speed while that is a push: it never pulls.
+// One end-stop and the shaft against it, in the joint's coordinate. A rigid stop holds the shaft, or lets it go; a
+// compliant one pushes with stiffness·depth + damping·speed while that is a push: it never pulls.
 #pragma once
 
 #include <optional>

@@ -13,15 +13,17 @@ std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics)
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics) {
   std::optional<Network> network = check(source, diagnostics);
-  if (!network || !is_linear(*network, diagnostics)) return std::nullopt;
+  if (!network) return std::nullopt;
+  std::optional<NormalForm> form = closed_normal_form(*network, diagnostics);
+  if (!form) return std::nullopt;
   Compilation result;
   result.network = std::move(*network);
   result.device = device;
   result.rate = choices.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
-  result.form = linear_form(result.network);
-  warn_about_validity(result.form, result.network, diagnostics);
+  result.form = std::move(*form);
+  warn_about_validity(result.form.linear, result.network, diagnostics);
   std::optional<Decomposition> decomposition =
-      decompose(result.network, result.form, choices, device ? &*device : nullptr, diagnostics);
+      decompose(linear_part(result.network, result.form), result.form.linear, choices, device ? &*device : nullptr, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);

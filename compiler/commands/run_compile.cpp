@@ -5,6 +5,7 @@
 #include "commands/commands.hpp"
 #include "compile.hpp"
 #include "emit/write_files.hpp"
+#include "network/tree.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -14,7 +15,7 @@ std::string stage_text(const Compilation& c, const std::string& stage) {
     const std::optional<Tree> tree = series_parallel_tree(c.network);
     return to_text(c.network) + (tree ? to_text(*tree, c.network) : "no series-parallel tree\n");
   }
-  if (stage == "linear") return to_text(c.form, c.network);
+  if (stage == "linear") return to_text(c.form.linear, c.network);
   if (stage == "decomposition") return to_text(c.decomposition, c.network);
   if (stage == "law") return to_text(c.law, c.network);
   return "certificate of " + c.network.name + ": not computed\n";

@@ -37,19 +37,19 @@ Json json_of(const Candidate& c) {
 
 Json json_of(const Compilation& c) {
   Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
-  for (const Mode& mode : c.form.modes)
+  for (const Mode& mode : c.form.linear.modes)
     modes.push_back({{"stiffness", to_double(mode.stiffness)}, {"relaxation_rate", to_double(mode.relaxation_rate)}});
-  const KelvinForm creep = kelvin_form(c.form);
+  const KelvinForm creep = kelvin_form(c.form.linear);
   for (const KelvinElement& element : creep.elements)
     kelvin.push_back({{"stiffness", to_double(element.stiffness)}, {"damping", to_double(element.damping)}});
   for (const Candidate& candidate : c.decomposition.candidates) candidates.push_back(json_of(candidate));
   const Candidate& choice = c.decomposition.choice();
   return {{"name", c.network.name},
           {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
-          {"static_stiffness", to_double(c.form.static_stiffness)},
-          {"feedthrough_damping", to_double(c.form.feedthrough_damping)},
+          {"static_stiffness", to_double(c.form.linear.static_stiffness)},
+          {"feedthrough_damping", to_double(c.form.linear.feedthrough_damping)},
           {"modes", modes},
-          {"zero_frequency_damping", to_double(zero_frequency_damping(c.form))},
+          {"zero_frequency_damping", to_double(zero_frequency_damping(c.form.linear))},
           {"kelvin", {{"glass_compliance", to_double(creep.glass_compliance)},
                       {"fluidity", to_double(creep.fluidity)},
                       {"elements", kelvin}}},
@@ -63,7 +63,7 @@ Json json_of(const Compilation& c) {
 }
 
 std::string kelvin_text(const Compilation& c) {
-  const KelvinForm creep = kelvin_form(c.form);
+  const KelvinForm creep = kelvin_form(c.form.linear);
   std::string text = fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g}, fluidity {:.8g}\n",
                                  to_double(creep.glass_compliance), to_double(creep.fluidity));
   for (const KelvinElement& element : creep.elements)
@@ -72,8 +72,8 @@ std::string kelvin_text(const Compilation& c) {
 }
 
 std::string pace_text(const Compilation& c) {
-  if (c.form.modes.empty()) return "";
-  const double fastest = to_double(1 / c.form.modes.back().relaxation_rate);
+  if (c.form.linear.modes.empty()) return "";
+  const double fastest = to_double(1 / c.form.linear.modes.back().relaxation_rate);
   return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", fastest, fastest * c.rate, c.rate);
 }
 
@@ -81,8 +81,8 @@ std::string text_of(const Compilation& c) {
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
   const Candidate& choice = c.decomposition.choice();
   std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
-  text += to_text(c.form, c.network);
-  text += fmt::format("zero-frequency damping {:.10g}\n", to_double(zero_frequency_damping(c.form)));
+  text += to_text(c.form.linear, c.network);
+  text += fmt::format("zero-frequency damping {:.10g}\n", to_double(zero_frequency_damping(c.form.linear)));
   text += pace_text(c) + kelvin_text(c) + "\n" + to_text(c.decomposition, c.network);
   text += fmt::format("passivity             {:.6g} of extra damping for any delay of the estimate; sampled: not computed\n",
                       choice.extra_damping_any_delay.value_or(0));

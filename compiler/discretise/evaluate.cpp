@@ -68,6 +68,9 @@ Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
     case Operation::multiply: return value(expression.left, place) * value(expression.right, place);
     case Operation::flush:
       return flush_below(static_cast<Scalar>(law_.flush_threshold), value(expression.left, place));
+    case Operation::clamp: return clamp_to(value(expression.right, place), value(expression.left, place));
+    case Operation::where:
+      return value(expression.condition, place) > 0 ? value(expression.left, place) : value(expression.right, place);
     case Operation::sum: return sum(expression.left);
   }
   return Scalar(0);

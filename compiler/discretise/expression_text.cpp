@@ -8,6 +8,7 @@ int precedence(Operation operation) {
     case Operation::add:
     case Operation::subtract: return 1;
     case Operation::multiply: return 2;
+    case Operation::where: return 0;
     default: return 3;
   }
 }
@@ -25,6 +26,8 @@ class Printer {
       case Operation::subtract: return binary(e, " - ");
       case Operation::multiply: return binary(e, " * ");
       case Operation::flush: return spelling_.flush(text(e.left));
+      case Operation::clamp: return spelling_.clamp(text(e.left), text(e.right));
+      case Operation::where: return grouped(e.condition, 1) + " > 0 ? " + grouped(e.left, 1) + " : " + grouped(e.right, 1);
       case Operation::sum: return spelling_.sum(law_.variables[law_.expressions[e.left].left]);
     }
     return "";

@@ -13,6 +13,7 @@ struct Spelling {
   std::function<std::string(const Variable&)> variable;
   std::function<std::string(const Coefficient&)> coefficient;
   std::function<std::string(const std::string& value)> flush;
+  std::function<std::string(const std::string& value, const std::string& limit)> clamp;
   std::function<std::string(const Variable& vector)> sum;
 };
 

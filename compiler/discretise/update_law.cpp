@@ -18,6 +18,11 @@ void count(const UpdateLaw& law, ExpressionId id, std::size_t places, Cost& cost
     case Operation::flush:
       cost.guards += places;
       return count(law, expression.left, places, cost);
+    case Operation::clamp: cost.selections += places; break;
+    case Operation::where:
+      cost.selections += places;
+      count(law, expression.condition, places, cost);
+      break;
     case Operation::sum:
       cost.additions += law.variables[law.expressions[expression.left].left].size - 1;
       return;
@@ -30,6 +35,7 @@ const Spelling& plain_spelling() {
   static const Spelling spelling{[](const Variable& variable) { return variable.name; },
                                  [](const Coefficient& coefficient) { return coefficient.name; },
                                  [](const std::string& value) { return "flush(" + value + ")"; },
+                                 [](const std::string& value, const std::string& limit) { return "clamp(" + value + ", ±" + limit + ")"; },
                                  [](const Variable& vector) { return "sum(" + vector.name + ")"; }};
   return spelling;
 }

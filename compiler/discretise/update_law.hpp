@@ -12,7 +12,7 @@
 
 #include "decompose/choices.hpp"
 #include "decompose/decomposition.hpp"
-#include "linear/linear_form.hpp"
+#include "linear/normal_form.hpp"
 #include "network/network.hpp"
 
 namespace dashpot::compiler {
@@ -54,6 +54,8 @@ enum class Operation : std::uint8_t {
   subtract,
   multiply,
   flush,  // zero below the law's threshold, so that no state becomes subnormal
+  clamp,  // left within ± right
+  where,  // left where `condition` is above zero, else right
   sum,    // of a vector: `lanes` partial sums in turn, then those from the first to the last
 };
 
@@ -61,6 +63,7 @@ struct Expression {
   Operation operation;
   std::uint32_t left = 0;   // VariableId of read, CoefficientId of constant, else ExpressionId
   std::uint32_t right = 0;  // ExpressionId
+  ExpressionId condition = 0;
 };
 
 struct Statement {
@@ -82,7 +85,7 @@ struct UpdateLaw {
   Scheme scheme = Scheme::exact;
   StateInput state_input = StateInput::position;
   double sample_period = 0;     // [s]
-  double damping = 0;           // b, the brake's command [N·s/m]
+  double damping = 0;           // b, the brake's command; with slips its least value [N·s/m]
   double flush_threshold = 0;   // [N]: magnitudes below become zero
   ModeForm mode_form = ModeForm::product;
   double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
@@ -100,20 +103,22 @@ struct UpdateLaw {
   VariableId velocity = 0;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
   VariableId force = 0;     // m_k, the motor's command [N]
+  VariableId brake = no_variable;  // b_k where it changes with the regime, a local of `output` [N·s/m]
   VariableId stored = 0;    // [J]
 };
 
 struct Cost {
   std::size_t additions = 0;  // and subtractions
   std::size_t multiplications = 0;
+  std::size_t selections = 0;  // clamps and choices
   std::size_t guards = 0;  // against subnormals
   std::size_t states = 0;
 };
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);
 
-// In: canonical form, decomposition, scheme, rate, scalar. Out: the law. Ensures: constants rounded once from extended
+// In: normal form, decomposition of its linear part, scheme, rate, scalar. Out: the law. Ensures: constants rounded once from extended
 // precision. Warns: a relaxation faster than two samples; a float that cannot carry stiffest and slowest mode together.
-UpdateLaw discretise(const Network& network, const LinearForm& form, const Decomposition& decomposition,
+UpdateLaw discretise(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                      const Choices& choices, double rate, Diagnostics& diagnostics);
 
 std::string to_text(const UpdateLaw& law, const Network& network);

@@ -126,7 +126,7 @@ class CppPrinter {
     spelling.coefficient = [&](const Coefficient& coefficient) {
       used_coefficients_.insert(&coefficient);
       if (coefficient.element_names.empty()) return coefficient.name;
-      return rolled_ ? coefficient.name + "[i + j]" : coefficient.element_names[place];
+      return is_rolled(coefficient) ? coefficient.name + "[i + j]" : coefficient.element_names[place];
     };
     spelling.flush = [&](const std::string& value) {
       uses_flush_ = true;
@@ -134,6 +134,9 @@ class CppPrinter {
     };
     // A sum is one operand: inside a longer expression its terms keep together.
     const bool is_whole = law_.expressions[id].operation == Operation::sum;
+    spelling.clamp = [](const std::string& value, const std::string& limit) {
+      return fmt::format("dashpot::clamp_to({}, {})", limit, value);
+    };
     spelling.sum = [&](const Variable& vector) {
       const std::string terms = sum_text(vector);
       return is_whole || rolled_ || vector.size == 1 ? terms : "(" + terms + ")";
@@ -153,13 +156,16 @@ class CppPrinter {
   }
 
   static std::string scalar_name(const Variable& variable) {
-    return variable.role == Role::state ? variable.name + "_" : variable.name;
+    const std::string& name = variable.element_names.empty() ? variable.name : variable.element_names.front();
+    return variable.role == Role::state ? name + "_" : name;
   }
 
   std::string vector_name(const Variable& variable, std::size_t place) const {
     if (rolled_) return variable.role == Role::state ? variable.name + "_[i + j]" : variable.name;
     return variable.role == Role::state ? variable.element_names[place] + "_" : variable.element_names[place];
   }
+
+  bool is_rolled(const Coefficient& coefficient) const { return rolled_ && coefficient.values.size() > 1; }
 
   std::size_t padded_size(const Statement& statement) const { return padded(law_.variables[statement.target].size); }
   std::size_t padded(std::size_t size) const { return (size + law_.lanes - 1) / law_.lanes * law_.lanes; }
@@ -179,7 +185,7 @@ class CppPrinter {
     const std::string note = fmt::format("  // {} [{}]", coefficient.meaning, coefficient.unit);
     if (coefficient.element_names.empty()) {
       lines.push_back(fmt::format("static constexpr scalar {} = {};{}", coefficient.name, literal(coefficient.values[0]), note));
-    } else if (!rolled_) {
+    } else if (!is_rolled(coefficient)) {
       for (std::size_t place = 0; place < coefficient.values.size(); ++place)
         lines.push_back(fmt::format("static constexpr scalar {} = {};{}", coefficient.element_names[place],
                                     literal(coefficient.values[place]), note));

@@ -7,6 +7,7 @@
 
 #include "decompose/decomposition.hpp"
 #include "discretise/update_law.hpp"
+#include "linear/normal_form.hpp"
 #include "network/device.hpp"
 
 namespace dashpot::compiler {
@@ -14,7 +15,7 @@ namespace dashpot::compiler {
 // Everything that the stages before found out about one network.
 struct Compilation {
   Network network;
-  LinearForm form;
+  NormalForm form;
   Decomposition decomposition;
   UpdateLaw law;
   double rate = 0;  // [Hz]

@@ -112,12 +112,12 @@ CodeModel test_model(const Compilation& c) {
   fields["name"] = c.network.name;
   fields["scheme"] = name_of(c.law.scheme);
   fields["rate"] = fmt::format("{:#}", c.rate);
-  fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.static_stiffness));
-  fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.feedthrough_damping));
+  fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.linear.static_stiffness));
+  fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.linear.feedthrough_damping));
   fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
   fields["power"] = c.law.scheme == Scheme::exact ? "std::exp(-rate * samples * period)"
                                                   : "std::pow(1 + rate * period, -samples)";
-  for (const Mode& mode : c.form.modes)
+  for (const Mode& mode : c.form.linear.modes)
     model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},
                                     {"relaxation_rate", fmt::format("{:#}", to_double(mode.relaxation_rate))}});
   model.lists["modes"];

@@ -7,14 +7,7 @@
 #include <map>
 #include <numeric>
 
-// Boost's own traits of this version lack members that Eigen 3.4 asks for.
-template <>
-struct Eigen::NumTraits<dashpot::compiler::Real> : Eigen::GenericNumTraits<dashpot::compiler::Real> {
-  using Real = dashpot::compiler::Real;
-  using NonInteger = Real;
-  using Nested = Real;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 40, MulCost = 60 };
-};
+#include "linear/real_traits.hpp"
 
 namespace dashpot::compiler {
 namespace {

@@ -15,18 +15,23 @@ void warn_about_tunables(const Network& network, Diagnostics& diagnostics) {
 
 }  // namespace
 
-bool is_linear(const Network& network, Diagnostics& diagnostics) {
-  bool linear = true;
-  for (const Element& element : network.elements)
-    if (std::holds_alternative<Slip>(element.law) && element.has_effect) {
-      diagnostics.report<DiagnosticCode::slip_needs_linear>(element.span, element.name);
-      linear = false;
-    }
+std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics) {
   if (network.contact) {
     diagnostics.report<DiagnosticCode::contact_needs_linear>(network.contact->span);
-    linear = false;
+    return std::nullopt;
   }
-  return linear;
+  std::optional<NormalForm> form = normal_form(network);
+  if (!form) {
+    diagnostics.report<DiagnosticCode::slips_outside_tree>(network.name_span, network.name);
+    return std::nullopt;
+  }
+  for (const NormalTree& component : form->components)
+    if (slip_count(component) > 1) {
+      diagnostics.report<DiagnosticCode::coupled_slips>(network.name_span, slip_count(component));
+      form.reset();
+      break;
+    }
+  return form;
 }
 
 void warn_about_validity(const LinearForm& form, const Network& network, Diagnostics& diagnostics) {

@@ -1,12 +1,13 @@
 // What a linear network must be, and whether it does anything where its author says it is valid.
 #pragma once
 
-#include "linear/linear_form.hpp"
+#include "linear/normal_form.hpp"
 
 namespace dashpot::compiler {
 
-// False, with a diagnostic for each, where the network has slips or contact.
-bool is_linear(const Network& network, Diagnostics& diagnostics);
+// The normal form of a network whose step has a closed form. Refuses: contact, slips outside a tree, and components with
+// several slips.
+std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics);
 
 // Warns: no relaxation inside the stated frequency band; tunable parameters taken at their default.
 void warn_about_validity(const LinearForm& form, const Network& network, Diagnostics& diagnostics);

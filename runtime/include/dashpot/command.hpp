@@ -32,4 +32,11 @@ constexpr Scalar flush_below(Scalar threshold, Scalar value) noexcept {
   return value > threshold || value < -threshold ? value : Scalar(0);
 }
 
+// `value` within ± `limit`, which is not negative: what a slip holds of the force that acts on it.
+template <class Scalar>
+constexpr Scalar clamp_to(Scalar limit, Scalar value) noexcept {
+  const Scalar below = value < limit ? value : limit;
+  return below > -limit ? below : -limit;
+}
+
 }  // namespace dashpot

@@ -1,0 +1,107 @@
+#include "discretise/law_writer.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace dashpot::compiler {
+namespace {
+
+std::string lowered(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+Names suffixed(const Names& names, const std::string& suffix) {
+  Names result;
+  for (const std::string& name : names) result.push_back(joined(name, suffix));
+  return result;
+}
+
+}  // namespace
+
+std::string joined(std::string first, const std::string& second) {
+  if (first.empty()) return second;
+  while (!first.empty() && first.back() == '_') first.pop_back();
+  return first + "_" + second;
+}
+
+double rounded(const Real& value, ScalarType scalar) {
+  return scalar == ScalarType::float64 ? to_double(value) : double(value.convert_to<float>());
+}
+
+LawWriter::LawWriter(UpdateLaw& law, motion port_motion)
+    : law_(law),
+      length_(port_motion == motion::rotation ? "rad" : "m"),
+      force_(port_motion == motion::rotation ? "N·m" : "N") {}
+
+std::string LawWriter::unique(const std::string& name) {
+  std::string candidate = name;
+  for (int i = 2; !taken_.insert(lowered(candidate)).second; ++i) candidate = joined(name, std::to_string(i));
+  return candidate;
+}
+
+VariableId LawWriter::scalar(const std::string& name, const std::string& unit, const std::string& meaning, Role role) {
+  law_.variables.push_back({name, unit, meaning, role, 1, {}});
+  return static_cast<VariableId>(law_.variables.size() - 1);
+}
+
+VariableId LawWriter::vector(const VectorName& name, const std::string& unit, const std::string& meaning, Role role,
+                             const Names& names) {
+  law_.variables.push_back({joined(name.whose, name.what), unit, meaning, role, names.size(), suffixed(names, name.what)});
+  return static_cast<VariableId>(law_.variables.size() - 1);
+}
+
+ExpressionId LawWriter::where(ExpressionId condition, ExpressionId left, ExpressionId right) {
+  law_.expressions.push_back({Operation::where, left, right, condition});
+  return static_cast<ExpressionId>(law_.expressions.size() - 1);
+}
+
+ExpressionId LawWriter::constant(const std::string& name, const std::string& unit, const std::string& meaning,
+                                 const Real& value) {
+  law_.coefficients.push_back({name, unit, meaning, {rounded(value, law_.scalar)}, {}});
+  return node(Operation::constant, static_cast<std::uint32_t>(law_.coefficients.size() - 1));
+}
+
+ExpressionId LawWriter::constants(const VectorName& name, const std::string& unit, const std::string& meaning,
+                                  const std::vector<Real>& values, const Names& names) {
+  Coefficient coefficient{joined(name.whose, name.what), unit, meaning, {}, suffixed(names, name.what)};
+  for (const Real& value : values) coefficient.values.push_back(rounded(value, law_.scalar));
+  law_.coefficients.push_back(std::move(coefficient));
+  return node(Operation::constant, static_cast<std::uint32_t>(law_.coefficients.size() - 1));
+}
+
+VariableId LawWriter::reads(ExpressionId expression) const {
+  const Expression& e = law_.expressions[expression];
+  return e.operation == Operation::read ? e.left : nothing;
+}
+
+VariableId LawWriter::kept(VariableId local) {
+  if (const auto known = kept_.find(local); known != kept_.end()) return known->second;
+  Variable state = law_.variables[local];
+  state.name = joined("sampled", state.name);
+  for (std::string& name : state.element_names) name = joined("sampled", name);
+  state.meaning += (state.meaning.empty() ? "" : ", ") + std::string("at this sample");
+  state.role = Role::state;
+  law_.variables.push_back(std::move(state));
+  const auto id = static_cast<VariableId>(law_.variables.size() - 1);
+  assign(law_.keep, id, read(local), "");
+  kept_.emplace(local, id);
+  return id;
+}
+
+ExpressionId LawWriter::plus(ExpressionId sum, ExpressionId value) {
+  if (sum == nothing) return value;
+  return value == nothing ? sum : add(sum, value);
+}
+
+void LawWriter::assign(std::vector<Statement>& program, VariableId target, ExpressionId value, std::string purpose,
+                       std::vector<std::vector<std::size_t>> origins) {
+  program.push_back({target, value, std::move(purpose), std::move(origins)});
+}
+
+ExpressionId LawWriter::node(Operation operation, std::uint32_t left, std::uint32_t right) {
+  law_.expressions.push_back({operation, left, right});
+  return static_cast<ExpressionId>(law_.expressions.size() - 1);
+}
+
+}  // namespace dashpot::compiler

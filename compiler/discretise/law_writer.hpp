@@ -1,0 +1,86 @@
+// Writes the statements of an update law.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "discretise/update_law.hpp"
+#include "linear/real.hpp"
+
+namespace dashpot::compiler {
+
+inline constexpr std::uint32_t nothing = static_cast<std::uint32_t>(-1);  // no variable, no expression
+
+// Joins two parts of a C++ name by one underscore; the first may be empty.
+std::string joined(std::string first, const std::string& second);
+
+// The nearest number of the law's scalar type.
+double rounded(const Real& value, ScalarType scalar);
+
+// One emitted name a place, for vectors: "B1_K1" gives "B1_K1_force", …
+using Names = std::vector<std::string>;
+
+// What a vector holds, and whose it is where several vectors hold the same: the vector is called by both, its places by
+// their own name and `what`.
+struct VectorName {
+  std::string whose;
+  std::string what;
+};
+
+class LawWriter {
+ public:
+  LawWriter(UpdateLaw& law, motion port_motion);
+
+  UpdateLaw& law() { return law_; }
+  const std::string& length() const { return length_; }
+  const std::string& force() const { return force_; }
+  std::string velocity() const { return length_ + "/s"; }
+  std::string stiffness() const { return length_ == "m" ? "N/m" : "N·m/rad"; }
+  std::string damping() const { return length_ == "m" ? "N·s/m" : "N·m·s/rad"; }
+  std::string compliance() const { return length_ + "/" + force_; }
+
+  // The name itself, or with a number behind it where a name of the law, ignoring case, is that already.
+  std::string unique(const std::string& name);
+
+  VariableId scalar(const std::string& name, const std::string& unit, const std::string& meaning, Role role);
+  // One place for each of `names`.
+  VariableId vector(const VectorName& name, const std::string& unit, const std::string& meaning, Role role,
+                    const Names& names);
+
+  ExpressionId read(VariableId variable) { return node(Operation::read, variable); }
+  ExpressionId add(ExpressionId left, ExpressionId right) { return node(Operation::add, left, right); }
+  ExpressionId subtract(ExpressionId left, ExpressionId right) { return node(Operation::subtract, left, right); }
+  ExpressionId multiply(ExpressionId left, ExpressionId right) { return node(Operation::multiply, left, right); }
+  ExpressionId flush(ExpressionId value) { return node(Operation::flush, value); }
+  ExpressionId clamp(ExpressionId value, ExpressionId limit) { return node(Operation::clamp, value, limit); }
+  // `left` where `condition` is above zero, else `right`.
+  ExpressionId where(ExpressionId condition, ExpressionId left, ExpressionId right);
+  ExpressionId sum(VariableId vector) { return node(Operation::sum, read(vector)); }
+  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, const Real& value);
+  ExpressionId constants(const VectorName& name, const std::string& unit, const std::string& meaning,
+                         const std::vector<Real>& values, const Names& names);
+
+  // The variable that an expression is, or `nothing` where it is more than that.
+  VariableId reads(ExpressionId expression) const;
+
+  // The state that carries a local of the output, or an input, over to the update.
+  VariableId kept(VariableId local);
+
+  // sum + value, where either may be `nothing`.
+  ExpressionId plus(ExpressionId sum, ExpressionId value);
+
+  void assign(std::vector<Statement>& program, VariableId target, ExpressionId value, std::string purpose,
+              std::vector<std::vector<std::size_t>> origins = {});
+
+ private:
+  ExpressionId node(Operation operation, std::uint32_t left, std::uint32_t right = 0);
+
+  UpdateLaw& law_;
+  std::string length_, force_;
+  std::map<VariableId, VariableId> kept_;
+  std::set<std::string> taken_ = {"relaxed", "velocity", "no", "step", "last", "sampled"};  // begin names of the law's own
+};
+
+}  // namespace dashpot::compiler

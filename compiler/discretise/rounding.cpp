@@ -1,0 +1,27 @@
+#include "discretise/rounding.hpp"
+
+namespace dashpot::compiler {
+
+double unit_roundoff(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-53 : 0x1p-24; }
+
+// An error decays at the rate α, so that 1/α equal ones add up. Product: the rounding of aF, of the sum, and of `a`
+// itself are each relative to F. Delta: only the sum's is; αF, α, the gain and its product are relative to what they
+// add. Compensated: the sum's is carried to the second order.
+double error_bound(ModeForm form, double loss, double roundoff) {
+  switch (form) {
+    case ModeForm::product: return 3 * roundoff / loss + 2 * roundoff;
+    case ModeForm::delta: return roundoff / loss + 4 * roundoff;
+    case ModeForm::compensated: return 6 * roundoff + 2 * roundoff * roundoff / loss;
+  }
+  return 0;
+}
+
+ModeForm cheapest_form(double smallest_loss, ScalarType scalar) {
+  const ModeForm plain = scalar == ScalarType::float64 ? ModeForm::product : ModeForm::delta;
+  const double tolerated = scalar == ScalarType::float64 ? 1e-12 : 1e-3;
+  return error_bound(plain, smallest_loss, unit_roundoff(scalar)) <= tolerated ? plain : ModeForm::compensated;
+}
+
+double flush_threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,20 @@
+// How rounding spoils a mode's force, and the form of the update that keeps it within bounds.
+#pragma once
+
+#include "discretise/update_law.hpp"
+
+namespace dashpot::compiler {
+
+double unit_roundoff(ScalarType scalar);
+
+// Worst case over any run, relative to the mode's largest force, for a decay of `loss` = 1 − a a sample.
+double error_bound(ModeForm form, double loss, double roundoff);
+
+// The cheapest form whose bound is tolerable: 1e-12 in double, 1e-3 in float.
+ModeForm cheapest_form(double smallest_loss, ScalarType scalar);
+
+// Magnitudes below are set to zero: small enough never to be felt, large enough that products of two kept numbers stay
+// normal [N].
+double flush_threshold(ScalarType scalar);
+
+}  // namespace dashpot::compiler

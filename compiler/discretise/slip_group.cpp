@@ -1,0 +1,264 @@
+#include "discretise/slip_group.hpp"
+
+#include <algorithm>
+
+#include "discretise/element_names.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+bool all_equal(const std::vector<Real>& values, int expected) {
+  return std::all_of(values.begin(), values.end(), [=](const Real& value) { return value == expected; });
+}
+
+template <class ValueOf>
+std::vector<Real> column(const std::vector<Row>& rows, ValueOf value_of) {
+  std::vector<Real> values;
+  for (const Row& row : rows) values.push_back(value_of(row));
+  return values;
+}
+
+char kind_of(const Real& coefficient) { return coefficient == 0 ? '0' : coefficient == 1 ? '1' : coefficient == -1 ? 'm' : 'x'; }
+
+std::string kind_of(const Row& row) {
+  std::string kinds(1, kind_of(row.change));
+  for (const Real& coefficient : row.held) kinds += kind_of(coefficient);
+  return kinds + kind_of(row.excess);
+}
+
+// A damper holds no force once the tool rests.
+bool holds_nothing(const LinearForm& form) { return form.static_stiffness == 0 && form.modes.empty(); }
+
+void forget(std::size_t block, SlipResponse& response) {
+  response.trial.held[block] = 0;
+  response.force.held[block] = 0;
+  for (Row& row : response.elongation) row.held[block] = 0;
+}
+
+}  // namespace
+
+SlipGroup::SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period)
+    : writer_(writer), network_(network), sample_period_(sample_period) {}
+
+// g = k0 + b∞/h + Σ c_i
+SlipResponse SlipGroup::response_of(const NormalTree& component) const {
+  std::vector<Real> stiffness;
+  for (const NormalTree* block : blocks_of(component)) {
+    Real g = block->form.static_stiffness + block->form.feedthrough_damping / sample_period_;
+    for (const Mode& mode : block->form.modes)
+      g += mode_coefficients(mode, writer_.law().scheme, StateInput::position, sample_period_).position_gain;
+    stiffness.push_back(g);
+  }
+  SlipResponse response = slip_response(component, stiffness);
+  for (std::size_t i = 0; i < response.blocks.size(); ++i)
+    if (holds_nothing(response.blocks[i].block->form)) forget(i, response);
+  return response;
+}
+
+std::string SlipGroup::shape(const SlipResponse& response) const {
+  std::string text = kind_of(response.trial) + kind_of(response.force);
+  text += same_but_for_excess(response.trial, response.force) ? "=" : "!";
+  for (std::size_t i = 0; i < response.blocks.size(); ++i) {
+    const LinearForm& form = response.blocks[i].block->form;
+    text += form.static_stiffness > 0 ? 's' : '-';
+    text += form.modes.empty() ? '-' : 'm';
+    text += kind_of(response.elongation[i]);
+  }
+  return text;
+}
+
+bool SlipGroup::accepts(const NormalTree& component) const {
+  const SlipResponse response = response_of(component);
+  const auto has_modes = [](const CompanionBlock& block) { return !block.block->form.modes.empty(); };
+  return !responses_.empty() && shape(response) == shape(responses_.front()) &&
+         std::none_of(response.blocks.begin(), response.blocks.end(), has_modes);
+}
+
+void SlipGroup::add(const NormalTree& component) {
+  responses_.push_back(response_of(component));
+  const SlipResponse& response = responses_.back();
+  names_.push_back(writer_.unique(name_of(response.slip_elements, network_)));
+  blocks_.resize(response.blocks.size());
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const NormalTree& block = *response.blocks[i].block;
+    blocks_[i].forms.push_back(block.form);
+    blocks_[i].names.push_back(writer_.unique(name_of(block.elements, network_)));
+    blocks_[i].has_spring = block.form.static_stiffness > 0;
+    if (block.form.modes.empty()) continue;
+    Names mode_names;
+    for (const Mode& mode : block.form.modes) mode_names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
+    blocks_[i].modes = std::make_unique<ModeBank>(writer_, block.form.modes, StateInput::position, sample_period_,
+                                                  std::move(mode_names), blocks_[i].names.front());
+  }
+}
+
+double SlipGroup::smallest_loss() const {
+  double smallest = 1;
+  for (const Block& block : blocks_)
+    if (block.modes) smallest = std::min(smallest, block.modes->smallest_loss());
+  return smallest;
+}
+
+void SlipGroup::declare() {
+  prefix_ = names_.front();
+  for (Block& block : blocks_) {
+    if (block.has_spring)
+      block.spring_force = writer_.vector({block.names.front(), "spring_force"}, writer_.force(), "force of the spring", Role::state, block.names);
+    if (block.modes) block.modes->declare();
+  }
+}
+
+// t = t_stuck, s = clamp(t, ±Y), r = t − s, f = f_stuck − ρ r
+ExpressionId SlipGroup::write_output(VariableId change) {
+  std::vector<Statement>& output = writer_.law().output;
+  now_.change = change;
+  now_.trial = local("trial", "the slip's force if it held");
+  std::vector<Row> trial = rows(&SlipResponse::trial);
+  for (Row& row : trial) row.excess = 0;
+  writer_.assign(output, now_.trial, expression("trial", trial, {change, nothing, nothing, nothing}), "t = stuck trial", origins());
+  std::vector<Real> yields;
+  for (const SlipResponse& response : responses_) yields.push_back(response.yield_force);
+  now_.slip = local("slip", "the slip's force");
+  const ExpressionId limit = writer_.constants({prefix_, "yield"}, writer_.force(), "Y", yields, names_);
+  writer_.assign(output, now_.slip, writer_.clamp(writer_.read(now_.trial), limit), "s = clamp(t, ±Y)", origins());
+  now_.excess = local("excess", "what the slip does not hold");
+  writer_.assign(output, now_.excess, writer_.subtract(writer_.read(now_.trial), writer_.read(now_.slip)), "r = t − s");
+  const ExpressionId force = expression("force", rows(&SlipResponse::force), now_);
+  if (names_.size() == 1) return force;
+  if (writer_.reads(force) == now_.slip) return writer_.sum(now_.slip);
+  const VariableId shares = local("force", "the component's force");
+  writer_.assign(output, shares, force, "f = f_stuck − ρ r", origins());
+  return writer_.sum(shares);
+}
+
+// F0 ← F0 + k0 δ; modes by their own drive δ. New forces come before old ones go.
+void SlipGroup::write_update(VariableId) {
+  std::vector<Statement>& update = writer_.law().update;
+  Terms kept_terms = {kept(now_.change), nothing, nothing, nothing};
+  std::vector<std::pair<VariableId, VariableId>> replaced;
+  std::vector<VariableId> drives(blocks_.size(), nothing);
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    Block& block = blocks_[i];
+    if (block.modes) {
+      drives[i] = writer_.vector({block.names.front(), "elongation"}, writer_.length(), "", Role::local, block.names);
+      writer_.assign(update, drives[i], expression(joined(block.names.front(), "elongation"), elongations(i), kept_terms), "δ of the block", {});
+    }
+    if (!block.has_spring) continue;
+    std::vector<Row> next = elongations(i);
+    for (std::size_t place = 0; place < next.size(); ++place) {
+      next[place] = block.forms[place].static_stiffness * next[place];
+      if (!block.modes) next[place].held[i] += 1;
+      next[place] = snapped(next[place]);
+    }
+    ExpressionId force = expression(joined(block.names.front(), "spring"), next, kept_terms);
+    if (block.modes) force = writer_.add(writer_.read(block.spring_force), force);
+    if (is_only_state(i)) {
+      writer_.assign(update, block.spring_force, writer_.flush(force), "F ← F + k δ", origins());
+      continue;
+    }
+    const VariableId fresh = writer_.vector({block.names.front(), "spring_force_next"}, writer_.force(), "", Role::local, block.names);
+    writer_.assign(update, fresh, writer_.flush(force), "F ← F + k δ", origins());
+    replaced.emplace_back(block.spring_force, fresh);
+  }
+  for (const auto& [old, fresh] : replaced) writer_.assign(update, old, writer_.read(fresh), "");
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    if (blocks_[i].modes) blocks_[i].modes->write_update(drives[i], nothing);
+}
+
+// ½ F0²/k0 + Σ F²/(2k)
+ExpressionId SlipGroup::energy() {
+  ExpressionId sum = nothing;
+  for (Block& block : blocks_) {
+    if (block.has_spring) {
+      std::vector<Real> weights;
+      for (const LinearForm& form : block.forms) weights.push_back(1 / (2 * form.static_stiffness));
+      const ExpressionId weight = writer_.constants({block.names.front(), "compliance"}, writer_.compliance(), "1/(2 k)", weights, block.names);
+      const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)), writer_.read(block.spring_force));
+      const VariableId stored = writer_.vector({block.names.front(), "spring_energy"}, "J", "", Role::local, block.names);
+      writer_.assign(writer_.law().energy, stored, squared, "F²/(2k)", origins());
+      sum = writer_.plus(sum, block.names.size() == 1 ? writer_.read(stored) : writer_.sum(stored));
+    }
+    if (block.modes) sum = writer_.plus(sum, block.modes->energy());
+  }
+  return sum;
+}
+
+bool SlipGroup::is_only_state(std::size_t block) const {
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    if (blocks_[i].modes || (i != block && blocks_[i].has_spring)) return false;
+  return true;
+}
+
+std::vector<Row> SlipGroup::rows(Row SlipResponse::*row) const {
+  std::vector<Row> all;
+  for (const SlipResponse& response : responses_) all.push_back(response.*row);
+  return all;
+}
+
+std::vector<Row> SlipGroup::elongations(std::size_t block) const {
+  std::vector<Row> all;
+  for (const SlipResponse& response : responses_) all.push_back(response.elongation[block]);
+  return all;
+}
+
+// π = F0 + Σ a F; nothing for a lone damper.
+ExpressionId SlipGroup::held_force(const Block& block) {
+  const ExpressionId spring = block.has_spring ? writer_.read(block.spring_force) : nothing;
+  return writer_.plus(spring, block.modes ? writer_.read(block.modes->decayed_sum()) : nothing);
+}
+
+// A row that is the trial's but for the excess needs no products of its own, and less the whole excess it is the slip's
+// force itself. Variables of the output that a row of the update refers to are kept from one to the other.
+ExpressionId SlipGroup::expression(const std::string& what, const std::vector<Row>& rows, Terms terms) {
+  const bool in_output = terms.excess != nothing || what == "trial";
+  const bool like_trial = what != "trial" && std::equal(rows.begin(), rows.end(), responses_.begin(), [](const Row& row, const SlipResponse& response) {
+    return same_but_for_excess(row, response.trial);
+  });
+  const std::vector<Real> excess = column(rows, [](const Row& row) { return row.excess; });
+  const auto at_hand = [&](VariableId local) { return in_output ? local : kept(local); };
+  if (like_trial && all_equal(excess, -1)) return writer_.read(at_hand(now_.slip));
+  ExpressionId sum = nothing;
+  if (like_trial) {
+    sum = writer_.read(at_hand(now_.trial));
+  } else {
+    sum = term(what + "_by_change", writer_.stiffness(), "for a change of position", column(rows, [](const Row& row) { return row.change; }), writer_.read(terms.change), sum);
+    for (std::size_t i = 0; i < blocks_.size(); ++i)
+      if (const ExpressionId held = held_force(blocks_[i]); held != nothing)
+        sum = term(what + "_by_" + blocks_[i].names.front(), "1", "for a force held there", column(rows, [i](const Row& row) { return row.held[i]; }), held, sum);
+  }
+  if (!all_equal(excess, 0)) sum = term(what + "_by_excess", "1", "for what the slip does not hold", excess, writer_.read(at_hand(now_.excess)), sum);
+  return sum == nothing ? writer_.constant(joined(prefix_, what + "_none"), writer_.force(), "nothing", 0) : sum;
+}
+
+// sum + values·factor, without a product where all values are 0, 1 or −1.
+ExpressionId SlipGroup::term(const std::string& name, const std::string& unit, const char* meaning,
+                             std::vector<Real> values, ExpressionId factor, ExpressionId sum) {
+  if (all_equal(values, 0)) return sum;
+  if (all_equal(values, 1)) return writer_.plus(sum, factor);
+  const bool falls = std::all_of(values.begin(), values.end(), [](const Real& value) { return value < 0; }) && sum != nothing;
+  if (falls)
+    for (Real& value : values) value = -value;
+  const ExpressionId product =
+      all_equal(values, 1) ? factor : writer_.multiply(writer_.constants({prefix_, name}, unit, meaning, values, names_), factor);
+  return falls ? writer_.subtract(sum, product) : writer_.plus(sum, product);
+}
+
+VariableId SlipGroup::kept(VariableId local) { return writer_.kept(local); }
+
+VariableId SlipGroup::local(const std::string& what, const std::string& meaning) {
+  return writer_.vector({prefix_, what}, writer_.force(), meaning, Role::local, names_);
+}
+
+std::vector<std::vector<std::size_t>> SlipGroup::origins() const {
+  std::vector<std::vector<std::size_t>> all;
+  for (const SlipResponse& response : responses_) {
+    std::vector<std::size_t> elements = response.slip_elements;
+    for (const CompanionBlock& block : response.blocks)
+      elements.insert(elements.end(), block.block->elements.begin(), block.block->elements.end());
+    std::sort(elements.begin(), elements.end());
+    all.push_back(std::move(elements));
+  }
+  return all;
+}
+
+}  // namespace dashpot::compiler

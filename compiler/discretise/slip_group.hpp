@@ -1,0 +1,68 @@
+// Components with one slip each and the same shape, written as vectors with one place a component (theory, section 5,
+// closed form): stuck trial minus excess.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discretise/law_writer.hpp"
+#include "discretise/mode_bank.hpp"
+#include "discretise/slip_response.hpp"
+
+namespace dashpot::compiler {
+
+class SlipGroup {
+ public:
+  SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period);
+
+  // True where the component fits those already in: the same rows but for their numbers, and no modes.
+  bool accepts(const NormalTree& component) const;
+  void add(const NormalTree& component);
+
+  double smallest_loss() const;
+  void declare();  // to be called when the law's mode form is settled
+
+  // The components' share of the force, from the tool's displacement in this sample.
+  ExpressionId write_output(VariableId change);
+  void write_update(VariableId sampled_change);
+  ExpressionId energy();  // nothing without springs
+
+ private:
+  struct Block {
+    Names names;
+    std::vector<LinearForm> forms;      // one a component
+    std::unique_ptr<ModeBank> modes;    // of a single component
+    VariableId spring_force = nothing;  // F0, of the static stiffness
+    bool has_spring = false;
+  };
+
+  // The variables that a row may refer to.
+  struct Terms {
+    VariableId change, trial, slip, excess;
+  };
+
+  SlipResponse response_of(const NormalTree& component) const;
+  std::string shape(const SlipResponse& response) const;
+  std::vector<Row> rows(Row SlipResponse::*row) const;
+  std::vector<Row> elongations(std::size_t block) const;
+  ExpressionId held_force(const Block& block);
+  ExpressionId expression(const std::string& what, const std::vector<Row>& rows, Terms terms);
+  ExpressionId term(const std::string& name, const std::string& unit, const char* meaning, std::vector<Real> values,
+                    ExpressionId factor, ExpressionId sum);
+  bool is_only_state(std::size_t block) const;
+  VariableId kept(VariableId local);
+  VariableId local(const std::string& what, const std::string& meaning);
+  std::vector<std::vector<std::size_t>> origins() const;
+
+  LawWriter& writer_;
+  const Network& network_;
+  Real sample_period_;
+  std::string prefix_;
+  Names names_;  // of the slips
+  std::vector<SlipResponse> responses_;
+  std::vector<Block> blocks_;
+  Terms now_{nothing, nothing, nothing, nothing};
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,46 @@
+// How a component with one slip answers a sample (theory, section 5): everything is linear in the displacement Δu of the
+// tool, the forces π_i that the blocks would hold at rest, and the excess r of the slip's trial force over its yield.
+#pragma once
+
+#include <vector>
+
+#include "linear/normal_form.hpp"
+#include "linear/real.hpp"
+
+namespace dashpot::compiler {
+
+// A linear part with its companion over one sample, p = g δ + π.
+struct CompanionBlock {
+  const NormalTree* block;
+  Real stiffness;  // g = k0 + b∞/h + Σ c_i [N/m]
+};
+
+// One quantity as a combination: change·Δu + Σ held[i]·π_i + excess·r. Coefficients that theory makes 0 or ±1 are so.
+struct Row {
+  Real change;
+  std::vector<Real> held;
+  Real excess;
+};
+
+struct SlipResponse {
+  std::vector<CompanionBlock> blocks;
+  double yield_force;
+  std::vector<std::size_t> slip_elements;
+  Row trial;                 // t: the slip's force if it held
+  Row force;                 // f: what the component opposes to the tool
+  std::vector<Row> elongation;  // δ_i of each block
+};
+
+// `stiffness_of` gives g of a block. The component must hold exactly one slip.
+SlipResponse slip_response(const NormalTree& component, const std::vector<Real>& block_stiffness);
+
+// The blocks of a component in the order of `block_stiffness` and of SlipResponse::blocks.
+std::vector<const NormalTree*> blocks_of(const NormalTree& component);
+
+Row operator+(Row first, const Row& second);
+Row operator*(const Real& factor, Row row);
+// Coefficients within rounding of 0, 1 and −1, relative to the row's largest, become exact.
+Row snapped(Row row);
+bool same_but_for_excess(const Row& first, const Row& second);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,130 @@
+#include "linear/normal_form.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace dashpot::compiler {
+namespace {
+
+void unite(std::vector<std::size_t>& all, const std::vector<std::size_t>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+  std::sort(all.begin(), all.end());
+}
+
+NormalTree leaf(const Network& network, std::size_t index) {
+  const Law& law = network.elements[index].law;
+  if (const Slip* slip = std::get_if<Slip>(&law)) return {NormalTree::Kind::slip, {}, slip->yield_force, {index}, {}};
+  NormalTree block{NormalTree::Kind::block, {}, 0, {index}, {}};
+  if (const Spring* spring = std::get_if<Spring>(&law)) {
+    block.form.static_stiffness = spring->stiffness;
+    block.form.static_elements = {index};
+  }
+  if (const Damper* damper = std::get_if<Damper>(&law)) {
+    block.form.feedthrough_damping = damper->damping;
+    block.form.feedthrough_elements = {index};
+  }
+  return block;
+}
+
+LinearForm in_series(const std::vector<const LinearForm*>& forms) {
+  LinearForm mobility;
+  for (const LinearForm* form : forms) mobility = in_parallel(std::move(mobility), reciprocal(*form));
+  return reciprocal(mobility);
+}
+
+void name_origins(LinearForm& form, const std::vector<std::size_t>& elements) {
+  for (Mode& mode : form.modes) mode.elements = elements;
+  if (form.static_stiffness > 0) form.static_elements = elements;
+  if (form.feedthrough_damping > 0) form.feedthrough_elements = elements;
+}
+
+NormalTree merged_blocks(NormalTree::Kind kind, const std::vector<NormalTree>& blocks) {
+  if (blocks.size() == 1) return blocks.front();
+  NormalTree all{NormalTree::Kind::block, {}, 0, {}, {}};
+  std::vector<const LinearForm*> forms;
+  for (const NormalTree& block : blocks) {
+    forms.push_back(&block.form);
+    unite(all.elements, block.elements);
+    if (kind == NormalTree::Kind::parallel) all.form = in_parallel(std::move(all.form), block.form);
+  }
+  if (kind == NormalTree::Kind::series) {
+    all.form = in_series(forms);
+    name_origins(all.form, all.elements);
+  }
+  return all;
+}
+
+// Slips in series yield at the least of their forces, in parallel at the sum.
+NormalTree merged_slips(NormalTree::Kind kind, const std::vector<NormalTree>& slips) {
+  NormalTree all{NormalTree::Kind::slip, {}, 0, {}, {}};
+  if (kind == NormalTree::Kind::series) all.yield_force = std::numeric_limits<double>::infinity();
+  for (const NormalTree& slip : slips) {
+    all.yield_force = kind == NormalTree::Kind::series ? std::min(all.yield_force, slip.yield_force)
+                                                       : all.yield_force + slip.yield_force;
+    unite(all.elements, slip.elements);
+  }
+  return all;
+}
+
+NormalTree normal(const Tree& tree, const Network& network) {
+  if (tree.kind == Tree::Kind::leaf) return leaf(network, tree.element);
+  const auto kind = tree.kind == Tree::Kind::series ? NormalTree::Kind::series : NormalTree::Kind::parallel;
+  std::vector<NormalTree> blocks, slips, rest;
+  for (const Tree& child : tree.children) {
+    NormalTree part = normal(child, network);
+    auto& group = part.kind == NormalTree::Kind::block ? blocks : part.kind == NormalTree::Kind::slip ? slips : rest;
+    group.push_back(std::move(part));
+  }
+  NormalTree result{kind, {}, 0, {}, {}};
+  if (!blocks.empty()) result.children.push_back(merged_blocks(kind, blocks));
+  if (!slips.empty()) result.children.push_back(merged_slips(kind, slips));
+  for (NormalTree& part : rest) result.children.push_back(std::move(part));
+  if (result.children.size() == 1) return std::move(result.children.front());
+  return result;
+}
+
+bool has_slips(const Network& network) {
+  return std::any_of(network.elements.begin(), network.elements.end(), [](const Element& element) {
+    return element.has_effect && std::holds_alternative<Slip>(element.law);
+  });
+}
+
+void mark_without_effect(const NormalTree& tree, Network& network) {
+  for (std::size_t element : tree.elements) network.elements[element].has_effect = false;
+  for (const NormalTree& child : tree.children) mark_without_effect(child, network);
+}
+
+}  // namespace
+
+std::optional<NormalForm> normal_form(const Network& network) {
+  if (!has_slips(network)) return NormalForm{linear_form(network), {}};
+  const std::optional<Tree> tree = series_parallel_tree(network);
+  if (!tree) return std::nullopt;
+  NormalTree root = normal(*tree, network);
+  NormalForm form;
+  if (root.kind != NormalTree::Kind::parallel) {
+    form.components.push_back(std::move(root));
+    return form;
+  }
+  for (NormalTree& child : root.children) {
+    if (child.kind == NormalTree::Kind::block)
+      form.linear = std::move(child.form);
+    else
+      form.components.push_back(std::move(child));
+  }
+  return form;
+}
+
+Network linear_part(const Network& network, const NormalForm& form) {
+  Network linear = network;
+  for (const NormalTree& component : form.components) mark_without_effect(component, linear);
+  return linear;
+}
+
+std::size_t slip_count(const NormalTree& tree) {
+  std::size_t count = tree.kind == NormalTree::Kind::slip ? 1 : 0;
+  for (const NormalTree& child : tree.children) count += slip_count(child);
+  return count;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,37 @@
+// A network with slips as a tree of linear blocks and slips (theory, section 5): every linear part is one block with its
+// canonical form, every part of slips alone one slip.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "linear/linear_form.hpp"
+#include "network/tree.hpp"
+
+namespace dashpot::compiler {
+
+struct NormalTree {
+  enum class Kind { block, slip, series, parallel };
+  Kind kind;
+  LinearForm form;                     // of a block
+  double yield_force = 0;              // of a slip [N] or [N·m]
+  std::vector<std::size_t> elements;   // of a block or slip: indices into Network::elements
+  std::vector<NormalTree> children;    // of series and parallel: no two blocks, no two slips, none of its own kind
+};
+
+struct NormalForm {
+  LinearForm linear;                   // what reaches from tool to ground without a slip
+  std::vector<NormalTree> components;  // series with at least one slip each, in parallel with it
+};
+
+// Empty for a network with slips that is no tree. Without slips, `linear` is the canonical form of the whole.
+std::optional<NormalForm> normal_form(const Network& network);
+
+// The same network with everything that is behind a slip marked as without effect.
+Network linear_part(const Network& network, const NormalForm& form);
+
+// Slips in it.
+std::size_t slip_count(const NormalTree& tree);
+
+}  // namespace dashpot::compiler

@@ -42,7 +42,8 @@ std::string evidence(const fault_report& report, motion joint) {
     case fault::position_out_of_range:
       return with_unit(report.seen, position) + " is beyond " + with_unit(report.limit, position);
     case fault::encoder_jump:
-      return "moved " + at_most(with_unit(report.seen, position) + " between two samples", with_unit(report.limit, position));
+      return at_most("moved " + with_unit(report.seen, position) + " between two samples",
+                     with_unit(report.limit, position));
     case fault::velocity_not_finite: return "the estimator returns " + number(report.seen);
     case fault::overspeed: return at_most(with_unit(report.seen, velocity), with_unit(report.limit, velocity));
     case fault::command_not_finite: return "the model returns " + number(report.seen);

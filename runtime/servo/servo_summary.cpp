@@ -26,7 +26,8 @@ std::string faults(const fault_counts& counts) {
   std::string text = "faults   ";
   for (unsigned i = 1; i < fault_kinds; ++i) {
     const auto which = static_cast<fault>(i);
-    if (counts.of(which) != 0) text += print(" %s %llu,", name_of(which), static_cast<unsigned long long>(counts.of(which)));
+    const auto count = static_cast<unsigned long long>(counts.of(which));
+    if (count != 0) text += print(" %s %llu,", name_of(which), count);
   }
   text.back() = '\n';
   return text;
@@ -53,7 +54,7 @@ std::string to_text(const servo_summary& summary) {
                count(summary.held), count(summary.clipped)) +
          durations("wake-up", summary.lateness) + durations("response", summary.response) +
          durations("busy", summary.busy) + faults(summary.faults) +
-         print("energy    %.6g J taken from the tool, at least %.6g J\n", summary.energy, summary.lowest_energy) +
+         print("energy    %.6g J taken from the tool, never below %.6g J\n", summary.energy, summary.lowest_energy) +
          losses(summary) +
          print("ended     %s, device %s\n", name_of(summary.state), summary.left_safe ? "left safe" : "NOT left safe");
 }

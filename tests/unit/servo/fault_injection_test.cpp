@@ -217,7 +217,8 @@ TEST(FaultInjection, RefusedWriteIsFollowedByTheSafeCommand) {
   for (int repetition = 0; repetition < 100; ++repetition) {
     const std::size_t instant = instants(random);
     rig parts;
-    parts.device.on_write([=](std::size_t write) { return write == instant ? device_status::fault : device_status::ok; });
+    parts.device.on_write(
+        [=](std::size_t write) { return write == instant ? device_status::fault : device_status::ok; });
     const outcome result = run(parts);
     for (std::size_t k = 0; k <= instant; ++k) ASSERT_TRUE(same_bits(result.written[k], undisturbed().written[k])) << k;
     for (std::size_t k = instant + 1; k < periods; ++k) ASSERT_TRUE(is_safe(result.written[k])) << k;

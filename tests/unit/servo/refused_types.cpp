@@ -1,4 +1,5 @@
-// Never linked: compiled once for every type that a servo loop must refuse, named by REFUSED, and once for those it takes.
+// Never linked: compiled once for every type that a servo loop must refuse, named by REFUSED, and once for those it
+// takes.
 #include <dashpot/servo/servo_loop.hpp>
 
 #include "stand_in/second_order_maxwell.hpp"

@@ -88,7 +88,8 @@ TEST_F(ServoLoop, StopEndsTheLoopBeforeTheNextReadAndLeavesTheDeviceSafe) {
 
 // Broken, a device that misses the last command would be left with the motor on and the run be called safe.
 TEST_F(ServoLoop, RepeatsTheLastSafeCommandWhileTheDeviceRefusesIt) {
-  device.on_write([](std::size_t write) { return write >= 10 && write < 13 ? device_status::no_data : device_status::ok; });
+  device.on_write(
+      [](std::size_t write) { return write >= 10 && write < 13 ? device_status::no_data : device_status::ok; });
   EXPECT_TRUE(run(10).left_safe);
   EXPECT_EQ(device.written().size(), 14u);
 }
@@ -100,7 +101,8 @@ TEST_F(ServoLoop, GivesUpOnADeviceThatTakesNoCommand) {
   EXPECT_EQ(device.written().size(), 14u);
 }
 
-// Broken, a lost sample would stop the loop, step the model twice, or command something new without knowing anything new.
+// Broken, a lost sample would stop the loop, step the model twice, or command something new without knowing anything
+// new.
 TEST_F(ServoLoop, HoldsTheLastCommandWithoutAFreshSample) {
   device.on_read([](std::size_t read, device_sample& sample) {
     if (read == 20) return device_status::corrupted;
@@ -129,7 +131,8 @@ TEST_F(ServoLoop, SurvivesAndCountsAllowedMissedDeadlines) {
   EXPECT_EQ(summary.lateness.max(), 3'000'000u);
 }
 
-// Broken, the energy of the summary would not be the sum over holds of force times displacement plus what the brake took.
+// Broken, the energy of the summary would not be the sum over holds of force times displacement plus what the brake
+// took.
 TEST_F(ServoLoop, CountsTheEnergyOfEveryHold) {
   device_description ideal = scripted_description();
   ideal.encoder.step = 0;
@@ -150,6 +153,25 @@ TEST_F(ServoLoop, CountsTheEnergyOfEveryHold) {
     energy += -device.written()[k].motor_torque * moved + damping * moved * moved / 0.001;
   }
   EXPECT_NEAR(summary.energy, energy, 1e-12 * std::abs(energy));
+}
+
+// Broken, the brake's coil would be taken for empty after it has carried the safe command, or for full when it has not.
+TEST_F(ServoLoop, KnowsTheCoilFromTheSafeCommandBefore) {
+  options.start_running = false;
+  const auto one_step_aside = [](std::size_t read, device_sample& sample) {
+    sample.position = read > 20 ? 0.001 : 0.0;
+    return device_status::ok;
+  };
+  device_description ideal = scripted_description();
+  ideal.encoder.step = 0;
+  device = scripted_device(ideal);
+  device.on_read(one_step_aside);
+  model.on_output([](std::size_t, command<double>& wanted) { wanted = {7.5, 0.0}; });
+  const servo_summary summary = run(22, [](std::size_t write, servo_control& control) {
+    if (write == 19) control.start();
+  });
+  // b Δu²/Δt over the one hold that was observed.
+  EXPECT_NEAR(summary.energy, 7.5 * 0.001 * 0.001 / 0.001, 1e-15);
 }
 
 // Broken, what the motor creates would be counted and not paid for where the brake is asked to.

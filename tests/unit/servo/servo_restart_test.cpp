@@ -124,7 +124,8 @@ stubborn_run run_stubborn(int deaf_to, std::function<void(std::size_t, servo_con
   return {summary, device.written(), log.text(), device.resets};
 }
 
-// Broken, a board that has gone safe by itself would stay so after the loop's reset, or trip it again before it has left.
+// Broken, a board that has gone safe by itself would stay so after the loop's reset, or trip it again before it has
+// left.
 TEST(ServoRestartOfADevice, WaitsForADeviceThatLeavesItsOwnSafeState) {
   const stubborn_run result = run_stubborn(0, [](std::size_t write, servo_control& control) {
     if (write == 20) control.reset(), control.start();

@@ -38,7 +38,6 @@ class command_path {
   // The next fresh sample is where model and estimator are at rest.
   void start() noexcept {
     monitor_.restart();
-    actuator_.reset();
     demand_ = safe_;
     at_rest_ = false;
   }
@@ -58,8 +57,12 @@ class command_path {
   void finish() noexcept {
     if (!answered_) return;
     model_.update();
-    energy_.settle(output_, position_, hold_time());
+    energy_.observe(position_, hold_time());
+    energy_.hold(output_.applied_force, output_.assured_damping);
   }
+
+  // In place of answer() and finish(), in a period in which safe() was sent: the brake's coil follows it.
+  void rest() noexcept { actuator_.drive({actuator_.gear().tool_damping(safe_.brake_damping), 0}, 0); }
 
   fault_report check_write(device_status status) noexcept { return monitor_.check_write(status); }
 
@@ -75,6 +78,7 @@ class command_path {
  private:
   fault_report respond(const device_sample& sample) noexcept {
     if (!at_rest_) rest_at(sample);
+    hold_coil_over_gap();
     const double joint_velocity = feed_.update(sample, monitor_.periods_since_last());
     if (const fault_report found = monitor_.check_velocity(joint_velocity)) return found;
     position_ = actuator_.gear().tool_motion(sample.position);
@@ -85,7 +89,8 @@ class command_path {
   fault_report drive(const command<scalar>& wanted) noexcept {
     wanted_ = {static_cast<double>(wanted.damping), static_cast<double>(wanted.force)};
     if (const fault_report found = monitor_.check_command(wanted_.damping, wanted_.force)) return found;
-    output_ = actuator_.drive(energy_.control(wanted_, position_, velocity_, hold_time()), velocity_);
+    sent_ = energy_.control(wanted_, position_, velocity_, hold_time());
+    output_ = actuator_.drive(sent_, velocity_);
     if (const fault_report found = monitor_.check_saturation(output_.motor_saturated())) return found;
     demand_ = output_.demand();
     answered_ = true;
@@ -100,6 +105,17 @@ class command_path {
     at_rest_ = true;
   }
 
+  // The coil went on towards the last command while periods passed without a new one. What is certain of the brake over
+  // the whole hold is the least of what is certain over its periods.
+  void hold_coil_over_gap() noexcept {
+    double assured = output_.assured_damping;
+    for (unsigned period = 1; period < monitor_.periods_since_last(); ++period) {
+      const double next = actuator_.drive(sent_, 0).assured_damping;
+      if (next < assured) assured = next;
+    }
+    if (monitor_.periods_since_last() > 1) energy_.hold(output_.applied_force, assured);
+  }
+
   // Of the hold that ends with this period's sample [s].
   double hold_time() const noexcept { return monitor_.periods_since_last() * sample_period_; }
 
@@ -111,7 +127,8 @@ class command_path {
   double sample_period_;  // [s]
   actuation safe_;
   actuation demand_;
-  command<double> wanted_{};
+  command<double> wanted_{};  // by the model
+  command<double> sent_{};    // to the actuator
   actuator_output<double> output_;
   double position_ = 0;  // [m] or [rad]
   double velocity_ = 0;  // [m/s] or [rad/s]

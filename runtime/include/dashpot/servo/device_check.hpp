@@ -1,5 +1,5 @@
 // The device concept of device.hpp, checked in words, and its optional part:
-//     device_status reset() noexcept;   // asks the device to leave a safe state of its own; called with the loop's reset
+//     device_status reset() noexcept;   // asks the device to leave a safe state of its own, with the loop's reset
 #pragma once
 
 #include <type_traits>

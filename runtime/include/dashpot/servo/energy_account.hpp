@@ -27,8 +27,8 @@ class energy_account {
 
   constexpr void reset(double position) noexcept { observer_.reset(position); }
 
-  // Before the command leaves: what to send for what the model `wanted`. At the tool, all of it; `duration` [s] is that of
-  // the hold that ends with this sample.
+  // Before the command leaves: what to send for what the model `wanted`, all at the tool. `duration` [s] is that of the
+  // hold that ends with this sample.
   constexpr command<double> control(const command<double>& wanted, double position, double velocity,
                                     double duration) noexcept {
     if (policy_ == energy_policy::observe) return wanted;
@@ -37,11 +37,14 @@ class energy_account {
     return {controller_.raise(wanted, observer_.balance(), displacement, sample_period_), wanted.force};
   }
 
-  // After it has left.
-  constexpr void settle(const actuator_output<double>& sent, double position, double duration) noexcept {
+  // After it has left, where control() has not done it.
+  constexpr void observe(double position, double duration) noexcept {
     if (policy_ == energy_policy::observe) observer_.observe(position, duration);
-    observer_.hold(sent.applied_force, sent.assured_damping);
   }
+
+  // What motor and brake do over the coming hold: a force opposing +u [N] or [N·m], and the damping that the brake has
+  // at least [N·s/m] or [N·m·s/rad].
+  constexpr void hold(double force, double damping) noexcept { observer_.hold(force, damping); }
 
   // Taken from the tool by motor and brake until the newest sample, at least; below zero: given to it [J].
   constexpr double balance() const noexcept { return observer_.balance(); }

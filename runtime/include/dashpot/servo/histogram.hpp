@@ -42,7 +42,8 @@ class histogram {
   static constexpr unsigned fine = 1u << fine_bits;
   static constexpr unsigned bin_count = (octaves - fine_bits + 1) * fine;
 
-  // A value with its top bit at `fine_bits + shift` lies in octave `shift`, in the bin named by its fine_bits + 1 top bits.
+  // A value with its top bit at `fine_bits + shift` lies in octave `shift`, in the bin named by its fine_bits + 1 top
+  // bits.
   static constexpr unsigned bin_of(std::uint64_t value) noexcept {
     const unsigned shift = shift_of(value);
     return shift * fine + static_cast<unsigned>(value >> shift);

@@ -1,8 +1,8 @@
 // The absolute release times of a periodic loop, and what a late arrival means. Times are [ns] since the loop's start.
 //
 // Release k lies at (k + 1)·period from the start, rounded once to a nanosecond, so that a period that is no whole
-// number of nanoseconds does not drift. Periods that are over before the loop arrives are missed: they are skipped, never
-// run in a burst afterwards.
+// number of nanoseconds does not drift. Periods that are over before the loop arrives are missed: they are skipped,
+// never run in a burst afterwards.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Watches one loop on one device for the faults of device.md, section 6. No heap, no clock, no input or output: the loop
-// shows it what happened in a period, in running order, and sends the safe command when a check returns a fault.
+// Watches one loop on one device for the faults of device.md, section 6. No heap, no clock, no input or output: the
+// loop shows it what happened in a period, in running order, and sends the safe command when a check returns a fault.
 //
 // A sample is fresh when the device calls it ok and its sequence number has moved on. Up to
 // loop.missed_deadlines_allowed periods in a row may pass without one: the loop then holds its last command.
@@ -76,8 +76,8 @@ class safety_monitor {
     return {};
   }
 
-  // What the device answered to the command. One that could not be sent leaves the command before in force, like a missed
-  // deadline, and as many in a row are allowed.
+  // What the device answered to the command. One that could not be sent leaves the command before in force, like a
+  // missed deadline, and as many in a row are allowed.
   constexpr fault_report check_write(device_status status) noexcept {
     commands_lost_ = status == device_status::ok ? 0 : commands_lost_ + 1;
     if (is_broken(status) || commands_lost_ > allowed()) return device_error(status);

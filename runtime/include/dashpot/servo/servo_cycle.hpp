@@ -1,5 +1,5 @@
-// One period of the servo loop after another, in the only order that is allowed: read, answer, write, and then the rest.
-// servo_loop.hpp sets it up and paces it.
+// One period of the servo loop after another, in the only order that is allowed: read, answer, write, and then the
+// rest. servo_loop.hpp sets it up and paces it.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ class servo_cycle {
     const fault_report found = running ? path_.answer(starts ? 0 : woken.missed, status, sample) : fault_report{};
     const device_status taken = device_.write(running ? path_.demand() : path_.safe());
     const std::int64_t left = clock_.now();
-    if (running) path_.finish();
+    running ? path_.finish() : path_.rest();
     if (starts) announce(woken.period, {});
     if (running) trip(found ? found : path_.check_write(taken), woken.period);
     if (start_asked_) announce_waiting(woken.period, status);
@@ -56,7 +56,8 @@ class servo_cycle {
     if (start && machine_.state() == servo_state::idle) start_asked_ = true;
   }
 
-  // Gives the device the safe command, again every period while it does not take it, as often as deadlines may be missed.
+  // Gives the device the safe command, again every period while it does not take it, as often as deadlines may be
+  // missed.
   void leave_device_safe() noexcept {
     for (unsigned attempt = 0; attempt <= loop_.missed_deadlines_allowed && !summary_.left_safe; ++attempt) {
       if (attempt > 0) clock_.wait();

@@ -5,9 +5,10 @@
 //     stop_on_signals guard(loop.control());                // Ctrl-C leaves the device safe
 //     const servo_summary summary = loop.run();
 //
-// A model made for another device, estimator, loop delay or rate is refused before the device is touched (admission.hpp).
-// Every fault (fault.hpp) ends in the safe command within the period in which it is seen: motor 0, brake at the device's
-// safe damping. It is counted, named in the log, and left only through control().reset() and then control().start().
+// A model made for another device, estimator, loop delay or rate is refused before the device is touched
+// (admission.hpp). Every fault (fault.hpp) ends in the safe command within the period in which it is seen: motor 0,
+// brake at the device's safe damping. It is counted, named in the log, and left only through control().reset() and then
+// control().start().
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,8 @@ class servo_loop {
   // Requests to a loop that runs in another thread, or from a signal handler. A stop stays.
   servo_control& control() noexcept { return control_; }
 
-  // Runs in the calling thread until the duration is over or a stop is asked for; leaves the device with the safe command.
+  // Runs in the calling thread until the duration is over or a stop is asked for; leaves the device with the safe
+  // command.
   servo_summary run() {
     const loop_facts loop{options_.identity, device_.description(), estimator_name(estimator_)};
     const admission verdict = admit(facts_, loop, options_.require_certified);

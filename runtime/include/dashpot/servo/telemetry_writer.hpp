@@ -1,5 +1,6 @@
-// The other end of the loop's rings: prints telemetry as CSV and events as lines, and shows every record to an observer.
-// All that may block happens here, in a thread of its own (real time) or between two periods (simulated time).
+// The other end of the loop's rings: prints telemetry as CSV and events as lines, and shows every record to an
+// observer. All that may block happens here, in a thread of its own (real time) or between two periods (simulated
+// time).
 //
 // The CSV's first line names the columns with their units; numbers round-trip. A failed write stops the file, not the
 // loop, and is told by write_error().

@@ -154,7 +154,8 @@ TEST(EstimatorNames, AreThoseOfTheFormat) {
   for (const char* name : {"backward_difference", "least_squares", "butterworth", "inverse_time", "foaw", "kalman",
                            "super_twisting", "tracking_differentiator", "sensor"})
     EXPECT_NE(estimator_from_name(name), nullptr) << name;
-  for (const char* name : {"", "foa", "foaw ", "Foaw", "low_pass"}) EXPECT_EQ(estimator_from_name(name), nullptr) << name;
+  for (const char* name : {"", "foa", "foaw ", "Foaw", "low_pass"})
+    EXPECT_EQ(estimator_from_name(name), nullptr) << name;
 }
 
 struct faulty {

@@ -53,8 +53,8 @@ class Delay : public testing::TestWithParam<tuned> {
   any_estimator<double> estimator{GetParam().description, sample_period, step};
 };
 
-// An estimator that declares another delay than it has would be judged wrongly by the certificate. On a velocity ramp the
-// estimate is a (t − delay) exactly once the start is forgotten; positions up to 0.1 m rounded to 1e-17 m leave
+// An estimator that declares another delay than it has would be judged wrongly by the certificate. On a velocity ramp
+// the estimate is a (t − delay) exactly once the start is forgotten; positions up to 0.1 m rounded to 1e-17 m leave
 // 1e-14/T/a = 1e-10 s.
 TEST_P(Delay, OnASlowVelocityRamp) {
   const double acceleration = 0.1;  // [m/s²]

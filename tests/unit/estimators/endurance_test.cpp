@@ -78,8 +78,8 @@ double largest_on_random_walk(any_estimator<Scalar> estimator, int length) {
   return largest;
 }
 
-// An estimator that drifts, overflows or sticks would, in a million samples, leave the walk's own largest velocity of one
-// count a sample. Averages cannot exceed it; filters overshoot it by less than half.
+// An estimator that drifts, overflows or sticks would, in a million samples, leave the walk's own largest velocity of
+// one count a sample. Averages cannot exceed it; filters overshoot it by less than half.
 TEST_P(Endurance, StaysBoundedOnARandomWalk) {
   const auto& wanted = GetParam().description;
   EXPECT_LE(largest_on_random_walk(any_estimator<double>(wanted, sample_period, step), 1'000'000), 1.5 * quantum);
@@ -113,8 +113,8 @@ double least_recovery(any_estimator<Scalar> estimator) {
   return least;
 }
 
-// After a reversal the estimate must come round, to the right sign and size: 200 samples are many times any memory here,
-// and 50 samples of 1.67 counts average the quantisation to under 2 %.
+// After a reversal the estimate must come round, to the right sign and size: 200 samples are many times any memory
+// here, and 50 samples of 1.67 counts average the quantisation to under 2 %.
 TEST_P(Endurance, ComesRoundAfterAReversal) {
   const auto& wanted = GetParam().description;
   EXPECT_NEAR(least_recovery(any_estimator<double>(wanted, sample_period, step)), 1, 0.02);
@@ -133,8 +133,8 @@ double left_a_second_after_halt(any_estimator<Scalar> estimator) {
   return static_cast<double>(estimator.update(samples.next()));
 }
 
-// A velocity that remains at rest is a force that creeps. All estimators reach exactly 0 (and no subnormal number, which
-// would make every later step slow), except inverse time, which only knows that no edge came for a second.
+// A velocity that remains at rest is a force that creeps. All estimators reach exactly 0 (and no subnormal number,
+// which would make every later step slow), except inverse time, which only knows that no edge came for a second.
 TEST_P(Endurance, ReturnsToZeroAtRest) {
   const auto& wanted = GetParam().description;
   const double bound = wanted.estimator == estimator_kind::inverse_time ? step : 0;

@@ -31,8 +31,8 @@ bool all_near_end_line(const counts& history, unsigned n) {
   return true;
 }
 
-// Some line passes within half a count of every sample unless a sample lies more than one count above or below the chord
-// of two others, on the inner side: the strip's width is then more than a count (Helly: three samples decide).
+// Some line passes within half a count of every sample unless a sample lies more than one count above or below the
+// chord of two others, on the inner side: the strip's width is then more than a count (Helly: three samples decide).
 bool all_near_some_line(const counts& history, unsigned n) {
   for (unsigned a = 0; a <= n; ++a)
     for (unsigned c = a + 2; c <= n; ++c)
@@ -68,8 +68,8 @@ counts random_counts(std::mt19937& random, int length) {
 
 class Foaw : public testing::TestWithParam<double> {};
 
-// A shortcut that accepts another window than the definition gives another velocity in the moments that matter. Steps that
-// are no powers of two make every tie a matter of rounding, which the definition in whole counts does not know.
+// A shortcut that accepts another window than the definition gives another velocity in the moments that matter. Steps
+// that are no powers of two make every tie a matter of rounding, which the definition in whole counts does not know.
 TEST_P(Foaw, EndFitWindowIsTheDefinedOne) {
   std::mt19937 random(20000101);
   const double step = GetParam();

@@ -9,8 +9,8 @@
 namespace dashpot {
 namespace {
 
-// A filter prewarped by a wrong tangent has another cutoff. Four units in the last place, with the library's own error, and
-// that of π·x, whose effect on the tangent grows as 1/(½ − x) towards the pole.
+// A filter prewarped by a wrong tangent has another cutoff. Four units in the last place, with the library's own error,
+// and that of π·x, whose effect on the tangent grows as 1/(½ − x) towards the pole.
 TEST(HalfTurns, AgreeWithTheLibrary) {
   for (int i = 1; i < 5000; ++i) {
     const double half_turns = i / 10000.0;

@@ -35,7 +35,8 @@ double signed_root(double e) { return std::copysign(std::sqrt(std::abs(e)), e); 
 // The implicit Euler step of Levant's law, its inclusion solved by bisection in absolute coordinates.
 class plain_super_twisting {
  public:
-  explicit plain_super_twisting(double acceleration) : alpha_(1.1 * acceleration), lambda_(1.5 * std::sqrt(acceleration)) {}
+  explicit plain_super_twisting(double acceleration)
+      : alpha_(1.1 * acceleration), lambda_(1.5 * std::sqrt(acceleration)) {}
 
   double update(double y) {
     const double T = sample_period;
@@ -63,8 +64,8 @@ class plain_super_twisting {
   double alpha_, lambda_, x_ = 0, u1_ = 0;
 };
 
-// A wrong root or a wrong branch is another differentiator. x is rounded to 1e-17 m, and a period divides that: 1e-13 m/s,
-// which the long memory of u1 may gather for a while.
+// A wrong root or a wrong branch is another differentiator. x is rounded to 1e-17 m, and a period divides that: 1e-13
+// m/s, which the long memory of u1 may gather for a while.
 TEST(SuperTwisting, IsTheImplicitStepOfItsLaw) {
   walk positions;
   super_twisting<double> estimator(5, sample_period);
@@ -75,11 +76,11 @@ TEST(SuperTwisting, IsTheImplicitStepOfItsLaw) {
   }
 }
 
-// Finite-time convergence is what the estimator is for: started at the wrong velocity it must be exact, and not only near,
-// once |v|/(α − a) has passed a few times.
+// Finite-time convergence is what the estimator is for: started at the wrong velocity it must be exact, and not only
+// near, once |v|/α has passed a few times.
 TEST(SuperTwisting, BecomesExactInFiniteTime) {
-  const double acceleration = 2, speed = 0.05;  // [m/s²], [m/s]
-  super_twisting<double> estimator(acceleration, sample_period);
+  const double speed = 0.05;  // [m/s]
+  super_twisting<double> estimator(2, sample_period);
   double estimate = 0;
   for (int k = 0; k < 200; ++k) estimate = estimator.update(speed * sample_period * k);
   EXPECT_NEAR(estimate, speed, 1e-12);
@@ -88,8 +89,8 @@ TEST(SuperTwisting, BecomesExactInFiniteTime) {
 // fst and the tracking differentiator as Han writes them, in absolute coordinates.
 double fst(double e, double v, double R, double h) {
   const double d = R * h, s = e + h * v;
-  const double a = std::abs(s) <= d * h ? v + s / h
-                                        : v + 0.5 * (std::sqrt(d * d + 8 * R * std::abs(s)) - d) * std::copysign(1.0, s);
+  const double outside = 0.5 * (std::sqrt(d * d + 8 * R * std::abs(s)) - d) * std::copysign(1.0, s);
+  const double a = v + (std::abs(s) <= d * h ? s / h : outside);
   return std::abs(a) <= d ? a / d : std::copysign(1.0, a);
 }
 

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <complex>
+#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -100,7 +101,8 @@ TEST(Transfer, OfAnUnlimitedSensorIsTheDifference) {
 }
 
 // A filter that does not halve the power at its cutoff is not prewarped. Difference apart, which has its own gain. The
-// slowest and the fastest cutoff are 0.03 and 0.13 rad a sample from rest and from Nyquist: -4th powers below 1e7 roundings.
+// slowest and the fastest cutoff are 0.03 and 0.13 rad a sample from rest and from Nyquist, to the power −4 below
+// 1e7 roundings.
 TEST(LowPass, HalvesThePowerAtItsCutoff) {
   for (const double cutoff : {5.0, 120.0, 250.0, 480.0})
     for (const unsigned order : {2U, 4U}) {
@@ -110,20 +112,21 @@ TEST(LowPass, HalvesThePowerAtItsCutoff) {
     }
 }
 
-// |B(jω)|² = 1/(1 + (tan(ωT/2)/tan(π f_c T))^(2n)) is what makes a Butterworth filter; another damping of a section shows.
+// |B(jω)|² = 1/(1 + (tan(ωT/2)/tan(π f_c T))^(2n)) is what makes a Butterworth filter; another damping of a section
+// shows.
 TEST(LowPass, IsMaximallyFlat) {
   for (const unsigned order : {2U, 4U}) {
     const auto transfer = low_pass<double>(order, 120, sample_period).transfer();
     for (double angle = 0.1; angle < 3; angle += 0.3) {
       const double ratio = std::tan(angle / 2) / std::tan(pi * 120 * sample_period);
-      EXPECT_NEAR(std::norm(difference_response(transfer, angle, sample_period)), 1 / (1 + std::pow(ratio, 2.0 * order)),
-                  1e-11);
+      const double expected = 1 / (1 + std::pow(ratio, 2.0 * order));
+      EXPECT_NEAR(std::norm(difference_response(transfer, angle, sample_period)), expected, 1e-11);
     }
   }
 }
 
-// A declared gain below the true one would let the theorem be applied where it does not hold. The search is good to 1e-12,
-// the coefficients of these filters to 1e-11.
+// A declared gain below the true one would let the theorem be applied where it does not hold. The search is good to
+// 1e-12, the coefficients of these filters to 1e-11.
 TEST(MaxGain, DeclaredIsTheOneFound) {
   const auto expect_declared = [](const auto& estimator) {
     EXPECT_NEAR(max_gain(estimator.transfer(), sample_period), estimator.max_gain(), 1e-11 * estimator.max_gain());
@@ -182,9 +185,9 @@ pulse_transfer<2> alpha_beta(gains tuned, double period) {
           2};
 }
 
-// The device specification prints max|G| = 1.70 at Λ = 37. It is the gain over the one-sample difference of a filter for
-// acceleration white in continuous time, Q = σ² [[T³/3, T²/2], [T²/2, T]]; the tabled filter's is Λ/4. Should max_gain
-// change its reference, or the Kalman filter its noise, one of these figures moves.
+// The device specification prints max|G| = 1.70 at Λ = 37. It is the gain over the one-sample difference of a filter
+// for acceleration white in continuous time, Q = σ² [[T³/3, T²/2], [T²/2, T]]; the tabled filter's is Λ/4. Should
+// max_gain change its reference, or the Kalman filter its noise, one of these figures moves.
 TEST(MaxGain, ReproducesThePrintedFigureForContinuousWhiteAcceleration) {
   const double power = 37 * 37;
   const auto printed = alpha_beta(riccati(power / 3, power / 2, power), sample_period);
@@ -224,8 +227,8 @@ TEST(FrequencyResponse, OfTheDifferenceIsASinc) {
   const auto transfer = backward_difference<double>(15, sample_period).transfer();
   for (double rate = 10; rate < pi / sample_period; rate += 97) {
     const double half = rate * 15 * sample_period / 2;
-    EXPECT_NEAR(std::abs(velocity_response(transfer, rate, sample_period) - std::polar(std::sin(half) / half, -half)), 0,
-                1e-13);
+    const std::complex<double> expected = std::polar(1.0, -half) * (std::sin(half) / half);
+    EXPECT_NEAR(std::abs(velocity_response(transfer, rate, sample_period) - expected), 0, 1e-13);
   }
 }
 

@@ -28,8 +28,8 @@ constexpr estimator_fault unless(bool holds, estimator_fault fault) noexcept {
 
 }  // namespace detail
 
-// The first fault of `wanted`, for `sample_period` [s] > 0 and `encoder_step` [m] or [rad]; a value that is not a number
-// is a fault.
+// The first fault of `wanted`, for `sample_period` [s] > 0 and `encoder_step` [m] or [rad]; a value that is not a
+// number is a fault.
 constexpr estimator_fault fault_in(const velocity_description& wanted, double sample_period,
                                    double encoder_step) noexcept {
   using detail::unless;

@@ -2,15 +2,16 @@
 // window grows, n = 1, 2, …, while its samples lie within ±d of one line, so that it is long when the motion is steady
 // and short when it is not. Growth ends at the first n that fails or at the longest window.
 //
-// End fit: the line joins the newest and the oldest sample, d is one count, v̂ = (y_k − y_{k−n})/(nT). O(n) exactly: all
-// inner samples lie within d of it when its slope lies in every [(y_k−y_{k−j}−d)/(jT), (y_k−y_{k−j}+d)/(jT)], j < n.
+// End fit: the line joins the newest and the oldest sample, d is one count, v̂ = (y_k − y_{k−n})/(nT). O(n) exactly:
+// all inner samples lie within d of it when its slope lies in every [(y_k−y_{k−j}−d)/(jT), (y_k−y_{k−j}+d)/(jT)] of
+// the inner j.
 //
-// Best fit: d is half a count, v̂ is the least-squares slope of the window. Published implementations disagree about the
-// intercept of the line the samples are held against: some draw it through the newest sample, some through the mean.
-// Built here is neither: the window is accepted while *any* line stays within ±d of it, which is the case when one
-// slope lies in [(y_i−y_j−2d)/((j−i)T), (y_i−y_j+2d)/((j−i)T)] of every pair. A steady motion then never shortens the
-// window, whether the encoder floors or rounds; with the other two intercepts it does, and costs a factor of 13 and of 3
-// in rms error (30 µm, 1 kHz, 0.5 Hz at 10 mm/s peak, n_max = 16). O(n²/2).
+// Best fit: d is half a count, v̂ is the least-squares slope of the window. Published implementations disagree about
+// the intercept of the line the samples are held against: some draw it through the newest sample, some through the
+// mean. Built here is neither: the window is accepted while *any* line stays within ±d of it, which is the case when
+// one slope lies in [(y_i−y_j−2d)/((j−i)T), (y_i−y_j+2d)/((j−i)T)] of every pair. A steady motion then never shortens
+// the window, whether the encoder floors or rounds; with the other two intercepts it does, and costs a factor of 13 and
+// of 3 in rms error (30 µm, 1 kHz, 0.5 Hz at 10 mm/s peak, n_max = 16). O(n²/2).
 //
 // Not linear; finite memory; delay at most n_max T/2, which it is in slow motion.
 #pragma once

@@ -1,14 +1,14 @@
 // How a linear estimator answers a motion, for host programs: compiler and tests (<complex>, <cmath>).
 //
 // An estimator's gain is v̂ over the true velocity u̇. Two readings, which agree at low frequency:
-//   * velocity_response, G(jω) = E(e^{jωT})/(jω): a sinusoid sampled without anything between the samples. What fidelity
-//     figures and theory section 4 use, frequency by frequency.
-//   * max_gain, over 0 … π/T of |E(e^{jωT})| T/|1 − e^{−jωT}|: the sampled velocity estimate held against the one-sample
+//   * velocity_response, G(jω) = E(e^{jωT})/(jω): a sinusoid below Nyquist and nothing else. What fidelity figures and
+//     theory section 4 use, frequency by frequency.
+//   * max_gain, the largest of |E(e^{jωT})| T/|1 − e^{−jωT}| over 0 … π/T: the estimate held against the one-sample
 //     difference. It is the largest ‖v̂‖₂/‖u̇‖₂ over *all* motions, since the difference is the mean of u̇ over the
 //     period and so never has more energy than u̇, and as much for motions linear between samples. That is what the
 //     tool-damper theorem asks to be at most 1. It is never below max|G(jω)|, as |1 − e^{−jωT}| ≤ ωT.
-// The figure of 1.70 at a manoeuvre index of 37 is max_gain, for a Kalman filter whose acceleration is white in continuous
-// time; with acceleration constant over each period (kalman.hpp) max_gain is 37/4, the largest |G(jω)| 5.90.
+// The figure of 1.70 at a manoeuvre index of 37 is max_gain, for a Kalman filter whose acceleration is white in
+// continuous time; with acceleration constant over each period (kalman.hpp) max_gain is 37/4, the largest |G(jω)| 5.90.
 #pragma once
 
 #include <algorithm>
@@ -103,8 +103,8 @@ double max_over_half_circle(Gain gain) {
 
 }  // namespace detail
 
-// The largest ‖v̂‖₂/‖u̇‖₂ over all motions. To 1e-12 relative while no peak is narrower than π/4096 in angle (none of the
-// estimators here has one) and the coefficients allow it (pulse_transfer.hpp).
+// The largest ‖v̂‖₂/‖u̇‖₂ over all motions. To 1e-12 relative while no peak is narrower than π/4096 in angle (none of
+// the estimators here has one) and the coefficients allow it (pulse_transfer.hpp).
 template <unsigned MaxOrder>
 double max_gain(const pulse_transfer<MaxOrder>& transfer, double sample_period) {
   return detail::max_over_half_circle(

@@ -1,5 +1,5 @@
-// Sine and tangent of an angle given in half turns, without <cmath>: constexpr, so that a filter designed from constants
-// costs a firmware nothing, and the same bits everywhere.
+// Sine and tangent of an angle given in half turns, without <cmath>: constexpr, so that a filter designed from
+// constants costs a firmware nothing, and the same bits everywhere.
 #pragma once
 
 namespace dashpot {

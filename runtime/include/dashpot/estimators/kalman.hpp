@@ -1,6 +1,6 @@
-// Constant-velocity Kalman filter in its steady state, which is an α–β filter (Kalata 1984; cf. Bélanger et al. 1998 for
-// encoders). Acceleration is white from sample to sample with deviation σ_a, Q = σ_a² [[T⁴/4, T³/2], [T³/2, T²]], and the
-// encoder's rounding is white with σ_y² = R = Δ²/12:
+// Constant-velocity Kalman filter in its steady state, which is an α–β filter (Kalata 1984; cf. Bélanger et al. 1998
+// for encoders). Acceleration is white from sample to sample with deviation σ_a, Q = σ_a² [[T⁴/4, T³/2], [T³/2, T²]],
+// and the encoder's rounding is white with σ_y² = R = Δ²/12:
 //     Λ = σ_a T²/σ_y,  r = (4 + Λ − √(8Λ + Λ²))/4,  α = 1 − r²,  β = 2(2 − α) − 4√(1 − α) = 2(1 − r)²
 //     x̂ ← x̂ + T v̂,  e = y − x̂,  x̂ ← x̂ + α e,  v̂ ← v̂ + (β/T) e
 // Linear, recursive; delay T (α/β − ½). Its gain exceeds 1 whatever the tuning: 1/√(1 − Λ²/64) up to Λ = 4√2, Λ/4

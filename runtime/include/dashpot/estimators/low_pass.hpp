@@ -2,9 +2,10 @@
 // prewarped so that the gain at the cutoff is 1/√2 exactly. Each second-order section is
 //     H(s) = 1 / (s² + k s + 1),    s = (1/g)(1 − z⁻¹)/(1 + z⁻¹),    g = tan(π f_c T),
 //     k = 2 sin(π (2i + 1)/(2 order))
-// and runs as two trapezoidal integrators (Zavalishin, The Art of VA Filter Design, 2012, section 4): its gain at rest is 1
-// whatever the rounding of its coefficients, which the direct form cannot promise in single precision.
-// Linear, recursive; delay = group delay at 0 plus the T/2 of the difference. The paper (section 6.2) used order 4, 120 Hz.
+// and runs as two trapezoidal integrators (Zavalishin, The Art of VA Filter Design, 2012, section 4): its gain at rest
+// is 1 whatever the rounding of its coefficients, which the direct form cannot promise in single precision.
+// Linear, recursive; delay = group delay at 0 plus the T/2 of the difference. The paper (section 6.2) used order 4,
+// 120 Hz.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -1,7 +1,7 @@
 // Levant's super-twisting differentiator (Levant, Automatica 34(3), 1998):
 //     ẋ = u1 − λ |e|^½ sgn e,  u̇1 = −α sgn e,  e = x − y,  α = 1.1 C,  λ = 1.5 √C,  v̂ = ẋ
-// where C bounds the acceleration. Stepped by implicit Euler (cf. Acary & Brogliato, Systems & Control Letters 59, 2010):
-// e solves
+// where C bounds the acceleration. Stepped by implicit Euler (cf. Acary & Brogliato, Systems & Control Letters 59,
+// 2010): e solves
 //     e + T λ |e|^½ sgn e + T² α sgn e = c,    c = e_{k−1} + T u1 − (y_k − y_{k−1})
 // with sgn 0 any value of [−1, 1], in closed form. The explicit step would chatter at rest with amplitude αT for ever;
 // this one comes to rest exactly. While it slides, e = 0 and v̂ is the one-sample difference: delay T/2 as long as the

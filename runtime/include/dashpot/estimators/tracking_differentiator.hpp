@@ -4,10 +4,10 @@
 //     fst(e, v, R, h): d = R h, s = e + h v, a = v + s/h                           where |s| ≤ d h,
 //                                            a = v + ½ (√(d² + 8 R |s|) − d) sgn s  elsewhere;
 //                      a/d where |a| ≤ d, sgn a elsewhere
-// R bounds the acceleration of v̂; h = n T, n = filter_factor, widens the zone where the law is linear and so smooths it.
-// There v̂ is the one-sample difference filtered twice by 1/(n (1 − (1 − 1/n) z⁻¹)): delay T (2n − 3/2). The zone ends at
-// the speed R h, beyond which the delay grows with the speed, and an encoder step above R h² leaves it too, whatever the
-// speed: such steps are followed at the pace R allows.
+// R bounds the acceleration of v̂; h = n T, n = filter_factor, widens the zone where the law is linear and so smooths
+// it. There v̂ is the one-sample difference filtered twice by 1/(n (1 − (1 − 1/n) z⁻¹)): delay T (2n − 3/2). The zone
+// ends at the speed R h, beyond which the delay grows with the speed, and an encoder step above R h² leaves it too,
+// whatever the speed: such steps are followed at the pace R allows.
 // Not linear. Its tuning was not found in an original comparison: treat it as a starting point.
 #pragma once
 

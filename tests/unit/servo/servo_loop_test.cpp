@@ -174,6 +174,23 @@ TEST_F(ServoLoop, KnowsTheCoilFromTheSafeCommandBefore) {
   EXPECT_NEAR(summary.energy, 7.5 * 0.001 * 0.001 / 0.001, 1e-15);
 }
 
+// Broken, a coil that goes on falling while no sample comes would be credited with what it had at first.
+TEST_F(ServoLoop, CreditsTheBrakeOverAGapWithItsLeastDamping) {
+  device_description lagging = scripted_description();
+  lagging.encoder.step = 0;
+  lagging.brake.coil_lag = 0.001;
+  device = scripted_device(lagging);
+  device.on_read([](std::size_t read, device_sample& sample) {
+    sample.position = read == 24 ? 0.001 : 0.0;
+    return read > 20 && read < 24 ? device_status::no_data : device_status::ok;
+  });
+  model.on_output([](std::size_t output, command<double>& wanted) { wanted = {output < 20 ? 15.0 : 0.0, 0.0}; });
+  const servo_summary summary = run(25);
+  brake_coil<double> coil(lagging.brake);
+  for (int period = 0; period < 24; ++period) coil.advance(period < 20 ? std::sqrt(15.0) : 0.0, 0.001);
+  EXPECT_NEAR(summary.energy, coil.damping() * 0.001 * 0.001 / 0.004, 1e-12 * summary.energy);
+}
+
 // Broken, what the motor creates would be counted and not paid for where the brake is asked to.
 TEST_F(ServoLoop, RaisesTheBrakeWhereItIsAskedTo) {
   // 0.5 mm to and fro, and a force of 1 N that always pushes along: 0.5 mJ a hold comes out.

@@ -8,7 +8,8 @@
 // A model made for another device, estimator, loop delay or rate is refused before the device is touched
 // (admission.hpp). Every fault (fault.hpp) ends in the safe command within the period in which it is seen: motor 0,
 // brake at the device's safe damping. It is counted, named in the log, and left only through control().reset() and then
-// control().start().
+// control().start(). A loop that hangs, or a process that is killed, can send nothing any more: against that a device
+// needs a watchdog of its own.
 #pragma once
 
 #include <cstdint>

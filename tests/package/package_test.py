@@ -1,0 +1,217 @@
+"""Builds a user's project against dashpot, as a user would: in the source tree, and from an installed one.
+
+    python3 package_test.py InTree|Installed [-v]
+
+The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_PREFIX (where it is installed),
+CMAKE_COMMAND, and the compiler to use in CXX.
+"""
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+
+CMAKE = os.environ["CMAKE_COMMAND"]
+SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
+CONSUMER = SOURCE / "tests/package/consumer"
+OWN_DEPENDENCIES = ["Eigen3", "nlohmann_json", "fmt", "CLI11", "Boost"]
+COMPILING_A_LAW = "Compiling network"
+
+
+class Project:
+    """A copy of the consumer with a build folder of its own."""
+
+    def __init__(self, folder, options):
+        self.folder = pathlib.Path(folder)
+        shutil.copytree(CONSUMER, self.folder, dirs_exist_ok=True)
+        shutil.copytree(SOURCE / "templates", self.folder / "templates",
+                        ignore=lambda _, names: [n for n in names if not n.endswith(".in")])
+        self.build_folder = self.folder / "build"
+        self.run(CMAKE, "-G", "Ninja", "-S", self.folder, "-B", self.build_folder,
+                 "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
+                 f"-DPAPER_SOLID={SOURCE / 'networks/paper/second_order_maxwell.json'}",
+                 f"-DOWN_LOOP={SOURCE / 'runtime/examples/own_loop.cpp'}", *options)
+
+    def run(self, *command, **more):
+        done = subprocess.run([str(part) for part in command], capture_output=True, text=True, **more)
+        assert done.returncode == 0, f"{command} failed:\n{done.stdout}{done.stderr}"
+        return done.stdout
+
+    def build(self, target="press"):
+        return self.run(CMAKE, "--build", self.build_folder, "--target", target)
+
+    def refused_build(self):
+        done = subprocess.run([CMAKE, "--build", self.build_folder], capture_output=True, text=True)
+        assert done.returncode != 0, f"built what cannot be built:\n{done.stdout}"
+        return done.stdout + done.stderr
+
+    def press(self):
+        """What the program prints: the device and period it was compiled for, and the commands of both tissues."""
+        printed = self.run(self.build_folder / "press", input=motion(1))
+        heading, *rows = printed.splitlines()
+        return heading, [tuple(float(number) for number in row.split(",")) for row in rows]
+
+    def replace(self, file, old, new):
+        path = self.folder / file
+        text = path.read_text()
+        assert old in text, f"{file} does not say {old}"
+        path.write_text(text.replace(old, new))
+
+
+def motion(rate):
+    """Rows time,position,velocity: in, back and held, at velocities that are no round binary numbers."""
+    rows, position = [], 0.0
+    for i in range(120):
+        velocity = 0.1 if i < 50 else -0.07 if i < 80 else 0.0
+        position += velocity * 1e-3
+        rows.append(f"{i / rate!r},{position!r},{velocity!r}\n")
+    return "".join(rows)
+
+
+def simulate(dashpot, project, network, rate, *choices):
+    """The commands that `dashpot simulate` computes: an account of the law that no emitted code takes part in."""
+    csv = project.folder / f"{network}.csv"
+    csv.write_text("time,position,velocity\n" + motion(rate))
+    printed = project.run(dashpot, "simulate", project.folder / f"{network}.json", "--input", csv, *choices)
+    return [tuple(float(number) for number in row.split(",")[4:]) for row in printed.splitlines()[1:]]
+
+
+def single(number):
+    """The float nearest to a decimal number: what the digits of a float printed by simulate stand for."""
+    return struct.unpack("f", struct.pack("f", number))[0]
+
+
+class Consumer:
+    """What holds in either tree."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="consumer")
+        self.addCleanup(folder.cleanup)
+        self.project = Project(folder.name, self.options())
+        self.first_build = self.project.build()
+
+    # Fails if what a user's build runs is not the law of the network, device and choices that the build names.
+    def check_commands(self):
+        heading, rows = self.project.press()
+        self.assertEqual(heading, "# training_arm, 0.00050000000000000001 s")
+        fine = simulate(self.dashpot(), self.project, "tissue", 2000, "--device", self.project.folder / "arm.json")
+        coarse = simulate(self.dashpot(), self.project, "coarse_tissue", 200, "--scheme", "backward-euler",
+                          "--state-input", "velocity", "--decomposition", "virtual", "--scalar", "float")
+        self.assertEqual([row[:2] for row in rows], fine)
+        self.assertEqual([row[2:] for row in rows], [tuple(map(single, row)) for row in coarse])
+
+    # Fails if a build with nothing to do does something.
+    def check_rest(self):
+        self.assertEqual(self.first_build.count(COMPILING_A_LAW), 2)
+        self.assertIn("no work to do", self.project.build())
+
+
+class InTree(Consumer, unittest.TestCase):
+    """dashpot as a subdirectory of the user's project: the compiler is built first."""
+
+    def options(self):
+        return [f"-DDASHPOT_SOURCE={SOURCE}"]
+
+    def dashpot(self):
+        return self.project.build_folder / "dashpot/compiler/dashpot"
+
+    def test_commands_and_rest(self):
+        self.check_commands()
+        self.check_rest()
+
+
+class Installed(Consumer, unittest.TestCase):
+    """dashpot found by find_package, in a folder that it was not installed to but moved to, without its dependencies."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.parent = tempfile.TemporaryDirectory(prefix="moved")
+        cls.prefix = pathlib.Path(cls.parent.name) / "prefix"
+        shutil.copytree(os.environ["DASHPOT_PREFIX"], cls.prefix)
+        cls.addClassCleanup(cls.parent.cleanup)
+
+    def options(self):
+        hidden = [f"-DCMAKE_DISABLE_FIND_PACKAGE_{name}=ON" for name in OWN_DEPENDENCIES]
+        return [f"-DCMAKE_PREFIX_PATH={self.prefix}", *hidden]
+
+    def dashpot(self):
+        return self.prefix / "bin/dashpot"
+
+    def test_commands(self):
+        self.check_commands()
+
+    def test_rest(self):
+        self.check_rest()
+
+    # Fails if fused multiply-add could change the bits of a law in a user's build.
+    def test_no_contraction(self):
+        commands = (self.project.build_folder / "compile_commands.json").read_text()
+        self.assertEqual(commands.count("-ffp-contract=off"), 3)  # press, tissue_test, own_loop
+
+    # Fails if a servo loop cannot be linked, or if emitted tests are not built, not registered, or do not pass.
+    def test_everything_else(self):
+        self.project.build("all")
+        self.assertRegex(self.project.run("ctest", "--test-dir", self.project.build_folder), "100% tests passed")
+
+    # Fails if a change of the network's values does not reach the program.
+    def test_changed_network(self):
+        before = self.project.press()
+        self.project.replace("tissue.json", "40 N/m", "80 N/m")
+        self.assertEqual(self.project.build().count(COMPILING_A_LAW), 1)
+        self.assertNotEqual(before, self.project.press())
+
+    # Fails if a network that takes another name leaves the build looking for the old header.
+    def test_renamed_network(self):
+        self.project.replace("tissue.json", '"tissue"', '"liver"')
+        self.project.replace("press.cpp", "<tissue.hpp>", "<liver.hpp>")
+        self.project.replace("press.cpp", "generated::tissue", "generated::liver")
+        before = self.project.press()
+        self.project.build()
+        self.assertEqual(before, self.project.press())
+
+    # Fails if a law goes on being certified for a device that has changed.
+    def test_changed_device(self):
+        self.project.replace("arm.json", "training_arm", "longer_arm")
+        self.assertEqual(self.project.build().count(COMPILING_A_LAW), 1)
+        self.assertTrue(self.project.press()[0].startswith("# longer_arm"))
+
+    # Fails if laws of an old compiler survive a new one.
+    def test_changed_compiler(self):
+        self.dashpot().touch()
+        self.assertEqual(self.project.build().count(COMPILING_A_LAW), 2)
+
+    # Fails if a user's own template is not looked at again when it changes.
+    def test_changed_template(self):
+        self.project.replace("templates/network.hpp.in", "#pragma once", "#pragma once\n// for the training arm")
+        self.assertEqual(self.project.build().count(COMPILING_A_LAW), 1)
+        self.assertIn("// for the training arm", (self.project.build_folder / "tissue/tissue.hpp").read_text())
+
+    # Fails if the compiler's message does not reach the user, or if a repaired network does not build.
+    def test_refused_network(self):
+        self.project.replace("tissue.json", "6 N s/m", "-6 N s/m")
+        self.assertRegex(self.project.refused_build(), r"tissue\.json:6:\d+: error: .*\[negative-damping\]")
+        self.project.replace("tissue.json", "-6 N s/m", "6 N s/m")
+        self.project.build()
+
+    # Fails if a file that is no JSON is reported by anything but the compiler, in its own words and with the place.
+    def test_unreadable_network(self):
+        self.project.replace("tissue.json", '"dashpot": 1,', '"dashpot": 1')
+        self.assertRegex(self.project.refused_build(), r"tissue\.json:\d+:\d+: error: ")
+
+    # Fails if an option that is misspelt, or lacks its value, is passed over in silence.
+    def test_misspelt_option(self):
+        self.project.replace("CMakeLists.txt", "RATE 200", "RAET 200")
+        self.assertIn("RAET", self.project.refused_build())
+
+    # Fails if an installed text file remembers the machine it was built on.
+    def test_no_trace_of_the_build(self):
+        for path in self.prefix.rglob("*"):
+            if path.suffix in {".cmake", ".hpp", ".json"}:
+                self.assertNotRegex(path.read_text(), re.escape(str(SOURCE)), path)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,45 @@
+// A figure of panels with curves, drawn as SVG in one hand: everything that the experiments show is drawn by to_svg().
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace dashpot::paper {
+
+enum class Marker { none, circle, cross };
+
+struct Style {
+  const char* colour;
+  double width = 0;         // of the line [1/4 mm in print]; 0: markers alone
+  const char* dashes = "";  // stroke-dasharray, "": solid
+  Marker marker = Marker::none;
+};
+
+// Apart in grey too, and for eyes that do not tell red from green.
+inline constexpr Style ideal{"#b8b8b8", 4};
+inline constexpr Style emitted{"#0b5fa5", 0, "", Marker::circle};
+inline constexpr Style emitted_euler{"#c1440e", 0, "", Marker::cross};
+inline constexpr Style plain{"#1a1a1a", 1.6};
+
+struct Curve {
+  std::string name;  // in the legend, once a figure; "": not there
+  Style style;
+  std::vector<double> x, y;  // as long as each other, finite
+};
+
+struct Panel {
+  std::string title;
+  std::string x_label, y_label;  // with units: "time [s]"
+  std::vector<Curve> curves;
+};
+
+struct Figure {
+  std::string title;
+  std::vector<std::string> caption;  // lines under the panels
+  std::vector<Panel> panels;  // two a row, left to right, then down
+};
+
+// The whole file, standing alone: no fonts, styles or scripts from elsewhere. 180 mm wide in print.
+std::string to_svg(const Figure& figure);
+
+}  // namespace dashpot::paper

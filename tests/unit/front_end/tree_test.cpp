@@ -116,21 +116,35 @@ TEST(Tree, OfNothingIsAnEmptyParallel) {
   EXPECT_EQ(to_text(*series_parallel_tree(network), network), "parallel()");
 }
 
-// If this fails, long chains and ladders take quadratic time or exhaust the stack.
+// If this fails, a long chain takes quadratic time or exhausts the stack.
 TEST(Tree, MayBeVeryLong) {
   constexpr std::size_t length = 20000;
   Network chain = network_of(length + 1);
-  Network ladder = network_of(length / 2 + 2);
   for (std::size_t i = 1; i <= length; ++i) add_spring(chain, i, i == length ? ground : i + 1);
-  for (std::size_t i = 1; i <= length / 2; ++i) {
-    add_spring(ladder, i, i + 1);
-    add_spring(ladder, i + 1, ground);
-  }
   EXPECT_EQ(series_parallel_tree(chain)->children.size(), length);
-  const auto rungs = series_parallel_tree(ladder);
-  ASSERT_TRUE(rungs);
-  EXPECT_EQ(rungs->kind, Tree::Kind::series);
-  EXPECT_EQ(to_text(*rungs, ladder).substr(0, 46), "series(k0, parallel(k1, series(k2, parallel(k3");
+}
+
+Network ladder(std::size_t rungs) {
+  Network network = network_of(rungs + 2);
+  for (std::size_t i = 1; i <= rungs; ++i) {
+    add_spring(network, i, i + 1);
+    add_spring(network, i + 1, ground);
+  }
+  return network;
+}
+
+std::size_t depth_of(const Tree& tree) {
+  std::size_t depth = 0;
+  for (const Tree& child : tree.children) depth = std::max(depth, 1 + depth_of(child));
+  return depth;
+}
+
+// If this fails, a tree can be nested so deep that whatever walks over it exhausts the stack.
+TEST(Tree, IsNestedUpToAThousandDeep) {
+  EXPECT_EQ(to_text(*series_parallel_tree(ladder(2)), ladder(2)), "series(k0, parallel(k1, series(k2, k3)))");
+  EXPECT_EQ(depth_of(*series_parallel_tree(ladder(500))), 999u);
+  EXPECT_FALSE(series_parallel_tree(ladder(501)));
+  EXPECT_FALSE(series_parallel_tree(ladder(10000)));
 }
 
 // If this fails, the paper's networks are not read as what they are drawn as.

@@ -20,7 +20,7 @@ const FaultExample fault_examples[] = {
     {"kdeg", UnitFault::Kind::unknown_symbol, "kdeg"},
     {"k%", UnitFault::Kind::unknown_symbol, "k%"},
     {"n", UnitFault::Kind::unknown_symbol, "n"},
-    {"Ω", UnitFault::Kind::unknown_symbol, "Ω"},
+    {"Å", UnitFault::Kind::unknown_symbol, "Å"},
     {"N/m s", UnitFault::Kind::product_after_slash, "s"},
     {"N/m·s", UnitFault::Kind::product_after_slash, "·s"},
     {"N/(m s) rad", UnitFault::Kind::product_after_slash, "rad"},

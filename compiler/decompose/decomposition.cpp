@@ -66,7 +66,7 @@ class Decomposer {
     candidate.state_input = best.state_input;
     candidate.largest_error = best.largest_error;
     candidate.extra_damping_any_delay = best.extra_damping_any_delay;
-    candidate.velocity_gain = std::abs(to_double(form_.feedthrough_damping - Real(candidate.damping)));
+    candidate.velocity_gain = std::abs(to_double(form_.feedthrough_damping) - candidate.damping);
     if (const std::optional<double> noise = device_.velocity_noise())
       candidate.motor_noise = candidate.velocity_gain * *noise;
     return candidate;

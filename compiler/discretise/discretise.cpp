@@ -121,13 +121,19 @@ class LawBuilder {
     sum = plus_product(sum, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
     sum = plus_product(sum, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
                        modes_.step_stiffness(), change_);
-    const Real velocity_gain = form_.feedthrough_damping - Real(law_.damping) + modes_.velocity_gain();
+    const Real velocity_gain = feedthrough_of_motor() + modes_.velocity_gain();
     const char* meaning = modes_.follows_velocity() ? "b∞ − b + h Σ c_i, what the estimate drives within a sample" : "b∞ − b";
     sum = plus_product(sum, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
     if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
     for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
     if (sum == nothing) sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0);
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
+  }
+
+  // b∞ − b. Where the brake's number is b∞, rounded, nothing is left that a velocity estimate should be read for.
+  Real feedthrough_of_motor() const {
+    const bool all_in_brake = rounded(form_.feedthrough_damping, law_.scalar) == law_.damping;
+    return all_in_brake ? Real(0) : Real(form_.feedthrough_damping - Real(law_.damping));
   }
 
   void write_update() {

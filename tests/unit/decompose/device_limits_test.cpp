@@ -1,0 +1,147 @@
+// What a real device changes: the reach of its brake, and an estimate of velocity that comes late.
+#include <gtest/gtest.h>
+
+#include "decomposed.hpp"
+
+namespace {
+
+using namespace dashpot::compiler;
+using dashpot::motion;
+
+const char* const maxwell = R"({ "series": [ { "damper": 5 }, { "spring": 50 } ] })";
+const char* const kelvin = R"({ "parallel": [ { "spring": 1000 }, { "damper": 10 } ] })";
+const char* const stiff_and_soft = R"({ "series": [
+    { "parallel": [ { "spring": 1000 }, { "damper": 10 } ] }, { "parallel": [ { "spring": 1 }, { "damper": 0.1 } ] } ] })";
+
+// Fails if the brake is asked for more than it has, or if what it lacks is not made up by the motor: |b∞ − b| is the
+// gain of what the motor adds.
+TEST(DeviceLimits, the_brake_is_capped) {
+  const Device device = late_device(4);
+  const Decomposed all = decomposed(kelvin, {}, &device);
+  EXPECT_EQ(all.result->choice().damping, 4);
+  EXPECT_EQ(all.result->choice().wanted_damping, 10);
+  EXPECT_EQ(all.result->choice().velocity_gain, 6);
+  EXPECT_TRUE(all.reports(DiagnosticCode::damping_capped));
+}
+
+// Fails if a brake that is strong enough is reported as capped.
+TEST(DeviceLimits, a_strong_brake_is_not_capped) {
+  const Device device = late_device(10);
+  const Decomposed all = decomposed(kelvin, {}, &device);
+  EXPECT_EQ(all.result->choice().damping, 10);
+  EXPECT_FALSE(all.reports(DiagnosticCode::damping_capped));
+}
+
+// Fails if a device without a brake is given damping to make.
+TEST(DeviceLimits, a_device_without_brake_leaves_everything_to_the_motor) {
+  Device device = late_device(0);
+  device.description.brake = {};
+  const Decomposed all = decomposed(maxwell, {}, &device);
+  for (const Candidate& candidate : all.result->candidates) EXPECT_EQ(candidate.damping, 0) << candidate.name;
+}
+
+// Fails if a rotary brake's reach is not brought to the tool: b = b_joint/r².
+TEST(DeviceLimits, the_arm_converts_the_brake) {
+  Device device = late_device(0.007);
+  device.description.motion = motion::rotation;
+  device.description.arm_radius = 0.05;
+  EXPECT_NEAR(decomposed(maxwell, {}, &device).result->choice().damping, 2.8, 2.8 * 0x1p-50);
+}
+
+// Fails if a translational network reaches a rotary joint without an arm between them.
+TEST(DeviceLimits, motions_that_do_not_fit_are_refused) {
+  Device device = late_device(1);
+  device.description.motion = motion::rotation;
+  const Decomposed all = decomposed(maxwell, {}, &device);
+  EXPECT_FALSE(all.result);
+  EXPECT_TRUE(all.reports(DiagnosticCode::motion_mismatch));
+}
+
+// Fails if motor power put into a steady motion goes unsaid: b = 10 where the network itself damps about 0.1.
+TEST(DeviceLimits, injected_power_is_reported) {
+  const Decomposed loud = decomposed(stiff_and_soft, choosing("largest-observer"));
+  EXPECT_TRUE(loud.reports(DiagnosticCode::injects_power));
+  EXPECT_FALSE(decomposed(kelvin, choosing("largest-observer")).reports(DiagnosticCode::injects_power));
+  EXPECT_TRUE(decomposed(maxwell, choosing(5.000001)).reports(DiagnosticCode::injects_power));
+  EXPECT_FALSE(decomposed(maxwell, choosing(5.0)).reports(DiagnosticCode::injects_power));
+}
+
+// Fails if `auto` lets a late estimate drive the states where it errs most: with b = B the whole viscous part may be
+// late together (the paper's (19)), with b = b∞ no estimate is needed at all.
+TEST(DeviceLimits, auto_chooses_the_state_input_by_its_error) {
+  Device device = late_device(100);
+  device.description.loop.band_high = 1;  // slow motion, as in the paper's Fig. 6
+  const Decomposed all = decomposed(maxwell, {}, &device);
+  EXPECT_EQ(all["most-dissipative"].state_input, StateInput::velocity);
+  EXPECT_EQ(all["velocity-free"].state_input, StateInput::position);
+  EXPECT_EQ(all["velocity-free"].largest_error, 0);
+  const std::vector<StateInputMerit>& compared = all["most-dissipative"].state_inputs;
+  ASSERT_EQ(compared.size(), 2u);
+  EXPECT_EQ(compared[0].state_input, StateInput::position);
+  EXPECT_GT(compared[0].largest_error, 1.5 * compared[1].largest_error);
+}
+
+// Fails if an ideal device is given anything but `position`, which cannot drift.
+TEST(DeviceLimits, an_ideal_device_is_position_driven) {
+  EXPECT_EQ(decomposed(maxwell).result->choice().state_input, StateInput::position);
+}
+
+// Fails if `quietest-passive`, whose passivity rests on velocity driven states, is driven by anything else.
+TEST(DeviceLimits, quietest_passive_is_velocity_driven) {
+  EXPECT_EQ(decomposed(maxwell)["quietest-passive"].state_input, StateInput::velocity);
+  const Device device = late_device(100);
+  EXPECT_EQ(decomposed(maxwell, {}, &device)["quietest-passive"].state_input, StateInput::velocity);
+}
+
+// Fails if states are driven by velocity where b = b∞ needs no estimate.
+TEST(DeviceLimits, quietest_passive_needs_no_estimate_at_the_feedthrough) {
+  const Decomposed all = decomposed(kelvin);
+  EXPECT_EQ(all["quietest-passive"].state_input, StateInput::position);
+  EXPECT_EQ(all["quietest-passive"].velocity_gain, 0);
+}
+
+// Fails if slow modes are driven by estimates whose sum is not the displacement.
+TEST(DeviceLimits, drifting_estimates_never_drive_states) {
+  const Device device = drifting_device();
+  const Decomposed all = decomposed(maxwell, {}, &device);
+  for (const Candidate& candidate : all.result->candidates)
+    for (const StateInputMerit& merit : candidate.state_inputs)
+      EXPECT_EQ(merit.state_input, StateInput::position) << candidate.name;
+}
+
+// Fails if the user can ask for that drift unwarned.
+TEST(DeviceLimits, drifting_estimates_are_refused_when_asked_for) {
+  const Device device = drifting_device();
+  Choices choices;
+  choices.state_input = StateInput::velocity;
+  const Decomposed all = decomposed(maxwell, choices, &device);
+  EXPECT_FALSE(all.result);
+  EXPECT_TRUE(all.reports(DiagnosticCode::velocity_input_drifts));
+}
+
+// Fails if `nodal`, which exists for backward Euler, is taken with the exact scheme or is not compared without it.
+TEST(DeviceLimits, nodal_states_need_backward_euler) {
+  Choices choices;
+  choices.state_input = StateInput::nodal;
+  const Decomposed refused = decomposed(maxwell, choices);
+  EXPECT_FALSE(refused.result);
+  EXPECT_TRUE(refused.reports(DiagnosticCode::nodal_needs_backward_euler));
+  choices.scheme = Scheme::backward_euler;
+  EXPECT_TRUE(decomposed(maxwell, choices).result);
+  choices.state_input.reset();
+  const Device device = late_device(100);
+  EXPECT_EQ(decomposed(maxwell, choices, &device)["most-dissipative"].state_inputs.size(), 3u);
+}
+
+// Fails if a law that errs more than a single motor would is taken in silence: with 1 % of the network's damping in the
+// brake and states driven by position, a given b above b∞ only adds a late compensation.
+TEST(DeviceLimits, more_error_than_a_single_motor_is_reported) {
+  const Device device = late_device(100);
+  Choices choices = choosing(4.0);
+  choices.state_input = StateInput::position;
+  EXPECT_TRUE(decomposed(maxwell, choices, &device).reports(DiagnosticCode::more_error_than_virtual));
+  choices.decomposition = "velocity-free";
+  EXPECT_FALSE(decomposed(maxwell, choices, &device).reports(DiagnosticCode::more_error_than_virtual));
+}
+
+}  // namespace

@@ -68,6 +68,13 @@ TEST(Histogram, KeepsLeastGreatestAndMeanExactly) {
   EXPECT_DOUBLE_EQ(times.mean(), (1'000'003 + 17 + 5e11) / 3);
 }
 
+// Broken, a percentile could be longer than the longest duration that ever was.
+TEST(Histogram, NoPercentileExceedsTheGreatest) {
+  histogram times;
+  times.record(1'000'003);
+  EXPECT_EQ(times.percentile(50), 1'000'003u);
+}
+
 // Broken, a clock that runs backwards, or a run without a period, would read outside the bins.
 TEST(Histogram, SurvivesNothingAndNegativeDurations) {
   histogram times;

@@ -52,6 +52,20 @@ TEST_F(SafetyMonitor, RestartForgetsThePosition) {
   EXPECT_EQ(monitor.periods_since_last(), 1u);
 }
 
+// Broken, a run after a fault would start with the patience that the run before it had left.
+TEST_F(SafetyMonitor, RestartForgetsEverythingThatWasCounted) {
+  ASSERT_FALSE(step(0, 1));
+  ASSERT_FALSE(monitor.check_wake_up(3));
+  for (int period = 0; period < 10; ++period) ASSERT_FALSE(monitor.check_saturation(true));
+  for (int period = 0; period < 3; ++period) ASSERT_FALSE(monitor.check_write(device_status::stale));
+  monitor.restart();
+  EXPECT_FALSE(monitor.check_wake_up(1));
+  EXPECT_FALSE(monitor.check_sample(device_status::no_data, {}));
+  EXPECT_FALSE(step(0, 2));
+  EXPECT_FALSE(monitor.check_saturation(true));
+  EXPECT_FALSE(monitor.check_write(device_status::stale));
+}
+
 // Broken, the tool's ordinary motion during a missed deadline would be taken for a jump.
 TEST_F(SafetyMonitor, MissedPeriodsWidenTheJumpLimit) {
   ASSERT_FALSE(step(0, 1));

@@ -17,11 +17,14 @@ class scripted_clock {
     late_by_ = periods;
   }
 
+  void count_waits_in(std::uint64_t& waits) { counted_ = &waits; }
+
   void start(double period) noexcept {
     grid_ = period_grid(period);
     period_ns_ = static_cast<std::int64_t>(period * 1e9 + 0.5);
   }
   wake_up wait() noexcept {
+    if (counted_ != nullptr) ++*counted_;
     const std::int64_t late = waits_++ == late_period_ ? late_by_ * period_ns_ : 0;
     now_ = grid_.next_release() + late;
     return grid_.arrive(now_);
@@ -33,6 +36,7 @@ class scripted_clock {
   std::int64_t period_ns_ = 0;
   std::int64_t now_ = 0;
   std::uint64_t waits_ = 0;
+  std::uint64_t* counted_ = nullptr;
   std::uint64_t late_period_ = ~std::uint64_t{0};
   std::int64_t late_by_ = 0;
 };

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -90,8 +92,11 @@ TEST_F(ServoLoop, StopEndsTheLoopBeforeTheNextReadAndLeavesTheDeviceSafe) {
 TEST_F(ServoLoop, RepeatsTheLastSafeCommandWhileTheDeviceRefusesIt) {
   device.on_write(
       [](std::size_t write) { return write >= 10 && write < 13 ? device_status::no_data : device_status::ok; });
+  std::uint64_t waits = 0;
+  clock.count_waits_in(waits);
   EXPECT_TRUE(run(10).left_safe);
   EXPECT_EQ(device.written().size(), 14u);
+  EXPECT_EQ(waits, 14u);  // ten periods, the end of the last, and one between two attempts
 }
 
 // Broken, a device that takes no command any more would hold up the end of the program, or be called safe.
@@ -131,28 +136,65 @@ TEST_F(ServoLoop, SurvivesAndCountsAllowedMissedDeadlines) {
   EXPECT_EQ(summary.lateness.max(), 3'000'000u);
 }
 
-// Broken, the energy of the summary would not be the sum over holds of force times displacement plus what the brake
-// took.
-TEST_F(ServoLoop, CountsTheEnergyOfEveryHold) {
-  device_description ideal = scripted_description();
-  ideal.encoder.step = 0;
-  device = scripted_device(ideal);
-  EXPECT_EQ(ideal.brake.coil_lag, 0);
-  std::vector<double> positions;
-  device.on_read([&](std::size_t read, device_sample& sample) {
-    sample.position = 0.02 * std::sin(0.01 * static_cast<double>(read));
-    positions.push_back(sample.position);
-    return device_status::ok;
+// Broken, a device that states no jitter would have every wake-up counted as too late.
+TEST_F(ServoLoop, CountsNoLatenessAgainstAJitterThatIsNotStated) {
+  device_description silent = scripted_description();
+  silent.loop.jitter = 0;
+  device = scripted_device(silent);
+  clock.oversleep(20, 1);
+  EXPECT_EQ(run(40).beyond_jitter, 0u);
+}
+
+// Broken, nobody would know that motor or brake gave less than the model asked for.
+TEST_F(ServoLoop, CountsClippedCommands) {
+  model.on_output([](std::size_t output, command<double>& wanted) {
+    if (output >= 10 && output < 15) wanted.force = 100.0;
+    if (output == 20) wanted.damping = 100.0;
   });
-  const servo_summary summary = run(400);
-  double energy = 0;
-  for (std::size_t k = 0; k + 1 < 400; ++k) {
-    const double moved = positions[k + 1] - positions[k];
-    // Over the first hold the coil rises from nothing, of which nothing is certain.
-    const double damping = k == 0 ? 0 : device.written()[k].brake_damping;
-    energy += -device.written()[k].motor_torque * moved + damping * moved * moved / 0.001;
+  EXPECT_EQ(run(40).clipped, 6u);
+}
+
+// Broken, a log that a full disk cut short would look complete.
+TEST_F(ServoLoop, TellsThatTheTableIsIncomplete) {
+  options.outputs.csv = std::fopen("/dev/full", "w");
+  ASSERT_NE(options.outputs.csv, nullptr);
+  EXPECT_EQ(run(40).telemetry_error, ENOSPC);
+  std::fclose(options.outputs.csv);
+}
+
+struct held_law {
+  unsigned delay_samples;
+  energy_policy policy;
+};
+
+// Broken, the energy of the summary would not be the sum over holds of force times displacement plus what the brake
+// took, of the commands that were in effect.
+TEST_F(ServoLoop, CountsTheEnergyOfEveryHold) {
+  for (const held_law law : {held_law{0, energy_policy::observe}, held_law{2, energy_policy::observe},
+                             held_law{0, energy_policy::raise_brake}, held_law{2, energy_policy::raise_brake}}) {
+    device_description ideal = scripted_description();
+    ideal.encoder.step = 0;
+    ideal.loop.delay_samples = law.delay_samples;
+    restart_parts();
+    device = scripted_device(ideal);
+    options.command.energy = law.policy;
+    std::vector<double> positions;
+    device.on_read([&](std::size_t read, device_sample& sample) {
+      sample.position = 0.02 * std::sin(0.01 * static_cast<double>(read));
+      positions.push_back(sample.position);
+      return device_status::ok;
+    });
+    const servo_summary summary = run(400);
+    double energy = 0;
+    for (std::size_t k = law.delay_samples; k + 1 < 400; ++k) {
+      const double moved = positions[k + 1] - positions[k];
+      const actuation& held = device.written()[k - law.delay_samples];
+      // While the first command holds, the coil rises from nothing, of which nothing is certain.
+      const double damping = k == law.delay_samples ? 0 : held.brake_damping;
+      energy += -held.motor_torque * moved + damping * moved * moved / 0.001;
+    }
+    EXPECT_NEAR(summary.energy, energy, 1e-12 * std::abs(energy)) << law.delay_samples;
   }
-  EXPECT_NEAR(summary.energy, energy, 1e-12 * std::abs(energy));
 }
 
 // Broken, the brake's coil would be taken for empty after it has carried the safe command, or for full when it has not.
@@ -162,16 +204,13 @@ TEST_F(ServoLoop, KnowsTheCoilFromTheSafeCommandBefore) {
     sample.position = read > 20 ? 0.001 : 0.0;
     return device_status::ok;
   };
-  device_description ideal = scripted_description();
-  ideal.encoder.step = 0;
-  device = scripted_device(ideal);
   device.on_read(one_step_aside);
   model.on_output([](std::size_t, command<double>& wanted) { wanted = {7.5, 0.0}; });
   const servo_summary summary = run(22, [](std::size_t write, servo_control& control) {
     if (write == 19) control.start();
   });
-  // b Δu²/Δt over the one hold that was observed.
-  EXPECT_NEAR(summary.energy, 7.5 * 0.001 * 0.001 / 0.001, 1e-15);
+  // b Δu²/Δt over the one hold that was observed, Δu known to less than one step of the encoder.
+  EXPECT_NEAR(summary.energy, 7.5 * 0.00099 * 0.00099 / 0.001, 1e-15);
 }
 
 // Broken, a coil that goes on falling while no sample comes would be credited with what it had at first.

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -54,21 +55,27 @@ TEST_F(ServoRestart, ResetAndStartTogetherRunAgainWithTheNextSample) {
 // Broken, the history before a fault would leak into the run after it.
 TEST_F(ServoRestart, RunAfterARestartIsThatOfAFreshModel) {
   make_position_nan_at(10);
-  run(40, [](std::size_t write, servo_control& control) {
+  const servo_summary restarted = run(40, [](std::size_t write, servo_control& control) {
     if (write == 15) control.reset(), control.start();
   });
   scripted_device later;
-  device_sample sample;
-  for (int read = 0; read < 16; ++read) later.read(sample);
+  device_sample first, second;
+  for (int read = 0; read < 16; ++read) later.read(first);
+  scripted_device ahead = later;
+  ahead.read(first), ahead.read(second);
+  const double certain = std::abs(second.position - first.position) - 1e-5;  // known to less than one step [m]
   scripted_model fresh_model;
   scripted_estimator fresh_estimator;
   servo_options quiet;
   quiet.duration = 0.024;
   quiet.outputs.log = nullptr;
-  servo_loop(fresh_model, later, fresh_estimator, quiet, scripted_clock{}).run();
+  const servo_summary fresh = servo_loop(fresh_model, later, fresh_estimator, quiet, scripted_clock{}).run();
   for (std::size_t k = 0; k < 24; ++k) {
     EXPECT_TRUE(same_bits(later.written()[k], device.written()[16 + k])) << k;
   }
+  // Over the first hold the coil comes from the safe command instead of from nothing: ∫b v² dt ≥ √(b₀b₁) Δu²/Δt.
+  const double credit = std::sqrt(7.5 * 11.0) * certain * certain / 0.001;
+  EXPECT_NEAR(restarted.energy, fresh.energy + credit, 1e-12);
 }
 
 // Broken, a deadline missed before the start would be held against the run after it.
@@ -138,6 +145,15 @@ TEST(ServoRestartOfADevice, WaitsForADeviceThatLeavesItsOwnSafeState) {
             "0.021000 s: idle: cannot start: the device answers 'fault'\n0.024000 s: running\n");
 }
 
+// Broken, a reset asked for too early would reach into a run, or be kept for the fault that is yet to come.
+TEST(ServoRestartOfADevice, IgnoresAResetWhileRunning) {
+  const stubborn_run result = run_stubborn(0, [](std::size_t write, servo_control& control) {
+    if (write == 5) control.reset();
+  });
+  EXPECT_EQ(result.resets, 0);
+  EXPECT_STREQ(name_of(result.summary.state), "safe");
+}
+
 // Broken, a reset that was lost on its way to the board could not be repeated.
 TEST(ServoRestartOfADevice, MayBeRepeatedWhileTheDeviceDoesNotHear) {
   const stubborn_run result = run_stubborn(1, [](std::size_t write, servo_control& control) {
@@ -145,6 +161,9 @@ TEST(ServoRestartOfADevice, MayBeRepeatedWhileTheDeviceDoesNotHear) {
     if (write == 30) control.reset();
   });
   EXPECT_EQ(result.resets, 2);
+  const std::string line = "idle: cannot start: the device answers 'fault'\n";
+  const std::size_t first = result.log.find(line);
+  EXPECT_NE(result.log.find(line, first + 1), std::string::npos) << result.log;
   for (std::size_t k = 0; k < 50; ++k) EXPECT_EQ(result.written[k].brake_damping == 7.5, k >= 10 && k <= 33) << k;
 }
 

@@ -78,6 +78,36 @@ TEST(Telemetry, FailedWriteIsToldAndSurvived) {
   std::fclose(full);
 }
 
+// A file that refuses its first write and takes the later ones.
+struct hesitant_file {
+  std::string taken;
+  bool refused = false;
+
+  static ssize_t write(void* self, const char* bytes, std::size_t size) {
+    auto& file = *static_cast<hesitant_file*>(self);
+    if (!file.refused) {
+      file.refused = true;
+      errno = EIO;
+      return 0;
+    }
+    file.taken.append(bytes, size);
+    return static_cast<ssize_t>(size);
+  }
+};
+
+// Broken, a table with a hole in it would look like one without.
+TEST(Telemetry, NothingFollowsAFailedWrite) {
+  hesitant_file target;
+  std::FILE* const file = fopencookie(&target, "w", {nullptr, hesitant_file::write, nullptr, nullptr});
+  std::setvbuf(file, nullptr, _IONBF, 0);
+  telemetry_writer writer(64, {file, nullptr, {}}, {});
+  writer.records().push(full_record());
+  writer.drain();
+  EXPECT_EQ(writer.write_error(), EIO);
+  EXPECT_EQ(target.taken, "");
+  std::fclose(file);
+}
+
 struct sentence {
   fault_report cause;
   const char* text;

@@ -66,5 +66,26 @@ TEST(VelocityFeed, FillsAGapWithTheStraightLine) {
   EXPECT_EQ(estimator.positions, (std::vector<float>{1, 2, 3, 4, 5}));
 }
 
+struct recording_sensor {
+  std::vector<double> velocities;
+  double update(const device_sample& sample) noexcept {
+    velocities.push_back(sample.velocity);
+    return sample.velocity;
+  }
+  void reset(double) noexcept {}
+  const char* name() const noexcept { return "recording"; }
+};
+
+// Broken, a filter behind a measured velocity would see steps where a sample is missing.
+TEST(VelocityFeed, FillsAMeasuredVelocityToo) {
+  recording_sensor estimator;
+  velocity_feed<recording_sensor> feed(estimator);
+  device_sample sample;
+  feed.reset(sample);
+  sample.velocity = 3;
+  EXPECT_EQ(feed.update(sample, 3), 3);
+  EXPECT_EQ(estimator.velocities, (std::vector<double>{1, 2, 3}));
+}
+
 }  // namespace
 }  // namespace dashpot

@@ -2,8 +2,6 @@
 // line between the two around them: an estimator would otherwise take a gap of n periods for n times the velocity.
 #pragma once
 
-#include <cstdint>
-
 #include <dashpot/device.hpp>
 #include <dashpot/servo/estimator_check.hpp>
 
@@ -38,14 +36,12 @@ class velocity_feed {
     }
   }
 
-  // Edges are not invented: the newest one before the gap stays the newest.
+  // Times and edges are not invented: for an estimator that reads them nothing happens until the next sample.
   device_sample between(const device_sample& sample, unsigned period, unsigned periods) const noexcept {
     const double part = static_cast<double>(period) / static_cast<double>(periods);
     device_sample filled = last_;
     filled.position += part * (sample.position - last_.position);
     filled.velocity += part * (sample.velocity - last_.velocity);
-    const auto elapsed = static_cast<double>(sample.timestamp_ns - last_.timestamp_ns);  // [ns]
-    filled.timestamp_ns += static_cast<std::uint64_t>(part * elapsed);
     return filled;
   }
 

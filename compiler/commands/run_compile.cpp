@@ -35,8 +35,8 @@ std::string escaped(const std::string& path) {
 OutputFile dependencies(const Options& options, const std::vector<OutputFile>& files) {
   const std::filesystem::path folder = options.output.value_or(".");
   std::string text;
-  for (const OutputFile& file : files) text += (text.empty() ? "" : " ") + escaped((folder / file.name).string());
-  text += ":";
+  for (const OutputFile& file : files) text += escaped((folder / file.name).string()) + " ";
+  text.back() = ':';
   for (const std::string& network : options.networks) text += " \\\n  " + escaped(network);
   if (options.device) text += " \\\n  " + escaped(*options.device);
   if (options.emission.templates)

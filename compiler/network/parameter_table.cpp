@@ -43,8 +43,9 @@ std::optional<double> ParameterTable::read_part(const ValueDecl& decl, Entry& en
 
 void ParameterTable::read_range(Entry& entry) {
   const ParameterDecl& decl = entry.decl;
-  const std::optional<double> min = decl.min ? read_part(*decl.min, entry) : std::nullopt;
-  const std::optional<double> max = decl.max ? read_part(*decl.max, entry) : std::nullopt;
+  std::optional<double> min, max;
+  if (decl.min) min = read_part(*decl.min, entry);
+  if (decl.max) max = read_part(*decl.max, entry);
   if (decl.tunable && (!decl.min || !decl.max))
     return diagnostics_.report<DiagnosticCode::tunable_without_range>(decl.name.span, entry.parameter.name);
   if (!decl.tunable && (decl.min || decl.max))

@@ -9,7 +9,9 @@
 namespace dashpot {
 namespace {
 
-bool fits_float(double value) noexcept { return std::fabs(value) <= double{std::numeric_limits<float>::max()}; }
+bool fits_float(double value) noexcept {
+  return std::fabs(value) <= static_cast<double>(std::numeric_limits<float>::max());
+}
 
 std::int64_t late_limit(const board_options& options, const loop_description& loop) noexcept {
   const double periods = 1.0 + static_cast<double>(loop.missed_deadlines_allowed);
@@ -17,9 +19,16 @@ std::int64_t late_limit(const board_options& options, const loop_description& lo
   return std::llround(limit * 1e9);
 }
 
-std::uint32_t damage(const board::decoder_statistics& counts) noexcept { return counts.corrupted + counts.discarded_bytes; }
+std::uint32_t damage(const board::decoder_statistics& counts) noexcept {
+  return counts.corrupted + counts.discarded_bytes;
+}
 
 std::uint32_t overtaken(const board::sequence_statistics& counts) noexcept { return counts.repeated + counts.late; }
+
+template <class Message>
+void keep(const board::frame& from, std::optional<Message>& last) noexcept {
+  last = board::decode<Message>(from);
+}
 
 }  // namespace
 
@@ -29,7 +38,8 @@ std::uint64_t board::monotonic_nanoseconds() noexcept {
   return static_cast<std::uint64_t>(now.tv_sec) * 1'000'000'000U + static_cast<std::uint64_t>(now.tv_nsec);
 }
 
-board_device::board_device(board::transport stream, const device_description& description, board_options options) noexcept
+board_device::board_device(board::transport stream, const device_description& description,
+                           board_options options) noexcept
     : link_(std::move(stream)),
       description_(description),
       options_(options),
@@ -45,14 +55,16 @@ device_status board_device::read(device_sample& sample) noexcept {
   if (link_.closed()) return device_status::disconnected;
   if (damage(link_.statistics()) != damage_before) return device_status::corrupted;
   const bool too_long = reads_in_vain_ > description_.loop.missed_deadlines_allowed;
-  return too_long || overtaken(samples_.statistics()) != overtaken_before ? device_status::stale : device_status::no_data;
+  return too_long || overtaken(samples_.statistics()) != overtaken_before ? device_status::stale
+                                                                          : device_status::no_data;
 }
 
 device_status board_device::write(const actuation& command) noexcept {
   if (!started_) return device_status::disconnected;
   const bool sane = fits_float(command.motor_torque) && fits_float(command.brake_damping);
   const actuation sent = sane ? command : actuation{0, description_.brake.safe_damping};
-  const board::command_message message = {static_cast<float>(sent.motor_torque), static_cast<float>(sent.brake_damping)};
+  const board::command_message message = {static_cast<float>(sent.motor_torque),
+                                          static_cast<float>(sent.brake_damping)};
   const device_status status = send(message, commands_sent_);
   if (status != device_status::ok) return status;
   ++commands_sent_;
@@ -85,11 +97,11 @@ void board_device::receive() noexcept {
 // A board says nothing that only a host may say: such a frame is an echo, and no answer.
 void board_device::take(const board::frame& from) noexcept {
   switch (from.type) {
-    case board::message_type::sample: take_sample(from); break;
-    case board::message_type::description: description_of_board_ = board::decode<board::description_message>(from); break;
-    case board::message_type::configured: configured_ = board::decode<board::configured_message>(from); break;
-    case board::message_type::statistics: counts_of_board_ = board::decode<board::statistics_message>(from); break;
-    default: break;
+    case board::message_type::sample: return take_sample(from);
+    case board::message_type::description: return keep(from, description_of_board_);
+    case board::message_type::configured: return keep(from, configured_);
+    case board::message_type::statistics: return keep(from, counts_of_board_);
+    default: return;
   }
 }
 
@@ -98,7 +110,8 @@ void board_device::take_sample(const board::frame& from) noexcept {
   if (samples_.note(from.sequence) != board::arrival::fresh) return;
   const std::int32_t before = newest_.counts;
   newest_ = board::decode<board::sample_message>(from);
-  const auto moved = static_cast<std::int32_t>(static_cast<std::uint32_t>(newest_.counts) - static_cast<std::uint32_t>(before));
+  const auto moved =
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(newest_.counts) - static_cast<std::uint32_t>(before));
   counts_ = first ? newest_.counts : counts_ + moved;
   sampled_ = true;
   fresh_ = true;

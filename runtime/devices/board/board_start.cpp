@@ -12,7 +12,9 @@ constexpr int patience = 50;  // for one answer, before the question is repeated
 // Products of the same numbers in another order differ in the last digits; no other encoder differs by so little.
 constexpr double step_tolerance = 1e-9;
 
-std::uint32_t to_nanoseconds(double seconds) noexcept { return static_cast<std::uint32_t>(std::llround(seconds * 1e9)); }
+std::uint32_t to_nanoseconds(double seconds) noexcept {
+  return static_cast<std::uint32_t>(std::llround(seconds * 1e9));
+}
 
 std::string text_of(double value) {
   char text[32];
@@ -31,8 +33,8 @@ units units_of(motion kind) noexcept {
 }
 
 std::string compare(const char* what, double board, double described, const char* unit) {
-  return std::string(what) + " of the board is " + text_of(board) + unit + ", the device file says " + text_of(described) +
-         unit;
+  return std::string(what) + " of the board is " + text_of(board) + unit + ", the device file says " +
+         text_of(described) + unit;
 }
 
 // What makes the board another one than the described; empty where nothing does. A board that can do more is welcome.
@@ -43,9 +45,11 @@ std::string difference(const board::description_message& board, const device_des
   if (!(std::fabs(board.encoder_step - step) <= step_tolerance * std::fabs(step)))
     return compare("encoder step", board.encoder_step, step, unit.step);
   if (board.max_torque < static_cast<float>(described.motor.max_torque))
-    return compare("largest motor effort", double{board.max_torque}, described.motor.max_torque, unit.torque);
+    return compare("largest motor effort", static_cast<double>(board.max_torque), described.motor.max_torque,
+                   unit.torque);
   if (board.max_damping < static_cast<float>(described.brake.max_damping))
-    return compare("largest damping", double{board.max_damping}, described.brake.max_damping, unit.damping);
+    return compare("largest damping", static_cast<double>(board.max_damping), described.brake.max_damping,
+                   unit.damping);
   return {};
 }
 
@@ -53,7 +57,8 @@ const char* meaning(board::verdict verdict) noexcept {
   switch (verdict) {
     case board::verdict::accepted: return "accepted";
     case board::verdict::period_too_short: return "its shortest period is longer than the loop's";
-    case board::verdict::watchdog_needed: return "a board that the host controls needs a watchdog of one period or more";
+    case board::verdict::watchdog_needed:
+      return "a board that the host controls needs a watchdog of one period or more";
     case board::verdict::damping_out_of_range: return "the safe damping is more than its brake can make";
     case board::verdict::no_model: return "its firmware was built without a model";
     case board::verdict::model_period_differs: return "its model was compiled for another period than the loop's";
@@ -68,7 +73,8 @@ bool board_device::start(std::string& error) {
   started_ = false;
   samples_.restart();
   gauge_.restart();
-  deadline_ = board::monotonic_nanoseconds() + static_cast<std::uint64_t>(options_.start_time) * nanoseconds_per_millisecond;
+  deadline_ =
+      board::monotonic_nanoseconds() + static_cast<std::uint64_t>(options_.start_time) * nanoseconds_per_millisecond;
   started_ = greet(error) && configure(error) && set_running(error);
   return started_;
 }

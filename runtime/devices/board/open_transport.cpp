@@ -31,11 +31,11 @@ struct rate {
   speed_t constant;
 };
 
-constexpr rate rates[] = {
-    {9600, B9600},       {19200, B19200},     {38400, B38400},     {57600, B57600},     {115200, B115200},
-    {230400, B230400},   {460800, B460800},   {500000, B500000},   {576000, B576000},   {921600, B921600},
-    {1000000, B1000000}, {1152000, B1152000}, {1500000, B1500000}, {2000000, B2000000}, {2500000, B2500000},
-    {3000000, B3000000}, {3500000, B3500000}, {4000000, B4000000}};
+constexpr rate rates[] = {{9600, B9600},       {19200, B19200},     {38400, B38400},     {57600, B57600},
+                          {115200, B115200},   {230400, B230400},   {460800, B460800},   {500000, B500000},
+                          {576000, B576000},   {921600, B921600},   {1000000, B1000000}, {1152000, B1152000},
+                          {1500000, B1500000}, {2000000, B2000000}, {2500000, B2500000}, {3000000, B3000000},
+                          {3500000, B3500000}, {4000000, B4000000}};
 
 std::optional<speed_t> constant_of(unsigned baud) {
   for (const rate& known : rates) {
@@ -44,7 +44,8 @@ std::optional<speed_t> constant_of(unsigned baud) {
   return std::nullopt;
 }
 
-// Raw: no echo, no translation, no flow control. One byte is enough for a read, so that "none yet" and "hung up" differ.
+// Raw: no echo, no translation, no flow control. One byte is enough for a read, so that "none yet" and "hung up"
+// differ.
 bool make_raw(int descriptor, speed_t speed) {
   termios settings = {};
   if (::tcgetattr(descriptor, &settings) != 0) return false;

@@ -29,7 +29,8 @@ result parse_serial(std::string_view text, std::string_view rest, std::string& e
   if (url.path.empty()) return refuse(text, "a serial port needs a path, as in serial:/dev/ttyACM0", error);
   if (mark == std::string_view::npos) return url;
   const std::string_view option = rest.substr(mark + 1);
-  const auto baud = option.substr(0, 5) == "baud=" ? whole_number(option.substr(5), std::numeric_limits<int>::max()) : std::nullopt;
+  const auto baud =
+      option.substr(0, 5) == "baud=" ? whole_number(option.substr(5), std::numeric_limits<int>::max()) : std::nullopt;
   if (!baud) return refuse(text, "behind the '?' comes baud= and a number", error);
   url.baud = *baud;
   return url;

@@ -72,8 +72,8 @@ class wired_session {
   device_sample sample;
 };
 
-// The firmware and the host are two programs with clocks of their own: what the unit tests prove in lockstep must hold when
-// nothing waits for anything. Host and board must count exactly what the wire did, and the session must go on.
+// The firmware and the host are two programs with clocks of their own: what the unit tests prove in lockstep must hold
+// when nothing waits for anything. Host and board must count exactly what the wire did, and the session must go on.
 TEST(Firmware, survives_and_counts_a_bad_wire) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   wired_session with;
@@ -90,7 +90,7 @@ TEST(Firmware, survives_and_counts_a_bad_wire) {
   }
   with.wire.set_rate(0);
   with.exchange(10);
-  while (with.device.counts_of_board().received == 0) {
+  while (!with.device.counts_of_board()) {
     ASSERT_EQ(with.device.ask_statistics(), device_status::ok);
     with.exchange(10);
   }
@@ -102,13 +102,14 @@ TEST(Firmware, survives_and_counts_a_bad_wire) {
   EXPECT_EQ(host.samples.repeated, up.repeated);
   EXPECT_EQ(host.samples.late, up.delayed);
   const mishap_counts& down = with.wire.down().counts();
-  const statistics_message& board = with.device.counts_of_board();
+  const statistics_message& board = *with.device.counts_of_board();
   EXPECT_EQ(board.corrupted, down.damaged);
   EXPECT_EQ(board.lost, down.lost + down.damaged);
   EXPECT_EQ(board.repeated, down.repeated);
   EXPECT_EQ(board.late, down.delayed);
   EXPECT_EQ(board.dropped, 0U);
-  EXPECT_GT(up.lost * up.repeated * up.damaged * up.delayed * down.lost * down.repeated * down.damaged * down.delayed, 0U);
+  EXPECT_GT(up.lost * up.repeated * up.damaged * up.delayed * down.lost * down.repeated * down.damaged * down.delayed,
+            0U);
   EXPECT_EQ(with.device.newest_sample().motor_torque, 10.0F);
 }
 

@@ -19,8 +19,8 @@ namespace {
 using model = DASHPOT_BOARD_MODEL_CLASS;
 
 constexpr float safe_damping = 4;  // [N·s/m]
-constexpr configure_message own_model = {model_runner<model>::period, safe_damping, 0, 0, sampling::free_running,
-                                         controller::own_model};
+constexpr configure_message own_model = {model_runner<model>::period, safe_damping,         0, 0,
+                                         sampling::free_running,      controller::own_model};
 
 // Does what the board says it does, one sample after the other, from configure on.
 class twin {
@@ -29,7 +29,7 @@ class twin {
     const bool answers_reset = sample.state == board_state::running && !running_;
     if (!answers_reset) plant_.advance(driven_, static_cast<float>(own_model.period) * 1e-9F);
     ASSERT_EQ(sample.counts, plant_.counts());
-    if (running_) driven_ = runner_.step(sample.counts).wish;
+    if (running_) driven_ = runner_.step({sample.counts, sample.timestamp, sample.edge_time}).wish;
     running_ = sample.state == board_state::running;
     ASSERT_EQ(std::bit_cast<std::uint32_t>(sample.motor_torque), std::bit_cast<std::uint32_t>(driven_.motor_torque));
     ASSERT_EQ(std::bit_cast<std::uint32_t>(sample.brake_damping), std::bit_cast<std::uint32_t>(driven_.brake_damping));
@@ -41,7 +41,7 @@ class twin {
  private:
   test_plant plant_;
   outputs driven_ = {0, safe_damping};
-  model_runner<model> runner_{static_cast<float>(test_plant::encoder_step), 1};
+  model_runner<model> runner_{test_plant::encoder_step, {}, 1};
   bool running_ = false;
 };
 
@@ -82,8 +82,8 @@ class conversation {
   link link_;
 };
 
-// Processor, compiler, encoder, plant, estimator and model in single precision: one bit of difference anywhere, in any of
-// 4,000 steps in a closed loop, would show; what is certified on the host would not be what runs on the board.
+// Processor, compiler, encoder, plant, estimator and model in single precision: one bit of difference anywhere, in any
+// of 4,000 steps in a closed loop, would show; what is certified on the host would not be what runs on the board.
 TEST(Firmware, runs_the_model_bit_for_bit_like_the_host) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board board;
@@ -110,8 +110,8 @@ TEST(Firmware, runs_the_model_bit_for_bit_like_the_host) {
   EXPECT_GT(host.steps_with_torque, 3900);
 }
 
-// The cost on the target is what decides at which rate a board can run a network: 60 instructions are the budget for the
-// network of Fig. 5.
+// The cost on the target is what decides at which rate a board can run a network: 60 instructions are the budget for
+// the network of Fig. 5.
 TEST(Firmware, one_step_stays_within_its_budget_of_instructions) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board board({"-icount", "shift=0"});

@@ -15,10 +15,10 @@ namespace {
 
 using namespace board;
 
-#define DASHPOT_SKIP_WITHOUT_PYTHON()                    \
-  if (std::string(PYTHON).empty()) {                     \
-    announce_skip("python3 is not installed");           \
-    GTEST_SKIP() << "python3 is not installed";          \
+#define DASHPOT_SKIP_WITHOUT_PYTHON()           \
+  if (std::string(PYTHON).empty()) {            \
+    announce_skip("python3 is not installed");  \
+    GTEST_SKIP() << "python3 is not installed"; \
   }
 
 board_options patient(sampling when, std::uint16_t watchdog_periods) {
@@ -61,7 +61,7 @@ TEST(Peer, understands_the_driver) {
   ASSERT_EQ(with.next(), device_status::ok);
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const float torque = 0.01F * static_cast<float>(i), damping = 0.02F * static_cast<float>(i);
-    ASSERT_EQ(with.device.write({double{torque}, double{damping}}), device_status::ok);
+    ASSERT_EQ(with.device.write({static_cast<double>(torque), static_cast<double>(damping)}), device_status::ok);
     ASSERT_EQ(with.next(), device_status::ok);
     ASSERT_EQ(with.device.newest_sample().motor_torque, torque);
     ASSERT_EQ(with.device.newest_sample().brake_damping, damping);
@@ -70,11 +70,11 @@ TEST(Peer, understands_the_driver) {
     ASSERT_EQ(with.sample.counts, rise < 500 ? rise : 1000 - rise);
   }
   ASSERT_EQ(with.device.ask_statistics(), device_status::ok);
-  while (with.device.counts_of_board().received == 0) {
+  while (!with.device.counts_of_board()) {
     with.device.write({});
     ASSERT_EQ(with.next(), device_status::ok);
   }
-  EXPECT_EQ(with.device.counts_of_board().discarded_bytes, 0U);
+  EXPECT_EQ(with.device.counts_of_board()->discarded_bytes, 0U);
   EXPECT_EQ(with.device.statistics().frames.discarded_bytes, 0U);
   EXPECT_EQ(with.device.statistics().samples.lost, 0U);
 }
@@ -125,8 +125,9 @@ TEST(Peer, refuses_by_the_page) {
   std::string error;
   peer_session with(sampling::on_command, 0);
   EXPECT_FALSE(with.device.start(error));
-  EXPECT_EQ(error,
-            "the board refuses the configuration: a board that the host controls needs a watchdog of one period or more");
+  EXPECT_EQ(
+      error,
+      "the board refuses the configuration: a board that the host controls needs a watchdog of one period or more");
 }
 
 }  // namespace

@@ -34,8 +34,9 @@ std::string qemu_board::missing() {
 qemu_board::qemu_board(const std::vector<std::string>& more_options) : process_(command(more_options)) {}
 
 std::vector<std::string> qemu_board::command(const std::vector<std::string>& more_options) const {
-  std::vector<std::string> words = {QEMU,      "-M",      "mps2-an386", "-nographic", "-monitor", "none",
-                                    "-serial", "unix:" + socket() + ",server=on,wait=off", "-kernel", BOARD_FIRMWARE};
+  std::vector<std::string> words = {QEMU,       "-M",          "mps2-an386", "-nographic",
+                                    "-monitor", "none",        "-serial",    "unix:" + socket() + ",server=on,wait=off",
+                                    "-kernel",  BOARD_FIRMWARE};
   words.insert(words.end(), more_options.begin(), more_options.end());
   return words;
 }

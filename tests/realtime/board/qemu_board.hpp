@@ -47,8 +47,8 @@ void announce_skip(const std::string& reason);
 
 }  // namespace dashpot::board
 
-#define DASHPOT_SKIP_WITHOUT_QEMU()                                       \
+#define DASHPOT_SKIP_WITHOUT_QEMU()                                        \
   if (const std::string reason = qemu_board::missing(); !reason.empty()) { \
-    announce_skip(reason);                                                \
-    GTEST_SKIP() << reason;                                               \
+    announce_skip(reason);                                                 \
+    GTEST_SKIP() << reason;                                                \
   }

@@ -1,6 +1,6 @@
 // An update law in the shape of emitted code (single precision), so that firmware and host have one to run: the general
-// viscoelastic solid of Gosline & Hayward 2009, Fig. 5. K1 = 12 and B1 = 5 in series, K2 = 10 and B2 = 6 in series, both beside
-// K3 = 5 [N/m, N·s/m]; exact scheme at 1 kHz, states driven by velocity, most dissipative: b = B1 + B2.
+// viscoelastic solid of Gosline & Hayward 2009, Fig. 5. K1 = 12 and B1 = 5 in series, K2 = 10 and B2 = 6 in series,
+// both beside K3 = 5 [N/m, N·s/m]; exact scheme at 1 kHz, states driven by velocity, most dissipative: b = B1 + B2.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -11,7 +11,7 @@ class stand_in_model {
  public:
   using scalar = float;
   static constexpr scalar sample_period = 0.001F;  // [s]
-  static constexpr dashpot::motion motion = dashpot::motion::translation;
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
   struct certified_for {
     static constexpr bool any_device = true;
     static constexpr const char* device = "";
@@ -56,18 +56,18 @@ class stand_in_model {
   }
 
  private:
-  static constexpr scalar K1 = 12, K2 = 10, K3 = 5;   // [N/m]
-  static constexpr scalar damping = 11;               // B1 + B2 [N·s/m]
+  static constexpr scalar K1 = 12, K2 = 10, K3 = 5;      // [N/m]
+  static constexpr scalar damping = 11;                  // B1 + B2 [N·s/m]
   static constexpr scalar B1_K1_decay = 0.00239712230F;  // 1 − exp(−λh), λ = 12/5
   static constexpr scalar B1_K1_gain = 11.9856115F;      // K1 (1 − exp(−λh))/(λh) [N/m]
   static constexpr scalar B2_K2_decay = 0.00166527855F;  // λ = 10/6
   static constexpr scalar B2_K2_gain = 9.99167129F;      // [N/m]
   static constexpr scalar input_gain = B1_K1_gain + B2_K2_gain;
 
-  scalar B1_K1_force_ = 0;  // [N]
-  scalar B2_K2_force_ = 0;  // [N]
-  scalar K3_force_ = 0;     // [N]
-  scalar history_ = 0;      // what is left of the branch forces one sample later [N]
+  scalar B1_K1_force_ = 0;   // [N]
+  scalar B2_K2_force_ = 0;   // [N]
+  scalar K3_force_ = 0;      // [N]
+  scalar history_ = 0;       // what is left of the branch forces one sample later [N]
   scalar displacement_ = 0;  // of this sample [m]
   bool sampled_ = false;     // output() took one that update() has not seen
 };

@@ -122,39 +122,67 @@ TEST(Application, runs_the_model_on_counts) {
   }
   ASSERT_EQ(samples.size(), 500U);
   generated::stand_in_model model;
-  std::int32_t before = samples[0].counts;
-  model.reset(static_cast<float>(before) * 1e-5F);
+  const std::int32_t start = samples[0].counts;
+  model.reset(static_cast<float>(start) * 1e-5F);
+  backward_difference<float> estimator(1, 0.001);
+  estimator.reset(0);
   for (const sample_message& sample : samples) {
-    const float velocity = static_cast<float>(sample.counts - before) * 1e-5F / 0.001F;
+    const float velocity = estimator.update(static_cast<float>(sample.counts - start) * 1e-5F);
     const auto expected = model.step(static_cast<float>(sample.counts) * 1e-5F, velocity);
     ASSERT_EQ(sample.motor_torque, -expected.force);
     ASSERT_EQ(sample.brake_damping, expected.damping);
-    before = sample.counts;
   }
-  EXPECT_GT(before, 100);
+  EXPECT_GT(samples.back().counts, start + 100);
 }
 
 // A translational network at the tool of a rotary joint: K r², B r², torque = F r (theory, section 7).
 TEST(ModelRunner, converts_between_tool_and_joint) {
   constexpr float radius = 0.05F, step = 1e-4F;
-  model_runner<generated::stand_in_model> runner(step, radius);
-  runner.step(0);
-  const model_answer answer = runner.step(3);
+  model_runner<generated::stand_in_model> runner(static_cast<double>(step), {}, radius);
+  runner.step({0, 0, 0});
+  const model_answer answer = runner.step({3, 1'000'000, 0});
   generated::stand_in_model model;
   model.reset(0);
   model.step(0, 0);
-  const float speed = 3.0F * step / 0.001F;
+  const float speed = 3.0F * step * 1000.0F;
   const auto at_tool = model.step(3.0F * step * radius, speed * radius);
   EXPECT_EQ(answer.speed, speed);
   EXPECT_EQ(answer.wish.motor_torque, -at_tool.force * radius);
   EXPECT_EQ(answer.wish.brake_damping, at_tool.damping * radius * radius);
 }
 
+// A model certified with a smooth velocity would be active on a raw one: the board must use the estimator it is told
+// to.
+TEST(ModelRunner, estimates_the_velocity_as_described) {
+  velocity_description smooth;
+  smooth.estimator = estimator_kind::butterworth;
+  smooth.cutoff = 120;
+  model_runner<generated::stand_in_model> runner(1e-5, smooth, 1);
+  any_estimator<float> expected(smooth, 0.001, 1e-5);
+  expected.reset(0);
+  for (std::int32_t counts = 0; counts < 100; counts += 7) {
+    device_sample sample;
+    sample.position = static_cast<double>(static_cast<float>(counts) * 1e-5F);
+    EXPECT_EQ(runner.step({counts, 0, 0}).speed, expected.update(sample));
+  }
+}
+
+struct certified_for_a_filter {
+  struct certified_for {
+    static constexpr bool any_device = false;
+    static constexpr const char* estimator = "butterworth";
+  };
+};
+// The firmware does not compile with a model that was certified for another estimator.
+static_assert(is_certified_for<certified_for_a_filter>(estimator_kind::butterworth));
+static_assert(!is_certified_for<certified_for_a_filter>(estimator_kind::backward_difference));
+static_assert(is_certified_for<generated::stand_in_model>(estimator_kind::kalman));
+
 // The counts wrap around after 2³² steps: the velocity must not jump there.
 TEST(ModelRunner, crosses_the_end_of_the_counter) {
-  model_runner<generated::stand_in_model> runner(1e-5F, 1);
-  runner.step(std::numeric_limits<std::int32_t>::max());
-  EXPECT_EQ(runner.step(std::numeric_limits<std::int32_t>::min() + 1).speed, 2.0F * 1e-5F / 0.001F);
+  model_runner<generated::stand_in_model> runner(1e-5, {}, 1);
+  runner.step({std::numeric_limits<std::int32_t>::max(), 0, 0});
+  EXPECT_EQ(runner.step({std::numeric_limits<std::int32_t>::min() + 1, 1'000'000, 0}).speed, 2.0F * 1e-5F * 1000.0F);
 }
 
 }  // namespace

@@ -163,7 +163,8 @@ TEST(BoardDevice, unwraps_the_counter) {
   std::int64_t expected = sample.counts;
   for (const std::int32_t move : {2'000'000'000, 2'000'000'000, 1'000'000'000, -2'000'000'000}) {
     expected += move;
-    sample.counts = static_cast<std::int32_t>(static_cast<std::uint32_t>(sample.counts) + static_cast<std::uint32_t>(move));
+    sample.counts =
+        static_cast<std::int32_t>(static_cast<std::uint32_t>(sample.counts) + static_cast<std::uint32_t>(move));
     const encoded_frame frame = encode(sample, ++sequence);
     intruder.write(frame.bytes, frame.size);
     with.device.read(with.sample);
@@ -253,10 +254,12 @@ TEST(BoardDevice, works_over_a_pseudo_terminal) {
 TEST(BoardDevice, fetches_the_counts_of_the_board) {
   session with;
   for (int i = 0; i < 10; ++i) with.exchange();
-  EXPECT_EQ(with.device.counts_of_board().received, 0U);
+  EXPECT_FALSE(with.device.counts_of_board());
   EXPECT_EQ(with.device.ask_statistics(), device_status::ok);
   with.exchange();
-  EXPECT_EQ(with.device.counts_of_board().received, 3U + 10U + 1U) << "hello, configure, reset, commands, the question";
+  ASSERT_TRUE(with.device.counts_of_board());
+  EXPECT_EQ(with.device.counts_of_board()->received, 3U + 10U + 1U)
+      << "hello, configure, reset, commands, the question";
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ board_options by_hand() {
 
 // Host and board with a wire between them that harms both ways.
 struct harmed_session {
-  explicit harmed_session(unsigned seed, stream_pair host_side = connected_pair(), stream_pair board_side = connected_pair())
+  explicit harmed_session(unsigned seed, stream_pair host_side = connected_pair(),
+                          stream_pair board_side = connected_pair())
       : board(std::move(board_side.far)),
         device(std::move(host_side.near), described_board(), by_hand()),
         wire(std::move(host_side.far), std::move(board_side.near), seed) {
@@ -55,9 +56,9 @@ struct harmed_session {
   device_sample sample;
 };
 
-// Of 3,000 exchanges one in five comes to harm each way. The host must hand out as new only what the board measured, once
-// and in order; the board must apply only what the host sent, in order; every mishap must be counted as what it is; and the
-// session must go on.
+// Of 3,000 exchanges one in five comes to harm each way. The host must hand out as new only what the board measured,
+// once and in order; the board must apply only what the host sent, in order; every mishap must be counted as what it
+// is; and the session must go on.
 TEST(BoardFaults, are_survived_and_counted) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(seed);
@@ -91,12 +92,14 @@ TEST(BoardFaults, are_survived_and_counted) {
     with.device.ask_statistics();
     with.exchange(30);
     const mishap_counts& down = with.wire.down().counts();
-    const statistics_message& board = with.device.counts_of_board();
+    ASSERT_TRUE(with.device.counts_of_board());
+    const statistics_message& board = *with.device.counts_of_board();
     EXPECT_EQ(board.corrupted, down.damaged);
     EXPECT_EQ(board.lost, down.lost + down.damaged);
     EXPECT_EQ(board.repeated, down.repeated);
     EXPECT_EQ(board.late, down.delayed);
-    EXPECT_GT(up.lost * up.repeated * up.damaged * up.delayed * down.lost * down.repeated * down.damaged * down.delayed, 0U);
+    EXPECT_GT(up.lost * up.repeated * up.damaged * up.delayed * down.lost * down.repeated * down.damaged * down.delayed,
+              0U);
     EXPECT_EQ(with.device.board_state(), board_state::running);
   }
 }

@@ -58,7 +58,8 @@ TEST(BoardStart, refuses_another_device) {
             "one of board and device file turns, the other slides");
 }
 
-// A board that can do more than the file asks for is the described one; so is one whose step was multiplied in another order.
+// A board that can do more than the file asks for is the described one; so is one whose step was multiplied in another
+// order.
 TEST(BoardStart, accepts_a_stronger_board) {
   EXPECT_EQ(with_description([](auto& d) { d.motor.max_torque = 1; }), "started");
   EXPECT_EQ(with_description([](auto& d) { d.brake.max_damping = 10; }), "started");
@@ -73,8 +74,9 @@ TEST(BoardStart, passes_on_why_the_board_refuses) {
             "the board refuses the configuration: its shortest period is longer than the loop's");
   board_options careless;
   careless.watchdog_periods = 0;
-  EXPECT_EQ(outcome(described_board(), facts_of_board(), careless),
-            "the board refuses the configuration: a board that the host controls needs a watchdog of one period or more");
+  EXPECT_EQ(
+      outcome(described_board(), facts_of_board(), careless),
+      "the board refuses the configuration: a board that the host controls needs a watchdog of one period or more");
   board_options alone;
   alone.controller = controller::own_model;
   EXPECT_EQ(outcome(described_board(), facts_of_board(), alone),
@@ -97,9 +99,13 @@ TEST(BoardStart, explains_silence) {
     EXPECT_FALSE(device.start(error));
     return error;
   };
-  const auto put = [](transport& into, const std::vector<std::uint8_t>& bytes) { into.write(bytes.data(), bytes.size()); };
+  const auto put = [](transport& into, const std::vector<std::uint8_t>& bytes) {
+    into.write(bytes.data(), bytes.size());
+  };
   EXPECT_EQ(outcome_of([](transport&) {}), "no answer to hello");
-  EXPECT_EQ(outcome_of([&](transport& far) { put(far, {1, 2, 3, 4, 5}); }),
+  EXPECT_EQ(outcome_of([&](transport& far) {
+              put(far, {1, 2, 3, 4, 5});
+            }),
             "no answer to hello: 5 bytes came, but no frame; another baud rate?");
   EXPECT_EQ(outcome_of([&](transport& far) {
               std::vector<std::uint8_t> newer = {'d', 'p', 2, 0x96, 0, 0, 0, 0, 0};
@@ -130,7 +136,8 @@ TEST(BoardStart, repeats_what_is_not_answered) {
 // A second start on the same stream is how a session recovers after the board was switched off and on.
 TEST(BoardStart, starts_again_with_a_board_that_forgot_everything) {
   stream_pair ends = connected_pair();
-  auto before = std::make_unique<in_process_board<>>(transport(::dup(ends.far.descriptor()), transport::kind::stream_socket));
+  auto before =
+      std::make_unique<in_process_board<>>(transport(::dup(ends.far.descriptor()), transport::kind::stream_socket));
   board_device device(std::move(ends.near), described_board());
   std::string error;
   ASSERT_TRUE(before->while_serving([&] { return device.start(error); })) << error;

@@ -7,7 +7,7 @@ namespace {
 
 // Division by the polynomial, bit by bit, as the README words it.
 std::uint16_t divide(std::uint16_t before, std::uint8_t byte) {
-  unsigned rest = before ^ unsigned{byte};
+  auto rest = static_cast<unsigned>(before ^ byte);
   for (int bit = 0; bit < 8; ++bit) rest = (rest & 1U) != 0 ? (rest >> 1) ^ 0x8408U : rest >> 1;
   return static_cast<std::uint16_t>(rest);
 }

@@ -34,9 +34,11 @@ class faulty_way {
 
   void carry(transport& from, transport& to) {
     std::uint8_t bytes[4096];
-    while (const std::size_t count = from.read(bytes, sizeof bytes)) waiting_.insert(waiting_.end(), bytes, bytes + count);
+    while (const std::size_t count = from.read(bytes, sizeof bytes))
+      waiting_.insert(waiting_.end(), bytes, bytes + count);
     while (waiting_.size() > 4 && waiting_.size() >= size_of_first()) pass_first();
-    leaving_.erase(leaving_.begin(), leaving_.begin() + static_cast<std::ptrdiff_t>(to.write(leaving_.data(), leaving_.size())));
+    leaving_.erase(leaving_.begin(),
+                   leaving_.begin() + static_cast<std::ptrdiff_t>(to.write(leaving_.data(), leaving_.size())));
   }
 
   std::uint32_t frames_seen() const { return frames_seen_; }
@@ -64,9 +66,19 @@ class faulty_way {
     switch (what) {
       case mishap::none: deliver(one); break;
       case mishap::loss: ++counts_.lost; break;
-      case mishap::repetition: ++counts_.repeated; deliver(one); put(one); break;
-      case mishap::damage: ++counts_.damaged; put(damaged(one)); break;
-      case mishap::delay: ++counts_.delayed; delayed_ = one; break;
+      case mishap::repetition:
+        ++counts_.repeated;
+        deliver(one);
+        put(one);
+        break;
+      case mishap::damage:
+        ++counts_.damaged;
+        put(damaged(one));
+        break;
+      case mishap::delay:
+        ++counts_.delayed;
+        delayed_ = one;
+        break;
     }
   }
 
@@ -100,15 +112,18 @@ class faulty_way {
   bool dead_ = false;
   mishap_counts counts_;
   std::uint32_t frames_seen_ = 0;
-  frame_bytes waiting_;   // has come, not yet a whole frame
-  frame_bytes leaving_;   // the stream has not taken it yet
+  frame_bytes waiting_;  // has come, not yet a whole frame
+  frame_bytes leaving_;  // the stream has not taken it yet
   frame_bytes delayed_;
 };
 
 class faulty_wire {
  public:
   faulty_wire(transport to_host, transport to_board, unsigned seed)
-      : to_host_(std::move(to_host)), to_board_(std::move(to_board)), down_(message_type::command, seed), up_(message_type::sample, seed + 1) {}
+      : to_host_(std::move(to_host)),
+        to_board_(std::move(to_board)),
+        down_(message_type::command, seed),
+        up_(message_type::sample, seed + 1) {}
 
   void carry() {
     down_.carry(to_host_, to_board_);

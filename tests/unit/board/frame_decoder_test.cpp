@@ -26,7 +26,9 @@ void append(bytes& to, const bytes& more) { to.insert(to.end(), more.begin(), mo
 void feed(frame_decoder& decoder, const bytes& stream, std::vector<arrived>& found) {
   const auto exact = std::make_unique<std::uint8_t[]>(stream.size());
   std::copy(stream.begin(), stream.end(), exact.get());
-  for_each_frame(decoder, exact.get(), stream.size(), [&](const frame& one) { found.push_back({one.type, one.sequence}); });
+  for_each_frame(decoder, exact.get(), stream.size(), [&](const frame& one) {
+    found.push_back({one.type, one.sequence});
+  });
 }
 
 std::vector<arrived> decode_all(const bytes& stream) {
@@ -61,10 +63,10 @@ void expect_rejected(const bytes& damaged) {
 void flip(bytes& in, std::size_t bit) { in[bit / 8] = static_cast<std::uint8_t>(in[bit / 8] ^ (1U << (bit % 8))); }
 
 const std::vector<bytes> frames_of_all_lengths = {
-    of(encode(hello_message{}, 0)),         of(encode(reset_message{3}, 0)),
-    of(encode(configured_message{}, 0)),    of(encode(command_message{-0.25F, 7}, 5)),
-    of(encode(configure_message{}, 0)),     of(encode(sample_message{1, 2, 3, 4, 5, 6, 7, board_state::running, {}}, 9)),
-    of(encode(description_message{}, 0)),   of(encode(statistics_message{}, 0))};
+    of(encode(hello_message{}, 0)),       of(encode(reset_message{3}, 0)),
+    of(encode(configured_message{}, 0)),  of(encode(command_message{-0.25F, 7}, 5)),
+    of(encode(configure_message{}, 0)),   of(encode(sample_message{1, 2, 3, 4, 5, 6, 7, board_state::running, {}}, 9)),
+    of(encode(description_message{}, 0)), of(encode(statistics_message{}, 0))};
 
 // How the stream is cut into reads must not matter: a serial port delivers what it likes.
 TEST(FrameDecoder, finds_the_same_frames_in_chunks_of_any_size) {
@@ -81,7 +83,10 @@ TEST(FrameDecoder, finds_the_same_frames_in_chunks_of_any_size) {
     std::vector<arrived> found;
     for (std::size_t at = 0; at < stream.size();) {
       const std::size_t count = std::min(stream.size() - at, 1 + random() % longest);
-      feed(decoder, bytes(stream.begin() + static_cast<std::ptrdiff_t>(at), stream.begin() + static_cast<std::ptrdiff_t>(at + count)), found);
+      feed(decoder,
+           bytes(stream.begin() + static_cast<std::ptrdiff_t>(at),
+                 stream.begin() + static_cast<std::ptrdiff_t>(at + count)),
+           found);
       at += count;
     }
     ASSERT_EQ(found, sent) << "chunks of up to " << longest;
@@ -169,6 +174,18 @@ TEST(FrameDecoder, survives_truncation_at_every_byte) {
   for (const bytes& intact : frames_of_all_lengths) {
     for (std::size_t length = 0; length < intact.size(); ++length)
       expect_rejected(bytes(intact.begin(), intact.begin() + static_cast<std::ptrdiff_t>(length)));
+  }
+}
+
+// A CRC that is right does not make a frame right: one shorter than its type would be read beyond its end.
+TEST(FrameDecoder, rejects_frames_whose_length_is_not_their_types) {
+  for (const std::size_t length : {0U, 7U, 9U, 64U}) {
+    bytes wrong = {'d', 'p', protocol_version, static_cast<std::uint8_t>(message_type::command)};
+    wrong.push_back(static_cast<std::uint8_t>(length));
+    wrong.resize(header_size + length);
+    const std::uint16_t crc = crc16(wrong.data() + 2, wrong.size() - 2);
+    append(wrong, {static_cast<std::uint8_t>(crc & 0xFF), static_cast<std::uint8_t>(crc >> 8)});
+    expect_rejected(wrong);
   }
 }
 

@@ -10,10 +10,9 @@
 namespace dashpot::board {
 namespace {
 
-constexpr message_type all_types[] = {message_type::hello,       message_type::configure,  message_type::reset,
-                                      message_type::command,     message_type::ask_statistics,
-                                      message_type::description, message_type::configured, message_type::sample,
-                                      message_type::statistics};
+constexpr message_type all_types[] = {message_type::hello,      message_type::configure,      message_type::reset,
+                                      message_type::command,    message_type::ask_statistics, message_type::description,
+                                      message_type::configured, message_type::sample,         message_type::statistics};
 
 template <class Message>
 void expect_any_payload_to_survive() {
@@ -28,7 +27,8 @@ void expect_any_payload_to_survive() {
   }
 }
 
-// A field that is missing, doubled or of the wrong width would not come back; signalling NaNs must not be quieted either.
+// A field that is missing, doubled or of the wrong width would not come back; signalling NaNs must not be quieted
+// either.
 TEST(Frame, carries_every_bit_of_every_message) {
   expect_any_payload_to_survive<configure_message>();
   expect_any_payload_to_survive<reset_message>();

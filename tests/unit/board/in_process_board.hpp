@@ -60,7 +60,7 @@ class simulated_hardware {
   transport stream_;
   test_plant plant_;
   outputs driven_;
-  std::uint32_t period_ = 1'000'000;  // [ns]
+  std::uint32_t period_ = 1'000'000;    // [ns]
   std::uint64_t time_ = 1'000'000'000;  // [ns]; boards do not start at zero when we connect
   std::uint64_t edge_time_ = 0;         // [ns]
 };

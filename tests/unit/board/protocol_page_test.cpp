@@ -39,7 +39,8 @@ TEST(ProtocolPage, examples_are_what_is_sent) {
   expect_on_page(configure_message{1'000'000, 4.0F, 0.0F, 10, sampling::on_command, controller::host}, 0);
   expect_on_page(reset_message{1}, 0);
   expect_on_page(command_message{-0.5F, 3.0F}, 258);
-  expect_on_page(sample_message{2'000'000'000, 1'999'500'000, -1234, -0.5F, 3.0F, 258, 1, board_state::running, {}}, 772);
+  expect_on_page(sample_message{2'000'000'000, 1'999'500'000, -1234, -0.5F, 3.0F, 258, 1, board_state::running, {}},
+                 772);
 }
 
 template <class Message>

@@ -19,7 +19,9 @@ TEST(SequenceTracker, agrees_with_a_set_of_all_numbers) {
     ASSERT_EQ(tracker.note(static_cast<std::uint32_t>(newest)), arrival::fresh);
     for (int i = 0; i < 2000; ++i) {
       const std::uint64_t next = std::max(first, newest + random() % 6 - random() % 30);
-      const arrival expected = seen.count(next) != 0 ? arrival::repeated : next > newest ? arrival::fresh : arrival::late;
+      const arrival expected = seen.count(next) != 0 ? arrival::repeated
+                               : next > newest       ? arrival::fresh
+                                                     : arrival::late;
       ASSERT_EQ(tracker.note(static_cast<std::uint32_t>(next)), expected) << "seed " << seed << ", step " << i;
       newest = std::max(newest, next);
       seen.insert(next);

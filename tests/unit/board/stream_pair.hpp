@@ -16,7 +16,8 @@ struct stream_pair {
 
 inline stream_pair connected_pair() {
   int ends[2];
-  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends) != 0) throw std::runtime_error("socketpair");
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends) != 0)
+    throw std::runtime_error("socketpair");
   return {transport(ends[0], transport::kind::stream_socket), transport(ends[1], transport::kind::stream_socket)};
 }
 

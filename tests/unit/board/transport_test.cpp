@@ -157,8 +157,9 @@ TEST(Transport, does_not_wait_for_a_full_stream) {
 TEST(Transport, says_why_it_does_not_open) {
   EXPECT_EQ(reason("serial:/nowhere/tty"), "'serial:/nowhere/tty': No such file or directory");
   EXPECT_EQ(reason("serial:/dev/null"), "'serial:/dev/null': Inappropriate ioctl for device");
-  EXPECT_EQ(reason("serial:/dev/null?baud=12345"),
-            "'serial:/dev/null?baud=12345': 12345 baud is none of the rates that a terminal knows, such as 115200 or 921600");
+  EXPECT_EQ(
+      reason("serial:/dev/null?baud=12345"),
+      "'serial:/dev/null?baud=12345': 12345 baud is none of the rates that a terminal knows, such as 115200 or 921600");
   EXPECT_EQ(reason("unix:/nowhere/s"), "'unix:/nowhere/s': No such file or directory");
   const std::string too_long = "unix:/" + std::string(200, 'x');
   EXPECT_EQ(reason(too_long), "'" + too_long + "': a Unix socket's path has at most 107 characters");

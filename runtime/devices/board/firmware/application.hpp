@@ -1,5 +1,5 @@
-// What the firmware does, on any hardware: serves the host's frames, takes samples, runs the board's own model where it is
-// asked to, and lets the supervisor decide what reaches motor and brake.
+// What the firmware does, on any hardware: serves the host's frames, takes samples, runs the board's own model where it
+// is asked to, and lets the supervisor decide what reaches motor and brake.
 //
 // Hardware is any type with
 //     encoder_reading read_encoder() noexcept;
@@ -16,21 +16,17 @@
 #include <dashpot/board/frame_decoder.hpp>
 #include <dashpot/board/supervisor.hpp>
 
+#include "encoder_reading.hpp"
 #include "model_runner.hpp"
 
 namespace dashpot::board {
-
-struct encoder_reading {
-  std::int32_t counts = 0;
-  std::uint64_t timestamp = 0;  // [ns]
-  std::uint64_t edge_time = 0;  // [ns]; 0: not measured
-};
 
 // What a firmware states about its board at compile time.
 struct board_facts {
   description_message description;  // model_period is filled in by the application
   float power_on_damping = 0;       // safe damping until the host states another [N·m·s/rad] or [N·s/m]
   float arm_radius = 1;             // of the own model (model_runner.hpp) [m]
+  velocity_description velocity;    // of the own model
 };
 
 struct model_cost {
@@ -46,7 +42,7 @@ class application {
         description_(with_model(facts.description)),
         cost_(cost),
         supervisor_(description_, facts.power_on_damping),
-        runner_(static_cast<float>(facts.description.encoder_step), facts.arm_radius) {
+        runner_(facts.description.encoder_step, facts.velocity, facts.arm_radius) {
     hardware_.drive(supervisor_.applied());
   }
 
@@ -109,7 +105,7 @@ class application {
   void take_sample() noexcept {
     const encoder_reading reading = hardware_.read_encoder();
     if (supervisor_.running() && supervisor_.own_model()) {
-      const model_answer answer = runner_.step(reading.counts);
+      const model_answer answer = runner_.step(reading);
       supervisor_.obey_model(answer.wish, answer.speed);
       hardware_.drive(supervisor_.applied());
     }
@@ -128,9 +124,17 @@ class application {
   statistics_message statistics() const noexcept {
     const decoder_statistics& frames = decoder_.statistics();
     const sequence_statistics& commands = supervisor_.command_statistics();
-    return {frames.received, frames.corrupted, frames.discarded_bytes, frames.foreign_version,
-            commands.lost,   commands.repeated, commands.late,         dropped_,
-            missed_periods_, cost_.ticks,       cost_.calls};
+    return {frames.received,
+            frames.corrupted,
+            frames.discarded_bytes,
+            frames.foreign_version,
+            commands.lost,
+            commands.repeated,
+            commands.late,
+            dropped_,
+            missed_periods_,
+            cost_.ticks,
+            cost_.calls};
   }
 
   template <class Message>

@@ -1,7 +1,7 @@
-# dashpot_board_firmware(<target> [MODEL_HEADER <file> MODEL_CLASS <class>])
+# dashpot_board_firmware(<target> [MODEL_HEADER <file> MODEL_CLASS <class> [VELOCITY <initialiser>]])
 #
 # Makes <target>.elf of the reference firmware in the current binary folder, with the emitted model in <file> on board where
-# one is named. The target's property ELF is the path. Without the cross compiler there is no target: check if(TARGET …).
+# one is named; VELOCITY initialises its velocity_description (default: the difference of two samples). The target's property ELF is the path. Without the cross compiler there is no target: check if(TARGET …).
 find_program(DASHPOT_ARM_CXX arm-none-eabi-g++ DOC "Cross compiler for the board's firmware")
 
 set(dashpot_firmware_dir ${CMAKE_CURRENT_LIST_DIR} CACHE INTERNAL "Sources of the board's firmware")
@@ -13,7 +13,7 @@ set(dashpot_firmware_flags
   CACHE INTERNAL "Flags of the board's firmware")
 
 function(dashpot_board_firmware target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "MODEL_HEADER;MODEL_CLASS" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "MODEL_HEADER;MODEL_CLASS;VELOCITY" "")
   if(NOT DASHPOT_ARM_CXX)
     message(WARNING "arm-none-eabi-g++ is not installed: ${target} is not built")
     return()
@@ -23,6 +23,9 @@ function(dashpot_board_firmware target)
   set(model)
   if(arg_MODEL_HEADER)
     set(model "-DDASHPOT_BOARD_MODEL_HEADER=\"${arg_MODEL_HEADER}\"" "-DDASHPOT_BOARD_MODEL_CLASS=${arg_MODEL_CLASS}")
+  endif()
+  if(arg_VELOCITY)
+    list(APPEND model "-DDASHPOT_BOARD_VELOCITY=${arg_VELOCITY}")
   endif()
 
   set(objects)

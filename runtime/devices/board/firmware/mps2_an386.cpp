@@ -104,7 +104,8 @@ void mps2_an386::transmit() noexcept {
 // An interrupt that comes after the check still ends the wait: it stays pending while interrupts are off.
 void mps2_an386::sleep() noexcept {
   asm volatile("cpsid i" ::: "memory");
-  const bool idle = received.empty() && periods.load(std::memory_order_relaxed) == 0 && (leaving.empty() || uart_full());
+  const bool idle =
+      received.empty() && periods.load(std::memory_order_relaxed) == 0 && (leaving.empty() || uart_full());
   if (idle) asm volatile("wfi" ::: "memory");
   asm volatile("cpsie i" ::: "memory");
 }

@@ -1,6 +1,6 @@
-// The hardware under the reference firmware: Arm's MPS2+ board with the AN386 image (Cortex-M4F, 25 MHz), as QEMU has it.
-// UART0 is the byte stream to the host, TIMER0 the sample clock, TIMER1 the clock of the timestamps. Motor, brake and
-// encoder are a test plant. A port to another board replaces this pair of files and the linker script.
+// The hardware under the reference firmware: Arm's MPS2+ board with the AN386 image (Cortex-M4F, 25 MHz), as QEMU has
+// it. UART0 is the byte stream to the host, TIMER0 the sample clock, TIMER1 the clock of the timestamps. Motor, brake
+// and encoder are a test plant. A port to another board replaces this pair of files and the linker script.
 #pragma once
 
 #include <cstdint>
@@ -41,9 +41,9 @@ class mps2_an386 {
 
   test_plant plant_;
   outputs driven_;
-  float period_ = 0.001F;           // [s]
-  std::uint64_t edge_time_ = 0;     // [ns]
-  std::uint64_t clock_ = 0;         // ticks of TIMER1, extended
+  float period_ = 0.001F;        // [s]
+  std::uint64_t edge_time_ = 0;  // [ns]
+  std::uint64_t clock_ = 0;      // ticks of TIMER1, extended
 };
 
 }  // namespace dashpot::board

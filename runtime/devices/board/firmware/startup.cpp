@@ -30,7 +30,8 @@ struct vector_table {
     &stack_top,
     {reset_handler, unexpected, unexpected, unexpected, unexpected, unexpected, nullptr, nullptr, nullptr, nullptr,
      unexpected, unexpected, nullptr, unexpected, unexpected},
-    {uart0_received, uart0_sent, unexpected, unexpected, unexpected, unexpected, unexpected, unexpected, timer0_elapsed}};
+    {uart0_received, uart0_sent, unexpected, unexpected, unexpected, unexpected, unexpected, unexpected,
+     timer0_elapsed}};
 
 void enable_floating_point() {
   auto& access = *reinterpret_cast<volatile std::uint32_t*>(0xE000ED88);  // CPACR

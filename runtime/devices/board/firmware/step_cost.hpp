@@ -27,8 +27,8 @@ std::uint32_t ticks_of(Model& model, std::uint32_t calls, Scalar position, Clock
   return clock() - start;
 }
 
-// Runs `calls` steps of a model of its own between two readings of `clock()`, whose ticks count up, and takes off the same
-// loop around a step that does nothing.
+// Runs `calls` steps of a model of its own between two readings of `clock()`, whose ticks count up, and takes off the
+// same loop around a step that does nothing.
 template <class Model, class Clock>
 model_cost measure_steps(std::uint32_t calls, Clock&& clock) noexcept {
   constexpr auto position = static_cast<typename Model::scalar>(0.001);

@@ -1,5 +1,6 @@
-// The motor, brake and encoder of a board that has none: a handle on a rail, moved by a hand that knows where it wants to
-// go. Deterministic, in single precision, alike to the last bit on every processor that is told not to fuse operations.
+// The motor, brake and encoder of a board that has none: a handle on a rail, moved by a hand that knows where it wants
+// to go. Deterministic, in single precision, alike to the last bit on every processor that is told not to fuse
+// operations.
 //
 //     m v̇ = F_motor + k (q_wanted(t) − q) − (b_hand + b_brake) v,    q̇ = v        (implicit in the dampers)
 //
@@ -32,7 +33,7 @@ class test_plant {
   }
 
  private:
-  static constexpr float mass = 0.1F;             // [kg]
+  static constexpr float mass = 0.1F;              // [kg]
   static constexpr float hand_stiffness = 150.0F;  // [N/m]
   static constexpr float hand_damping = 3.0F;      // [N·s/m]
   static constexpr float amplitude = 0.02F;        // [m]

@@ -28,16 +28,16 @@ struct board_options {
   board::sampling sampling = board::sampling::on_command;  // on_command: the host's clock paces the board
   board::controller controller = board::controller::host;
   std::uint16_t watchdog_periods = 10;  // without a command, before the board goes safe by itself
-  double late_limit = 0;                // a sample later than this is stale [s]; 0: missed_deadlines_allowed + 1 periods
-  int start_time = 2000;                // the board must have answered everything by then [ms]
+  double late_limit = 0;  // a sample later than this is stale [s]; 0: missed_deadlines_allowed + 1 periods
+  int start_time = 2000;  // the board must have answered everything by then [ms]
   std::uint64_t (*now)() noexcept = &board::monotonic_nanoseconds;  // [ns]
 };
 
 // Wrapping around.
 struct board_statistics {
-  board::decoder_statistics frames;   // what came from the board
+  board::decoder_statistics frames;  // what came from the board
   board::sequence_statistics samples;
-  std::uint32_t delayed = 0;          // samples that came in order but later than the limit
+  std::uint32_t delayed = 0;  // samples that came in order but later than the limit
   std::uint32_t commands_sent = 0;
   std::uint32_t commands_dropped = 0;  // not sent because the stream was full
 };
@@ -75,15 +75,16 @@ class board_device {
   // Asks the board to leave its safe state. Does not wait: the samples tell when it has.
   device_status reset() noexcept;
 
-  // Asks for the board's own counts; after some reads they are in counts_of_board(), all zero until then.
+  // Asks for the board's own counts; some reads later they are in counts_of_board(), empty until the first answer.
   device_status ask_statistics() noexcept;
-  const board::statistics_message& counts_of_board() const noexcept { return counts_of_board_; }
+  const std::optional<board::statistics_message>& counts_of_board() const noexcept { return counts_of_board_; }
 
   board_statistics statistics() const noexcept;
   board::board_state board_state() const noexcept { return newest_.state; }
   board::stop_cause stop_cause() const noexcept { return newest_.cause; }
-  const board::description_message& description_of_board() const noexcept { return *description_of_board_; }  // after start()
-  // As the board sent it: with the commands in force and which command was obeyed.
+  // After start() has succeeded.
+  const board::description_message& description_of_board() const noexcept { return *description_of_board_; }
+  // As the board sent it: with the commands in force and the newest command it knows.
   const board::sample_message& newest_sample() const noexcept { return newest_; }
 
  private:
@@ -112,9 +113,9 @@ class board_device {
   std::optional<board::description_message> description_of_board_;
   std::optional<board::configured_message> configured_;
   board::sample_message newest_;
-  board::statistics_message counts_of_board_;
-  std::int64_t counts_ = 0;  // of newest_, unwrapped
-  std::uint64_t deadline_ = 0;      // of start() [ns]
+  std::optional<board::statistics_message> counts_of_board_;
+  std::int64_t counts_ = 0;     // of newest_, unwrapped
+  std::uint64_t deadline_ = 0;  // of start() [ns]
   std::uint32_t commands_sent_ = 0;
   std::uint32_t delayed_ = 0;
   unsigned reads_in_vain_ = 0;  // in a row

@@ -1,9 +1,9 @@
-// CRC-16/IBM-SDLC (X.25, HDLC): polynomial x¹⁶ + x¹² + x⁵ + 1 (0x1021), start 0xFFFF, least significant bit first in and out
-// (so the shift register holds it as 0x8408), inverted at the end. The nine bytes "123456789" give 0x906E.
+// CRC-16/IBM-SDLC (X.25, HDLC): polynomial x¹⁶ + x¹² + x⁵ + 1 (0x1021), start 0xFFFF, least significant bit first in
+// and out (so the shift register holds it as 0x8408), inverted at the end. The nine bytes "123456789" give 0x906E.
 //
-// Up to 32,751 bits it detects every error of one, two or three bits (Koopman & Chakravarty 2004, 0x8810 in their notation)
-// and every burst within 16 bits. The burst is counted in the order of division, least significant bit first: a UART
-// sends in that order, which is why this CRC and not one of its unreflected relatives.
+// Up to 32,751 bits it detects every error of one, two or three bits (Koopman & Chakravarty 2004, 0x8810 in their
+// notation) and every burst within 16 bits. The burst is counted in the order of division, least significant bit first:
+// a UART sends in that order, which is why this CRC and not one of its unreflected relatives.
 #pragma once
 
 #include <cstddef>

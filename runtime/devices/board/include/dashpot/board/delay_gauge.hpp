@@ -1,5 +1,5 @@
-// How late a message is, from two clocks that agree neither on zero nor quite on the rate: its delay beyond the promptest
-// message lately seen. A delay that all messages share from the start is invisible to it.
+// How late a message is, from two clocks that agree neither on zero nor quite on the rate: its delay beyond the
+// promptest message lately seen. A delay that all messages share from the start is invisible to it.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,11 @@ class delay_gauge {
   constexpr void restart() noexcept { started_ = false; }
 
  private:
-  // A clock may run 244 ppm slower than the other, more than quartz does: the promptest message is forgotten at that pace.
-  constexpr std::int64_t drift(std::uint64_t now) const noexcept { return static_cast<std::int64_t>((now - last_) >> 12); }
+  // A clock may run 244 ppm slower than the other, more than quartz does: the promptest message is forgotten at that
+  // pace.
+  constexpr std::int64_t drift(std::uint64_t now) const noexcept {
+    return static_cast<std::int64_t>((now - last_) >> 12);
+  }
 
   std::int64_t least_ = 0;  // [ns]
   std::uint64_t last_ = 0;  // [ns]

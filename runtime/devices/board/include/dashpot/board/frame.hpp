@@ -1,6 +1,6 @@
 // One frame of the byte stream (README.md):
 //
-//     0 'd'  1 'p'  2 version  3 type  4 length  5 sequence (4 bytes)  9 payload (length bytes)  9 + length CRC (2 bytes)
+//     0 'd'  1 'p'  2 version  3 type  4 length  5 sequence (4)  9 payload (length)  9 + length CRC (2)
 //
 // The CRC covers everything from the version to the end of the payload. These places are the same in all versions.
 #pragma once

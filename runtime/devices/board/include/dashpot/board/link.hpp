@@ -13,7 +13,8 @@ class link {
  public:
   explicit link(transport over) noexcept : transport_(std::move(over)) {}
 
-  // Shows every frame that has come to `handle(const frame&)`. At most 16 reads, so that a flood cannot hold the caller.
+  // Shows every frame that has come to `handle(const frame&)`. At most 16 reads, so that a flood cannot hold the
+  // caller.
   template <class Handle>
   void receive(Handle&& handle) noexcept {
     flush();

@@ -12,8 +12,8 @@
 
 namespace dashpot::board {
 
-// Any two types differ in four bits or more (words of the extended Hamming code), and a type fixes the length: an error of
-// up to three bits can never make one message look like another of a different length.
+// Any two types differ in four bits or more (words of the extended Hamming code), and a type fixes the length: an error
+// of up to three bits can never make one message look like another of a different length.
 enum class message_type : std::uint8_t {
   hello = 0x0F,           // host → board
   configure = 0x33,       // host → board
@@ -42,7 +42,7 @@ enum class verdict : std::uint8_t {
   damping_out_of_range,  // the safe damping is not within 0 … max_damping
   no_model,              // the firmware was built without one
   model_period_differs,
-  no_such_choice,        // a sampling or controller not named here, or an own model sampled on command
+  no_such_choice,  // a sampling or controller not named here, or an own model sampled on command
 };
 
 struct hello_message {
@@ -53,13 +53,13 @@ struct hello_message {
 
 struct description_message {
   static constexpr message_type type = message_type::description;
-  double encoder_step = 0;              // [rad] or [m] a count
-  float max_torque = 0;                 // [N·m] or [N]
-  float max_damping = 0;                // [N·m·s/rad] or [N·s/m]
-  std::uint32_t shortest_period = 0;    // [ns]
-  std::uint32_t model_period = 0;       // of the board's own model [ns]; 0: it has none
+  double encoder_step = 0;            // [rad] or [m] a count
+  float max_torque = 0;               // [N·m] or [N]
+  float max_damping = 0;              // [N·m·s/rad] or [N·s/m]
+  std::uint32_t shortest_period = 0;  // [ns]
+  std::uint32_t model_period = 0;     // of the board's own model [ns]; 0: it has none
   dashpot::motion motion = dashpot::motion::translation;
-  char name[16] = {};                   // of the firmware; filled up with zeros, not necessarily ended by one
+  char name[16] = {};  // of the firmware; filled up with zeros, not necessarily ended by one
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& m, Visitor&& visit) noexcept {
@@ -122,7 +122,7 @@ struct sample_message {
   std::int32_t counts = 0;             // encoder; wraps around
   float motor_torque = 0;              // in force from this sample on [N·m] or [N]
   float brake_damping = 0;             // in force from this sample on [N·m·s/rad] or [N·s/m]
-  std::uint32_t command_sequence = 0;  // of the newest command obeyed
+  std::uint32_t command_sequence = 0;  // of the newest command, obeyed or not; 0 before the first
   std::uint16_t stops = 0;             // how often the board has left running or was configured
   board_state state = board_state::idle;
   stop_cause cause = stop_cause::none;  // of the newest stop

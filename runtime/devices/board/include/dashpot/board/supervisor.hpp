@@ -2,8 +2,9 @@
 //
 //     idle ── reset ──▶ running ── host silent, bad command, bad model command, overspeed ──▶ safe ── reset ──▶ running
 //
-// `configure` leads to idle from anywhere. Outside of running the motor makes nothing and the brake its safe damping. Only
-// a reset that quotes the number of the newest stop leads to running: one that was sent for an earlier stop does nothing.
+// `configure` leads to idle from anywhere. Outside of running the motor makes nothing and the brake its safe damping.
+// Only a reset that quotes the number of the newest stop leads to running: one that was sent for an earlier stop does
+// nothing.
 #pragma once
 
 #include <cstdint>

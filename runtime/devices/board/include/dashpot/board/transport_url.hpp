@@ -1,7 +1,7 @@
 // Where a byte stream is, as a string:
 //
 //     serial:/dev/ttyACM0?baud=921600   a terminal, raw, 8 data bits, no parity; 115200 baud where nothing is said
-//     pty:                              the near end of a new pseudo-terminal; the far end's path is transport::far_end()
+//     pty:                              the near end of a new pseudo-terminal; transport::far_end() is the other's path
 //     unix:/run/board.sock              a stream socket that something listens on
 //     udp:192.168.7.2:4010              datagrams, each holding whole frames; udp:[::1]:4010 for IPv6
 #pragma once

@@ -56,7 +56,8 @@ class byte_reader {
   void get(Scalar& value) noexcept {
     using word = unsigned_of_size<sizeof value>;
     word bits = 0;
-    for (std::size_t i = 0; i < sizeof bits; ++i) bits = static_cast<word>(bits | static_cast<word>(word{*in_++} << (8 * i)));
+    for (std::size_t i = 0; i < sizeof bits; ++i)
+      bits = static_cast<word>(bits | static_cast<word>(word{*in_++} << (8 * i)));
     std::memcpy(&value, &bits, sizeof bits);
   }
   template <std::size_t Size>

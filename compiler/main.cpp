@@ -107,6 +107,33 @@ void describe(CLI::App& app, CommandLine& line) {
       ->required()
       ->option_text("FILE.csv");
   simulate->add_option("-o,--output", options.output, "File to write to, default standard output")->option_text("FILE.csv");
+
+  CLI::App* device = add_command(app, line, "device", "Fill in a device file's brake from the geometry of its blade");
+  BladeWords& blade = options.blade;
+  device->add_option("DEVICE", options.device, "Device file")->required();
+  device->add_option("--blade", blade.thickness, "Thickness of the blade, as \"1.59 mm\"")->required();
+  device->add_option("--pole-length", blade.pole_length, "Pole across the motion")->required();
+  device->add_option("--pole-width", blade.pole_width, "Pole along the motion")->required();
+  device->add_option("--field", blade.field, "Magnetic field in the gap, as \"1 T\"")->required();
+  device->add_option("--resistivity", blade.resistivity, "Of the blade, default that of aluminium, \"28.2 nohm m\"");
+  device->add_option("--correction", blade.correction, "Alpha of the eddy currents' return path, default by the pole's shape")
+      ->check(CLI::Range(0.0, 1.0));
+  device->add_option("--radius", blade.radius, "Of the blade's middle, default the device's arm_radius");
+  device->add_option("--current", blade.current, "Coil current that makes the field: also fills in damping_per_current_squared");
+  device->add_option("-o,--output", options.output, "File to write to, default standard output")->option_text("FILE.json");
+
+  CLI::App* run = add_command(app, line, "run", "Run the servo loop on a device, simulated unless --port names a board");
+  add_networks(*run, line, false);
+  add_choices(*run, line);
+  run->get_option("--device")->required();
+  run->add_option("--for", options.duration, "How long [s], default until Ctrl-C")->check(CLI::PositiveNumber)->option_text("SECONDS");
+  run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH, udp:HOST:PORT or pty:PATH")->option_text("URL");
+  run->add_option("--hand", options.hand, "Who moves the simulated device")
+      ->check(CLI::IsMember({"none", "relaxed", "firm", "stiff"}))
+      ->option_text("none|relaxed|firm|stiff");
+  run->add_option("--seed", options.seed, "Of the simulated device's chance")->option_text("N");
+  run->add_flag("--fast", options.fast, "Simulated time: as fast as the machine allows");
+  run->add_option("--log", options.output, "Telemetry, default NAME_run.csv")->option_text("FILE.csv");
 }
 
 void take_over_words(CommandLine& line) {
@@ -122,7 +149,7 @@ void take_over_words(CommandLine& line) {
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
   static const std::map<std::string, Command> commands = {
-      {"check", run_check}, {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate}};
+      {"check", run_check}, {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate}, {"device", run_device}, {"run", run_run}};
   SourceFiles files;
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;

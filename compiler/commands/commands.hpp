@@ -12,6 +12,7 @@ namespace dashpot::compiler {
 class SourceFiles {
  public:
   const SourceFile* open(const std::string& path, Diagnostics& diagnostics);
+  void keep(std::vector<std::unique_ptr<SourceFile>> more);  // words of the command line that diagnostics point into
 
  private:
   std::vector<std::unique_ptr<SourceFile>> files_;
@@ -21,6 +22,8 @@ ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& di
 ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 
 // The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
 struct DeviceChoice {

@@ -1,6 +1,7 @@
 // What the command line asks for.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,16 +13,34 @@ namespace dashpot::compiler {
 
 enum class ExitStatus { done = 0, input_refused = 1, command_line_wrong = 2, defect = 3 };
 
+// A blade between the poles of a magnet, as the user writes its quantities.
+struct BladeWords {
+  std::string thickness;
+  std::string pole_length;  // across the motion
+  std::string pole_width;   // along the motion
+  std::string field;
+  std::string resistivity = "28.2 nohm m";  // aluminium at 20 °C
+  std::optional<double> correction;         // α; empty: of the pole's shape
+  std::optional<std::string> radius;        // of the blade's middle; empty: the device's arm radius
+  std::optional<std::string> current;       // that makes the field
+};
+
 struct Options {
   std::vector<std::string> networks;
   std::optional<std::string> device;
   Choices choices;
-  std::optional<std::string> output;  // folder of compile, file of simulate
+  std::optional<std::string> output;  // folder of compile, file of simulate, log of run
   std::string input;                  // simulate: the motion
   std::optional<std::string> print;   // compile: the stage to show instead of writing
   std::optional<std::string> depfile;
   EmissionOptions emission;
   bool json = false;              // explain
+  std::optional<double> duration;   // run [s]; without end where empty
+  std::optional<std::string> port;  // run: the board's; empty: the simulated device
+  std::string hand = "relaxed";     // run: who holds the simulated device
+  std::uint64_t seed = 0;           // run: of the simulated device
+  BladeWords blade;               // device
+  bool fast = false;                // run: simulated time instead of real time
   bool json_diagnostics = false;
 };
 

@@ -12,6 +12,10 @@ const SourceFile* SourceFiles::open(const std::string& path, Diagnostics& diagno
   return files_.back().get();
 }
 
+void SourceFiles::keep(std::vector<std::unique_ptr<SourceFile>> more) {
+  for (std::unique_ptr<SourceFile>& file : more) files_.push_back(std::move(file));
+}
+
 DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   if (!options.device) return {};
   const SourceFile* file = files.open(*options.device, diagnostics);

@@ -42,12 +42,24 @@ void append(std::vector<std::string>& lines, const std::string& text, const std:
   if (!remark.empty() && fits) lines.back() += "  // " + remark;
 }
 
+const char* part_name(slip_part kind) {
+  switch (kind) {
+    case slip_part::block: return "block";
+    case slip_part::slip: return "slip";
+    case slip_part::series: return "series";
+    case slip_part::parallel: return "parallel";
+  }
+  return "";
+}
+
 class CppPrinter {
  public:
   CppPrinter(const UpdateLaw& law, const Network& network) : law_(law), network_(network), rolled_(law.lanes > 1) {}
 
   CppProgram print() {
     CppProgram program;
+    program.headers = {"dashpot/command.hpp"};
+    if (!law_.couplings.empty()) program.headers.push_back("dashpot/slip_tree.hpp");
     program.output = lines_of(law_.output);
     program.keep = lines_of(law_.keep);
     program.update = lines_of(law_.update);
@@ -80,11 +92,30 @@ class CppPrinter {
   void print_unrolled(const Statement& statement, std::vector<std::string>& lines) {
     const Variable& target = law_.variables[statement.target];
     if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
+    if (statement.coupling != no_coupling) return print_step(statement, law_.couplings[statement.coupling], lines);
     for (std::size_t place = 0; place < target.size; ++place) {
       const std::string line = assignment(target, place) + expression(statement.value, place) + ";";
       const bool has_origin = target.size > 1 && place < statement.origins.size();
       append(lines, line, has_origin ? origin_names(statement.origins[place], network_) : "");
     }
+  }
+
+  void print_step(const Statement& statement, const Coupling& coupling, std::vector<std::string>& lines) {
+    const std::string& name = coupling.name;
+    std::string held;
+    for (VariableId id : coupling.held)
+      held += (held.empty() ? "" : ", ") + (id == no_variable ? std::string("0") : scalar_name(law_.variables[id]));
+    append(lines, fmt::format("const scalar {}_held[{}] = {{{}}};", name, coupling.held.size(), held));
+    lines.push_back(fmt::format("scalar {}_elongation[{}] = {{}};", name, coupling.elongation.size()));
+    lines.push_back(fmt::format("int {}_sign[{}] = {{}};", name, coupling.slips.size()));
+    lines.push_back(fmt::format("dashpot::slip_tree_scratch<scalar, {}, {}, {}> {}_scratch;", coupling.nodes.size(),
+                                coupling.slips.size(), coupling.corners(), name));
+    append(lines, assignment(law_.variables[statement.target], 0) +
+                      fmt::format("dashpot::slip_tree<scalar>({0}, {0}_scratch).step({1}, {0}_held, {0}_elongation, {0}_sign);",
+                                  name, expression(statement.value, 0)));
+    for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
+      if (coupling.elongation[i] != no_variable)
+        lines.push_back(assignment(law_.variables[coupling.elongation[i]], 0) + fmt::format("{}_elongation[{}];", name, i));
   }
 
   // Elementwise statements in one loop, with the partial sums of any vector that the next statement adds up.
@@ -178,7 +209,18 @@ class CppPrinter {
                                   literal(law_.flush_threshold)));
     for (const Coefficient& coefficient : law_.coefficients)
       if (used_coefficients_.count(&coefficient) != 0) append_constant(coefficient, lines);
+    for (const Coupling& coupling : law_.couplings) append_table(coupling, lines);
     return lines;
+  }
+
+  void append_table(const Coupling& coupling, std::vector<std::string>& lines) const {
+    lines.push_back("// kind, children, slips, place, first corner, stiffness, compliance, yield force");
+    lines.push_back(fmt::format("static constexpr dashpot::slip_node<scalar> {}[{}] = {{", coupling.name, coupling.nodes.size()));
+    for (const slip_node<double>& node : coupling.nodes)
+      lines.push_back(fmt::format("    {{dashpot::slip_part::{}, {}, {}, {}, {}, {}, {}, {}, {}}},", part_name(node.kind),
+                                  node.first_child, node.child_count, node.slips, node.place, node.first_corner,
+                                  literal(node.stiffness), literal(node.compliance), literal(node.yield)));
+    lines.push_back("};");
   }
 
   void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {

@@ -10,6 +10,7 @@
 namespace dashpot::compiler {
 
 struct CppProgram {
+  std::vector<std::string> headers;    // of the runtime that the lines below need
   std::vector<std::string> functions;  // private helpers that the lines below call
   std::vector<std::string> constants;
   std::vector<std::string> states;

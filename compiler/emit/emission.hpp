@@ -24,6 +24,7 @@ struct Compilation {
 
 struct EmissionOptions {
   bool with_test = false;
+  bool with_library = false;  // a source that makes the class loadable at run time
   std::optional<std::string> templates;  // folder in place of the built-in ones
 };
 
@@ -32,7 +33,7 @@ struct OutputFile {
   std::string text;
 };
 
-// <name>.hpp, and <name>_test.cpp where asked for. Refuses: templates that do not fit.
+// <name>.hpp, and <name>_test.cpp and <name>_library.cpp where asked for. Refuses: templates that do not fit.
 std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 

@@ -55,6 +55,8 @@ std::vector<std::string> banner(const Compilation& c) {
                               choice.extra_damping_any_delay.value_or(0), unit));
   facts.push_back(fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
   facts.push_back(cost_line("cost of output():", output));
+  if (output.coupled > 0)
+    facts.push_back(fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
   facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
   if (c.law.relative_error_bound > 0)
     facts.push_back(fmt::format("rounding: a mode's force is off by at most {:.2g} of its peak", c.law.relative_error_bound));
@@ -86,6 +88,7 @@ CodeModel header_model(const Compilation& c) {
   fields["position_unit"] = length_unit(c.network);
   fields["velocity_unit"] = velocity_unit(c.network);
   describe_device(c, fields);
+  for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
   model.lists["banner"] = as_list(banner(c));
   model.lists["reset"] = as_list(program.reset);
   model.lists["output"] = as_list(program.output);
@@ -142,6 +145,8 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
   bool ok = append("network.hpp.in", name + ".hpp", header_model(compilation), options, files, diagnostics);
   if (options.with_test)
     ok &= append("network_test.cpp.in", name + "_test.cpp", test_model(compilation), options, files, diagnostics);
+  if (options.with_library)
+    ok &= append("model_library.cpp.in", name + "_library.cpp", {{{"name", name}}, {}}, options, files, diagnostics);
   if (!ok) return std::nullopt;
   return files;
 }

@@ -29,6 +29,8 @@ constexpr Symbol symbols[] = {
     {"Pa", {{1, -1, -2}}, true},
     {"V", {{1, 2, -3, -1}}, true},
     {"T", {{1, 0, -2, -1}}, true},
+    {"ohm", {{1, 2, -3, -2}}, true},
+    {"Ω", {{1, 2, -3, -2}}, true},
     {"min", {dimensions::time, 0, 1}, false},
     {"deg", {dimensions::angle, 0, 0, 1}, false},
     {"°", {dimensions::angle, 0, 0, 1}, false},

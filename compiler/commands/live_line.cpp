@@ -1,0 +1,40 @@
+#include "commands/live_line.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace dashpot::compiler {
+
+LiveLine::LiveLine(bool rotary) : rotary_(rotary), terminal_(::isatty(STDOUT_FILENO) == 1) {}
+
+void LiveLine::show(const telemetry_record& record) {
+  ++records_;
+  latest_ = std::max(latest_, record.lateness);
+  if (record.tripped != fault::none) ++faults_;
+  if (record.time < next_) return;
+  print(record);
+  next_ = record.time + (terminal_ ? 0.1 : 1.0);
+  last_time_ = record.time;
+  records_ = 0;
+  latest_ = 0;
+}
+
+void LiveLine::print(const telemetry_record& record) {
+  const double elapsed = record.time - last_time_;
+  const double rate = elapsed > 0 ? double(records_) / elapsed : 0;
+  const char* force = rotary_ ? "N m" : "N";
+  const char* damping = rotary_ ? "N m s/rad" : "N s/m";
+  fmt::print("{}{:7.1f} s  {:7.0f} Hz  late {:6.0f} us  motor {:9.4f} {}  brake {:8.4f} {}  energy {:9.5f} J  faults {}{}",
+             terminal_ ? "\r" : "", record.time, rate, double(latest_) * 1e-3, record.motor_force, force, record.damping,
+             damping, record.energy, faults_, terminal_ ? "" : "\n");
+  std::fflush(stdout);
+  shown_ = true;
+}
+
+void LiveLine::finish() {
+  if (terminal_ && shown_) fmt::print("\n");
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,30 @@
+// What a running loop is doing, in one line: overwritten on a terminal, once a second elsewhere.
+#pragma once
+
+#include <dashpot/servo/telemetry_record.hpp>
+
+#include <cstdint>
+
+namespace dashpot::compiler {
+
+class LiveLine {
+ public:
+  explicit LiveLine(bool rotary);
+
+  void show(const telemetry_record& record);  // from the writer's thread
+  void finish();                              // leaves the last line standing
+
+ private:
+  void print(const telemetry_record& record);
+
+  bool rotary_;
+  bool terminal_;
+  double next_ = 0;          // [s]
+  double last_time_ = 0;     // [s]
+  std::uint64_t records_ = 0;
+  std::int64_t latest_ = 0;  // largest lateness since the last line [ns]
+  std::uint64_t faults_ = 0;
+  bool shown_ = false;
+};
+
+}  // namespace dashpot::compiler

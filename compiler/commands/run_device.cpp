@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/eddy_brake.hpp"
+#include "emit/write_files.hpp"
+#include "network/read_value.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+inline constexpr Dimension magnetic_field{1, 0, -2, -1};
+inline constexpr Dimension resistivity{1, 3, -3, -2};
+
+// Reads quantities from the command line with the same rules and messages as from files.
+class Words {
+ public:
+  explicit Words(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  double positive(const char* option, const std::string& text, const Dimension& dimension) {
+    sources_.push_back(std::make_unique<SourceFile>(option, text));
+    const Span span{sources_.back().get(), 0, text.size()};
+    const std::optional<double> value = read_quantity_as({ValueDecl::Form::text, text, span},
+                                                         {option, dimension, motion::translation}, diagnostics_);
+    if (value && !(*value > 0)) diagnostics_.report<DiagnosticCode::not_positive>(span, option, text);
+    sound_ = sound_ && value && *value > 0;
+    return value.value_or(1);
+  }
+
+  bool sound() const { return sound_; }
+  std::vector<std::unique_ptr<SourceFile>> take_sources() { return std::move(sources_); }
+
+ private:
+  Diagnostics& diagnostics_;
+  std::vector<std::unique_ptr<SourceFile>> sources_;
+  bool sound_ = true;
+};
+
+struct FilledBrake {
+  double damping;                                   // at the joint [N·m·s/rad] or [N·s/m]
+  std::optional<double> damping_per_current_squared;
+};
+
+std::optional<FilledBrake> fill_in(const Device& device, const BladeWords& blade, Words& words, Diagnostics& diagnostics) {
+  const device_description& d = device.description;
+  const bool rotary = d.motion == motion::rotation;
+  const EddyBrake brake{words.positive("--blade", blade.thickness, dimensions::length),
+                        words.positive("--pole-length", blade.pole_length, dimensions::length),
+                        words.positive("--pole-width", blade.pole_width, dimensions::length),
+                        words.positive("--field", blade.field, magnetic_field),
+                        words.positive("--resistivity", blade.resistivity, resistivity)};
+  const double radius = blade.radius ? words.positive("--radius", *blade.radius, dimensions::length) : d.arm_radius;
+  const double current = blade.current ? words.positive("--current", *blade.current, dimensions::current) : 0;
+  if (d.brake.kind != brake_kind::eddy_current) diagnostics.report<DiagnosticCode::brake_missing>({}, device.name);
+  if (rotary && radius == 0) diagnostics.report<DiagnosticCode::blade_radius_missing>({}, device.name);
+  if (!words.sound() || diagnostics.has_errors()) return std::nullopt;
+  const double alpha = blade.correction.value_or(return_path_correction(brake.pole_length, brake.pole_width));
+  const double damping = linear_damping(brake, alpha) * (rotary ? radius * radius : 1);
+  return FilledBrake{damping, current > 0 ? std::optional(damping / (current * current)) : std::nullopt};
+}
+
+std::string filled_text(const SourceFile& file, const FilledBrake& brake, bool rotary) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(file.text());
+  json["brake"]["max_damping"] = fmt::format("{:.6g} {}", brake.damping, rotary ? "N m s/rad" : "N s/m");
+  if (brake.damping_per_current_squared)
+    json["brake"]["damping_per_current_squared"] =
+        fmt::format("{:.6g} {}", *brake.damping_per_current_squared, rotary ? "N m s/(rad A^2)" : "N s/(m A^2)");
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const DeviceChoice device = open_device(options, files, diagnostics);
+  if (device.status != ExitStatus::done) return device.status;
+  Words words(diagnostics);
+  const std::optional<FilledBrake> brake = fill_in(*device.device, options.blade, words, diagnostics);
+  files.keep(words.take_sources());
+  if (!brake) return ExitStatus::input_refused;
+  const SourceFile* file = files.open(*options.device, diagnostics);
+  const std::string text = filled_text(*file, *brake, device.device->description.motion == motion::rotation);
+  if (!options.output) {
+    fmt::print("{}", text);
+    return ExitStatus::done;
+  }
+  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include <dashpot/board/board_device.hpp>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <dashpot/servo/servo_loop.hpp>
+#include <dashpot/simulated/simulated_device.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/live_line.hpp"
+#include "commands/model_library.hpp"
+#include "compile.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using LogFile = std::unique_ptr<std::FILE, CloseFile>;
+
+const std::map<std::string, simulated::hand (*)()> hands = {{"none", simulated::no_hand},
+                                                            {"relaxed", simulated::relaxed_hand},
+                                                            {"firm", simulated::firm_hand},
+                                                            {"stiff", simulated::stiff_grasp}};
+
+// The hand swings by 10 mm, or 0.2 rad at a bare joint, and stays within 40 % of the range.
+double amplitude_for(const device_description& device, bool rotary_tool) {
+  const double wanted = rotary_tool ? 0.2 : 0.01;
+  const bool unlimited = device.encoder.range_low == device.encoder.range_high;
+  if (unlimited) return wanted;
+  const double reach = std::min(-device.encoder.range_low, device.encoder.range_high);
+  return std::min(wanted, 0.4 * reach * (device.arm_radius > 0 && !rotary_tool ? device.arm_radius : 1));
+}
+
+simulated::scenario scene_of(const Options& options, const Compilation& compilation) {
+  const device_description& device = compilation.device->description;
+  simulated::scenario scene;
+  scene.user = hands.at(options.hand)();
+  scene.intended = simulated::sine(amplitude_for(device, compilation.network.port_motion == motion::rotation), 0.5);
+  scene.seed = options.seed;
+  return scene;
+}
+
+servo_options loop_options(const Options& options, const Compilation& compilation, std::FILE* log, LiveLine& live) {
+  servo_options loop;
+  loop.identity = {compilation.device->name.c_str(), compilation.device->digest.c_str()};
+  loop.duration = options.duration.value_or(0);
+  loop.outputs.csv = log;
+  loop.outputs.observe = [&live](const telemetry_record& record) { live.show(record); };
+  return loop;
+}
+
+template <class Port, class Clock>
+servo_summary run_on(Port& device, LoadedModel& model, const servo_options& options, Clock clock) {
+  const device_description& facts = device.description();
+  any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
+  servo_loop<LoadedModel, Port, any_estimator<double>, Clock> loop(model, device, estimator, options, clock);
+  const stop_on_signals ctrl_c(loop.control());
+  return loop.run();
+}
+
+std::optional<servo_summary> run_on_board(const Options& options, const Compilation& compilation, LoadedModel& model,
+                                          const servo_options& loop, Diagnostics& diagnostics) {
+  std::string error;
+  auto stream = board::open_transport(*options.port, error);
+  if (stream) {
+    board_device device(std::move(*stream), compilation.device->description);
+    if (device.start(error)) return run_on(device, model, loop, monotonic_clock{});
+  }
+  diagnostics.report<DiagnosticCode::cannot_start_device>({}, *options.port, error);
+  return std::nullopt;
+}
+
+std::optional<servo_summary> run_simulated(const Options& options, const Compilation& compilation, LoadedModel& model,
+                                           const servo_options& loop, Diagnostics& diagnostics) {
+  const simulated::scenario scene = scene_of(options, compilation);
+  const device_description& description = compilation.device->description;
+  if (const char* refusal = simulated_device::refusal(description, scene)) {
+    diagnostics.report<DiagnosticCode::cannot_start_device>({}, compilation.device->name, std::string(refusal));
+    return std::nullopt;
+  }
+  simulated_device device(description, scene);
+  return options.fast ? run_on(device, model, loop, simulated_clock{}) : run_on(device, model, loop, monotonic_clock{});
+}
+
+ExitStatus conclude(const servo_summary& summary, const std::string& log) {
+  fmt::print("{}", to_text(summary));
+  if (!is_admitted(summary.verdict)) return ExitStatus::input_refused;
+  fmt::print("log: {}\n", log);
+  const bool sound = summary.left_safe && summary.faults.total() == 0 && summary.telemetry_error == 0;
+  return sound ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+}  // namespace
+
+ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const DeviceChoice device = open_device(options, files, diagnostics);
+  if (device.status != ExitStatus::done) return device.status;
+  const SourceFile* file = files.open(options.networks.front(), diagnostics);
+  const std::optional<Compilation> compilation =
+      file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
+  if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);
+  if (!model) return ExitStatus::input_refused;
+  const std::string log_name = options.output.value_or(compilation->network.name + "_run.csv");
+  const LogFile log(std::fopen(log_name.c_str(), "w"));
+  if (!log) {
+    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));
+    return ExitStatus::input_refused;
+  }
+  LiveLine live(compilation->network.port_motion == motion::rotation);
+  const servo_options loop = loop_options(options, *compilation, log.get(), live);
+  const std::optional<servo_summary> summary = options.port
+                                                   ? run_on_board(options, *compilation, *model, loop, diagnostics)
+                                                   : run_simulated(options, *compilation, *model, loop, diagnostics);
+  live.finish();
+  return summary ? conclude(*summary, log_name) : ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

@@ -46,17 +46,28 @@ simulated::scenario scene_of(const Options& options, const Compilation& compilat
   return scene;
 }
 
-servo_options loop_options(const Options& options, const Compilation& compilation, std::FILE* log, LiveLine& live) {
+std::string log_name(const Options& options, const Compilation& compilation) {
+  return options.output.value_or(compilation.network.name + "_run.csv");
+}
+
+servo_options loop_options(const Options& options, const Compilation& compilation, LiveLine& live) {
   servo_options loop;
   loop.identity = {compilation.device->name.c_str(), compilation.device->digest.c_str()};
   loop.duration = options.duration.value_or(0);
-  loop.outputs.csv = log;
   loop.outputs.observe = [&live](const telemetry_record& record) { live.show(record); };
   return loop;
 }
 
+// The log is opened when the device is there, so that a former one survives a failure before.
 template <class Port, class Clock>
-servo_summary run_on(Port& device, LoadedModel& model, const servo_options& options, Clock clock) {
+std::optional<servo_summary> run_on(Port& device, LoadedModel& model, servo_options options, Clock clock,
+                                    const std::string& log_name, Diagnostics& diagnostics) {
+  const LogFile log(std::fopen(log_name.c_str(), "w"));
+  if (!log) {
+    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));
+    return std::nullopt;
+  }
+  options.outputs.csv = log.get();
   const device_description& facts = device.description();
   any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   servo_loop<LoadedModel, Port, any_estimator<double>, Clock> loop(model, device, estimator, options, clock);
@@ -70,7 +81,8 @@ std::optional<servo_summary> run_on_board(const Options& options, const Compilat
   auto stream = board::open_transport(*options.port, error);
   if (stream) {
     board_device device(std::move(*stream), compilation.device->description);
-    if (device.start(error)) return run_on(device, model, loop, monotonic_clock{});
+    if (device.start(error))
+      return run_on(device, model, loop, monotonic_clock{}, log_name(options, compilation), diagnostics);
   }
   diagnostics.report<DiagnosticCode::cannot_start_device>({}, *options.port, error);
   return std::nullopt;
@@ -85,7 +97,9 @@ std::optional<servo_summary> run_simulated(const Options& options, const Compila
     return std::nullopt;
   }
   simulated_device device(description, scene);
-  return options.fast ? run_on(device, model, loop, simulated_clock{}) : run_on(device, model, loop, monotonic_clock{});
+  const std::string log = log_name(options, compilation);
+  return options.fast ? run_on(device, model, loop, simulated_clock{}, log, diagnostics)
+                      : run_on(device, model, loop, monotonic_clock{}, log, diagnostics);
 }
 
 ExitStatus conclude(const servo_summary& summary, const std::string& log) {
@@ -107,19 +121,13 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);
   if (!model) return ExitStatus::input_refused;
-  const std::string log_name = options.output.value_or(compilation->network.name + "_run.csv");
-  const LogFile log(std::fopen(log_name.c_str(), "w"));
-  if (!log) {
-    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));
-    return ExitStatus::input_refused;
-  }
   LiveLine live(compilation->network.port_motion == motion::rotation);
-  const servo_options loop = loop_options(options, *compilation, log.get(), live);
+  const servo_options loop = loop_options(options, *compilation, live);
   const std::optional<servo_summary> summary = options.port
                                                    ? run_on_board(options, *compilation, *model, loop, diagnostics)
                                                    : run_simulated(options, *compilation, *model, loop, diagnostics);
   live.finish();
-  return summary ? conclude(*summary, log_name) : ExitStatus::input_refused;
+  return summary ? conclude(*summary, log_name(options, *compilation)) : ExitStatus::input_refused;
 }
 
 }  // namespace dashpot::compiler

@@ -1,0 +1,172 @@
+#!/usr/bin/env python3
+"""`dashpot run` and `dashpot device` as a user types them. No time is asserted: machines here are shared."""
+import argparse
+import csv
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+ARGUMENTS = None
+
+
+def dashpot(*words, environment=None, folder=None):
+    return subprocess.run([ARGUMENTS.dashpot, *words], capture_output=True, text=True, cwd=folder,
+                          env={**os.environ, **(environment or {})}, timeout=300)
+
+
+def network(name):
+    return os.path.join(ARGUMENTS.root, "networks", name + ".json")
+
+
+def device(name):
+    return os.path.join(ARGUMENTS.root, "runtime", "devices", name + ".json")
+
+
+class Run(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.log = os.path.join(self.folder.name, "log.csv")
+
+    def run_fast(self, network_name, device_name, *more, log=None):
+        return dashpot("run", network(network_name), "--device", device(device_name), "--for", "1", "--fast", "--log",
+                       log or self.log, *more)
+
+    def test_every_device_file_can_be_run(self):
+        """Fails if a shipped device file describes something that cannot be simulated, or that faults under a hand."""
+        for name in ("pantograph_brake_2009", "phantom_single_motor", "phantom_shorted_motor", "board_mps2"):
+            with self.subTest(device=name):
+                result = self.run_fast("paper/kelvin", name)
+                self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+                self.assertIn("device left safe", result.stdout)
+
+    def test_log_holds_every_period_with_its_units(self):
+        """Fails if the log loses rows, or no longer names its columns."""
+        self.assertEqual(self.run_fast("paper/kelvin", "phantom_shorted_motor").returncode, 0)
+        with open(self.log, newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        self.assertEqual([int(row["period"]) for row in rows], list(range(1000)))
+        self.assertGreater(max(float(row["position [m]"]) for row in rows), 1e-4)
+        stiffness = 100.0  # of networks/paper/kelvin.json [N/m]
+        velocity_gain = 2.0 - 0.6  # what the brake does not reach [N·s/m]
+        for row in rows:
+            made = stiffness * float(row["position [m]"]) + velocity_gain * float(row["velocity [m/s]"])
+            self.assertAlmostEqual(float(row["motor_force [N]"]), made, delta=1e-12)
+
+    def test_simulated_time_is_repeatable(self):
+        """Fails if anything but the seed decides a simulated run."""
+        logs = [os.path.join(self.folder.name, name) for name in ("a.csv", "b.csv")]
+        for log in logs:
+            self.assertEqual(self.run_fast("tissues/human_liver_normal", "pantograph_brake_2009", "--seed", "7", log=log).returncode, 0)
+        with open(logs[0], "rb") as first, open(logs[1], "rb") as second:
+            self.assertEqual(first.read(), second.read())
+
+    def test_interrupt_leaves_the_device_safe(self):
+        """Fails if Ctrl-C ends the program before the device has the safe command."""
+        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device",
+                                    device("phantom_shorted_motor"), "--log", self.log],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        first = process.stdout.readline()  # the loop is running from here on
+        self.assertIn("Hz", first)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 0, output + errors)
+        self.assertIn("device left safe", output)
+
+    def test_compiler_that_fails_is_told_and_nothing_is_written(self):
+        """Fails if a missing or failing system compiler is silent, or leaves a log behind."""
+        for compiler in ("false", "/no/such/compiler"):
+            result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "1",
+                             "--fast", "--log", self.log, environment={"CXX": compiler})
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("[system-compiler-failed]", result.stderr)
+            self.assertFalse(os.path.exists(self.log))
+
+    def test_float_model_runs(self):
+        """Fails if a model in single precision cannot be loaded."""
+        result = self.run_fast("paper/second_order_maxwell", "board_mps2", "--scalar", "float")
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+
+    def test_device_is_required(self):
+        """Fails if `run` starts without knowing on what."""
+        self.assertEqual(dashpot("run", network("paper/kelvin")).returncode, 2)
+
+    def test_board_on_a_socket(self):
+        """Fails if `run --port` does not serve a board that knows nothing but the protocol's page."""
+        socket_path = os.path.join(self.folder.name, "board.sock")
+        peer = subprocess.Popen([sys.executable, os.path.join(ARGUMENTS.root, "tests/realtime/board/peer.py"), "--unix", socket_path])
+        self.addCleanup(peer.wait)
+        self.addCleanup(peer.kill)
+        for _ in range(200):
+            if os.path.exists(socket_path):
+                break
+            time.sleep(0.05)
+        result = dashpot("run", network("paper/kelvin"), "--device", device("board_mps2"), "--for", "2", "--port",
+                         "unix:" + socket_path, "--log", self.log)
+        self.assertIn("device left safe", result.stdout, result.stderr)
+        with open(self.log, newline="") as stream:
+            moved = {row["position [m]"] for row in csv.DictReader(stream)}
+        self.assertGreater(len(moved), 10)
+
+    def test_nobody_at_the_port(self):
+        """Fails if a port without a board hangs or passes for one."""
+        result = dashpot("run", network("paper/kelvin"), "--device", device("board_mps2"), "--for", "1", "--port",
+                         "unix:" + os.path.join(self.folder.name, "nobody.sock"), "--log", self.log)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("[cannot-start-device]", result.stderr)
+        self.assertFalse(os.path.exists(self.log))
+
+
+class Blade(unittest.TestCase):
+    WORDS = ("--blade", "1.59 mm", "--pole-length", "20 mm", "--pole-width", "20 mm", "--field", "1 T")
+
+    def fill(self, *more):
+        return dashpot("device", device("pantograph_brake_2009"), *self.WORDS, *more)
+
+    def test_damping_of_a_square_pole(self):
+        """Fails if (3) or the return path's half for a square pole is computed wrongly."""
+        filled = json.loads(self.fill("--current", "2 A").stdout)
+        with open(device("pantograph_brake_2009")) as stream:
+            before = json.load(stream)
+        damping = 0.5 * 1.59e-3 * 0.02 * 0.02 * 1.0**2 / 28.2e-9 * 0.05**2  # α d l w B²/ρ r²
+        number, unit = filled["brake"]["max_damping"].split(" ", 1)
+        self.assertEqual(unit, "N m s/rad")
+        self.assertTrue(math.isclose(float(number), damping, rel_tol=1e-5))
+        number, unit = filled["brake"]["damping_per_current_squared"].split(" ", 1)
+        self.assertTrue(math.isclose(float(number), damping / 4, rel_tol=1e-5))
+        for key in ("max_damping", "damping_per_current_squared"):
+            before["brake"][key] = filled["brake"][key]
+        self.assertEqual(filled, before)
+
+    def test_correction_and_radius_can_be_given(self):
+        """Fails if what the user states is overruled."""
+        filled = json.loads(self.fill("--correction", "1", "--radius", "100 mm", "--resistivity", "1e-7 ohm m").stdout)
+        damping = 1.59e-3 * 0.02 * 0.02 / 1e-7 * 0.1**2
+        self.assertTrue(math.isclose(float(filled["brake"]["max_damping"].split()[0]), damping, rel_tol=1e-5))
+
+    def test_wrong_unit_is_refused(self):
+        """Fails if a quantity of another kind is taken for a thickness."""
+        result = dashpot("device", device("pantograph_brake_2009"), "--blade", "1.59 N", *self.WORDS[2:])
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("[wrong-unit]", result.stderr)
+        self.assertEqual(result.stdout, "")
+
+    def test_device_without_brake_is_refused(self):
+        """Fails if a brake is invented."""
+        result = dashpot("device", device("phantom_single_motor"), *self.WORDS)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("[brake-missing]", result.stderr)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--dashpot", required=True)
+    parser.add_argument("--root", required=True)
+    ARGUMENTS, rest = parser.parse_known_args()
+    unittest.main(argv=[sys.argv[0], *rest])

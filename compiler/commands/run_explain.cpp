@@ -56,6 +56,7 @@ Json json_of(const Compilation& c) {
           {"scheme", name_of(c.law.scheme)},
           {"rate", c.rate},
           {"device", c.device ? Json(c.device->name) : Json(nullptr)},
+          {"coupled_operations", cost_of(c.law, c.law.output).coupled},
           {"candidates", candidates},
           {"chosen", choice.name},
           {"state_input", name_of(choice.state_input)},
@@ -89,6 +90,8 @@ std::string text_of(const Compilation& c) {
   text += fmt::format("cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
                       output.additions, output.multiplications, update.additions, update.multiplications, update.guards,
                       output.states);
+  if (output.coupled > 0)
+    text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n", output.coupled);
   return text;
 }
 

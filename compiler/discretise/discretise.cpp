@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "discretise/coupled_slips.hpp"
 #include "discretise/element_names.hpp"
 #include "discretise/mode_bank.hpp"
 #include "discretise/rounding.hpp"
@@ -53,6 +54,9 @@ void drop_unread_locals(UpdateLaw& law) {
   read[law.force] = read[law.stored] = true;
   for (const auto* program : {&law.output, &law.keep, &law.update, &law.energy})
     for (const Statement& statement : *program) mark_read(law, statement.value, read);
+  for (const Coupling& coupling : law.couplings)
+    for (VariableId held : coupling.held)
+      if (held != no_variable) read[held] = true;
   for (auto* program : {&law.output, &law.update, &law.energy})
     std::erase_if(*program, [&](const Statement& statement) {
       return law.variables[statement.target].role == Role::local && !read[statement.target];
@@ -77,6 +81,7 @@ class LawBuilder {
     declare_inputs();
     modes_.declare();
     for (const auto& group : slips_) group->declare();
+    for (const auto& component : coupled_) component->declare();
     write_output();
     write_update();
     write_energy();
@@ -86,17 +91,24 @@ class LawBuilder {
 
  private:
   void add(const NormalTree& component, const Real& sample_period) {
+    if (slip_count(component) > 1) {
+      coupled_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period, component));
+      return;
+    }
     const auto fitting = std::find_if(slips_.begin(), slips_.end(), [&](const auto& group) { return group->accepts(component); });
     if (fitting != slips_.end()) return (*fitting)->add(component);
     slips_.push_back(std::make_unique<SlipGroup>(writer_, network_, sample_period));
     slips_.back()->add(component);
   }
 
+  bool has_slips() const { return !slips_.empty() || !coupled_.empty(); }
+
   void settle_form() {
     double smallest_loss = modes_.smallest_loss();
     for (const auto& group : slips_) smallest_loss = std::min(smallest_loss, group->smallest_loss());
+    for (const auto& component : coupled_) smallest_loss = std::min(smallest_loss, component->smallest_loss());
     law_.mode_form = cheapest_form(smallest_loss, law_.scalar);
-    if (!modes_.empty() || !slips_.empty())
+    if (!modes_.empty() || has_slips())
       law_.relative_error_bound = error_bound(law_.mode_form, smallest_loss, unit_roundoff(law_.scalar));
   }
 
@@ -105,7 +117,7 @@ class LawBuilder {
     law_.velocity = writer_.scalar("velocity", writer_.velocity(), "estimate of u̇", Role::input);
     law_.force = writer_.scalar("force", writer_.force(), "motor's part m", Role::local);
     law_.stored = writer_.scalar("stored", "J", "energy in the springs", Role::local);
-    const bool follows_change = modes_.follows_position() || !slips_.empty();
+    const bool follows_change = modes_.follows_position() || has_slips();
     if (follows_change || form_.static_stiffness > 0)
       law_.rest_position = writer_.scalar("last_position", writer_.length(), "u of the sample before", Role::state);
     if (follows_change)
@@ -126,6 +138,7 @@ class LawBuilder {
     sum = plus_product(sum, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
     if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
     for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
+    for (const auto& component : coupled_) sum = writer_.plus(sum, component->write_output(change_));
     if (sum == nothing) sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0);
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
   }
@@ -138,6 +151,7 @@ class LawBuilder {
 
   void write_update() {
     for (const auto& group : slips_) group->write_update(change_);
+    for (const auto& component : coupled_) component->write_update();
     modes_.write_update(modes_.follows_position() ? writer_.kept(change_) : nothing,
                         modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing);
     if (law_.rest_position != no_variable)
@@ -156,6 +170,7 @@ class LawBuilder {
     }
     sum = writer_.plus(sum, modes_.energy());
     for (const auto& group : slips_) sum = writer_.plus(sum, group->energy());
+    for (const auto& component : coupled_) sum = writer_.plus(sum, component->energy());
     if (sum == nothing) sum = writer_.constant("no_energy", "J", "no spring", 0);
     writer_.assign(law_.energy, law_.stored, sum, "V = ½ k0 u² + Σ F_i²/(2 k_i)", {effective_elements(network_)});
   }
@@ -173,6 +188,7 @@ class LawBuilder {
   const LinearForm& form_;
   ModeBank modes_;
   std::vector<std::unique_ptr<SlipGroup>> slips_;
+  std::vector<std::unique_ptr<CoupledSlips>> coupled_;
   VariableId change_ = nothing;
 };
 

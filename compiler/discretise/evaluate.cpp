@@ -7,6 +7,23 @@ Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
   for (const Variable& variable : law.variables) variables_.emplace_back(variable.size, Scalar(0));
   for (const Coefficient& coefficient : law.coefficients)
     coefficients_.emplace_back(coefficient.values.begin(), coefficient.values.end());
+  for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
+}
+
+template <class Scalar>
+typename Evaluation<Scalar>::Solver Evaluation<Scalar>::solver_of(const Coupling& coupling) {
+  Solver solver;
+  for (const slip_node<double>& node : coupling.nodes)
+    solver.nodes.push_back({node.kind, node.first_child, node.child_count, node.slips, node.place, node.first_corner,
+                            static_cast<Scalar>(node.stiffness), static_cast<Scalar>(node.compliance),
+                            static_cast<Scalar>(node.yield)});
+  solver.parts.resize(coupling.nodes.size());
+  solver.corners.resize(static_cast<std::size_t>(coupling.corners()));
+  solver.merged.resize(2 * coupling.slips.size());
+  solver.held.resize(coupling.held.size());
+  solver.elongation.resize(coupling.elongation.size());
+  solver.sign.resize(coupling.slips.size());
+  return solver;
 }
 
 template <class Scalar>
@@ -51,9 +68,25 @@ Scalar Evaluation<Scalar>::stored_energy() {
 template <class Scalar>
 void Evaluation<Scalar>::run(const std::vector<Statement>& program) {
   for (const Statement& statement : program) {
+    if (statement.coupling != no_coupling) {
+      solve(law_.couplings[statement.coupling], solvers_[statement.coupling], statement);
+      continue;
+    }
     std::vector<Scalar>& target = variables_[statement.target];
     for (std::size_t place = 0; place < target.size(); ++place) target[place] = value(statement.value, place);
   }
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const Statement& statement) {
+  for (std::size_t i = 0; i < coupling.held.size(); ++i)
+    solver.held[i] = coupling.held[i] == no_variable ? Scalar(0) : variables_[coupling.held[i]][0];
+  slip_tree<Scalar> tree(solver.nodes.data(), coupling.node_count(), solver.parts.data(), solver.corners.data(),
+                         solver.merged.data());
+  variables_[statement.target][0] =
+      tree.step(value(statement.value, 0), solver.held.data(), solver.elongation.data(), solver.sign.data());
+  for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
+    if (coupling.elongation[i] != no_variable) variables_[coupling.elongation[i]][0] = solver.elongation[i];
 }
 
 template <class Scalar>

@@ -23,13 +23,25 @@ class Evaluation {
   Scalar stored_energy();
 
  private:
+  // The tables of coupled slips and the room for their steps.
+  struct Solver {
+    std::vector<slip_node<Scalar>> nodes;
+    std::vector<slip_part_state<Scalar>> parts;
+    std::vector<slip_corner<Scalar>> corners, merged;
+    std::vector<Scalar> held, elongation;
+    std::vector<int> sign;
+  };
+
+  static Solver solver_of(const Coupling& coupling);
   void run(const std::vector<Statement>& program);
+  void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
   Scalar value(ExpressionId expression, std::size_t place) const;
   Scalar sum(ExpressionId vector) const;
 
   const UpdateLaw& law_;
   std::vector<std::vector<Scalar>> variables_;
   std::vector<std::vector<Scalar>> coefficients_;
+  std::vector<Solver> solvers_;  // one a coupling
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

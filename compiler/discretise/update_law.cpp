@@ -40,12 +40,35 @@ const Spelling& plain_spelling() {
   return spelling;
 }
 
+std::string value_text(const UpdateLaw& law, const Statement& statement) {
+  const std::string value = expression_text(law, statement.value, plain_spelling());
+  return statement.coupling == no_coupling ? value : fmt::format("{}({})", law.couplings[statement.coupling].name, value);
+}
+
+std::string name_of_variable(const UpdateLaw& law, VariableId id) { return id == no_variable ? "-" : law.variables[id].name; }
+
+std::string coupling_text(const UpdateLaw& law, const Coupling& coupling) {
+  std::string text = fmt::format("  {}: slips coupled through blocks, at most {} operations\n", coupling.name, coupling.operations());
+  for (const slip_node<double>& node : coupling.nodes) {
+    const auto place = static_cast<std::size_t>(node.place);
+    if (node.kind == slip_part::block)
+      text += fmt::format("    block g {}, from {} to {}\n", node.stiffness, name_of_variable(law, coupling.held[place]),
+                          name_of_variable(law, coupling.elongation[place]));
+    else if (node.kind == slip_part::slip)
+      text += fmt::format("    slip {}\n", node.yield);
+    else
+      text += fmt::format("    {} of parts {} to {}\n", node.kind == slip_part::series ? "series" : "parallel",
+                          node.first_child, node.first_child + node.child_count - 1);
+  }
+  return text;
+}
+
 std::string program_text(const UpdateLaw& law, const char* title, const std::vector<Statement>& program) {
   std::string text = fmt::format("{}\n", title);
   for (const Statement& statement : program) {
     const Variable& target = law.variables[statement.target];
     const std::string places = target.size > 1 ? fmt::format("[{}]", target.size) : "";
-    text += fmt::format("  {}{} = {}{}{}\n", target.name, places, expression_text(law, statement.value, plain_spelling()),
+    text += fmt::format("  {}{} = {}{}{}\n", target.name, places, value_text(law, statement),
                         statement.purpose.empty() ? "" : "  // ", statement.purpose);
   }
   return text;
@@ -64,8 +87,11 @@ std::string_view name_of(ModeForm form) {
 
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
   Cost cost;
-  for (const Statement& statement : program)
+  for (const Statement& statement : program) {
     count(law, statement.value, law.variables[statement.target].size, cost);
+    if (statement.coupling != no_coupling)
+      cost.coupled += static_cast<std::size_t>(law.couplings[statement.coupling].operations());
+  }
   for (const Variable& variable : law.variables)
     if (variable.role == Role::state) cost.states += variable.size;
   return cost;
@@ -80,6 +106,7 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
     for (double value : coefficient.values) text += fmt::format(" {}", value);
     text += fmt::format("  // {}\n", coefficient.meaning);
   }
+  for (const Coupling& coupling : law.couplings) text += coupling_text(law, coupling);
   return text + program_text(law, "output", law.output) + program_text(law, "keep", law.keep) +
          program_text(law, "update", law.update) + program_text(law, "energy", law.energy);
 }

@@ -5,6 +5,8 @@
 // act elementwise, and `sum` reduces in a stated order. So a law has the same few statements at any number of states.
 #pragma once
 
+#include <dashpot/slip_tree.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -66,11 +68,28 @@ struct Expression {
   ExpressionId condition = 0;
 };
 
+inline constexpr std::uint32_t no_coupling = static_cast<std::uint32_t>(-1);
+
 struct Statement {
   VariableId target;
   ExpressionId value;
   std::string purpose;                              // the equation, as the literature writes it
   std::vector<std::vector<std::size_t>> origins;    // for each place of the target, indices into Network::elements
+  std::uint32_t coupling = no_coupling;  // of a step of coupled slips: index into UpdateLaw::couplings; `value` is Δu,
+                                         // `target` the force, and the coupling's elongations are assigned too
+};
+
+// Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
+struct Coupling {
+  std::string name;                            // of the emitted table
+  std::vector<slip_node<double>> nodes;        // numbers already rounded to the law's scalar type
+  std::vector<VariableId> held;                // π of each block [N]; no_variable where it is 0
+  std::vector<VariableId> elongation;          // local, δ of each block [m]; no_variable where nothing follows it
+  std::vector<std::vector<std::size_t>> slips; // of each slip, indices into Network::elements
+
+  int node_count() const { return static_cast<int>(nodes.size()); }
+  int corners() const { return slip_tree_corners(nodes.data(), node_count()); }
+  int operations() const { return slip_tree_operations(nodes.data(), node_count()); }
 };
 
 // How one mode is advanced; chosen by the error bound.
@@ -97,6 +116,7 @@ struct UpdateLaw {
   std::vector<Statement> output;  // locals only; ends with the assignment of `force`
   std::vector<Statement> keep;    // states that remember the sample; only where inputs and force are finite
   std::vector<Statement> update;
+  std::vector<Coupling> couplings;
   std::vector<Statement> energy;  // ends with the assignment of `stored`
 
   VariableId position = 0;  // the inputs
@@ -112,6 +132,7 @@ struct Cost {
   std::size_t multiplications = 0;
   std::size_t selections = 0;  // clamps and choices
   std::size_t guards = 0;  // against subnormals
+  std::size_t coupled = 0;  // operations of coupled slips at most: additions, multiplications, divisions
   std::size_t states = 0;
 };
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);

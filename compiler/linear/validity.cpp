@@ -21,16 +21,7 @@ std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics
     return std::nullopt;
   }
   std::optional<NormalForm> form = normal_form(network);
-  if (!form) {
-    diagnostics.report<DiagnosticCode::slips_outside_tree>(network.name_span, network.name);
-    return std::nullopt;
-  }
-  for (const NormalTree& component : form->components)
-    if (slip_count(component) > 1) {
-      diagnostics.report<DiagnosticCode::coupled_slips>(network.name_span, slip_count(component));
-      form.reset();
-      break;
-    }
+  if (!form) diagnostics.report<DiagnosticCode::slips_outside_tree>(network.name_span, network.name);
   return form;
 }
 

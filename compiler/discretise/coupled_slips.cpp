@@ -1,0 +1,123 @@
+#include "discretise/coupled_slips.hpp"
+
+#include <algorithm>
+
+#include "discretise/element_names.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// g = k0 + b∞/h + Σ c_i
+std::vector<Real> companion_stiffness(const NormalTree& component, Scheme scheme, const Real& sample_period) {
+  std::vector<Real> stiffness;
+  for (const NormalTree* block : blocks_breadth_first(component)) {
+    Real g = block->form.static_stiffness + block->form.feedthrough_damping / sample_period;
+    for (const Mode& mode : block->form.modes)
+      g += mode_coefficients(mode, scheme, StateInput::position, sample_period).position_gain;
+    stiffness.push_back(g);
+  }
+  return stiffness;
+}
+
+void collect(const NormalTree& tree, std::vector<std::size_t>& elements) {
+  elements.insert(elements.end(), tree.elements.begin(), tree.elements.end());
+  for (const NormalTree& child : tree.children) collect(child, elements);
+}
+
+}  // namespace
+
+CoupledSlips::CoupledSlips(LawWriter& writer, const Network& network, const Real& sample_period, const NormalTree& component)
+    : writer_(writer),
+      network_(network),
+      table_(slip_table(component, companion_stiffness(component, writer.law().scheme, sample_period), writer.law().scalar)),
+      name_(writer.unique(joined("coupled", name_of(table_.slips.front()->elements, network)))) {
+  for (const NormalTree* part : table_.blocks) blocks_.push_back(block_of(*part, sample_period));
+}
+
+CoupledSlips::Block CoupledSlips::block_of(const NormalTree& part, const Real& sample_period) {
+  Block block{&part, writer_.unique(name_of(part.elements, network_)), nullptr};
+  if (part.form.modes.empty()) return block;
+  Names names;
+  for (const Mode& mode : part.form.modes) names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
+  block.modes = std::make_unique<ModeBank>(writer_, part.form.modes, StateInput::position, sample_period, std::move(names), block.name);
+  return block;
+}
+
+double CoupledSlips::smallest_loss() const {
+  double smallest = 1;
+  for (const Block& block : blocks_)
+    if (block.modes) smallest = std::min(smallest, block.modes->smallest_loss());
+  return smallest;
+}
+
+void CoupledSlips::declare() {
+  for (Block& block : blocks_) {
+    if (block.has_spring())
+      block.spring_force = writer_.scalar(joined(block.name, "spring_force"), writer_.force(), "force of the spring", Role::state);
+    if (block.modes) block.modes->declare();
+    if (block.has_spring() || block.modes)
+      block.elongation = writer_.scalar(joined(block.name, "elongation"), writer_.length(), "δ of the block", Role::local);
+  }
+}
+
+ExpressionId CoupledSlips::write_output(VariableId change) {
+  UpdateLaw& law = writer_.law();
+  Coupling coupling{name_, table_.nodes, {}, {}, {}};
+  for (const Block& block : blocks_) coupling.held.push_back(write_held(block));
+  for (const Block& block : blocks_) coupling.elongation.push_back(block.elongation);
+  for (const NormalTree* slip : table_.slips) coupling.slips.push_back(slip->elements);
+  const VariableId force = writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
+  writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers", origins());
+  law.output.back().coupling = static_cast<std::uint32_t>(law.couplings.size());
+  law.couplings.push_back(std::move(coupling));
+  return writer_.read(force);
+}
+
+// π = F0 + Σ a F; nothing for a lone damper.
+VariableId CoupledSlips::write_held(const Block& block) {
+  if (!block.modes) return block.spring_force;
+  if (!block.has_spring()) return block.modes->decayed_sum();
+  const VariableId held = writer_.scalar(joined(block.name, "held"), writer_.force(), "force at rest", Role::local);
+  writer_.assign(writer_.law().output, held,
+                 writer_.add(writer_.read(block.spring_force), writer_.read(block.modes->decayed_sum())), "π = F0 + Σ a F");
+  return held;
+}
+
+// F0 ← F0 + k0 δ; modes by δ in place of Δu.
+void CoupledSlips::write_update() {
+  for (const Block& block : blocks_) {
+    if (block.elongation == nothing) continue;
+    const VariableId elongation = writer_.kept(block.elongation);
+    if (block.has_spring()) {
+      const ExpressionId stiffness = writer_.constant(joined(block.name, "stiffness"), writer_.stiffness(), "k0", block.form().static_stiffness);
+      const ExpressionId force = writer_.add(writer_.read(block.spring_force), writer_.multiply(stiffness, writer_.read(elongation)));
+      writer_.assign(writer_.law().update, block.spring_force, writer_.flush(force), "F ← F + k δ", {block.part->elements});
+    }
+    if (block.modes) block.modes->write_update(elongation, nothing);
+  }
+}
+
+ExpressionId CoupledSlips::energy() {
+  ExpressionId sum = nothing;
+  for (const Block& block : blocks_) {
+    if (block.has_spring()) sum = writer_.plus(sum, spring_energy(block));
+    if (block.modes) sum = writer_.plus(sum, block.modes->energy());
+  }
+  return sum;
+}
+
+// ½ F0²/k0
+ExpressionId CoupledSlips::spring_energy(const Block& block) {
+  const ExpressionId weight = writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)", 1 / (2 * block.form().static_stiffness));
+  return writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)), writer_.read(block.spring_force));
+}
+
+std::vector<std::vector<std::size_t>> CoupledSlips::origins() const {
+  std::vector<std::size_t> elements;
+  for (const NormalTree* part : table_.blocks) collect(*part, elements);
+  for (const NormalTree* part : table_.slips) collect(*part, elements);
+  std::sort(elements.begin(), elements.end());
+  return {elements};
+}
+
+}  // namespace dashpot::compiler

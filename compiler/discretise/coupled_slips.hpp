@@ -1,0 +1,52 @@
+// A component in which several slips meet, written as one step of dashpot::slip_tree between scalars of the law (theory,
+// section 5, "Coupled trees").
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "discretise/law_writer.hpp"
+#include "discretise/mode_bank.hpp"
+#include "discretise/slip_table.hpp"
+
+namespace dashpot::compiler {
+
+class CoupledSlips {
+ public:
+  // The component outlives this.
+  CoupledSlips(LawWriter& writer, const Network& network, const Real& sample_period, const NormalTree& component);
+
+  double smallest_loss() const;  // min (1 − a) over all modes; 1 without
+  void declare();                // to be called when the law's mode form is settled
+
+  // The component's force, from the tool's displacement in this sample.
+  ExpressionId write_output(VariableId change);
+  void write_update();
+  ExpressionId energy();  // nothing without springs
+
+ private:
+  struct Block {
+    const NormalTree* part;
+    std::string name;
+    std::unique_ptr<ModeBank> modes;
+    VariableId spring_force = nothing;  // F0, of the static stiffness
+    VariableId elongation = nothing;    // δ
+
+    const LinearForm& form() const { return part->form; }
+    bool has_spring() const { return part->form.static_stiffness > 0; }
+  };
+
+  Block block_of(const NormalTree& part, const Real& sample_period);
+  VariableId write_held(const Block& block);
+  ExpressionId spring_energy(const Block& block);
+  std::vector<std::vector<std::size_t>> origins() const;
+
+  LawWriter& writer_;
+  const Network& network_;
+  SlipTable table_;
+  std::string name_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace dashpot::compiler

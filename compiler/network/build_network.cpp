@@ -206,7 +206,7 @@ class NetworkBuilder {
       diagnostics_.report<DiagnosticCode::range_reversed>(decl->span, excerpt(decl->high.text),
                                                           decl->low ? excerpt(decl->low->text) : "0");
     else
-      return Range{decl->low || !is_signed ? *low : -*high, *high};
+      return Range{decl->low || !is_signed ? *low : 0 - *high, *high};
     return std::nullopt;
   }
 

@@ -9,9 +9,9 @@ motion read_motion(const std::optional<Text>& text, Diagnostics& diagnostics) {
   if (!text || text->text == "translation") return motion::translation;
   if (text->text == "rotation") return motion::rotation;
   diagnostics.report<DiagnosticCode::unknown_motion>(text->span, excerpt(text->text));
-  if (const auto nearest = nearest_name(text->text, {"translation", "rotation"}))
-    diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
-  return motion::translation;
+  const auto nearest = nearest_name(text->text, {"translation", "rotation"});
+  if (nearest) diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
+  return nearest == "rotation" ? motion::rotation : motion::translation;
 }
 
 }  // namespace dashpot::compiler

@@ -10,7 +10,7 @@
 
 namespace dashpot::compiler {
 
-// Translation where absent. Reports words other than translation and rotation, and reads them as translation.
+// Translation where absent. Reports words other than translation and rotation, and goes on with what was probably meant.
 motion read_motion(const std::optional<Text>& text, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -153,6 +153,22 @@ TEST(BrakeDissipation, StartsAfreshAfterPauses) {
   EXPECT_GE(bound.value(), 0.7 * truth);
 }
 
+// Motion by fits and starts would not be credited: each start is diluted by the pause before, or each pause by the start.
+TEST(BrakeDissipation, ShortMovesBetweenPausesCount) {
+  const double step = 30e-6;
+  brake_dissipation<double> bound(step);
+  bound.reset(0);
+  double position = 0;
+  const int moves = 50, steps = 4;
+  for (int move = 0; move < moves; ++move) {
+    for (int k = 0; k < 1000; ++k) bound.observe(position, 5, period);
+    for (int k = 0; k < steps; ++k) bound.observe(position += step, 5, period);
+  }
+  // Three of the four steps of a move are certain: 9/16 of b Δu²/Δt.
+  const double truth = moves * 5 * (steps * step) * (steps * step) / (steps * period);
+  EXPECT_NEAR(bound.value(), 9.0 / 16 * truth, 1e-12 * truth);
+}
+
 // The paper's (20) would not be f v Δt, or would lack the sign by which absorbed energy is positive.
 TEST(PowerObserver, SumsForceTimesVelocity) {
   power_observer<double> observer;

@@ -44,6 +44,22 @@ TEST(Device, JitterDelaysEachSampleByItself) {
   EXPECT_GT(most, 0.00039);
 }
 
+// The motion would go on for another time than the sample's, so that jitter would look like noise of the position.
+TEST(Device, JitteredSamplesShowTheMotionAtTheirOwnTime) {
+  device_description description = plain_device();
+  description.loop.jitter = 0.0004;
+  scenario scene;
+  scene.initial_velocity = 0.3;
+  scene.faults = {{sample_fault_kind::late, 50, 2, 0.0123}};
+  simulated_device device(description, scene);
+  device_sample sample;
+  for (int k = 0; k < 200; ++k) {
+    device.read(sample);
+    // The timestamp is rounded to a nanosecond.
+    EXPECT_NEAR(sample.position, 0.3 * static_cast<double>(sample.timestamp_ns) * 1e-9, 0.3 * 0.51e-9);
+  }
+}
+
 // A command would take effect at another sample than the device's loop delay says.
 TEST(Device, CommandsTakeEffectAfterTheLoopDelay) {
   for (unsigned delay : {0u, 1u, 3u}) {

@@ -60,6 +60,22 @@ TEST(Friction, BreaksAwayBetweenSamples) {
   EXPECT_NEAR(break_away_error(1) / break_away_error(2), 16, 4);
 }
 
+// Only the first event within a step would be heeded.
+TEST(Friction, StopsAndBreaksAwayWithinOneStep) {
+  device_description description = rubbing_device(0.5);
+  description.loop.sample_period = 0.005;
+  description.motor.amplifier_lag = 0.020;
+  scenario scene;
+  scene.substeps = 1;
+  scene.initial_velocity = -0.001;
+  simulated_device device(description, scene);
+  run(device, 2, {4, 0});
+  // It stops within half a millisecond, and breaks away forwards when the rising torque passes the friction.
+  const double lag = 0.020, end = 0.005, start = -lag * std::log(1 - 0.5 / 4);
+  const double impulse = (4 - 0.5) * (end - start) + 4 * lag * (std::exp(-end / lag) - std::exp(-start / lag));
+  EXPECT_NEAR(device.truth().velocity, impulse / 0.2, impulse / 0.2 * std::pow(0.25, 4) / 720);
+}
+
 // The amplitude of an oscillation under friction would not fall by 2 f/K each half cycle, or it would not end stuck.
 TEST(Friction, OscillationDecaysInStraightLinesAndSticks) {
   const double stiffness = 500, friction = 0.4, start = 0.01;

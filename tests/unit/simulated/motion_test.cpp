@@ -62,8 +62,8 @@ TEST(Motion, BrakeDecayConvergesToItsClosedForm) {
   EXPECT_NEAR(device.ledger().brake, 0.2 * 0.5 * 0.5 / 2, 1e-12);
 }
 
-double maxwell_hand_error(unsigned substeps) {
-  const double stiffness = 300, viscosity = 4, mass = 0.2, speed = 0.3;
+double maxwell_hand_error(unsigned substeps, double stiffness = 300, double viscosity = 4) {
+  const double mass = 0.2, speed = 0.3;
   scenario scene;
   scene.user.states = 1;
   scene.user.dynamics[0][0] = -stiffness / viscosity;
@@ -103,6 +103,35 @@ TEST(Motion, ConstantTorqueAcceleratesJointAndHandTogether) {
   // A quadratic motion is exact at any step; what is left is the rounding of some hundred steps.
   EXPECT_NEAR(device.truth().position, 0.01 / inertia * time * time / 2, 1e-13);
   EXPECT_NEAR(device.truth().velocity, 0.01 / inertia * time, 1e-12);
+  EXPECT_NEAR(device.truth().hand_torque, -0.4 * 0.05 * 0.05 * 0.01 / inertia, 1e-15);
+}
+
+// What the hand and the stops are would depend on whether an arm lies between them and the joint.
+TEST(Motion, ArmMakesNoDifferenceAtTheTool) {
+  scenario scene;
+  scene.user = mass_spring_damper(0.3, 4, 200);
+  scene.user.dynamics[0][0] = -20;
+  scene.intended = sine(0.02, 2);
+  scene.initial_position = 0.003;
+  scene.initial_velocity = 0.05;
+  scene.high = end_stop{0.012};
+  scene.low = end_stop{-0.01, 3000, 5};
+  device_description linear = plain_device();
+  device_description rotary = linear;
+  rotary.motion = motion::rotation;
+  rotary.arm_radius = 0.05;
+  rotary.mechanics.inertia *= 0.05 * 0.05;
+  rotary.brake.max_damping *= 0.05 * 0.05;
+  simulated_device tool(linear, scene), joint(rotary, scene);
+  for (int k = 0; k < 1500; ++k) {
+    run(tool, 1);
+    run(joint, 1);
+    // Events are located to a billionth of a step; the rest is rounding.
+    ASSERT_NEAR(joint.truth().position * 0.05, tool.truth().position, 1e-12) << k;
+  }
+  EXPECT_GT(tool.ledger().stop, 1e-5);
+  EXPECT_NEAR(joint.ledger().stop, tool.ledger().stop, 1e-9);
+  EXPECT_NEAR(joint.ledger().hand, tool.ledger().hand, 1e-9);
 }
 
 // A hand driven along a sine would follow it with a wrong amplitude or phase.
@@ -120,16 +149,71 @@ TEST(Motion, DrivenHandFollowsItsFrequencyResponse) {
   EXPECT_NEAR(device.truth().position, expected.imag(), 0.02 * std::exp(-6.5 / 1.5 * 4));
 }
 
-// A lag much shorter than the period would be stepped over.
-TEST(Motion, StepsAreShortAgainstTheActuators) {
+// An intention would reach the hand's inner states late, twice, or not at all.
+TEST(Motion, DrivenHandWithItsOwnStateFollowsItsFrequencyResponse) {
+  const double frequency = 3, rate = 2 * 3.14159265358979323846 * frequency, stiffness = 300, viscosity = 4;
+  scenario scene;
+  scene.user = mass_spring_damper(0.1, 2, stiffness);
+  scene.user.dynamics[0][0] = -stiffness / viscosity;
+  scene.intended = sine(0.01, frequency);
+  simulated_device device(plain_device(), scene);
+  run(device, 4001);
+  const std::complex<double> s(0, rate);
+  // A damper beside a spring and a damper in series, and 0.3 kg.
+  const std::complex<double> impedance = 2.0 + stiffness / (s + stiffness / viscosity);
+  const std::complex<double> response = 0.01 * impedance / (impedance + 0.3 * s);
+  const std::complex<double> speed_now = response * s * std::exp(s * 4.0);
+  // The transients have decayed by e^(−20·4); the steps turn the phase by (ωh)⁴/720 of ωt, with h at most 1 ms.
+  EXPECT_NEAR(device.truth().velocity, speed_now.imag(), 0.01 * rate * rate * 4 * std::pow(rate * 0.001, 4) / 720);
+}
+
+// What half a time constant is wrong by, of what happens within it: the steps are no longer.
+const double step_error = std::pow(0.5, 4) / 720;
+
+// An amplifier's lag much shorter than the period would be stepped over.
+TEST(Motion, StepsAreShortAgainstTheAmplifier) {
   device_description description = plain_device();
   description.motor.amplifier_lag = 0.00005;
   simulated_device device(description);
   run(device, 2, {0.4, 0});
-  // From rest: v = a (t − lag (1 − e^(−t/lag))). A step of half a lag is wrong by (½)⁴/4320 of what the lag costs.
+  // From rest: v = a (t − lag (1 − e^(−t/lag))).
   const double lag = 0.00005, time = 0.001, acceleration = 2;
   const double expected = acceleration * (time - lag * (1 - std::exp(-time / lag)));
-  EXPECT_NEAR(device.truth().velocity, expected, acceleration * lag * std::pow(0.5, 4) / 4320);
+  EXPECT_NEAR(device.truth().velocity, expected, acceleration * lag * step_error);
+}
+
+// A coil's lag much shorter than the period would be stepped over.
+TEST(Motion, StepsAreShortAgainstTheCoil) {
+  const double lag = 0.00005, time = 0.001;
+  device_description description = plain_device();
+  description.brake.coil_lag = lag;
+  scenario scene;
+  scene.initial_velocity = 0.5;
+  simulated_device device(description, scene);
+  run(device, 2, {0, 60});
+  // ln v falls by the integral of b/m = 300/s · (1 − e^(−t/lag))².
+  const double left = std::exp(-time / lag);
+  const double fall = 300 * (time - 2 * lag * (1 - left) + lag / 2 * (1 - left * left));
+  EXPECT_NEAR(std::log(0.5 / device.truth().velocity), fall, 300 * lag * step_error);
+}
+
+// A brake that stops the tool within a period would be stepped over.
+TEST(Motion, StepsAreShortAgainstTheBrake) {
+  device_description description = plain_device();
+  description.brake.max_damping = 1000;
+  scenario scene;
+  scene.initial_velocity = 0.5;
+  simulated_device device(description, scene);
+  run(device, 2, {0, 1000});
+  const double way = 0.5 * 0.2 / 1000;
+  EXPECT_NEAR(device.truth().position, way * (1 - std::exp(-1000 / 0.2 * 0.001)), way * step_error);
+}
+
+// A hand whose inner states are much faster than the period would be stepped over.
+TEST(Motion, StepsAreShortAgainstTheHand) {
+  const double stiffness = 2000, viscosity = 0.1, rate = stiffness / viscosity;
+  const double way_lost = viscosity / 0.2 / rate;  // of the velocity, while the hand's force builds up
+  EXPECT_LT(maxwell_hand_error(0, stiffness, viscosity), 0.3 * way_lost * step_error);
 }
 
 // A simulation that runs away would come back as a small number.
@@ -141,22 +225,36 @@ TEST(Motion, RunawayStaysARunaway) {
   EXPECT_GT(sample.position, 1e290);
 }
 
-// A hand that has let go would still push, or would take its speed away from the tool.
+// A hand that has let go would still push, or would take its speed away from the tool, or let go too early or late.
 TEST(Motion, ReleasedToolGoesOnAlone) {
   scenario scene;
-  scene.user = stiff_grasp();
-  scene.user.mass = 0.5;
+  scene.user = mass_spring_damper(0.5, 8, 0);
   scene.user.release_time = 0.0505;
   scene.intended = through({{0, 0}, {1, 0.1}});
   simulated_device device(plain_device(), scene);
   run(device, 52);
+  // m v̇ = D (v_d − v) until then; at steps of half a millisecond of a time constant of 87 ms.
   const double speed = device.truth().velocity;
   const double work = device.ledger().hand;
-  EXPECT_GT(speed, 0.02);
+  EXPECT_NEAR(speed, 0.1 * (1 - std::exp(-8 / 0.7 * 0.0505)), 0.1 * std::pow(8 / 0.7 * 0.001, 4) / 720);
+  EXPECT_NEAR(work, 0.2 * speed * speed / 2, 1e-17);
   run(device, 100);
   EXPECT_EQ(device.truth().hand_torque, 0);
   EXPECT_NEAR(device.truth().velocity, speed, 1e-14);
   EXPECT_EQ(device.ledger().hand, work);
+}
+
+// A hand that lets go at a sample would hold on for one more period.
+TEST(Motion, ReleaseAtASampleIsNotLate) {
+  scenario scene;
+  scene.user = stiff_grasp();
+  scene.user.release_time = 0.05;
+  scene.intended = through({{0, 0}, {1, 0.1}});
+  simulated_device device(plain_device(), scene);
+  run(device, 51);
+  const double speed = device.truth().velocity;
+  run(device, 1);
+  EXPECT_NEAR(device.truth().velocity, speed, 1e-15);
 }
 
 // A tool that is led along a prescribed motion would be elsewhere, or the work of leading it would be miscounted.

@@ -3,7 +3,7 @@
     python3 package_test.py InTree|Installed [-v]
 
 The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_PREFIX (where it is installed),
-CMAKE_COMMAND, and the compiler to use in CXX.
+CMAKE_COMMAND, BUILD_TYPE, and the compiler to use in CXX.
 """
 import os
 import pathlib
@@ -113,7 +113,9 @@ class InTree(Consumer, unittest.TestCase):
     """dashpot as a subdirectory of the user's project: the compiler is built first."""
 
     def options(self):
-        return [f"-DDASHPOT_SOURCE={SOURCE}"]
+        # Built as the outer tree was, so that a compiler cache, where there is one, knows every object.
+        return [f"-DDASHPOT_SOURCE={SOURCE}", f"-DCMAKE_BUILD_TYPE={os.environ['BUILD_TYPE']}",
+                "-DDASHPOT_WARNINGS_AS_ERRORS=ON"]
 
     def dashpot(self):
         return self.project.build_folder / "dashpot/compiler/dashpot"

@@ -29,7 +29,8 @@ typename Evaluation<Scalar>::Solver Evaluation<Scalar>::solver_of(const Coupling
 template <class Scalar>
 void Evaluation<Scalar>::reset(Scalar position) {
   for (std::vector<Scalar>& variable : variables_) std::fill(variable.begin(), variable.end(), Scalar(0));
-  if (law_.rest_position != no_variable) variables_[law_.rest_position][0] = position;
+  if (law_.rest_position != no_variable && all_finite(position, position, position))
+    variables_[law_.rest_position][0] = position;
   sampled_ = false;
 }
 

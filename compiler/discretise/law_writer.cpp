@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+
+#include "discretise/rounding.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -26,7 +29,8 @@ std::string joined(std::string first, const std::string& second) {
 }
 
 double rounded(const Real& value, ScalarType scalar) {
-  return scalar == ScalarType::float64 ? to_double(value) : double(value.convert_to<float>());
+  const double nearest = scalar == ScalarType::float64 ? to_double(value) : double(value.convert_to<float>());
+  return std::abs(nearest) < smallest_constant(scalar) ? 0 : nearest;
 }
 
 LawWriter::LawWriter(UpdateLaw& law, motion port_motion)

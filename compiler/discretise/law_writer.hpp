@@ -16,7 +16,7 @@ inline constexpr std::uint32_t nothing = static_cast<std::uint32_t>(-1);  // no 
 // Joins two parts of a C++ name by one underscore; the first may be empty.
 std::string joined(std::string first, const std::string& second);
 
-// The nearest number of the law's scalar type.
+// The nearest number of the law's scalar type; zero below smallest_constant().
 double rounded(const Real& value, ScalarType scalar);
 
 // One emitted name a place, for vectors: "B1_K1" gives "B1_K1_force", …

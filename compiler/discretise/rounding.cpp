@@ -24,4 +24,9 @@ ModeForm cheapest_form(double smallest_loss, ScalarType scalar) {
 
 double flush_threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }
 
+double smallest_constant(ScalarType scalar) {
+  const double smallest_normal = scalar == ScalarType::float64 ? 0x1p-1022 : 0x1p-126;
+  return smallest_normal / flush_threshold(scalar);
+}
+
 }  // namespace dashpot::compiler

@@ -17,4 +17,7 @@ ModeForm cheapest_form(double smallest_loss, ScalarType scalar);
 // normal [N].
 double flush_threshold(ScalarType scalar);
 
+// Constants below are set to zero: their product with a kept force would be subnormal, and nothing would be left of it.
+double smallest_constant(ScalarType scalar);
+
 }  // namespace dashpot::compiler

@@ -64,10 +64,7 @@ class CppPrinter {
     program.keep = lines_of(law_.keep);
     program.update = lines_of(law_.update);
     program.energy = lines_of(law_.energy);
-    if (law_.rest_position != no_variable)
-      program.reset.push_back(fmt::format("{} = position;", scalar_name(law_.variables[law_.rest_position])));
-    else
-      program.reset.push_back("static_cast<void>(position);");
+    program.reset = reset();
     program.constants = constants();
     program.states = states();
     program.functions = functions();
@@ -240,6 +237,29 @@ class CppPrinter {
     }
   }
 
+  std::vector<std::string> reset() {
+    std::vector<std::string> lines;
+    const bool rests = law_.rest_position != no_variable;
+    if (!rests) lines.push_back("static_cast<void>(position);");
+    for (const Variable& variable : law_.variables) {
+      if (variable.role != Role::state) continue;
+      if (rests && &variable == &law_.variables[law_.rest_position])
+        lines.push_back(scalar_name(variable) + " = dashpot::all_finite(position, position, position) ? position : 0;");
+      else if (variable.size == 1)
+        lines.push_back(scalar_name(variable) + " = 0;");
+      else if (rolled_)
+        lines.push_back(clearing(variable));
+      else
+        for (const std::string& name : variable.element_names) lines.push_back(name + "_ = 0;");
+    }
+    return lines;
+  }
+
+  std::string clearing(const Variable& variable) {
+    uses_clear_ = true;
+    return fmt::format("clear({}_);", variable.name);
+  }
+
   std::vector<std::string> states() const {
     std::vector<std::string> lines;
     for (const Variable& variable : law_.variables) {
@@ -256,13 +276,20 @@ class CppPrinter {
   }
 
   std::vector<std::string> functions() const {
-    if (!uses_total_) return {};
-    return {fmt::format("static scalar total(const scalar (&lane)[{}]) noexcept {{", law_.lanes),
-            "  scalar sum = lane[0];",
-            fmt::format("  for (int j = 1; j < {}; ++j) sum += lane[j];", law_.lanes),
-            "  return sum;",
-            "}",
-            ""};
+    std::vector<std::string> lines;
+    if (uses_total_)
+      lines = {fmt::format("static scalar total(const scalar (&lane)[{}]) noexcept {{", law_.lanes),
+               "  scalar sum = lane[0];",
+               fmt::format("  for (int j = 1; j < {}; ++j) sum += lane[j];", law_.lanes),
+               "  return sum;",
+               "}",
+               ""};
+    if (uses_clear_)
+      for (const char* line : {"// Through volatile: compilers turn a plain loop into a call of memset, which may not be there.",
+                               "template <int size>", "static void clear(volatile scalar (&states)[size]) noexcept {",
+                               "  for (int i = 0; i < size; ++i) states[i] = 0;", "}", ""})
+        lines.push_back(line);
+    return lines;
   }
 
   std::string literal(double value) const { return cpp_literal(value, law_.scalar); }
@@ -271,7 +298,7 @@ class CppPrinter {
   const UpdateLaw& law_;
   const Network& network_;
   bool rolled_;
-  bool uses_flush_ = false, uses_total_ = false;
+  bool uses_flush_ = false, uses_total_ = false, uses_clear_ = false;
   std::set<const Variable*> used_variables_;
   std::set<const Coefficient*> used_coefficients_;
   std::set<VariableId> summed_;

@@ -1,0 +1,46 @@
+// Networks with slips, run by evaluate() along random motions.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "discretise/evaluate.hpp"
+#include "emit/emission.hpp"
+
+namespace dashpot::testing {
+
+inline constexpr double slip_period = 1e-3;  // [s]
+
+// All stages behind the front end at 1 kHz, without a device, `position` driven and without an estimate in the motor.
+// Throws std::runtime_error where a stage refuses.
+compiler::Compilation compiled(const compiler::Network& network, compiler::Scheme scheme,
+                               compiler::ScalarType scalar = compiler::ScalarType::float64);
+
+// Displacements [m]: rests, steps over many decades about what makes the slips give way, reversals, returns to where it
+// was before.
+std::vector<double> random_motion(const compiler::Network& network, std::uint64_t seed, std::size_t samples);
+
+// The law with the brake's part at the true velocity: the whole force that the network opposes [N].
+class WholeForce {
+ public:
+  explicit WholeForce(const compiler::UpdateLaw& law) : damping_(law.damping), law_(law) { law_.reset(0); }
+
+  double step(double position) {
+    const double change = position - position_;
+    position_ = position;
+    return damping_ * (change / slip_period) + law_.step(position, change / slip_period).force;
+  }
+  double stored_energy() { return law_.stored_energy(); }
+
+ private:
+  double damping_;  // [N·s/m]
+  compiler::Evaluation<double> law_;
+  double position_ = 0;
+};
+
+// Slips in the component that has most.
+std::size_t most_coupled(const compiler::Compilation& compilation);
+
+}  // namespace dashpot::testing

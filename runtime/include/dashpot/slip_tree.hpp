@@ -5,7 +5,8 @@
 //   curves    every part is a monotone polyline in (δ, p). In parallel forces add, in series elongations do;
 //   signs     from the tool down, which slips give way, and to which side;
 //   numbers   with these known every part is rigid, a constant force, or p = g δ + π. Corners alone would lose digits.
-// Neither heap nor recursion; every loop is bounded by the tree. Non-finite inputs give a non-finite force in as many steps.
+// Neither heap nor recursion; every loop is bounded by the tree, also for non-finite inputs. Elongations are finite where
+// the force is.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -1,5 +1,6 @@
 #include "compile.hpp"
 
+#include "discretise/element_names.hpp"
 #include "linear/validity.hpp"
 #include "syntax/parse_network.hpp"
 
@@ -27,6 +28,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& choi
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
+  if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }
 

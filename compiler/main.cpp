@@ -28,18 +28,23 @@ struct CommandLine {
   std::string target = "cpp";
 };
 
+// The whole text as a number in decimal notation.
+std::optional<double> decimal(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
+}
+
 std::string check_rate(const std::string& text) {
-  char* end = nullptr;
-  const double rate = std::strtod(text.c_str(), &end);
-  const bool ok = *end == '\0' && end != text.c_str() && rate > 0 && rate <= 1e9;
-  return ok ? "" : "'" + text + "' is no rate; a number of hertz above 0 is expected";
+  const std::optional<double> rate = decimal(text);
+  return rate && *rate > 0 && *rate <= highest_rate ? "" : "'" + text + "' is no rate; a number of hertz above 0 is expected";
 }
 
 std::string check_decomposition(const std::string& text) {
   if (std::find(decompositions.begin(), decompositions.end(), text) != decompositions.end()) return "";
-  double damping = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), damping);
-  const bool ok = error == std::errc() && end == text.data() + text.size() && damping >= 0 && std::isfinite(damping);
+  const std::optional<double> damping = decimal(text);
+  const bool ok = damping && *damping >= 0;
   return ok ? "" : "'" + text + "' is no decomposition; one of " + CLI::detail::join(decompositions) +
                        " or a damping of zero or more is expected";
 }
@@ -144,7 +149,7 @@ void take_over_words(CommandLine& line) {
   if (std::find(decompositions.begin(), decompositions.end(), line.decomposition) != decompositions.end())
     choices.decomposition = line.decomposition;
   else
-    choices.decomposition = std::strtod(line.decomposition.c_str(), nullptr);
+    choices.decomposition = decimal(line.decomposition).value();
 }
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {

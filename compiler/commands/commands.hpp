@@ -25,6 +25,9 @@ ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics&
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 
+// Refuses, with a diagnostic, where standard output cannot take the text: a full disk must not pass for success.
+ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnostics);
+
 // The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
 struct DeviceChoice {
   std::optional<Device> device;  // empty where none was asked for

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "decompose/choices.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -20,19 +22,17 @@ class Table {
   Table(const SourceFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
 
   std::optional<Motion> read() {
-    std::vector<Cell> header = next_row();
+    const std::vector<Cell> header = next_row();
     if (header.empty()) return refuse_empty();
-    const auto time = column(header, "time"), position = column(header, "position"), velocity = column(header, "velocity");
-    if (!time) diagnostics_.report<DiagnosticCode::csv_missing_column>(header.front().span, "time");
-    if (!position) diagnostics_.report<DiagnosticCode::csv_missing_column>(header.front().span, "position");
-    if (!time || !position) return std::nullopt;
+    const auto time = column(header, "time", true), position = column(header, "position", true);
+    const auto velocity = column(header, "velocity", false);
+    if (failed_) return std::nullopt;
     Motion motion;
-    while (place_ < file_.text().size()) {
-      const std::vector<Cell> row = next_row();
-      if (row.size() == 1 && row.front().text.empty()) continue;
-      append(motion.time, row, *time, "time");
-      append(motion.position, row, *position, "position");
-      if (velocity) append(motion.velocity, row, *velocity, "velocity");
+    for (std::vector<Cell> row = next_row(); !row.empty(); row = next_row()) {
+      if (!has_fields(row, header.size())) break;
+      append(motion.time, row[*time], "time");
+      append(motion.position, row[*position], "position");
+      if (velocity) append(motion.velocity, row[*velocity], "velocity");
       row_spans_.push_back(row.front().span);
     }
     if (failed_) return std::nullopt;
@@ -46,18 +46,24 @@ class Table {
     return std::nullopt;
   }
 
+  // The next line that is not blank; nothing at the end of the file.
   std::vector<Cell> next_row() {
     const std::string_view all = file_.text();
-    const std::size_t end = std::min(all.find('\n', place_), all.size());
+    while (place_ < all.size()) {
+      const std::size_t begin = place_, end = std::min(all.find('\n', place_), all.size());
+      place_ = end + 1;
+      if (!trimmed(begin, end).text.empty()) return cells_between(begin, end);
+    }
+    return {};
+  }
+
+  std::vector<Cell> cells_between(std::size_t begin, std::size_t end) const {
     std::vector<Cell> cells;
-    std::size_t begin = place_;
-    while (begin <= end && end > place_) {
-      const std::size_t comma = std::min(all.find(',', begin), end);
+    while (begin <= end) {
+      const std::size_t comma = std::min(file_.text().find(',', begin), end);
       cells.push_back(trimmed(begin, comma));
       begin = comma + 1;
     }
-    if (cells.empty() && place_ < all.size()) cells.push_back(trimmed(place_, end));
-    place_ = end + 1;
     return cells;
   }
 
@@ -70,21 +76,36 @@ class Table {
     return {all.substr(begin, end - begin), {&file_, begin, end}};
   }
 
-  static std::optional<std::size_t> column(const std::vector<Cell>& header, std::string_view name) {
-    for (std::size_t i = 0; i < header.size(); ++i)
-      if (header[i].text == name) return i;
-    return std::nullopt;
+  std::optional<std::size_t> column(const std::vector<Cell>& header, std::string_view name, bool needed) {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      if (header[i].text != name) continue;
+      if (found) fail<DiagnosticCode::csv_column_twice>(header[i].span, name);
+      found = i;
+    }
+    if (needed && !found) fail<DiagnosticCode::csv_missing_column>(header.front().span, name);
+    return found;
   }
 
-  void append(std::vector<double>& values, const std::vector<Cell>& row, std::size_t index, const char* name) {
-    const Cell cell = index < row.size() ? row[index] : Cell{{}, row.back().span};
+  bool has_fields(const std::vector<Cell>& row, std::size_t count) {
+    if (row.size() != count)
+      fail<DiagnosticCode::csv_field_count>({&file_, row.front().span.begin, row.back().span.end}, row.size(), count);
+    return row.size() == count;
+  }
+
+  // Of many bad cells the first is reported.
+  void append(std::vector<double>& values, const Cell& cell, const char* name) {
     double value = 0;
     const auto [end, error] = std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-    if (error != std::errc() || end != cell.text.data() + cell.text.size() || !std::isfinite(value)) {
-      if (!failed_) diagnostics_.report<DiagnosticCode::csv_not_a_number>(cell.span, name, std::string(cell.text));
-      failed_ = true;
-    }
+    const bool is_number = error == std::errc() && end == cell.text.data() + cell.text.size() && std::isfinite(value);
+    if (!is_number && !failed_) fail<DiagnosticCode::csv_not_a_number>(cell.span, name, cell.text);
     values.push_back(value);
+  }
+
+  template <DiagnosticCode code, class... Arguments>
+  void fail(Span span, const Arguments&... arguments) {
+    failed_ = true;
+    diagnostics_.report<code>(span, arguments...);
   }
 
   bool find_period(Motion& motion) {
@@ -101,8 +122,9 @@ class Table {
       diagnostics_.report<DiagnosticCode::csv_not_uniform>(row_spans_[i + 1], steps[i], median);
       return false;
     }
+    if (1 / median > highest_rate) fail<DiagnosticCode::csv_rate_too_high>(row_spans_[1], 1 / median, highest_rate);
     motion.period = median;
-    return true;
+    return !failed_;
   }
 
   const SourceFile& file_;

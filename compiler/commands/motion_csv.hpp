@@ -16,7 +16,8 @@ struct Motion {
 };
 
 // In: comma-separated text with a header that names `time` and `position`, optionally `velocity`, in any order among
-// other columns. Refuses: missing columns, cells that are no finite numbers, a period that is not uniform to 1e-6.
+// other columns; blank lines do not count. Refuses: missing or repeated columns, rows of another length, cells that are
+// no finite numbers, a period that is not uniform to 1e-6.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include <filesystem>
+#include <utility>
 
 #include "commands/commands.hpp"
 #include "compile.hpp"
@@ -32,17 +31,25 @@ std::string escaped(const std::string& path) {
   return text;
 }
 
-OutputFile dependencies(const Options& options, const std::vector<OutputFile>& files) {
-  const std::filesystem::path folder = options.output.value_or(".");
+// A makefile with one rule.
+std::string dependencies(const Options& options, const std::vector<OutputFile>& files) {
   std::string text;
-  for (const OutputFile& file : files) text += escaped((folder / file.name).string()) + " ";
+  for (const OutputFile& file : files) text += escaped(file.name) + " ";
   text.back() = ':';
   for (const std::string& network : options.networks) text += " \\\n  " + escaped(network);
   if (options.device) text += " \\\n  " + escaped(*options.device);
   if (options.emission.templates)
     for (const char* name : {"network.hpp.in", "network_test.cpp.in"})
       text += " \\\n  " + escaped((std::filesystem::path(*options.emission.templates) / name).string());
-  return {*options.depfile, text + "\n"};
+  return text + "\n";
+}
+
+// In the output folder, with the depfile wherever it is wanted.
+std::vector<OutputFile> placed(std::vector<OutputFile> files, const Options& options) {
+  const std::filesystem::path folder = options.output.value_or(".");
+  for (OutputFile& file : files) file.name = (folder / file.name).string();
+  if (options.depfile) files.push_back({*options.depfile, dependencies(options, files)});
+  return files;
 }
 
 void report_same_names(const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
@@ -71,11 +78,8 @@ ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& 
   }
   report_same_names(outputs, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
-  fmt::print("{}", shown);
-  if (options.print) return ExitStatus::done;
-  const bool written = write_files(options.output.value_or("."), outputs, diagnostics) &&
-                       (!options.depfile || write_files("", {dependencies(options, outputs)}, diagnostics));
-  return written ? ExitStatus::done : ExitStatus::input_refused;
+  if (options.print) return write_standard_output(shown, diagnostics);
+  return write_files("", placed(std::move(outputs), options), diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }
 
 }  // namespace dashpot::compiler

@@ -80,10 +80,7 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
   if (!brake) return ExitStatus::input_refused;
   const SourceFile* file = files.open(*options.device, diagnostics);
   const std::string text = filled_text(*file, *brake, device.device->description.motion == motion::rotation);
-  if (!options.output) {
-    fmt::print("{}", text);
-    return ExitStatus::done;
-  }
+  if (!options.output) return write_standard_output(text, diagnostics);
   return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }
 

@@ -104,8 +104,7 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
   if (file == nullptr) return ExitStatus::input_refused;
   const std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
-  fmt::print("{}", options.json ? json_of(*compilation).dump(2) + "\n" : text_of(*compilation));
-  return ExitStatus::done;
+  return write_standard_output(options.json ? json_of(*compilation).dump(2) + "\n" : text_of(*compilation), diagnostics);
 }
 
 }  // namespace dashpot::compiler

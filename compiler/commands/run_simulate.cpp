@@ -77,10 +77,7 @@ ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics&
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   const std::string text = choices.scalar == ScalarType::float64 ? simulate<double>(*compilation, *motion, diagnostics)
                                                                  : simulate<float>(*compilation, *motion, diagnostics);
-  if (!options.output) {
-    fmt::print("{}", text);
-    return ExitStatus::done;
-  }
+  if (!options.output) return write_standard_output(text, diagnostics);
   return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }
 

@@ -45,37 +45,72 @@ std::vector<double> whole_axis(const LinearForm& form) {
                           to_double(form.modes.back().relaxation_rate) * 1e3);
 }
 
+struct RoundedMode {
+  double damping;          // B = k/λ [N·s/m]
+  double relaxation_rate;  // [1/s]
+  double position_share;   // of the drive [1]
+};
+
+double position_share(const Mode& mode, StateInput input) {
+  switch (input) {
+    case StateInput::position: return 1;
+    case StateInput::velocity: return 0;
+    case StateInput::nodal: return to_double(mode.spring_share);
+  }
+  return 1;
+}
+
+// What a scan evaluates hundreds of times, rounded once.
+class Motor {
+ public:
+  Motor(const LinearForm& form, double damping, StateInput input)
+      : feedthrough_(to_double(form.feedthrough_damping) - damping) {
+    for (const Mode& mode : form.modes)
+      modes_.push_back({to_double(mode.damping()), to_double(mode.relaxation_rate), position_share(mode, input)});
+  }
+
+  // k/(λ + jω) = B (1 − jr)/(1 + r²), r = ω/λ: finite for every λ that a double can or cannot hold.
+  MotorImpedance impedance(double w) const {
+    MotorImpedance z{0.0, feedthrough_};
+    for (const RoundedMode& mode : modes_) {
+      const double r = w > 0 ? std::min(w / mode.relaxation_rate, 1e150) : 0;
+      const double weight = mode.damping / (1 + r * r);
+      const std::complex<double> whole(weight, -weight * r);
+      z.position_driven += mode.position_share * whole;
+      z.velocity_driven += (1.0 - mode.position_share) * whole;
+    }
+    return z;
+  }
+
+ private:
+  double feedthrough_;  // b∞ − b [N·s/m]
+  std::vector<RoundedMode> modes_;
+};
+
 }  // namespace
 
 MotorImpedance motor_impedance(const LinearForm& form, double damping, StateInput input, double angular_frequency) {
-  MotorImpedance z{0.0, to_double(form.feedthrough_damping) - damping};
-  for (const Mode& mode : form.modes) {
-    const std::complex<double> whole =
-        to_double(mode.stiffness) / std::complex<double>(to_double(mode.relaxation_rate), angular_frequency);
-    const double share = input == StateInput::position   ? 1.0
-                         : input == StateInput::velocity ? 0.0
-                                                         : to_double(mode.spring_share);
-    z.position_driven += share * whole;
-    z.velocity_driven += (1.0 - share) * whole;
-  }
-  return z;
+  return Motor(form, damping, input).impedance(angular_frequency);
 }
 
 double largest_error(const LinearForm& form, double damping, StateInput input, const PortDevice& device) {
   if (device.is_ideal()) return 0;
+  const Motor scanned(form, damping, input);
+  const double static_stiffness = to_double(form.static_stiffness);
   const auto error_at = [&](double w) {
-    const MotorImpedance motor = motor_impedance(form, damping, input, w);
+    const MotorImpedance motor = scanned.impedance(w);
     const std::complex<double> error = motor.velocity_driven * (device.velocity_response(w) - 1.0);
     const std::complex<double> whole =
-        damping + motor.position_driven + motor.velocity_driven + to_double(form.static_stiffness) / std::complex(0.0, w);
+        damping + motor.position_driven + motor.velocity_driven + static_stiffness / std::complex(0.0, w);
     return std::abs(error) == 0 ? 0.0 : std::abs(error) / std::abs(whole);
   };
   return maximum(logarithmic_grid(device.band_low(), device.band_high()), error_at);
 }
 
 double extra_damping_any_delay(const LinearForm& form, double damping, StateInput input, double tolerance) {
+  const Motor scanned(form, damping, input);
   const auto lack_at = [&](double w) {
-    const MotorImpedance motor = motor_impedance(form, damping, input, w);
+    const MotorImpedance motor = scanned.impedance(w);
     return std::abs(motor.velocity_driven) - motor.position_driven.real() - (1 - tolerance) * damping;
   };
   const double at_high_frequency =

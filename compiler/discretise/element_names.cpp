@@ -1,8 +1,29 @@
 #include "discretise/element_names.hpp"
 
+#include <algorithm>
+
 #include "discretise/law_writer.hpp"
 
 namespace dashpot::compiler {
+namespace {
+
+template <class Named>
+bool is_called(const Named& named, const std::string& name) {
+  return named.name == name ||
+         std::find(named.element_names.begin(), named.element_names.end(), name) != named.element_names.end();
+}
+
+// States end in an underscore in the emitted class.
+bool is_member(const UpdateLaw& law, const std::string& name) {
+  if (name == "threshold" || name == "total" || name == "sampled_") return true;
+  const std::string state = name.back() == '_' ? name.substr(0, name.size() - 1) : "";
+  const auto names_state = [&](const Variable& v) { return v.role == Role::state && is_called(v, state); };
+  const auto names_constant = [&](const Coefficient& c) { return is_called(c, name); };
+  return std::any_of(law.variables.begin(), law.variables.end(), names_state) ||
+         std::any_of(law.coefficients.begin(), law.coefficients.end(), names_constant);
+}
+
+}  // namespace
 
 std::string name_of(const std::vector<std::size_t>& elements, const Network& network) {
   std::string name;
@@ -11,6 +32,12 @@ std::string name_of(const std::vector<std::size_t>& elements, const Network& net
   if (!name.empty() && name.size() <= 40) return name;
   const std::string& first = network.elements[elements.front()].name;
   return joined(joined(first, "to"), network.elements[elements.back()].name);
+}
+
+bool class_differs_from_members(const UpdateLaw& law, const Network& network, Diagnostics& diagnostics) {
+  if (!is_member(law, network.name)) return true;
+  diagnostics.report<DiagnosticCode::name_is_member>(network.name_span, "network", network.name);
+  return false;
 }
 
 }  // namespace dashpot::compiler

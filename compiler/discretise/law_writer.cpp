@@ -14,6 +14,11 @@ std::string lowered(std::string text) {
   return text;
 }
 
+std::string without_end(std::string name) {
+  while (!name.empty() && name.back() == '_') name.pop_back();
+  return name;
+}
+
 Names suffixed(const Names& names, const std::string& suffix) {
   Names result;
   for (const std::string& name : names) result.push_back(joined(name, suffix));
@@ -22,10 +27,8 @@ Names suffixed(const Names& names, const std::string& suffix) {
 
 }  // namespace
 
-std::string joined(std::string first, const std::string& second) {
-  if (first.empty()) return second;
-  while (!first.empty() && first.back() == '_') first.pop_back();
-  return first + "_" + second;
+std::string joined(const std::string& first, const std::string& second) {
+  return first.empty() ? second : without_end(first) + "_" + second;
 }
 
 double rounded(const Real& value, ScalarType scalar) {
@@ -39,7 +42,7 @@ LawWriter::LawWriter(UpdateLaw& law, motion port_motion)
       force_(port_motion == motion::rotation ? "N·m" : "N") {}
 
 std::string LawWriter::unique(const std::string& name) {
-  std::string candidate = name;
+  std::string candidate = without_end(name);  // as joined() will have it
   for (int i = 2; !taken_.insert(lowered(candidate)).second; ++i) candidate = joined(name, std::to_string(i));
   return candidate;
 }

@@ -14,7 +14,7 @@ namespace dashpot::compiler {
 inline constexpr std::uint32_t nothing = static_cast<std::uint32_t>(-1);  // no variable, no expression
 
 // Joins two parts of a C++ name by one underscore; the first may be empty.
-std::string joined(std::string first, const std::string& second);
+std::string joined(const std::string& first, const std::string& second);
 
 // The nearest number of the law's scalar type; zero below smallest_constant().
 double rounded(const Real& value, ScalarType scalar);

@@ -115,13 +115,16 @@ class Filling {
 
 }  // namespace
 
-std::optional<SourceFile> find_template(const std::string& name, const std::optional<std::string>& directory,
-                                        Diagnostics& diagnostics) {
-  if (directory) return read_source(*directory + "/" + name, diagnostics);
+const SourceFile* find_template(const std::string& name, const std::optional<std::string>& directory,
+                                Diagnostics& diagnostics) {
+  if (directory) {
+    std::optional<SourceFile> file = read_source(*directory + "/" + name, diagnostics);
+    return file ? &diagnostics.keep(std::move(*file)) : nullptr;
+  }
   for (const EmbeddedTemplate& embedded : embedded_templates())
-    if (embedded.name == name) return SourceFile("templates/" + name, std::string(embedded.text));
+    if (embedded.name == name) return &diagnostics.keep(SourceFile("templates/" + name, std::string(embedded.text)));
   diagnostics.report<DiagnosticCode::cannot_read_file>({}, "templates/" + name, "not built into this compiler");
-  return std::nullopt;
+  return nullptr;
 }
 
 std::optional<std::string> fill(const SourceFile& text, const CodeModel& model, Diagnostics& diagnostics) {

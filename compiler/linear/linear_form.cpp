@@ -15,16 +15,26 @@ namespace {
 const Real negligible_share{"1e-30"};
 const Real equal_rates{"1e-12"};
 
+Real glass_stiffness(const LinearForm& form) {
+  Real sum = form.static_stiffness;
+  for (const Mode& mode : form.modes) sum += mode.stiffness;
+  return sum;
+}
+
 // |k s/(s + λ)| weighs most against the rest near ω = λ: below, the rest falls no faster; above, it does not fall.
-bool is_negligible(const Mode& mode, const LinearForm& form) {
+// No mode adds more than twice its stiffness to that weight, so that hardly any has to be weighed against all others.
+bool is_negligible(const Mode& mode, const LinearForm& form, const Real& glass_stiffness) {
+  const Real most = 2 * glass_stiffness + form.feedthrough_damping * mode.relaxation_rate;
+  if (mode.stiffness > negligible_share * most) return false;
   const ComplexReal whole = dynamic_stiffness(form, mode.relaxation_rate);
   return mode.stiffness <= negligible_share * (whole.real + whole.imaginary);
 }
 
 void drop_unobservable(LinearForm& form) {
+  const Real glass = glass_stiffness(form);
   std::vector<Mode> kept;
   for (const Mode& mode : form.modes)
-    if (!is_negligible(mode, form)) kept.push_back(mode);
+    if (!is_negligible(mode, form, glass)) kept.push_back(mode);
   form.modes = std::move(kept);
 }
 

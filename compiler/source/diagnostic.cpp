@@ -5,6 +5,11 @@
 
 namespace dashpot::compiler {
 
+const SourceFile& Diagnostics::keep(SourceFile file) {
+  kept_.push_back(std::make_shared<const SourceFile>(std::move(file)));
+  return *kept_.back();
+}
+
 std::size_t Diagnostics::error_count() const {
   return static_cast<std::size_t>(
       std::count_if(list_.begin(), list_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; }));

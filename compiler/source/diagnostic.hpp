@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,9 @@ class Diagnostics {
     list_.back().notes.push_back({text_of<code>(arguments...), span});
   }
 
+  // Files read on the way, such as templates, then live as long as the diagnostics that point into them.
+  const SourceFile& keep(SourceFile file);
+
   bool has_errors() const;
   std::size_t error_count() const;
   std::vector<Diagnostic> in_file_order() const;  // placed ones by file and place, the others first
@@ -76,6 +80,7 @@ class Diagnostics {
   }
 
   std::vector<Diagnostic> list_;
+  std::vector<std::shared_ptr<const SourceFile>> kept_;
 };
 
 }  // namespace dashpot::compiler

@@ -1,0 +1,16 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "commands/commands.hpp"
+
+namespace dashpot::compiler {
+
+ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnostics) {
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (written) return ExitStatus::done;
+  diagnostics.report<DiagnosticCode::cannot_write_file>({}, "standard output", std::string(std::strerror(errno)));
+  return ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

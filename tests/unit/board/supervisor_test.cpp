@@ -142,6 +142,14 @@ TEST(Supervisor, runs_its_own_model_under_the_watchdog) {
   expect_stopped(board, stop_cause::host_silent);
 }
 
+// The motor of an own model is on from the reset: a host that dies right after it must be noticed too.
+TEST(Supervisor, watches_its_own_model_from_the_reset_on) {
+  supervisor board = running(controller::own_model);
+  board.obey_model({1.5F, 11.0F}, 0.1F);
+  for (int period = 0; period < 5; ++period) board.pass_period();
+  expect_stopped(board, stop_cause::host_silent);
+}
+
 // Alone on its own model nobody else watches over the board.
 TEST(Supervisor, stops_its_own_model_when_it_fails_or_runs_away) {
   for (const outputs bad : {outputs{nan, 1}, {1, infinite}}) {

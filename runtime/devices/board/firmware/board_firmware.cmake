@@ -34,7 +34,7 @@ function(dashpot_board_firmware target)
     add_custom_command(OUTPUT ${object}
       COMMAND ${DASHPOT_ARM_CXX} ${dashpot_firmware_flags} ${includes} ${model}
               -MD -MF ${object}.d -c ${dashpot_firmware_dir}/${source}.cpp -o ${object}
-      DEPENDS ${dashpot_firmware_dir}/${source}.cpp DEPFILE ${object}.d
+      DEPENDS ${dashpot_firmware_dir}/${source}.cpp ${arg_MODEL_HEADER} DEPFILE ${object}.d
       COMMENT "Cross-compiling ${target}_${source}.o" COMMAND_EXPAND_LISTS VERBATIM)
     list(APPEND objects ${object})
   endforeach()

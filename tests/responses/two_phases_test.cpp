@@ -1,0 +1,61 @@
+// output() gives the command, update() follows once it has left: called otherwise, they do no harm.
+#include <gtest/gtest.h>
+
+#include "emitted_laws.hpp"
+#include "motion.hpp"
+
+namespace dashpot::responses {
+namespace {
+
+constexpr double rest = 0;
+
+std::vector<Sample> some_samples(const EmittedLaw& law) { return samples_of(random_motion(15, 10), law.sample_period); }
+
+void expect_equal(const Command& one, const Command& other, const EmittedLaw& law) {
+  EXPECT_EQ(one.force, other.force) << law.title();
+  EXPECT_EQ(one.damping, other.damping) << law.title();
+}
+
+// Fails if step() is not output() and then update().
+TEST(TwoPhases, make_a_step) {
+  for (const EmittedLaw& law : all_laws()) {
+    const std::shared_ptr<Model> stepped = law.make(), parted = law.make();
+    for (const Sample& sample : some_samples(law)) {
+      expect_equal(stepped->step(sample.position, sample.velocity), parted->output(sample.position, sample.velocity), law);
+      parted->update();
+      ASSERT_EQ(stepped->numbers(), parted->numbers()) << law.title();
+    }
+  }
+}
+
+// Fails if update() without a sample, before the first one or twice after one, moves any state.
+TEST(TwoPhases, update_does_nothing_without_a_sample) {
+  for (const EmittedLaw& law : all_laws()) {
+    const std::shared_ptr<Model> model = law.make();
+    model->reset(rest);
+    const std::vector<unsigned char> fresh = model->bytes();
+    model->update();
+    EXPECT_EQ(model->bytes(), fresh) << law.title();
+    for (const Sample& sample : some_samples(law)) model->step(sample.position, sample.velocity);
+    const std::vector<unsigned char> after = model->bytes();
+    model->update();
+    EXPECT_EQ(model->bytes(), after) << law.title();
+  }
+}
+
+// Fails if output() itself moves the law on: asked twice, it answers twice the same, and the last sample counts.
+TEST(TwoPhases, output_may_be_asked_again) {
+  for (const EmittedLaw& law : all_laws()) {
+    const std::shared_ptr<Model> once = law.make(), twice = law.make();
+    for (const Sample& sample : some_samples(law)) {
+      twice->output(-sample.position, 0.25);
+      expect_equal(twice->output(sample.position, sample.velocity), twice->output(sample.position, sample.velocity), law);
+      twice->update();
+      once->step(sample.position, sample.velocity);
+      ASSERT_EQ(once->numbers(), twice->numbers()) << law.title();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dashpot::responses

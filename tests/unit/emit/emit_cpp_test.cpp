@@ -1,0 +1,113 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "compile.hpp"
+#include "emit/cpp_program.hpp"
+#include "emit/template_text.hpp"
+#include "emitted_headers.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string header_of(const std::string& network, const Choices& choices = {}) {
+  const SourceFile file("test.json", network);
+  Diagnostics diagnostics;
+  const std::optional<Compilation> compilation = compile(file, choices, std::nullopt, diagnostics);
+  if (!compilation) return "";
+  const auto files = emit_cpp(*compilation, {}, diagnostics);
+  return files ? files->front().text : "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+// Fails if a printed constant reads back as another number, in either scalar, or is no literal of that type.
+TEST(CppLiteral, reads_back_as_the_same_number) {
+  std::mt19937_64 engine(1);
+  for (int i = 0; i < 20000; ++i) {
+    const std::uint64_t bits = engine();
+    double number;
+    std::memcpy(&number, &bits, sizeof number);
+    if (!std::isfinite(number)) continue;
+    EXPECT_EQ(std::strtod(cpp_literal(number, ScalarType::float64).c_str(), nullptr), number);
+    const float small = std::ldexp(float(int(bits % 0x1000000)), int(bits >> 40) % 200 - 120);
+    EXPECT_EQ(std::strtof(cpp_literal(double(small), ScalarType::float32).c_str(), nullptr), small);
+  }
+  EXPECT_EQ(cpp_literal(3, ScalarType::float64), "3.0");
+  EXPECT_EQ(cpp_literal(3, ScalarType::float32), "3.0f");
+}
+
+// Fails if equal input does not give equal bytes.
+TEST(EmitCpp, repeats_itself) {
+  const std::string network = testing::parallel_branches("many", 100);
+  const std::string first = header_of(network);
+  ASSERT_NE(first, "");
+  EXPECT_EQ(header_of(network), first);
+}
+
+// Fails if the emitted code does not read like the author's model.
+TEST(EmitCpp, takes_its_names_from_the_author) {
+  const std::string text = header_of(R"({ "dashpot": 1, "name": "pad", "source": "a paper", "title": "A pad",
+    "network": { "series": [ { "spring": 50, "name": "skin" }, { "damper": 5, "name": "fat" } ] } })");
+  EXPECT_TRUE(contains(text, "class pad {")) << text;
+  EXPECT_TRUE(contains(text, "skin_fat_force_")) << text;
+  EXPECT_TRUE(contains(text, "// source: a paper\n")) << text;
+  EXPECT_EQ(text.rfind("// A pad\n", 0), 0u) << text;
+}
+
+// Fails if words of the author's can leave the comment that they stand in: by an end of line, or by a backslash before one,
+// which would take the next line into the comment or out of it.
+TEST(EmitCpp, keeps_the_authors_words_inside_comments) {
+  const std::string words[] = {R"(ends with a backslash \\)",  R"(two\nlines)",    R"(carriage\rreturn)",
+                               R"(line separator \u2028 x)",   R"(bell \u0007)",   R"(nul \u0000 inside)",
+                               R"(*/ #error out /*)",          R"({{name}} {{#x}})", R"(what ??/)"};
+  const testing::TemporaryFolder folder;
+  for (const std::string& text : words) {
+    const std::string header = header_of(fmt::format(
+        R"({{ "dashpot": 1, "name": "words", "title": "{0}", "source": "{0}", "network": {{ "damper": 5 }} }})", text));
+    if (header.empty()) continue;
+    testing::write_text(folder.path() / "words.hpp", header);
+    for (const char* compiler : {DASHPOT_GXX, DASHPOT_CLANGXX}) {
+      const testing::Finished finished = testing::run_command(fmt::format(
+          "echo '#include \"words.hpp\"\nint main() {{ return sizeof(dashpot::generated::words) == 0; }}' | "
+          "'{}' -std=c++17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only {} -I'{}' -x c++ -",
+          compiler, testing::runtime_include(), folder.path().string()));
+      EXPECT_EQ(finished.status, 0) << text << "\n" << finished.output;
+    }
+  }
+}
+
+// Fails if a word longer than a line, or blanks without end, are cut, run for ever, or are taken for a defect.
+TEST(EmitCpp, keeps_long_words_whole) {
+  const std::string link(300, 'x');
+  for (const std::string& source : {link, "see " + link, "see " + link + " and " + link + " and more", link + std::string(200, ' '),
+                                    std::string(300, ' ')}) {
+    const std::string text = header_of(fmt::format(
+        R"({{ "dashpot": 1, "name": "words", "source": "{}", "network": {{ "damper": 5 }} }})", source));
+    ASSERT_NE(text, "");
+    if (source[0] != ' ') EXPECT_TRUE(contains(text, link)) << text;
+  }
+}
+
+// Fails if an element may bear a name that clashes with another of the emitted class.
+TEST(EmitCpp, finds_room_for_awkward_names) {
+  const testing::TemporaryFolder folder;
+  for (const char* name : {"force", "damping", "threshold", "relaxed", "position", "velocity", "stored", "total", "lane", "scalar",
+                           "last_position", "step_stiffness", "static_stiffness", "i", "j", "now", "double", "x_"}) {
+    const std::string header = header_of(fmt::format(
+        R"({{ "dashpot": 1, "name": "names", "network": {{ "parallel": [ {{ "spring": 3 }},
+           {{ "series": [ {{ "spring": 50, "name": "{}" }}, {{ "damper": 5, "name": "B" }} ] }} ] }} }})", name));
+    if (header.empty()) continue;  // refused by the front end
+    testing::write_text(folder.path() / "names.hpp", header);
+    const testing::Finished finished = testing::run_command(
+        fmt::format("echo '#include \"names.hpp\"' | '{}' -std=c++17 -Wall -Wextra -Wshadow -Werror -fsyntax-only {} -I'{}' -x c++ -",
+                    DASHPOT_GXX, testing::runtime_include(), folder.path().string()));
+    EXPECT_EQ(finished.status, 0) << name << "\n" << finished.output;
+  }
+}
+
+}  // namespace
+}  // namespace dashpot::compiler

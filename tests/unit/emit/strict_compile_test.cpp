@@ -1,0 +1,87 @@
+// Emitted headers go into other people's programs, also those without a standard library: they compile there without a
+// word, and ask for nothing that is not there.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "emitted_headers.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+const char* const strict =
+    "-std=c++17 -ffreestanding -fno-exceptions -fno-rtti -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion "
+    "-Wdouble-promotion -Wfloat-conversion -Wshadow -Wvla -Walloca -Werror";
+
+struct Compiler {
+  const char* name;
+  const char* path;
+  const char* flags;  // that this compiler alone has
+};
+const Compiler compilers[] = {{"gcc", DASHPOT_GXX, "-Wstack-usage=64"}, {"clang", DASHPOT_CLANGXX, ""}};
+
+struct Choice {
+  const char* name;
+  const char* options;
+};
+const Choice choices[] = {
+    {"exact", ""},
+    {"velocity", "--state-input velocity"},
+    {"nodal", "--scheme backward-euler --state-input nodal"},
+    {"compensated", "--rate 1000000"},
+    {"float_delta", "--scalar float"},
+    {"float_compensated", "--scalar float --scheme backward-euler --state-input nodal --rate 1000000"},
+};
+
+class StrictCompile : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    const std::vector<std::string> files = network_files(folder_->path());
+    for (const Choice& choice : choices)
+      emitted_.push_back(emit_headers(folder_->path() / choice.name, files, choice.options));
+  }
+  static void TearDownTestSuite() {
+    emitted_.clear();
+    delete folder_;
+  }
+
+  static inline TemporaryFolder* folder_ = nullptr;
+  static inline std::vector<EmittedFolder> emitted_;  // in the order of `choices`
+};
+
+// Fails if a header needs another one before it, or a compiler has anything to say about it.
+TEST_F(StrictCompile, takes_every_header_alone) {
+  for (const Compiler& compiler : compilers)
+    for (const std::string& name : emitted_.front().classes) {
+      const std::string line =
+          fmt::format("echo '#include \"{}.hpp\"' | '{}' {} -fsyntax-only {} -I'{}' -x c++ -", name, compiler.path, strict,
+                      runtime_include(), emitted_.front().path.string());
+      const Finished finished = run_command(line);
+      EXPECT_TRUE(finished.status == 0 && finished.output.empty()) << compiler.name << ", " << name << ":\n" << finished.output;
+    }
+}
+
+// Fails if calling any member, at any level of optimisation, warns, needs a symbol from elsewhere (memset for a reset of
+// many states, a run-time library for an object that is not initialised by constants), or uses much stack.
+TEST_F(StrictCompile, leaves_no_symbol_undefined) {
+  for (std::size_t i = 0; i < emitted_.size(); ++i) {
+    const std::filesystem::path caller = folder_->path() / "caller.cpp", object = folder_->path() / "caller.o";
+    write_text(caller, caller_of(emitted_[i]));
+    for (const Compiler& compiler : compilers)
+      for (const char* level : {"-O0", "-O2", "-O3"}) {
+        const bool optimised = std::string(level) == "-O2";  // stack is measured where code is laid out for small frames
+        const Finished built = run_command(fmt::format("'{}' {} {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict, level,
+                                                       optimised ? compiler.flags : "", caller.string(), object.string(),
+                                                       runtime_include(), emitted_[i].path.string()));
+        EXPECT_TRUE(built.status == 0 && built.output.empty())
+            << compiler.name << level << ", " << choices[i].name << ":\n" << built.output.substr(0, 4000);
+        const Finished undefined = run_command(fmt::format("nm -C -u '{}'", object.string()));
+        EXPECT_EQ(undefined.output, "") << compiler.name << " " << level << ", " << choices[i].name;
+        const Finished initialisers = run_command(fmt::format("nm -C '{}' | grep -c GLOBAL__sub_I", object.string()));
+        EXPECT_EQ(initialisers.output, "0\n") << "an object of static storage is initialised at run time";
+      }
+  }
+}
+
+}  // namespace
+}  // namespace dashpot::testing

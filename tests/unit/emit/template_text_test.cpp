@@ -1,0 +1,121 @@
+#include "emit/template_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "source/render.hpp"
+#include "support/shell_command.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+struct Filled {
+  std::optional<std::string> text;
+  std::string messages;
+};
+
+Filled filled(const std::string& shape, const CodeModel& model) {
+  const SourceFile file("shape.in", shape);
+  Diagnostics diagnostics;
+  std::optional<std::string> text = fill(file, model, diagnostics);
+  return {std::move(text), render_text(diagnostics)};
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+
+// Fails if a field is not put where its name stands, as often as it stands there.
+TEST(TemplateText, puts_fields_in_their_places) {
+  EXPECT_EQ(filled("a {{x}} b {{x}}{{y}}\n", {{{"x", "1"}, {"y", "2"}}, {}}).text, "a 1 b 12\n");
+}
+
+// Fails if the lines of a list are not repeated for each entry, in order, or leave lines of their own behind.
+TEST(TemplateText, repeats_a_block_for_every_entry) {
+  CodeModel model;
+  model.fields["x"] = "file";
+  model.lists["points"] = {{{"n", "1"}}, {{"n", "2"}}};
+  EXPECT_EQ(filled("begin\n  {{#points}}\n  p{{n}} of {{x}}\n{{/points}}\nend\n", model).text,
+            "begin\n  p1 of file\n  p2 of file\nend\n");
+}
+
+// Fails if an empty list leaves anything.
+TEST(TemplateText, leaves_nothing_of_an_empty_list) {
+  EXPECT_EQ(filled("a\n{{#none}}\n  {{n}}\n{{/none}}\nb\n", {{}, {{"none", {}}}}).text, "a\nb\n");
+}
+
+// Fails if the file's field shadows the entry's of the same name.
+TEST(TemplateText, takes_an_entrys_field_before_the_files) {
+  EXPECT_EQ(filled("{{x}}\n{{#l}}\n{{x}}\n{{/l}}\n", {{{"x", "file"}}, {{"l", {{{"x", "entry"}}}}}}).text, "file\nentry\n");
+}
+
+// Fails if what a field holds is itself taken for a template: networks are the user's, and may hold braces.
+TEST(TemplateText, does_not_read_what_it_has_filled_in) {
+  EXPECT_EQ(filled("{{x}}\n", {{{"x", "{{y}} {{#l}}"}}, {}}).text, "{{y}} {{#l}}\n");
+}
+
+// Fails if a last line without an end is lost.
+TEST(TemplateText, keeps_a_last_line_without_end) {
+  EXPECT_EQ(filled("a\n{{x}}", {{{"x", "b"}}, {}}).text, "a\nb");
+  EXPECT_EQ(filled("", {}).text, "");
+}
+
+// Fails if a misspelt placeholder is passed over, or not shown in its place.
+TEST(TemplateText, refuses_an_unknown_placeholder) {
+  const Filled result = filled("one\n  two {{wrong}}\n", {});
+  EXPECT_FALSE(result.text);
+  EXPECT_TRUE(contains(result.messages, "shape.in:2:7: error: unknown placeholder 'wrong'")) << result.messages;
+}
+
+// Fails if a misspelt list, or one that is not closed, is passed over.
+TEST(TemplateText, refuses_an_unknown_or_open_list) {
+  const Filled unknown = filled("{{#wrong}}\n{{/wrong}}\n", {});
+  EXPECT_FALSE(unknown.text);
+  EXPECT_TRUE(contains(unknown.messages, "shape.in:1:1: error: unknown placeholder 'wrong'")) << unknown.messages;
+  EXPECT_FALSE(filled("{{#l}}\nx\n", {{}, {{"l", {{}, {}}}}}).text);
+}
+
+// Fails if braces that never close swallow the rest of the file.
+TEST(TemplateText, refuses_an_open_placeholder) {
+  const Filled result = filled("a {{x\nb }}\n", {{{"x", "1"}}, {}});
+  EXPECT_FALSE(result.text);
+  EXPECT_TRUE(contains(result.messages, "shape.in:1:3: error: unknown placeholder")) << result.messages;
+}
+
+// Fails if a template that drops a field or a list is accepted: a banner without its facts, a class without its states.
+TEST(TemplateText, refuses_to_leave_a_field_or_list_out) {
+  const Filled result = filled("{{x}}\n", {{{"x", "1"}, {"digest", "2"}}, {{"states", {}}}});
+  EXPECT_FALSE(result.text);
+  EXPECT_TRUE(contains(result.messages, "placeholder 'digest' is not used")) << result.messages;
+  EXPECT_TRUE(contains(result.messages, "placeholder 'states' is not used")) << result.messages;
+}
+
+// Fails if all that is wrong is not told at once.
+TEST(TemplateText, tells_everything_that_is_wrong) {
+  const Filled result = filled("{{a}}\n{{b}}\n", {{{"c", ""}}, {}});
+  for (const char* name : {"'a'", "'b'", "'c'"}) EXPECT_TRUE(contains(result.messages, name)) << result.messages;
+}
+
+// Fails if the built-in templates are not those of the folder templates/, byte for byte.
+TEST(Templates, are_built_in) {
+  for (const auto& entry : std::filesystem::directory_iterator(DASHPOT_TEMPLATES)) {
+    if (entry.path().extension() != ".in") continue;
+    Diagnostics diagnostics;
+    const auto found = find_template(entry.path().filename().string(), std::nullopt, diagnostics);
+    ASSERT_TRUE(found) << entry.path();
+    EXPECT_EQ(found->text(), testing::text_of(entry.path()));
+  }
+}
+
+// Fails if a folder of one's own is not taken in place of the built-in templates, or if its lack of one is not told.
+TEST(Templates, may_come_from_a_folder) {
+  const testing::TemporaryFolder folder;
+  testing::write_text(folder.path() / "network.hpp.in", "mine\n");
+  Diagnostics diagnostics;
+  EXPECT_EQ(find_template("network.hpp.in", folder.path().string(), diagnostics)->text(), "mine\n");
+  EXPECT_FALSE(diagnostics.has_errors());
+  EXPECT_FALSE(find_template("network_test.cpp.in", folder.path().string(), diagnostics));
+  EXPECT_TRUE(diagnostics.has_errors());
+}
+
+}  // namespace
+}  // namespace dashpot::compiler

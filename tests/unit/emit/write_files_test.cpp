@@ -1,0 +1,63 @@
+#include "emit/write_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/shell_command.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> names_in(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// Fails if files are not written as they are, or a folder that is missing is not made.
+TEST(WriteFiles, writes_all_and_makes_the_folder) {
+  const testing::TemporaryFolder folder;
+  const fs::path target = folder.path() / "a" / "b";
+  Diagnostics diagnostics;
+  ASSERT_TRUE(write_files(target.string(), {{"one.hpp", "1\n"}, {"two.hpp", ""}}, diagnostics));
+  EXPECT_EQ(names_in(target), (std::vector<std::string>{"one.hpp", "two.hpp"}));
+  EXPECT_EQ(testing::text_of(target / "one.hpp"), "1\n");
+}
+
+// Fails if an older, longer file shines through, or half-written ones are left beside it.
+TEST(WriteFiles, replaces_whole_files) {
+  const testing::TemporaryFolder folder;
+  Diagnostics diagnostics;
+  ASSERT_TRUE(write_files(folder.path().string(), {{"x.hpp", "a long text\n"}}, diagnostics));
+  ASSERT_TRUE(write_files(folder.path().string(), {{"x.hpp", "short\n"}}, diagnostics));
+  EXPECT_EQ(testing::text_of(folder.path() / "x.hpp"), "short\n");
+  EXPECT_EQ(names_in(folder.path()), std::vector<std::string>{"x.hpp"});
+}
+
+// Fails if one file that cannot be written does not keep all others from being replaced.
+TEST(WriteFiles, writes_none_where_one_cannot_be_written) {
+  const testing::TemporaryFolder folder;
+  testing::write_text(folder.path() / "good.hpp", "before\n");
+  fs::create_directory(folder.path() / "bad.hpp");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(write_files(folder.path().string(), {{"good.hpp", "after\n"}, {"bad.hpp", "x\n"}}, diagnostics));
+  EXPECT_TRUE(diagnostics.has_errors());
+  EXPECT_EQ(testing::text_of(folder.path() / "good.hpp"), "before\n");
+  EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"bad.hpp", "good.hpp"}));
+}
+
+// Fails if a folder that cannot be made is not reported.
+TEST(WriteFiles, reports_a_folder_that_cannot_be_made) {
+  const testing::TemporaryFolder folder;
+  testing::write_text(folder.path() / "file", "");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(write_files((folder.path() / "file" / "inside").string(), {{"x.hpp", ""}}, diagnostics));
+  EXPECT_TRUE(diagnostics.has_errors());
+}
+
+}  // namespace
+}  // namespace dashpot::compiler

@@ -1,0 +1,178 @@
+"""What `dashpot compile` writes, and when it writes nothing."""
+import os
+import pathlib
+import unittest
+
+from dashpot_command import (BROKEN, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest, network)
+
+
+class Files(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("kelvin.json", KELVIN)
+        self.write("maxwell.json", MAXWELL)
+        self.write("broken.json", BROKEN)
+
+    def test_one_header_a_network(self):
+        """Fails if a header is missing, is named otherwise than its network, or comes with anything else."""
+        done = self.dashpot("compile", "kelvin.json", "maxwell.json", "-o", "out")
+        self.assertEqual(self.files("out"), ["kelvin.hpp", "maxwell.hpp"])
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+        self.assertIn("class kelvin {", (self.folder / "out/kelvin.hpp").read_text())
+
+    def test_the_current_folder_by_default(self):
+        """Fails if output without -o goes anywhere but here."""
+        self.dashpot("compile", FIG_5)
+        self.assertIn("second_order_maxwell.hpp", self.files())
+
+    def test_with_test(self):
+        """Fails if --with-test does not write a test that includes the header beside it."""
+        self.dashpot("compile", "kelvin.json", "--with-test", "-o", "out")
+        self.assertEqual(self.files("out"), ["kelvin.hpp", "kelvin_test.cpp"])
+        self.assertIn('#include "kelvin.hpp"', (self.folder / "out/kelvin_test.cpp").read_text())
+
+    def test_the_scalar(self):
+        """Fails if --scalar does not reach the code."""
+        for scalar in ["double", "float"]:
+            self.dashpot("compile", "kelvin.json", "--scalar", scalar)
+            self.assertIn(f"using scalar = {scalar};", (self.folder / "kelvin.hpp").read_text())
+
+    def test_the_rate(self):
+        """Fails if the period in the code is not that of --rate, or of the device."""
+        self.dashpot("compile", "kelvin.json", "--rate", "4000")
+        self.assertIn("sample_period = 0.00025;", (self.folder / "kelvin.hpp").read_text())
+        self.dashpot("compile", "kelvin.json", "--device", PANTOGRAPH)
+        self.assertIn("sample_period = 0.0001;", (self.folder / "kelvin.hpp").read_text())
+
+    def test_nothing_is_written_unless_everything_succeeds(self):
+        """Fails if one bad network among several leaves files behind, or harms those of an earlier run."""
+        self.dashpot("compile", "kelvin.json", "-o", "out")
+        before = (self.folder / "out/kelvin.hpp").read_bytes()
+        self.refused("compile", "kelvin.json", "broken.json", "maxwell.json", "--rate", "500", "-o", "out", "--depfile",
+                     "out/d", code="negative-stiffness")
+        self.assertEqual(self.files("out"), ["kelvin.hpp"])
+        self.assertEqual((self.folder / "out/kelvin.hpp").read_bytes(), before)
+
+    def test_nothing_is_written_when_one_place_is_taken(self):
+        """Fails if a folder in the place of the second file leaves the first one half done."""
+        (self.folder / "out/maxwell.hpp").mkdir(parents=True)
+        self.refused("compile", "kelvin.json", "maxwell.json", "-o", "out", code="cannot-write-file")
+        self.assertEqual(self.files("out"), [])
+
+    def test_files_are_replaced_whole(self):
+        """Fails if somebody who reads the old header meanwhile sees it change under their eyes."""
+        self.dashpot("compile", "kelvin.json")
+        header, kept = self.folder / "kelvin.hpp", self.folder / "kept.hpp"
+        os.link(header, kept)
+        before = kept.read_bytes()
+        self.dashpot("compile", "kelvin.json", "--rate", "4000")
+        self.assertEqual(kept.read_bytes(), before)
+        self.assertNotEqual(header.read_bytes(), before)
+        self.assertEqual([name for name in self.files() if ".new" in name], [])
+
+    def test_a_folder_that_cannot_be_written(self):
+        """Fails if an output folder that is none is a defect, or passes."""
+        self.write("a_file", "")
+        for folder in ["a_file", "a_file/below", "/proc/dashpot"]:
+            self.refused("compile", "kelvin.json", "-o", folder, code="cannot-write-file")
+
+    def test_a_depfile_that_cannot_be_written(self):
+        """Fails if headers are written although the whole does not succeed."""
+        self.refused("compile", "kelvin.json", "-o", "out", "--depfile", "kelvin.json/d", code="cannot-write-file")
+        self.assertEqual(self.files("out"), [])
+
+    def test_two_networks_of_one_name(self):
+        """Fails if one header silently takes the place of another."""
+        self.write("other.json", KELVIN)
+        self.refused("compile", "kelvin.json", "other.json", code="same-output")
+        self.assertNotIn("kelvin.hpp", self.files())
+
+    def test_own_templates(self):
+        """Fails if --templates is ignored, or a folder without templates passes."""
+        for template in ["network.hpp.in", "network_test.cpp.in"]:
+            text = (SOURCE / "templates" / template).read_text()
+            self.write(f"own/{template}", text.replace("#pragma once", "#pragma once  // ours"))
+        self.dashpot("compile", "kelvin.json", "--templates", "own")
+        self.assertIn("#pragma once  // ours", (self.folder / "kelvin.hpp").read_text())
+        (self.folder / "empty").mkdir()
+        self.refused("compile", "kelvin.json", "--templates", "empty", code="cannot-read-file")
+
+
+class Repetition(CommandTest):
+    def compiled(self, *arguments, cwd):
+        self.dashpot("compile", *arguments, "--with-test", cwd=cwd)
+        return {path.name: path.read_bytes() for path in cwd.glob("second_order_maxwell*")}
+
+    def test_equal_input_gives_equal_bytes(self):
+        """Fails if dates, paths, the working folder or a run before find their way into the code."""
+        first, second = self.folder / "first", self.folder / "deeper/second"
+        first.mkdir()
+        second.mkdir(parents=True)
+        (second / "copy.json").write_bytes(FIG_5.read_bytes())
+        output = self.compiled(FIG_5, cwd=first)
+        self.assertEqual(len(output), 2)
+        self.assertEqual(self.compiled(FIG_5, cwd=first), output)
+        self.assertEqual(self.compiled("copy.json", cwd=second), output)
+        for text in output.values():
+            self.assertNotIn(str(self.folder).encode(), text)
+            self.assertNotIn(str(SOURCE).encode(), text)
+
+    def test_the_locale_does_not_matter(self):
+        """Fails if numbers are written with the user's decimal comma."""
+        plain = self.compiled(FIG_5, cwd=self.folder)
+        for locale in ["de_DE.UTF-8", "C", "POSIX"]:
+            self.dashpot("compile", FIG_5, env={**os.environ, "LC_ALL": locale})
+            self.assertEqual((self.folder / "second_order_maxwell.hpp").read_bytes(), plain["second_order_maxwell.hpp"])
+
+
+class Print(CommandTest):
+    def test_every_stage(self):
+        """Fails if a stage cannot be shown, or showing it writes files."""
+        for stage, word in {"network": "spring K1", "linear": "relaxation rate", "decomposition": "chosen",
+                            "law": "static_stiffness", "certificate": "certificate"}.items():
+            self.assertIn(word, self.dashpot("compile", FIG_5, "--print", stage).stdout)
+        self.assertEqual(self.files(), [])
+
+    def test_nothing_is_shown_of_a_refused_network(self):
+        """Fails if a tool that reads the stage gets half of it."""
+        self.write("broken.json", BROKEN)
+        self.refused("compile", FIG_5, "broken.json", "--print", "linear", code="negative-stiffness")
+
+
+def rule_of(depfile):
+    """Targets and prerequisites of a makefile with one rule, with make's escapes resolved."""
+    targets, prerequisites = depfile.read_text().replace("\\\n", " ").split(": ", 1)
+    words = [text.replace("\\ ", "\0").replace("\\#", "#").replace("$$", "$").split() for text in (targets, prerequisites)]
+    return [[word.replace("\0", " ") for word in side] for side in words]
+
+
+class Depfile(CommandTest):
+    def test_names_what_the_output_depends_on(self):
+        """Fails if a change of network, device or template does not lead to a new header."""
+        self.write("kelvin.json", KELVIN)
+        self.dashpot("compile", "kelvin.json", FIG_5, "--device", PANTOGRAPH, "--templates", SOURCE / "templates",
+                     "--with-test", "-o", "out", "--depfile", "out/dashpot.d")
+        targets, prerequisites = rule_of(self.folder / "out/dashpot.d")
+        self.assertEqual(targets, ["out/kelvin.hpp", "out/kelvin_test.cpp", "out/second_order_maxwell.hpp",
+                                   "out/second_order_maxwell_test.cpp"])
+        self.assertEqual(prerequisites, ["kelvin.json", str(FIG_5), str(PANTOGRAPH),
+                                         str(SOURCE / "templates/network.hpp.in"),
+                                         str(SOURCE / "templates/network_test.cpp.in")])
+
+    def test_make_understands_it(self):
+        """Fails if make does not rebuild when a network with a difficult name changes, or rebuilds when nothing did."""
+        self.write("my $ tissue #1.json", KELVIN)
+        self.dashpot("compile", "my $ tissue #1.json", "-o", "out put", "--depfile", "d")
+        self.write("Makefile", "include d\nout\\ put/kelvin.hpp:\n\t@echo rebuild\n")
+        make = ["make", "-s", "-f", "Makefile", "out put/kelvin.hpp"]
+        import subprocess
+        run = lambda: subprocess.run(make, cwd=self.folder, capture_output=True, text=True)
+        os.utime(self.folder / "my $ tissue #1.json", (1, 1))
+        self.assertNotIn("rebuild", run().stdout)
+        os.utime(self.folder / "out put/kelvin.hpp", (0, 0))
+        done = run()
+        self.assertIn("rebuild", done.stdout, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

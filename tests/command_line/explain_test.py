@@ -1,0 +1,99 @@
+"""`dashpot explain`: the text, and the JSON that other programs read."""
+import json
+import math
+import unittest
+
+from dashpot_command import FIG_5, KELVIN, MAXWELL, PANTOGRAPH, CommandTest, network
+
+NAMES = ["most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual"]
+NUMBER, TEXT = (int, float), str
+
+
+class Json(CommandTest):
+    def explained(self, *arguments):
+        return json.loads(self.dashpot("explain", *arguments, "--json").stdout)
+
+    def test_schema(self):
+        """Fails if a key that other programs rely on is missing or of another type."""
+        found = self.explained(FIG_5)
+        for key, kind in {"static_stiffness": NUMBER, "feedthrough_damping": NUMBER, "zero_frequency_damping": NUMBER,
+                          "modes": list, "candidates": list, "chosen": TEXT}.items():
+            self.assertIsInstance(found[key], kind, key)
+        for mode in found["modes"]:
+            self.assertIsInstance(mode["stiffness"], NUMBER)
+            self.assertIsInstance(mode["relaxation_rate"], NUMBER)
+        for candidate in found["candidates"]:
+            for key, kind in {"name": TEXT, "damping": NUMBER, "state_input": TEXT, "velocity_gain": NUMBER}.items():
+                self.assertIsInstance(candidate[key], kind, key)
+            for key in ["extra_damping_any_delay", "minimum_damping"]:
+                self.assertIsInstance(candidate[key], (*NUMBER, type(None)), key)
+            self.assertIn(candidate["certified"], [True, False, None])
+            self.assertIn(candidate["state_input"], ["position", "velocity", "nodal"])
+
+    def test_numbers_of_fig_5(self):
+        """Fails if the canonical form of the paper's example is not that of its elements, in SI."""
+        found = self.explained(FIG_5)
+        self.assertEqual(found["static_stiffness"], 5)
+        self.assertEqual(found["feedthrough_damping"], 0)
+        self.assertEqual(found["zero_frequency_damping"], 11)
+        self.assertEqual([mode["stiffness"] for mode in found["modes"]], [10, 12])
+        self.assertEqual([mode["relaxation_rate"] for mode in found["modes"]], [10 / 6, 12 / 5])
+        self.assertEqual([candidate["name"] for candidate in found["candidates"]], NAMES)
+        self.assertEqual([candidate["damping"] for candidate in found["candidates"]], [11, 11, 5.5, 0, 11, 0])
+        self.assertEqual(found["chosen"], "most-dissipative")
+
+    def test_a_given_damping_is_the_choice(self):
+        """Fails if a number on the command line is not among the candidates, or is not chosen."""
+        found = self.explained(FIG_5, "--decomposition", "3.5")
+        self.assertEqual(found["candidates"][-1]["damping"], 3.5)
+        self.assertEqual(found["chosen"], found["candidates"][-1]["name"])
+
+    def test_numbers_with_a_device(self):
+        """Fails if figures for a device ignore its brake: 2.8 N s/m at 50 mm is all it has."""
+        found = self.explained(FIG_5, "--device", PANTOGRAPH)
+        self.assertEqual(found["device"], "pantograph_brake_2009")
+        self.assertEqual(found["rate"], 10000)
+        for candidate in found["candidates"]:
+            self.assertLessEqual(candidate["damping"], 2.8 * (1 + 1e-12))
+
+    def test_every_number_is_finite(self):
+        """Fails if a network at the edge (no spring, no damper, zero values) gives what JSON cannot hold."""
+        edges = ['{ "spring": 3 }', '{ "damper": 3 }', '{ "spring": 0 }', '{ "damper": 0 }',
+                 '{ "series": [ { "spring": 1e-300 }, { "damper": 1e300 } ] }',
+                 '{ "series": [ { "spring": 1e300 }, { "damper": 1e-300 } ] }']
+        for number, edge in enumerate(edges):
+            self.write(f"{number}.json", network(edge))
+            for device in [[], ["--device", PANTOGRAPH]]:
+                text = self.dashpot("explain", f"{number}.json", "--json", *device).stdout
+                json.loads(text, parse_constant=lambda word: self.fail(f"{word} in {edge}"))
+                self.assertNotIn("null,\n      \"relaxation_rate\"", text)
+
+    def test_json_alone_on_standard_output(self):
+        """Fails if warnings mix with the JSON."""
+        self.write("fast.json", network('{ "series": [ { "spring": 1e6 }, { "damper": 1 } ] }'))
+        done = self.dashpot("explain", "fast.json", "--json")
+        json.loads(done.stdout)
+        self.assertIn("[fast-relaxation]", done.stderr)
+
+
+class Text(CommandTest):
+    def test_names_every_candidate_and_the_choice(self):
+        """Fails if the text for people leaves out a candidate, its damping or the reason."""
+        self.write("maxwell.json", MAXWELL)
+        text = self.dashpot("explain", "maxwell.json").stdout
+        for name in NAMES:
+            self.assertRegex(text, rf"(?m)^{name} ")
+        self.assertRegex(text, r"(?m)^chosen +most-dissipative")
+        self.assertRegex(text, r"(?m)^most-dissipative +5 ")
+
+    def test_units_follow_the_motion(self):
+        """Fails if a rotary network is explained in newtons and metres."""
+        self.write("rotary.json", KELVIN.replace('"name"', '"motion": "rotation", "name"', 1))
+        text = self.dashpot("explain", "rotary.json").stdout
+        self.assertIn("N m/rad", text)
+        self.assertIn("N m s/rad", text)
+        self.assertNotRegex(text, r"N/m\b")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,208 @@
+"""`dashpot simulate`: the table it reads, the table it writes, and the rates that fit together."""
+import csv
+import io
+import math
+import struct
+import unittest
+
+from dashpot_command import (COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, CommandTest, codes,
+                             network)
+
+COLUMNS = "time,position,velocity,force,damping,motor_force"
+
+
+def table(rows, header="time,position"):
+    return header + "\n" + "".join(",".join(map(str, row)) + "\n" for row in rows)
+
+
+def ramp(samples, rate=1000, speed=1.0):
+    return [(n / rate, speed * n / rate) for n in range(samples)]
+
+
+class SimulateTest(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("kelvin.json", KELVIN)
+        self.write("maxwell.json", MAXWELL)
+
+    def simulated(self, name, text, *arguments):
+        """The rows written for the input `text`, each a dictionary of floats."""
+        self.write("motion.csv", text)
+        done = self.dashpot("simulate", name, "--input", "motion.csv", *arguments)
+        header = done.stdout.split("\n", 1)[0]
+        self.assertEqual(header, COLUMNS)
+        return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(io.StringIO(done.stdout))]
+
+    def refuses(self, text, code, *arguments, status=INPUT_REFUSED):
+        self.write("motion.csv", text)
+        return self.refused("simulate", "kelvin.json", "--input", "motion.csv", *arguments, code=code, status=status)
+
+
+class Output(SimulateTest):
+    def test_force_is_what_brake_and_motor_make(self):
+        """Fails if the force is not damping · velocity + motor force to the last bit, in any row."""
+        rows = self.simulated(FIG_5, table(ramp(50)))
+        self.assertEqual(len(rows), 50)
+        for row in rows:
+            self.assertEqual(row["force"], row["damping"] * row["velocity"] + row["motor_force"])
+
+    def test_time_and_position_come_back(self):
+        """Fails if rows are lost, reordered or rounded."""
+        motion = [(0.1 * n, math.sin(n)) for n in range(20)]
+        rows = self.simulated("kelvin.json", table(motion))
+        self.assertEqual([(row["time"], row["position"]) for row in rows], motion)
+
+    def test_ramp_of_a_maxwell_element(self):
+        """Fails if f = r B (1 − e^{−λt}) does not come out at the samples."""
+        rows = self.simulated("maxwell.json", table(ramp(400)))
+        for n, row in enumerate(rows[1:], start=1):
+            self.assertAlmostEqual(row["force"], 5 * (1 - math.exp(-10 * n / 1000)), delta=5e-12)
+
+    def test_a_file_instead(self):
+        """Fails if -o writes other bytes than standard output gets, or something beside the file."""
+        self.write("motion.csv", table(ramp(5)))
+        shown = self.dashpot("simulate", "kelvin.json", "--input", "motion.csv").stdout
+        done = self.dashpot("simulate", "kelvin.json", "--input", "motion.csv", "-o", "forces.csv")
+        self.assertEqual((done.stdout, (self.folder / "forces.csv").read_text()), ("", shown))
+        self.refused("simulate", "kelvin.json", "--input", "motion.csv", "-o", "motion.csv/forces.csv",
+                     code="cannot-write-file")
+
+    def test_float(self):
+        """Fails if numbers of a float law are not floats, or are not those of its code."""
+        rows = self.simulated(FIG_5, table(ramp(50)), "--scalar", "float")
+        as_float = lambda value: struct.unpack("f", struct.pack("f", value))[0]
+        for row in rows:
+            for column in ["position", "velocity", "damping", "motor_force", "force"]:
+                self.assertAlmostEqual(row[column], as_float(row[column]), delta=abs(row[column]) * 1e-8)
+        exact = self.simulated(FIG_5, table(ramp(50)))
+        self.assertLess(max(abs(a["force"] - b["force"]) for a, b in zip(rows, exact)), 1e-5)
+        self.assertNotEqual([row["force"] for row in rows], [row["force"] for row in exact])
+
+
+class Start(SimulateTest):
+    def test_a_first_position_that_is_not_zero(self):
+        """Fails if it is not the end of a ramp over the period before, with no velocity in the first row."""
+        first = self.simulated("maxwell.json", table([(0, 0.25), (0.001, 0.25)]))[0]
+        self.assertEqual(first["velocity"], 0)
+        answer = 50 * (1 - math.exp(-0.01)) / 0.01
+        self.assertAlmostEqual(first["force"], answer * 0.25, delta=1e-12)
+
+    def test_one_row(self):
+        """Fails if a single sample, which has no period, is not taken at the default rate or the one asked for."""
+        self.assertEqual(len(self.simulated("maxwell.json", table([(0, 0.25)]))), 1)
+        slow, = self.simulated("maxwell.json", table([(0, 0.25)]), "--rate", "10")
+        self.assertAlmostEqual(slow["force"], 0.25 * 50 * (1 - math.exp(-1)), delta=1e-12)
+
+    def test_time_may_start_anywhere(self):
+        """Fails if only the differences of time do not count."""
+        late = [(time + 100, position) for time, position in ramp(20)]
+        self.assertEqual([row["force"] for row in self.simulated("maxwell.json", table(late))],
+                         [row["force"] for row in self.simulated("maxwell.json", table(ramp(20)))])
+
+
+class Velocity(SimulateTest):
+    def test_the_slope_by_default(self):
+        """Fails if velocity is not the slope since the sample before."""
+        rows = self.simulated("kelvin.json", table([(0, 0), (0.5, 1), (1, -2)]))
+        self.assertEqual([row["velocity"] for row in rows], [0, 2, -6])
+
+    def test_a_column_instead(self):
+        """Fails if a measured velocity is ignored."""
+        rows = self.simulated("kelvin.json", table([(0, 0, 7), (0.5, 1, 8)], "time,position,velocity"))
+        self.assertEqual([row["velocity"] for row in rows], [7, 8])
+        self.assertEqual([row["force"] for row in rows], [35, 140])
+
+    def test_columns_in_any_order_among_others(self):
+        """Fails if columns are found by place rather than by name."""
+        rows = self.simulated("kelvin.json", table([(9, 7, 0, 0), (9, 8, 1, 0.5)], "force,velocity,position,time"))
+        self.assertEqual([row["force"] for row in rows], [35, 140])
+
+
+class Rate(SimulateTest):
+    def test_is_taken_from_the_file(self):
+        """Fails if the law runs at another period than the rows: the answer to one row's ramp tells."""
+        for rate in [5, 30, 1000, 44100]:
+            row = self.simulated("maxwell.json", table(ramp(3, rate)))[1]
+            self.assertAlmostEqual(row["force"], 5 * (1 - math.exp(-10 / rate)), delta=1e-11)
+
+    def test_rounded_times(self):
+        """Fails if times with few digits, as people's loggers write them, are no uniform period."""
+        rows = [(f"{n / 3000:.9f}", 0) for n in range(3000)]
+        self.assertEqual(len(self.simulated("kelvin.json", table(rows))), 3000)
+
+    def test_agreement_is_no_contradiction(self):
+        """Fails if the rate that the file has anyway may not be given."""
+        self.simulated("kelvin.json", table(ramp(10)), "--rate", "1000")
+        self.simulated("kelvin.json", table(ramp(10, 10000)), "--device", PANTOGRAPH)
+
+    def test_contradictions_are_wrong_command_lines(self):
+        """Fails if a file is run through a law of another rate."""
+        self.refuses(table(ramp(10)), "csv-rate-contradicts", "--rate", "2000", status=COMMAND_LINE_WRONG)
+        self.refuses(table(ramp(10)), "csv-rate-contradicts", "--device", PANTOGRAPH, status=COMMAND_LINE_WRONG)
+        self.refuses(table(ramp(10)), "device-rate-contradicts", "--device", PANTOGRAPH, "--rate", "1000",
+                     status=COMMAND_LINE_WRONG)
+
+
+class Table(SimulateTest):
+    def test_ends_of_lines_do_not_matter(self):
+        """Fails if a table from another system, or one that was cut by hand, gives other numbers."""
+        text = table(ramp(5))
+        plain = self.simulated("kelvin.json", text)
+        for variant in [text.replace("\n", "\r\n"), text.rstrip("\n"), text + "\n\n", "\ufeff" + text,
+                        text.replace(",", " , "), text.replace("time", '"time"')]:
+            self.assertEqual(self.simulated("kelvin.json", variant), plain, repr(variant[:40]))
+
+    def test_missing_columns(self):
+        """Fails if a table without time or position is given a meaning; both are named where both are missing."""
+        self.refuses(table([(0, 0)], "time,depth"), "csv-missing-column")
+        self.refuses(table([(0, 0)], "t,position"), "csv-missing-column")
+        done = self.refuses(table([(0, 0)], "t,x"), "csv-missing-column")
+        self.assertEqual(codes(done.stderr), ["csv-missing-column"] * 2)
+
+    def test_a_column_twice(self):
+        """Fails if one of two columns of the same name is taken in silence."""
+        self.refuses(table([(0, 0, 1)], "time,position,position"), "csv-column-twice")
+
+    def test_nothing_to_simulate(self):
+        """Fails if an empty table is anything but refused."""
+        for text in ["", "\n", "time,position\n", "time,position"]:
+            self.refuses(text, "csv-empty")
+
+    def test_rows_of_other_lengths(self):
+        """Fails if a row with a field too few or too many is read as if it fitted."""
+        self.refuses("time,position\n0,0\n0.001\n", "csv-field-count")
+        self.refuses("time,position\n0,0\n0.001,1,2\n", "csv-field-count")
+
+    def test_cells_that_are_no_numbers(self):
+        """Fails if text, an empty cell, half a number or what is not finite is read as a number."""
+        for cell in ["deep", "", "1.5mm", "nan", "inf", "-inf", "1e999", "1,5"]:
+            code = "csv-field-count" if cell == "1,5" else "csv-not-a-number"
+            self.refuses(f"time,position\n0,0\n0.001,{cell}\n", code)
+        self.refuses("time,position,velocity\n0,0,x\n", "csv-not-a-number")
+
+    def test_periods_that_differ(self):
+        """Fails if a gap, a repetition or time that runs backwards is taken for a uniform period."""
+        done = self.refuses("time,position\n0,0\n0.001,0\n0.002,0\n0.004,0\n", "csv-not-uniform")
+        self.assertTrue(done.stderr.startswith("motion.csv:5:1: error:"), done.stderr)
+        self.refuses("time,position\n0,0\n0,0\n0,0\n", "csv-not-uniform")
+        self.refuses("time,position\n0.002,0\n0.001,0\n0,0\n", "csv-not-uniform")
+        self.refuses("time,position\n0,0\n0.001,0\n0.002,0\n0.003000003,0\n", "csv-not-uniform")
+
+    def test_a_period_that_no_loop_has(self):
+        """Fails if rows so close that their rate is beyond --rate's own limit pass."""
+        self.refuses("time,position\n0,0\n1e-300,0\n", "csv-rate-out-of-range")
+
+
+class Validity(SimulateTest):
+    def test_leaving_the_valid_range_is_said_once(self):
+        """Fails if a motion beyond what the tissue was measured for goes unsaid, or is said in every row."""
+        self.write("valid.json", network('{ "spring": 3 }', more='"valid": { "displacement": "5 mm", "rate": "0.5 m/s" },'))
+        self.write("motion.csv", table(ramp(50)))
+        done = self.dashpot("simulate", "valid.json", "--input", "motion.csv")
+        self.assertEqual(codes(done.stderr), ["outside-valid-range"] * 2)
+        self.write("motion.csv", table(ramp(5, speed=0.1)))
+        self.assertEqual(self.dashpot("simulate", "valid.json", "--input", "motion.csv").stderr, "")
+
+
+if __name__ == "__main__":
+    unittest.main()

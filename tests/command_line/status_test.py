@@ -1,0 +1,165 @@
+"""Exit status, help and diagnostics of every command: 0 done, 1 input refused, 2 command line wrong, 3 a defect."""
+import json
+import re
+import unittest
+
+from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, CommandTest, codes,
+                             network)
+
+COMMANDS = ["check", "explain", "compile", "simulate"]
+
+
+class Help(CommandTest):
+    def test_every_command_explains_itself(self):
+        """Fails if --help of a command is missing, fails, or leaves out the choices that all commands share."""
+        for command in COMMANDS:
+            done = self.dashpot(command, "--help")
+            self.assertEqual(done.stderr, "")
+            for option in ["NETWORK", "--device", "--rate", "--scheme", "--state-input", "--decomposition", "--scalar",
+                           "--diagnostics", "most-dissipative", "backward-euler", "nodal", "float"]:
+                self.assertIn(option, done.stdout, command)
+
+    def test_the_whole_lists_its_commands(self):
+        """Fails if a command cannot be found out from the program itself."""
+        done = self.dashpot("--help")
+        for command in COMMANDS:
+            self.assertRegex(done.stdout, rf"(?m)^  {command} ")
+
+    def test_compile_names_its_own_options(self):
+        """Fails if an option of the compile command is not described."""
+        text = self.dashpot("compile", "--help").stdout
+        for option in ["-o,--output", "--target", "--with-test", "--print", "--depfile", "--templates"]:
+            self.assertIn(option, text)
+
+    def test_version(self):
+        """Fails if the program does not say what it is."""
+        self.assertRegex(self.dashpot("--version").stdout, r"^dashpot \d+\.\d+\.\d+\n$")
+
+
+class WrongCommandLine(CommandTest):
+    def wrong(self, *arguments, mentions=""):
+        done = self.dashpot(*arguments, status=COMMAND_LINE_WRONG)
+        self.assertEqual(done.stdout, "")
+        self.assertIn(mentions, done.stderr)
+
+    def test_of_the_command(self):
+        """Fails if a missing or unknown command or option counts as refused input, or passes."""
+        self.wrong()
+        self.wrong("complie", FIG_5)
+        self.wrong("compile")
+        self.wrong("compile", FIG_5, "--fast-math", mentions="--fast-math")
+        self.wrong("explain", FIG_5, FIG_5)
+        self.wrong("simulate", FIG_5, mentions="--input")
+
+    def test_of_a_choice(self):
+        """Fails if a value that no network can make sense of is accepted or rounded to one that it can."""
+        for rate in ["0", "-1000", "fast", "nan", "inf", "1e10", "", "1000Hz", "0x10"]:
+            self.wrong("check", FIG_5, "--rate", rate)
+        for damping in ["most", "-1", "nan", "inf", "1e999", "5 N s/m", "", "0x1p3"]:
+            self.wrong("check", FIG_5, "--decomposition", damping)
+        self.wrong("check", FIG_5, "--scheme", "euler", mentions="euler")
+        self.wrong("check", FIG_5, "--state-input", "force", mentions="force")
+        self.wrong("check", FIG_5, "--scalar", "half", mentions="half")
+        self.wrong("check", FIG_5, "--diagnostics", "xml", mentions="xml")
+        self.wrong("compile", FIG_5, "--target", "cobol", mentions="cobol")
+        self.wrong("compile", FIG_5, "--print", "everything", mentions="everything")
+
+    def test_of_choices_that_exclude_each_other(self):
+        """Fails if nodal states are taken with the exact scheme, or refused without the remedy."""
+        for command in ["check", "explain", "compile"]:
+            done = self.refused(command, FIG_5, "--state-input", "nodal", code="nodal-needs-backward-euler",
+                                status=COMMAND_LINE_WRONG)
+            self.assertIn("--scheme backward-euler", done.stderr)
+        self.dashpot("check", FIG_5, "--state-input", "nodal", "--scheme", "backward-euler")
+
+    def test_of_a_rate_that_the_device_has_not(self):
+        """Fails if --rate overrules the loop that the device really runs."""
+        self.refused("check", FIG_5, "--device", PANTOGRAPH, "--rate", "1000", code="device-rate-contradicts",
+                     status=COMMAND_LINE_WRONG)
+        self.dashpot("check", FIG_5, "--device", PANTOGRAPH, "--rate", "10000")
+
+
+class RefusedInput(CommandTest):
+    def test_files_that_cannot_be_read(self):
+        """Fails if a missing file, a folder or a missing device is anything but input that is refused."""
+        self.refused("check", "absent.json", code="cannot-read-file")
+        self.refused("check", self.folder, code="cannot-read-file")
+        self.refused("check", FIG_5, "--device", "absent.json", code="cannot-read-file")
+        self.refused("simulate", FIG_5, "--input", "absent.csv", code="cannot-read-file")
+
+    def test_files_of_the_other_kind(self):
+        """Fails if network and device files can be swapped unnoticed."""
+        self.refused("check", PANTOGRAPH, code="device-instead-of-network")
+        self.refused("check", FIG_5, "--device", FIG_5, code="network-instead-of-device")
+
+    def test_devices_that_do_not_fit(self):
+        """Fails if a rotary network is given to a device that moves along a line."""
+        linear = self.write("linear.json", PANTOGRAPH.read_text().replace('"rotation"', '"rotation"'))
+        rotary = self.write("rotary.json", network('{ "damper": 1 }', more='"motion": "rotation",'))
+        self.dashpot("check", rotary, "--device", linear)
+
+    def test_all_problems_of_all_networks(self):
+        """Fails if check stops at the first bad file, or lets a good one hide a bad one."""
+        self.write("broken.json", BROKEN)
+        self.write("worse.json", network('{ "series": [] }'))
+        done = self.refused("check", "broken.json", FIG_5, "worse.json", code="negative-stiffness")
+        self.assertEqual(codes(done.stderr), ["negative-stiffness", "empty-group"])
+
+    def test_warnings_are_no_refusal(self):
+        """Fails if a network that only gives rise to a warning is refused, or the warning is swallowed."""
+        self.write("fast.json", network('{ "series": [ { "spring": 1e6 }, { "damper": 1 } ] }'))
+        self.assertEqual(codes(self.dashpot("check", "fast.json").stderr), ["fast-relaxation"])
+
+    def test_silence_where_all_is_well(self):
+        """Fails if check says anything about a good network."""
+        self.write("kelvin.json", KELVIN)
+        done = self.dashpot("check", "kelvin.json", FIG_5)
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+
+class Diagnostics(CommandTest):
+    def test_text_is_what_editors_parse(self):
+        """Fails if a diagnostic does not start with file, line and column, or does not show the place."""
+        self.write("broken.json", BROKEN)
+        lines = self.dashpot("check", "broken.json", status=INPUT_REFUSED).stderr.splitlines()
+        self.assertRegex(lines[0], r"^broken\.json:1:\d+: error: .* \[negative-stiffness\]$")
+        column = int(lines[0].split(":")[2])
+        self.assertEqual(BROKEN[column - 1:column + 7], '"-1 N/m"')
+        self.assertEqual(re.sub("[^~^]", "", lines[2]), "^" + "~" * 7)
+
+    def test_json_is_one_array(self):
+        """Fails if --diagnostics=json mixes with text, misses a key or counts places from elsewhere than 1."""
+        self.write("broken.json", BROKEN)
+        for command in [["check"], ["explain"], ["compile"]]:
+            done = self.dashpot(*command, "broken.json", "--diagnostics=json", status=INPUT_REFUSED)
+            self.assertEqual(done.stdout, "")
+            found, = json.loads(done.stderr)
+            self.assertEqual({key: found[key] for key in ["file", "line", "severity", "code", "notes"]},
+                             {"file": "broken.json", "line": 1, "severity": "error", "code": "negative-stiffness",
+                              "notes": []})
+            self.assertEqual(BROKEN[found["column"] - 1:found["end_column"] - 1], '"-1 N/m"')
+
+    def test_json_without_a_place(self):
+        """Fails if a diagnostic that belongs to no file claims one."""
+        found, = json.loads(self.dashpot("check", "absent.json", "--diagnostics=json", status=INPUT_REFUSED).stderr)
+        self.assertEqual([found[key] for key in ["file", "line", "column"]], [None, None, None])
+
+    def test_json_where_there_is_nothing_to_say(self):
+        """Fails if a tool that reads the array gets nothing instead of an empty one."""
+        self.assertEqual(json.loads(self.dashpot("check", FIG_5, "--diagnostics=json").stderr), [])
+
+
+class StandardOutput(CommandTest):
+    def test_a_full_disk_is_reported(self):
+        """Fails if results are lost without a word when standard output cannot take them."""
+        for command in [["explain", FIG_5], ["explain", FIG_5, "--json"], ["compile", FIG_5, "--print", "law"]]:
+            with open("/dev/full", "w") as full:
+                import subprocess
+                from dashpot_command import DASHPOT
+                done = subprocess.run([DASHPOT, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, INPUT_REFUSED, done.stderr)
+            self.assertIn("[cannot-write-file]", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -153,7 +153,7 @@ TEST(BrakeDissipation, StartsAfreshAfterPauses) {
   EXPECT_GE(bound.value(), 0.7 * truth);
 }
 
-// Motion by fits and starts would not be credited: each start is diluted by the pause before, or each pause by the start.
+// Motion by fits and starts would not be credited, each move diluted by the pause before it.
 TEST(BrakeDissipation, ShortMovesBetweenPausesCount) {
   const double step = 30e-6;
   brake_dissipation<double> bound(step);

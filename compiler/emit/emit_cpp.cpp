@@ -33,7 +33,7 @@ std::string cost_line(const char* phase, const Cost& cost) {
 std::string comment_text(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  return text.ends_with('\\') || text.ends_with("??/") ? text + "." : text;
+  return text.ends_with('\\') || text.ends_with("\?\?/") ? text + "." : text;
 }
 
 // At spaces; a word longer than a line keeps a line to itself.

@@ -244,6 +244,12 @@ TEST(Device, RefusesWhatCannotBeSimulated) {
   scene.intended = hold_at(0);
   scene.low = end_stop{};
   expect_refusal("end-stops", plain_device(), scene);
+  scenario outside;
+  outside.high = end_stop{-0.001};
+  expect_refusal("above", plain_device(), outside);
+  outside.high.reset();
+  outside.low = end_stop{0.001};
+  expect_refusal("below", plain_device(), outside);
   scenario pushy;
   pushy.user.damping = -1;
   expect_refusal("hand", plain_device(), pushy);

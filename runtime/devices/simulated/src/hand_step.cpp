@@ -18,7 +18,7 @@ double force_of(const hand& user, const hand_state& state, const motion_point& i
   return force;
 }
 
-// Answers a drive r, given at both stages, with the slopes k of the hand's states there: (I − h 𝒜⊗A) k = r.
+// Answers a drive r of the hand's states, at a stage, with their slopes k at both: (I − h 𝒜⊗A) k = r.
 class hand_step::solver {
  public:
   solver(const hand& user, double duration) : user_(user), n_(user.states), duration_(duration) {
@@ -57,7 +57,11 @@ class hand_step::solver {
   // hand has A + Aᵀ ≤ 0, so I − hA/4 has a symmetric part of at least 1, and what is left of the second stage,
   // 4/3 (I − hA/4) − 2/3 I + 1/3 (I − hA/4)⁻¹, one of at least 2/3.
   void eliminate(unsigned k) {
-    add_row(k, k, 1 / left_[k][k] - 1);
+    const double pivot = left_[k][k];
+    for (unsigned column = 0; column < 2 * n_; ++column) {
+      left_[k][column] /= pivot;
+      inverse_[k][column] /= pivot;
+    }
     for (unsigned row = 0; row < 2 * n_; ++row) {
       if (row != k) add_row(row, k, -left_[row][k]);
     }

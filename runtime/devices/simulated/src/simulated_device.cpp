@@ -34,6 +34,8 @@ const char* simulated_device::refusal(const device_description& device, const sc
   if (!(device.mechanics.inertia > 0)) return "the device has no inertia: nothing says how it moves";
   if (scene.prescribed && !scene.intended) return "a prescribed motion is not given";
   if (scene.prescribed && (scene.low || scene.high)) return "a prescribed motion does not heed end-stops";
+  if (scene.low && scene.initial_position < scene.low->position) return "the tool starts below the lower end-stop";
+  if (scene.high && scene.initial_position > scene.high->position) return "the tool starts above the upper end-stop";
   if (!simulated::is_passive(scene.user)) return "the hand is not passive";
   for (const sample_fault& fault : scene.faults) {
     if (fault.kind == sample_fault_kind::late && !(fault.size >= 0)) return "a late sample cannot come early";

@@ -1,5 +1,5 @@
 // A running sum that keeps what rounding takes from it (Kahan 1965), so that a float can count energy for hours: the
-// error stays at two units in the last place of the largest sum, however many terms there are.
+// error is that of rounding each term twice, however many there are and however large their sum.
 #pragma once
 
 namespace dashpot {

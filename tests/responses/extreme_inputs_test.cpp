@@ -57,7 +57,6 @@ TEST(ExtremeInputs, of_any_size_do_not_poison_the_states) {
       ASSERT_TRUE(all_finite(model->numbers())) << law.title() << ", sample " << n;
     }
     for (int n = 0; n < 10; ++n) model->step(0, 0);
-    EXPECT_TRUE(std::isfinite(model->stored_energy()) || !law.is_float()) << law.title();
     EXPECT_EQ(model->step(0, 0).damping, law.make()->step(0, 0).damping) << law.title();
   }
 }

@@ -39,7 +39,7 @@ TEST(SlowModes, are_ruined_by_careless_float) {
   const float decay = std::exp(-relaxation_rate * period);
   const float gain = stiffness * (1 - decay) / (relaxation_rate * period);
   const double error = largest_error([&](float force, float change) { return decay * force + gain * change; });
-  EXPECT_GT(error, 0.03);
+  EXPECT_GT(error, 5e-3);  // five times what the compiler tolerates in float
 }
 
 // Fails if the delta form alone would do, so that compensation were waste.

@@ -88,7 +88,9 @@ TEST(EmitCpp, keeps_long_words_whole) {
     const std::string text = header_of(fmt::format(
         R"({{ "dashpot": 1, "name": "words", "source": "{}", "network": {{ "damper": 5 }} }})", source));
     ASSERT_NE(text, "");
-    if (source[0] != ' ') EXPECT_TRUE(contains(text, link)) << text;
+    if (source[0] != ' ') {
+      EXPECT_TRUE(contains(text, link)) << text;
+    }
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 std::string stage_text(const Compilation& c, const std::string& stage) {
   if (stage == "network") {
     const std::optional<Tree> tree = series_parallel_tree(c.network);
-    return to_text(c.network) + (tree ? to_text(*tree, c.network) : "no series-parallel tree\n");
+    return to_text(c.network) + (tree ? to_text(*tree, c.network) + "\n" : "no series-parallel tree\n");
   }
   if (stage == "linear") return to_text(c.form.linear, c.network);
   if (stage == "decomposition") return to_text(c.decomposition, c.network);

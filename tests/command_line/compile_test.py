@@ -1,9 +1,9 @@
 """What `dashpot compile` writes, and when it writes nothing."""
 import os
-import pathlib
+import subprocess
 import unittest
 
-from dashpot_command import (BROKEN, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest, network)
+from dashpot_command import (BROKEN, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest)
 
 
 class Files(CommandTest):
@@ -165,7 +165,6 @@ class Depfile(CommandTest):
         self.dashpot("compile", "my $ tissue #1.json", "-o", "out put", "--depfile", "d")
         self.write("Makefile", "include d\nout\\ put/kelvin.hpp:\n\t@echo rebuild\n")
         make = ["make", "-s", "-f", "Makefile", "out put/kelvin.hpp"]
-        import subprocess
         run = lambda: subprocess.run(make, cwd=self.folder, capture_output=True, text=True)
         os.utime(self.folder / "my $ tissue #1.json", (1, 1))
         self.assertNotIn("rebuild", run().stdout)

@@ -1,6 +1,5 @@
 """`dashpot explain`: the text, and the JSON that other programs read."""
 import json
-import math
 import unittest
 
 from dashpot_command import FIG_5, KELVIN, MAXWELL, PANTOGRAPH, CommandTest, network

@@ -68,12 +68,15 @@ class Output(SimulateTest):
                      code="cannot-write-file")
 
     def test_float(self):
-        """Fails if numbers of a float law are not floats, or are not those of its code."""
+        """Fails if a float law is run, added up or written in double."""
         rows = self.simulated(FIG_5, table(ramp(50)), "--scalar", "float")
         as_float = lambda value: struct.unpack("f", struct.pack("f", value))[0]
         for row in rows:
+            damping, velocity, motor = [as_float(row[column]) for column in ["damping", "velocity", "motor_force"]]
+            self.assertEqual(as_float(row["force"]), as_float(as_float(damping * velocity) + motor))
             for column in ["position", "velocity", "damping", "motor_force", "force"]:
-                self.assertAlmostEqual(row[column], as_float(row[column]), delta=abs(row[column]) * 1e-8)
+                # Nine digits tell any two floats apart; more are those of a double.
+                self.assertEqual(row[column], float(f"{row[column]:.9g}"), column)
         exact = self.simulated(FIG_5, table(ramp(50)))
         self.assertLess(max(abs(a["force"] - b["force"]) for a, b in zip(rows, exact)), 1e-5)
         self.assertNotEqual([row["force"] for row in rows], [row["force"] for row in exact])
@@ -126,9 +129,10 @@ class Rate(SimulateTest):
             self.assertAlmostEqual(row["force"], 5 * (1 - math.exp(-10 / rate)), delta=1e-11)
 
     def test_rounded_times(self):
-        """Fails if times with few digits, as people's loggers write them, are no uniform period."""
-        rows = [(f"{n / 3000:.9f}", 0) for n in range(3000)]
-        self.assertEqual(len(self.simulated("kelvin.json", table(rows))), 3000)
+        """Fails if times cut to whole picoseconds are no uniform period, or the law runs at the cut one."""
+        rows = [(f"{n / 3000:.12f}", f"{n / 3000:.17g}") for n in range(3000)]
+        answer = self.simulated("maxwell.json", table(rows))[-1]["force"]
+        self.assertAlmostEqual(answer, 5 * (1 - math.exp(-10 * 2999 / 3000)), delta=1e-11)
 
     def test_agreement_is_no_contradiction(self):
         """Fails if the rate that the file has anyway may not be given."""
@@ -190,7 +194,7 @@ class Table(SimulateTest):
 
     def test_a_period_that_no_loop_has(self):
         """Fails if rows so close that their rate is beyond --rate's own limit pass."""
-        self.refuses("time,position\n0,0\n1e-300,0\n", "csv-rate-out-of-range")
+        self.refuses("time,position\n0,0\n1e-300,0\n", "csv-rate-too-high")
 
 
 class Validity(SimulateTest):

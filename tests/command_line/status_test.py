@@ -1,11 +1,19 @@
 """Exit status, help and diagnostics of every command: 0 done, 1 input refused, 2 command line wrong, 3 a defect."""
 import json
 import re
+import subprocess
 import unittest
 
-from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, CommandTest, codes,
+from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, CommandTest, codes,
                              network)
 
+LINEAR_DEVICE = """{ "dashpot_device": 1, "name": "slide", "source": "none", "motion": "translation",
+  "loop": { "rate": "1 kHz", "jitter": "50 us", "delay_samples": 0, "band": ["0.1 Hz", "30 Hz"], "missed_deadlines_allowed": 3 },
+  "encoder": { "resolution": "10 um", "quantiser": "floor", "range": ["-0.1 m", "0.1 m"], "max_speed": "3 m/s" },
+  "velocity": { "estimator": "butterworth", "order": 4, "cutoff": "120 Hz" },
+  "motor": { "max_torque": "10 N" },
+  "mechanics": { "inertia": "0.1 kg", "damping": "0.1 N s/m", "coulomb_friction": "0.1 N" } }
+"""
 COMMANDS = ["check", "explain", "compile", "simulate"]
 
 
@@ -94,9 +102,11 @@ class RefusedInput(CommandTest):
 
     def test_devices_that_do_not_fit(self):
         """Fails if a rotary network is given to a device that moves along a line."""
-        linear = self.write("linear.json", PANTOGRAPH.read_text().replace('"rotation"', '"rotation"'))
-        rotary = self.write("rotary.json", network('{ "damper": 1 }', more='"motion": "rotation",'))
-        self.dashpot("check", rotary, "--device", linear)
+        self.write("rotary.json", network('{ "damper": 1 }', more='"motion": "rotation",'))
+        self.write("linear.json", LINEAR_DEVICE)
+        self.refused("check", "rotary.json", "--device", "linear.json", code="motion-mismatch")
+        self.dashpot("check", "rotary.json", "--device", PANTOGRAPH)
+        self.dashpot("check", FIG_5, "--device", "linear.json")
 
     def test_all_problems_of_all_networks(self):
         """Fails if check stops at the first bad file, or lets a good one hide a bad one."""
@@ -154,8 +164,6 @@ class StandardOutput(CommandTest):
         """Fails if results are lost without a word when standard output cannot take them."""
         for command in [["explain", FIG_5], ["explain", FIG_5, "--json"], ["compile", FIG_5, "--print", "law"]]:
             with open("/dev/full", "w") as full:
-                import subprocess
-                from dashpot_command import DASHPOT
                 done = subprocess.run([DASHPOT, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True)
             self.assertEqual(done.returncode, INPUT_REFUSED, done.stderr)
             self.assertIn("[cannot-write-file]", done.stderr)

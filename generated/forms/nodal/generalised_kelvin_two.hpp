@@ -1,0 +1,118 @@
+// Two Kelvin elements in series, Fig. 3
+//
+// source: Gosline & Hayward 2009, Fig. 3 and (10)-(11); the paper prints no values, these are chosen here
+// scheme: backward-euler at 1000 Hz, double
+// decomposition: most-dissipative, b = 6 N·s/m: in series (K2 | B2) dissipates 90.36 % at low frequency and is
+//   observed
+// states: nodal driven as asked
+// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
+// cost of update(): 2 additions, 3 multiplications, 1 guards against subnormals; 6 states
+// rounding: a mode's force is off by at most 1.2e-14 of its peak
+//
+// Written by dashpot 0.1.0 from a network with digest 01c1226b24d8a48e. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class generalised_kelvin_two {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    relaxed_force_ = 0;
+    K1_B1_K2_B2_force_ = 0;
+    sampled_velocity_ = 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
+        relaxed_force_;
+    sampled_ = dashpot::all_finite(position, velocity, force);
+    if (!sampled_) return {damping, 0};
+    sampled_velocity_ = velocity;
+    sampled_position_change_ = position_change;
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // F ← a (F + c Δu)
+    K1_B1_K2_B2_force_ = dashpot::flush_below(threshold, K1_B1_K2_B2_decay * K1_B1_K2_B2_force_ +
+        (K1_B1_K2_B2_gain * sampled_position_change_ + K1_B1_K2_B2_velocity_drive * sampled_velocity_));
+    // S = Σ a_i F_i
+    relaxed_force_ = K1_B1_K2_B2_force_;
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // F²/(2k)
+    const scalar K1_B1_K2_B2_energy = K1_B1_K2_B2_energy_weight * K1_B1_K2_B2_force_ * K1_B1_K2_B2_force_;
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * last_position_ * last_position_ + K1_B1_K2_B2_energy;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 6.0;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar static_stiffness = 57.142857142857146;  // k0 [N/m]
+  static constexpr scalar step_stiffness = -24.458032240133406;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar velocity_gain = -3.5486381322957197;  // b∞ − b + h Σ c_i, what the estimate drives within a sample [N·s/m]
+  static constexpr scalar K1_B1_K2_B2_gain = -23.791860155771797;  // a c [N/m]
+  static constexpr scalar K1_B1_K2_B2_velocity_drive = 0.049962906327120776;  // a c h [N·s/m]
+  static constexpr scalar K1_B1_K2_B2_decay = 0.9727626459143969;  // a = 1/(1 + λh) [1]
+  static constexpr scalar half_static_stiffness = 28.571428571428573;  // ½ k0 [N/m]
+  static constexpr scalar K1_B1_K2_B2_energy_weight = 0.0191050826446281;  // 1/(2 k a²) [m/N]
+
+  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
+  scalar K1_B1_K2_B2_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar sampled_velocity_ = 0;  // estimate of u̇, at this sample [m/s]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

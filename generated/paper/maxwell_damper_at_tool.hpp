@@ -1,0 +1,109 @@
+// Maxwell element with the damper at the tool, Fig. 4b
+//
+// source: Gosline & Hayward 2009, Fig. 4b and (16)-(19); values of Fig. 6
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 5 N·s/m: in series B dissipates 100 % at low frequency and is observed
+// states: position driven: on an ideal device nothing tells the inputs apart
+// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 3 additions, 2 multiplications, 0 guards against subnormals
+// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 5 states
+// rounding: a mode's force is off by at most 3.4e-14 of its peak
+//
+// Written by dashpot 0.1.0 from a network with digest 9064276efb0f87b7. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class maxwell_damper_at_tool {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    relaxed_force_ = 0;
+    B_K_force_ = 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = step_stiffness * position_change + velocity_gain * velocity + relaxed_force_;
+    sampled_ = dashpot::all_finite(position, velocity, force);
+    if (!sampled_) return {damping, 0};
+    sampled_position_change_ = position_change;
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // F ← a (F + c Δu)
+    B_K_force_ = dashpot::flush_below(threshold, B_K_decay * B_K_force_ + B_K_gain * sampled_position_change_);
+    // S = Σ a_i F_i
+    relaxed_force_ = B_K_force_;
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // F²/(2k)
+    const scalar B_K_energy = B_K_energy_weight * B_K_force_ * B_K_force_;
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = B_K_energy;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 5.0;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar step_stiffness = 49.750831254159735;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar velocity_gain = -5.0;  // b∞ − b [N·s/m]
+  static constexpr scalar B_K_gain = 49.255802212063756;  // a c [N/m]
+  static constexpr scalar B_K_decay = 0.9900498337491681;  // a = e^{−λh} [1]
+  static constexpr scalar B_K_energy_weight = 0.010202013400267558;  // 1/(2 k a²) [m/N]
+
+  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
+  scalar B_K_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

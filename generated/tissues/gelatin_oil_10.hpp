@@ -1,0 +1,91 @@
+// Gelatin phantom, 3 % gelatin with 10 % oil, under a 5 mm punch
+//
+// source: Nguyen et al. 2014, Ultrasound Med Biol 40:168, from the abstract: Voigt, mu 1.68 kPa, eta 0.89 Pa s. At
+//   a flat punch of radius a = 5 mm on an incompressible half-space: f = 8 G a u, so 0.04 m times modulus and
+//   viscosity
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 0.0356 N·s/m: dampers at the tool in parallel add
+// states: position driven: on an ideal device nothing tells the inputs apart
+// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 0 additions, 1 multiplications, 0 guards against subnormals
+// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormals; 2 states
+//
+// Written by dashpot 0.1.0 from a network with digest e848287a334df322. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class gelatin_oil_10 {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // m = f − b u̇
+    const scalar force = static_stiffness * position;
+    sampled_ = dashpot::all_finite(position, velocity, force);
+    if (!sampled_) return {damping, 0};
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * last_position_ * last_position_;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 0.0356;  // b, the brake's part
+  static constexpr scalar static_stiffness = 67.2;  // k0 [N/m]
+  static constexpr scalar half_static_stiffness = 33.6;  // ½ k0 [N/m]
+
+  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

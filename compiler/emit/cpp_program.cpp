@@ -120,7 +120,7 @@ class CppPrinter {
                   std::vector<std::string>& lines) {
     summed_.clear();
     if (last < program.size()) find_sums(program[last].value);
-    if (!summed_.empty()) lines.push_back(fmt::format("{} lane[{}] = {{}};", scalar(), law_.lanes));
+    if (!summed_.empty()) clear_lanes(lines);
     lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", padded_size(program[first]), law_.lanes));
     lines.push_back(fmt::format("  for (int j = 0; j < {}; ++j) {{", law_.lanes));
     for (std::size_t i = first; i < last; ++i) {
@@ -130,6 +130,12 @@ class CppPrinter {
     for (VariableId vector : summed_)
       lines.push_back(fmt::format("    lane[j] += {};", vector_name(law_.variables[vector], 0)));
     lines.push_back("  }");
+  }
+
+  // One by one: from an empty initialiser a compiler may make a call of memset.
+  void clear_lanes(std::vector<std::string>& lines) const {
+    lines.push_back(fmt::format("{} lane[{}];", scalar(), law_.lanes));
+    lines.push_back(fmt::format("for (int j = 0; j < {}; ++j) lane[j] = 0;", law_.lanes));
   }
 
   void find_sums(ExpressionId id) {

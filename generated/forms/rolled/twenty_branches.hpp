@@ -66,7 +66,8 @@ class twenty_branches {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    scalar lane[8] = {};
+    scalar lane[8];
+    for (int j = 0; j < 8; ++j) lane[j] = 0;
     for (int i = 0; i < 24; i += 8)
       for (int j = 0; j < 8; ++j) {
     // F ← a (F + c Δu)
@@ -91,7 +92,8 @@ class twenty_branches {
 
   // In the springs after the last update() [J].
   scalar stored_energy() const noexcept {
-    scalar lane[8] = {};
+    scalar lane[8];
+    for (int j = 0; j < 8; ++j) lane[j] = 0;
     for (int i = 0; i < 24; i += 8)
       for (int j = 0; j < 8; ++j) {
         const scalar energy = energy_weight[i + j] * force_[i + j] * force_[i + j];  // F²/(2k)

@@ -19,16 +19,30 @@ std::string origin_names(const std::vector<std::size_t>& elements, const Network
   return elements.size() > 4 ? fmt::format("{} and {} more", names, elements.size() - 4) : names;
 }
 
-// Breaks after an operator of the outermost level where a line is too long.
+std::size_t indentation(const std::string& text) { return std::min(text.find_first_not_of(' '), text.size()); }
+
+// The blank, not beyond `limit` and outside of [], that a line is best broken at: behind a plus, else behind a comma; 0
+// where there is none.
+std::size_t break_place(const std::string& text, std::size_t limit) {
+  std::size_t plus = 0, comma = 0;
+  int depth = 0;
+  for (std::size_t i = 1; i <= limit && i < text.size(); ++i) {
+    depth += (text[i] == '[') - (text[i] == ']');
+    if (text[i] != ' ' || depth > 0) continue;
+    if (text[i - 1] == '+') plus = i;
+    if (text[i - 1] == ',') comma = i;
+  }
+  return plus > limit / 4 ? plus : comma;
+}
+
 std::vector<std::string> wrapped(std::string text) {
   std::vector<std::string> lines;
+  const std::string further(indentation(text) + 4, ' ');
   while (text.size() > line_width) {
-    std::size_t cut = text.rfind(" + ", line_width);
-    if (cut == text.npos || cut < 20) cut = text.rfind(", ", line_width);
-    if (cut == text.npos || cut < 20) break;
-    const std::size_t keep = text[cut] == ',' ? 1 : 2;
-    lines.push_back(text.substr(0, cut + keep));
-    text = "    " + text.substr(cut + keep + 1);
+    const std::size_t place = break_place(text, line_width);
+    if (place <= further.size()) break;
+    lines.push_back(text.substr(0, place));
+    text = further + text.substr(place + 1);
   }
   lines.push_back(std::move(text));
   return lines;
@@ -37,7 +51,7 @@ std::vector<std::string> wrapped(std::string text) {
 // The remark stands behind the statement where there is room, else above it.
 void append(std::vector<std::string>& lines, const std::string& text, const std::string& remark = "") {
   const bool fits = text.size() + remark.size() + 4 <= line_width;
-  if (!remark.empty() && !fits) lines.push_back("// " + remark);
+  if (!remark.empty() && !fits) lines.push_back(std::string(indentation(text), ' ') + "// " + remark);
   for (std::string& line : wrapped(text)) lines.push_back(std::move(line));
   if (!remark.empty() && fits) lines.back() += "  // " + remark;
 }

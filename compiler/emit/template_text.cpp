@@ -8,6 +8,16 @@
 namespace dashpot::compiler {
 namespace {
 
+// An empty field leaves its line empty, not a line of blanks.
+std::string without_trailing_blanks(const std::string& text) {
+  std::string result;
+  for (char c : text) {
+    if (c == '\n') result.erase(result.find_last_not_of(' ') + 1);
+    result += c;
+  }
+  return result;
+}
+
 class Filling {
  public:
   Filling(const SourceFile& text, const CodeModel& model, Diagnostics& diagnostics)
@@ -27,7 +37,7 @@ class Filling {
       }
     }
     report_unused();
-    return failed_ ? std::nullopt : std::optional(result);
+    return failed_ ? std::nullopt : std::optional(without_trailing_blanks(result));
   }
 
  private:

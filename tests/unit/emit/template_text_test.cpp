@@ -59,6 +59,11 @@ TEST(TemplateText, keeps_a_last_line_without_end) {
   EXPECT_EQ(filled("", {}).text, "");
 }
 
+// Fails if an empty field leaves blanks at the end of a line.
+TEST(TemplateText, leaves_no_blanks_at_the_end_of_a_line) {
+  EXPECT_EQ(filled("a {{x}}\n  {{x}}\n\n  b\n", {{{"x", ""}}, {}}).text, "a\n\n\n  b\n");
+}
+
 // Fails if a misspelt placeholder is passed over, or not shown in its place.
 TEST(TemplateText, refuses_an_unknown_placeholder) {
   const Filled result = filled("one\n  two {{wrong}}\n", {});

@@ -86,7 +86,7 @@ TEST(Effect, OfALongChainIsFound) {
 TEST(Effect, OfATunableElementCountsIfItCanBecomeNonZero) {
   Network network;
   network.nodes = {"ground", "tool"};
-  network.parameters = {{"constant", 0, false, 0, 0, {}}, {"tunable", 0, true, 0, 5, {}}, {"stuck", 0, true, 0, 0, {}}};
+  network.parameters = {{"constant", 0, false, 0, 5, {}}, {"tunable", 0, true, 0, 5, {}}, {"stuck", 0, true, 0, 0, {}}};
   for (std::size_t i = 0; i < 3; ++i) network.elements.push_back({"", Damper{0}, tool, ground, {}, i});
   network.elements.push_back({"", Slip{2}, tool, ground, {}, {}});
   EXPECT_EQ(may_carry_force(network), (std::vector<bool>{false, true, false, true}));

@@ -70,9 +70,9 @@ class twenty_branches {
     for (int j = 0; j < 8; ++j) lane[j] = 0;
     for (int i = 0; i < 24; i += 8)
       for (int j = 0; j < 8; ++j) {
-    // F ← a (F + c Δu)
-        force_[i + j] = dashpot::flush_below(threshold, decay[i + j] * force_[i + j] + gain[i +
-        j] * sampled_position_change_);
+        // F ← a (F + c Δu)
+        force_[i + j] = dashpot::flush_below(threshold, decay[i + j] * force_[i + j] +
+            gain[i + j] * sampled_position_change_);
         lane[j] += force_[i + j];
       }
     // S = Σ a_i F_i
@@ -110,13 +110,13 @@ class twenty_branches {
     for (int j = 1; j < 8; ++j) sum += lane[j];
     return sum;
   }
-  
+
   // Through volatile: compilers turn a plain loop into a call of memset, which may not be there.
   template <int size>
   static void clear(volatile scalar (&states)[size]) noexcept {
     for (int i = 0; i < size; ++i) states[i] = 0;
   }
-  
+
   static constexpr scalar damping = 6.629;  // b, the brake's part
   static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
   static constexpr scalar static_stiffness = 7.0;  // k0 [N/m]

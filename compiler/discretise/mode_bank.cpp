@@ -76,7 +76,7 @@ ExpressionId ModeBank::energy() {
     weights.push_back(a < vanishing ? Real(0) : Real(1 / (2 * modes_[i].stiffness * a * a)));
   }
   const ExpressionId weight =
-      writer_.constants({prefix_, "energy_weight"}, writer_.compliance(), "1/(2 k a²)", weights, names_);
+      writer_.constants({vector_name(), "energy_weight"}, writer_.compliance(), "1/(2 k a²)", weights, names_);
   const VariableId stored = state("energy", "", Role::local);
   const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(forces_)), writer_.read(forces_));
   writer_.assign(writer_.law().energy, stored, squared, "F²/(2k)", origins());
@@ -122,11 +122,11 @@ template <class ValueOf>
 ExpressionId ModeBank::per_mode(const char* name, const std::string& unit, const char* meaning, ValueOf value_of) {
   std::vector<Real> values;
   for (const ModeCoefficients& mode : coefficients_) values.push_back(value_of(mode));
-  return writer_.constants({prefix_, name}, unit, meaning, values, names_);
+  return writer_.constants({vector_name(), name}, unit, meaning, values, names_);
 }
 
 VariableId ModeBank::state(const char* name, const char* meaning, Role role) {
-  return writer_.vector({prefix_, name}, writer_.force(), meaning, role, names_);
+  return writer_.vector({vector_name(), name}, writer_.force(), meaning, role, names_);
 }
 
 }  // namespace dashpot::compiler

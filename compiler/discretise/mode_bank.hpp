@@ -40,6 +40,8 @@ class ModeBank {
   template <class ValueOf>
   ExpressionId per_mode(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
   VariableId state(const char* name, const char* meaning, Role role = Role::state);
+  // Not "force" alone: that is the law's own.
+  std::string vector_name() const { return prefix_.empty() ? "mode" : prefix_; }
 
   LawWriter& writer_;
   std::vector<Mode> modes_;

@@ -4,6 +4,17 @@
 
 namespace dashpot {
 
+namespace detail {
+
+// 1/n at [n]. Outside of functions, so that no compiler copies it to the stack, by a memcpy that may not be there.
+template <class Scalar>
+inline constexpr Scalar reciprocal_of[] = {
+    Scalar(0),      Scalar(1),      Scalar(1) / 2,  Scalar(1) / 3,  Scalar(1) / 4,  Scalar(1) / 5,
+    Scalar(1) / 6,  Scalar(1) / 7,  Scalar(1) / 8,  Scalar(1) / 9,  Scalar(1) / 10, Scalar(1) / 11,
+    Scalar(1) / 12, Scalar(1) / 13, Scalar(1) / 14, Scalar(1) / 15, Scalar(1) / 16, Scalar(1) / 17};
+
+}  // namespace detail
+
 // √x, and 0 for x ≤ 0. Infinity stays infinity.
 template <class Scalar>
 constexpr Scalar square_root(Scalar x) noexcept {
@@ -28,11 +39,8 @@ constexpr Scalar decay(Scalar x) noexcept {
   const int halvings = static_cast<int>(x * Scalar(1.4426950408889634) + Scalar(0.5));
   const Scalar rest = Scalar(halvings) * ln2_low - (x - Scalar(halvings) * ln2_high);
   // Taylor's series to rest¹³/13!, below the last place for |rest| ≤ ln 2/2.
-  constexpr Scalar reciprocals[] = {Scalar(1) / 13, Scalar(1) / 12, Scalar(1) / 11, Scalar(1) / 10, Scalar(1) / 9,
-                                    Scalar(1) / 8,  Scalar(1) / 7,  Scalar(1) / 6,  Scalar(1) / 5,  Scalar(1) / 4,
-                                    Scalar(1) / 3,  Scalar(1) / 2,  Scalar(1)};
   Scalar sum = 1;
-  for (const Scalar reciprocal : reciprocals) sum = 1 + rest * reciprocal * sum;
+  for (int n = 13; n > 0; --n) sum = 1 + rest * detail::reciprocal_of<Scalar>[n] * sum;
   const auto scale = static_cast<Scalar>(1ull << halvings);
   return sum / scale;
 }

@@ -18,17 +18,23 @@ constexpr std::size_t most_values = 500'000;
 using Kind = JsonValue::Kind;
 using Next = JsonContext::Next;
 
+// The first of equal keys stays.
 void refuse_duplicate_keys(JsonValue& object, Diagnostics& diagnostics) {
   std::unordered_map<std::string_view, Span> first_places;
+  std::vector<bool> is_kept;
   for (const JsonMember& member : object.members) {
     const auto [first, is_new] = first_places.emplace(member.key, member.key_span);
+    is_kept.push_back(is_new);
     if (is_new) continue;
     diagnostics.report<DiagnosticCode::duplicate_key>(member.key_span, excerpt(member.key));
     diagnostics.note<DiagnosticCode::first_given_here>(first->second);
   }
   if (first_places.size() == object.members.size()) return;
-  std::erase_if(object.members,
-                [&](const JsonMember& member) { return first_places.at(member.key).begin != member.key_span.begin; });
+  // Views of the keys end here: moving a member moves its key.
+  std::vector<JsonMember> kept;
+  for (std::size_t i = 0; i < object.members.size(); ++i)
+    if (is_kept[i]) kept.push_back(std::move(object.members[i]));
+  object.members = std::move(kept);
 }
 
 // Receives nlohmann's SAX events and follows them with a cursor over the text.

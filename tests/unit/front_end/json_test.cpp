@@ -189,6 +189,18 @@ TEST(Json, OfEqualKeysTheFirstStays) {
   EXPECT_EQ(diagnostics.error_count(), 1u);
 }
 
+// If this fails, what stands behind a repeated key is lost or taken for another.
+TEST(Json, OfManyEqualKeysTheFirstStays) {
+  const SourceFile file("a.json", R"({"a": 1, "bb": 2, "a": 3, "ccc": 4, "bb": 5, "dddd": 6, "a": 7, "ccc": 8, "e": 9})");
+  Diagnostics diagnostics;
+  const auto root = parse_json(file, diagnostics);
+  ASSERT_TRUE(root);
+  std::string found;
+  for (const JsonMember& member : root->members) found += member.key + member.value.text + " ";
+  EXPECT_EQ(found, "a1 bb2 ccc4 dddd6 e9 ");
+  EXPECT_EQ(diagnostics.error_count(), 4u);
+}
+
 // If this fails, a nested file can exhaust the stack, or an honest one is refused.
 TEST(Json, IsReadToAHundredLevels) {
   for (const std::size_t levels : {100u, 101u, 1000000u}) {

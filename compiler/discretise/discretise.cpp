@@ -33,7 +33,7 @@ UpdateLaw blank_law(const Candidate& choice, const Choices& choices, const Real&
   law.scheme = choices.scheme;
   law.state_input = choice.state_input;
   law.sample_period = rounded(sample_period, choices.scalar);
-  law.damping = rounded(Real(choice.damping), choices.scalar);
+  law.damping = law.largest_damping = rounded(Real(choice.damping), choices.scalar);
   law.flush_threshold = flush_threshold(choices.scalar);
   return law;
 }
@@ -52,6 +52,7 @@ void mark_read(const UpdateLaw& law, ExpressionId id, std::vector<bool>& read) {
 void drop_unread_locals(UpdateLaw& law) {
   std::vector<bool> read(law.variables.size(), false);
   read[law.force] = read[law.stored] = true;
+  if (law.brake_changes()) read[law.brake] = true;
   for (const auto* program : {&law.output, &law.keep, &law.update, &law.energy})
     for (const Statement& statement : *program) mark_read(law, statement.value, read);
   for (const Coupling& coupling : law.couplings)

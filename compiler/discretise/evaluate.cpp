@@ -4,7 +4,8 @@ namespace dashpot::compiler {
 
 template <class Scalar>
 Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
-  for (const Variable& variable : law.variables) variables_.emplace_back(variable.size, Scalar(0));
+  for (const Variable& variable : law.variables)
+    variables_.emplace_back(variable.size, static_cast<Scalar>(variable.rest_value));
   for (const Coefficient& coefficient : law.coefficients)
     coefficients_.emplace_back(coefficient.values.begin(), coefficient.values.end());
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
@@ -28,7 +29,8 @@ typename Evaluation<Scalar>::Solver Evaluation<Scalar>::solver_of(const Coupling
 
 template <class Scalar>
 void Evaluation<Scalar>::reset(Scalar position) {
-  for (std::vector<Scalar>& variable : variables_) std::fill(variable.begin(), variable.end(), Scalar(0));
+  for (std::size_t i = 0; i < variables_.size(); ++i)
+    std::fill(variables_[i].begin(), variables_[i].end(), static_cast<Scalar>(law_.variables[i].rest_value));
   if (law_.rest_position != no_variable && all_finite(position, position, position))
     variables_[law_.rest_position][0] = position;
   sampled_ = false;
@@ -41,9 +43,14 @@ command<Scalar> Evaluation<Scalar>::output(Scalar position, Scalar velocity) {
   run(law_.output);
   const Scalar force = variables_[law_.force][0];
   sampled_ = all_finite(position, velocity, force);
-  if (!sampled_) return {static_cast<Scalar>(law_.damping), Scalar(0)};
+  if (!sampled_) return {damping(law_.last_brake), Scalar(0)};
   run(law_.keep);
-  return {static_cast<Scalar>(law_.damping), force};
+  return {damping(law_.brake), force};
+}
+
+template <class Scalar>
+Scalar Evaluation<Scalar>::damping(VariableId changing) const {
+  return law_.brake_changes() ? variables_[changing][0] : static_cast<Scalar>(law_.damping);
 }
 
 template <class Scalar>

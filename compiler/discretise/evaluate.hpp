@@ -35,6 +35,7 @@ class Evaluation {
   static Solver solver_of(const Coupling& coupling);
   void run(const std::vector<Statement>& program);
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
+  Scalar damping(VariableId changing) const;
   Scalar value(ExpressionId expression, std::size_t place) const;
   Scalar sum(ExpressionId vector) const;
 

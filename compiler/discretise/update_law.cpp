@@ -98,9 +98,10 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
 }
 
 std::string to_text(const UpdateLaw& law, const Network& network) {
+  const std::string damping = law.brake_changes() ? fmt::format("{} to {}", law.damping, law.largest_damping) : fmt::format("{}", law.damping);
   std::string text = fmt::format("law of {}: {}, {} driven, {}, period {} s, damping {}, modes in {} form\n", network.name,
                                  name_of(law.scheme), name_of(law.state_input), name_of(law.scalar), law.sample_period,
-                                 law.damping, name_of(law.mode_form));
+                                 damping, name_of(law.mode_form));
   for (const Coefficient& coefficient : law.coefficients) {
     text += fmt::format("  {} [{}]", coefficient.name, coefficient.unit);
     for (double value : coefficient.values) text += fmt::format(" {}", value);

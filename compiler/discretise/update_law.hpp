@@ -38,6 +38,7 @@ struct Variable {
   Role role;
   std::size_t size = 1;
   std::vector<std::string> element_names = {};  // of a vector, one name a place; empty for a scalar
+  double rest_value = 0;                        // of a state, after reset()
 };
 
 // A constant of the emitted code, already rounded to the law's scalar type.
@@ -104,7 +105,8 @@ struct UpdateLaw {
   Scheme scheme = Scheme::exact;
   StateInput state_input = StateInput::position;
   double sample_period = 0;     // [s]
-  double damping = 0;           // b, the brake's command; with slips its least value [N·s/m]
+  double damping = 0;           // b, the brake's command; where it changes its least value [N·s/m]
+  double largest_damping = 0;   // its largest; the same where it does not change [N·s/m]
   double flush_threshold = 0;   // [N]: magnitudes below become zero
   ModeForm mode_form = ModeForm::product;
   double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
@@ -123,8 +125,11 @@ struct UpdateLaw {
   VariableId velocity = 0;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
   VariableId force = 0;     // m_k, the motor's command [N]
-  VariableId brake = no_variable;  // b_k where it changes with the regime, a local of `output` [N·s/m]
+  VariableId brake = no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
+  VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
   VariableId stored = 0;    // [J]
+
+  bool brake_changes() const { return brake != no_variable; }
 };
 
 struct Cost {

@@ -75,6 +75,10 @@ class CppPrinter {
     program.headers = {"dashpot/command.hpp"};
     if (!law_.couplings.empty()) program.headers.push_back("dashpot/slip_tree.hpp");
     program.output = lines_of(law_.output);
+    program.command = law_.brake_changes() ? fmt::format("{{{}, {}}}", scalar_name(law_.variables[law_.brake]),
+                                                         scalar_name(law_.variables[law_.force]))
+                                           : "{damping, force}";
+    program.safe_command = law_.brake_changes() ? fmt::format("{{{}, 0}}", scalar_name(law_.variables[law_.last_brake])) : "{damping, 0}";
     program.keep = lines_of(law_.keep);
     program.update = lines_of(law_.update);
     program.energy = lines_of(law_.energy);
@@ -220,7 +224,8 @@ class CppPrinter {
 
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
-    lines.push_back(fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
+    if (!law_.brake_changes())
+      lines.push_back(fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
     if (uses_flush_)
       lines.push_back(fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
                                   literal(law_.flush_threshold)));
@@ -266,11 +271,12 @@ class CppPrinter {
       if (rests && &variable == &law_.variables[law_.rest_position])
         lines.push_back(scalar_name(variable) + " = dashpot::all_finite(position, position, position) ? position : 0;");
       else if (variable.size == 1)
-        lines.push_back(scalar_name(variable) + " = 0;");
+        lines.push_back(fmt::format("{} = {};", scalar_name(variable), rest_value(variable)));
       else if (rolled_)
         lines.push_back(clearing(variable));
       else
-        for (const std::string& name : variable.element_names) lines.push_back(name + "_ = 0;");
+        for (const std::string& name : variable.element_names)
+          lines.push_back(fmt::format("{}_ = {};", name, rest_value(variable)));
     }
     return lines;
   }
@@ -286,11 +292,12 @@ class CppPrinter {
       if (variable.role != Role::state) continue;
       const std::string note = fmt::format("  // {} [{}]", variable.meaning, variable.unit);
       if (variable.size == 1)
-        lines.push_back(fmt::format("scalar {} = 0;{}", scalar_name(variable), note));
+        lines.push_back(fmt::format("scalar {} = {};{}", scalar_name(variable), rest_value(variable), note));
       else if (rolled_)
         lines.push_back(fmt::format("scalar {}_[{}] = {{}};{}", variable.name, padded(variable.size), note));
       else
-        for (const std::string& name : variable.element_names) lines.push_back(fmt::format("scalar {}_ = 0;{}", name, note));
+        for (const std::string& name : variable.element_names)
+          lines.push_back(fmt::format("scalar {}_ = {};{}", name, rest_value(variable), note));
     }
     return lines;
   }
@@ -311,6 +318,8 @@ class CppPrinter {
         lines.push_back(line);
     return lines;
   }
+
+  std::string rest_value(const Variable& state) const { return state.rest_value == 0 ? "0" : literal(state.rest_value); }
 
   std::string literal(double value) const { return cpp_literal(value, law_.scalar); }
   static const char* scalar() { return "scalar"; }

@@ -16,6 +16,8 @@ struct CppProgram {
   std::vector<std::string> states;
   std::vector<std::string> reset;
   std::vector<std::string> output;
+  std::string command;                 // what output() returns
+  std::string safe_command;            // and after an input that is no number
   std::vector<std::string> keep;
   std::vector<std::string> update;
   std::vector<std::string> energy;

@@ -100,6 +100,8 @@ CodeModel header_model(const Compilation& c) {
   fields["position_unit"] = length_unit(c.network);
   fields["velocity_unit"] = velocity_unit(c.network);
   describe_device(c, fields);
+  fields["command"] = program.command;
+  fields["safe_command"] = program.safe_command;
   for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
   model.lists["banner"] = as_list(banner(c));
   model.lists["reset"] = as_list(program.reset);

@@ -139,4 +139,27 @@ TEST(Evaluate, reset_forgets) {
   EXPECT_EQ(law.stored_energy(), 1);
 }
 
+// Fails if a brake that changes is not what is commanded, or a sample that is no number is not answered with the last
+// safe one, which is the rest value after a reset.
+TEST(Evaluate, brake_that_changes) {
+  HandWritten h;
+  h.law.brake = h.variable("damping", Role::local);
+  h.law.last_brake = h.variable("last_damping", Role::state);
+  h.law.variables[h.law.last_brake].rest_value = 3;
+  h.law.output.push_back({h.law.brake, h.read(h.law.position), "", {}});
+  h.law.output.push_back({h.law.force, h.read(h.law.velocity), "", {}});
+  h.law.keep.push_back({h.law.last_brake, h.read(h.law.brake), "", {}});
+  Evaluation<double> law(h.law);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto expect = [&](const dashpot::command<double>& now, double damping, double force) {
+    EXPECT_EQ(now.damping, damping);
+    EXPECT_EQ(now.force, force);
+  };
+  expect(law.step(nan, 1), 3, 0);
+  expect(law.step(5, 7), 5, 7);
+  expect(law.step(6, nan), 5, 0);
+  law.reset(0);
+  expect(law.step(1, nan), 3, 0);
+}
+
 }  // namespace

@@ -48,6 +48,23 @@ TEST(EmitCpp, repeats_itself) {
   EXPECT_EQ(header_of(network), first);
 }
 
+// Fails if a brake that changes is not what is returned, or not remembered for samples that are no numbers.
+TEST(EmitCpp, returns_a_brake_that_changes) {
+  const SourceFile file("test.json", R"({ "dashpot": 1, "name": "pad", "network": { "spring": 50 } })");
+  Diagnostics diagnostics;
+  Compilation c = *compile(file, {}, std::nullopt, diagnostics);
+  c.law.brake = static_cast<VariableId>(c.law.variables.size());
+  c.law.variables.push_back({"damping", "N·s/m", "b", Role::local, 1, {}});
+  c.law.last_brake = static_cast<VariableId>(c.law.variables.size());
+  c.law.variables.push_back({"last_damping", "N·s/m", "b", Role::state, 1, {}, 2.5});
+  const std::string text = emit_cpp(c, {}, diagnostics)->front().text;
+  EXPECT_TRUE(contains(text, "if (!sampled_) return {last_damping_, 0};")) << text;
+  EXPECT_TRUE(contains(text, "return {damping, force};")) << text;
+  EXPECT_TRUE(contains(text, "    last_damping_ = 2.5;\n")) << text;
+  EXPECT_TRUE(contains(text, "scalar last_damping_ = 2.5;")) << text;
+  EXPECT_FALSE(contains(text, "constexpr scalar damping")) << text;
+}
+
 // Fails if the emitted code does not read like the author's model.
 TEST(EmitCpp, takes_its_names_from_the_author) {
   const std::string text = header_of(R"({ "dashpot": 1, "name": "pad", "source": "a paper", "title": "A pad",

@@ -127,4 +127,20 @@ std::size_t slip_count(const NormalTree& tree) {
   return count;
 }
 
+std::vector<const NormalTree*> slips_of(const NormalTree& tree) {
+  std::vector<const NormalTree*> parts{&tree}, slips;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const NormalTree& part = *parts[i];
+    if (part.kind == NormalTree::Kind::slip) slips.push_back(&part);
+    for (const NormalTree& child : part.children) parts.push_back(&child);
+  }
+  return slips;
+}
+
+std::vector<std::size_t> elements_of(const NormalTree& tree) {
+  std::vector<std::size_t> elements = tree.elements;
+  for (const NormalTree& child : tree.children) unite(elements, elements_of(child));
+  return elements;
+}
+
 }  // namespace dashpot::compiler

@@ -34,4 +34,8 @@ Network linear_part(const Network& network, const NormalForm& form);
 // Slips in it.
 std::size_t slip_count(const NormalTree& tree);
 
+// The slips, breadth first, and all elements in order.
+std::vector<const NormalTree*> slips_of(const NormalTree& tree);
+std::vector<std::size_t> elements_of(const NormalTree& tree);
+
 }  // namespace dashpot::compiler

@@ -18,6 +18,9 @@ class PortDevice {
   static std::optional<PortDevice> of(const Device& device, const Network& network, Diagnostics& diagnostics);
 
   bool is_ideal() const { return device_ == nullptr; }
+  const device_description& description() const { return device_->description; }  // of a device that is not ideal
+  double damping_scale() const { return damping_scale_; }    // from the joint to the tool
+  double position_scale() const { return position_scale_; }  // likewise
   std::optional<double> max_damping() const;  // at the tool [N·s/m]; empty: any
   double tolerance() const;                   // ε of the brake [1]
   double band_low() const;                    // [rad/s]

@@ -1,0 +1,48 @@
+// What is proved about a law on a device (theory, section 6), from the constants that are really emitted.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "certify/energy_lemma.hpp"
+#include "certify/sampled_bound.hpp"
+
+namespace dashpot::compiler {
+
+enum class Proof {
+  none,     // nothing is proved, for `reason`
+  hold,     // theory 6a: any motion, any jitter up to the device's, any switching of the brake above its command
+  sampled,  // theory 6b: any motion, periodic samples
+};
+
+// How much physical damping the loop needs, whoever supplies it.
+struct PassivityBound {
+  Proof proof = Proof::none;
+  double needed = 0;     // S or β T_max, not below it [N·s/m]
+  double frequency = 0;  // that binds [Hz]; 0 where none does
+  std::string reason;    // why nothing is proved, or why it is not the hold certificate; one clause
+};
+
+struct Certificate {
+  SampledLoop loop;
+  PassivityBound bound;
+  double assured = 0;          // physical damping at the tool, at least, under the emitted brake command [N·s/m]
+  double minimum_damping = 0;  // the least that must be added to the brake, uncompensated, before anything is [N·s/m]
+  double added_damping = 0;    // what has been added [N·s/m]
+  bool certified = false;      // assured ≥ needed, compared exactly
+  EnergyLemma energy;
+  double quantisation_stiffness = 0;  // K ≤ 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
+};
+
+// In: a law's constants, the loop around it. Out: the strongest statement that covers them.
+PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop);
+
+// x = ((S − b_device)/share − b)⁺: what the brake's command lacks, not below it; infinite where no command would do.
+double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake);
+
+// The whole certificate of a law whose brake command contains `added_damping`.
+Certificate certify(const UpdateLaw& law, const SampledLoop& loop, double added_damping);
+
+std::string to_text(const Certificate& certificate, motion port_motion);
+
+}  // namespace dashpot::compiler

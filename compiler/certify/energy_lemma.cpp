@@ -1,0 +1,44 @@
+#include "certify/energy_lemma.hpp"
+
+#include "certify/hold_bound.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// What a mode asks of the coefficient of Δu² with the weight w: w d² + (1 − 2wad)²/(4w(1 − a²)). Empty where no amount
+// would do.
+std::optional<Rational> demand(const Rational& a, const Rational& d, const Rational& w) {
+  const Rational skew = 1 - 2 * w * a * d, damped = w * (1 - a * a);
+  if (skew == 0) return w * d * d;
+  if (damped <= 0) return std::nullopt;
+  return w * d * d + skew * skew / (4 * damped);
+}
+
+}  // namespace
+
+EnergyLemma check_energy_lemma(const MotorConstants& motor) {
+  EnergyLemma lemma;
+  lemma.applies = !motor.estimate_drives_modes();
+  if (!lemma.applies) return lemma;
+  const Rational static_excess = Rational(motor.static_stiffness) - 2 * Rational(motor.half_static_stiffness);
+  Rational left = Rational(motor.half_static_stiffness) + Rational(motor.step_stiffness);
+  for (const MotorMode& mode : motor.modes) {
+    const Rational a = exact_decay(motor, mode), d = mode.position_drive;
+    if (d == 0) continue;
+    // c/2 is the least that any weight asks; what an emitted weight asks beyond c itself is more than rounding.
+    const std::optional<Rational> emitted = demand(a, d, mode.energy_weight);
+    if (emitted && *emitted * a <= d) {
+      left -= rounded_up(*emitted);
+      continue;
+    }
+    ++lemma.reweighted_modes;
+    left -= rounded_up(a == 0 ? d : Rational(d / (2 * a)));
+  }
+  lemma.storage = lemma.reweighted_modes == 0 ? EnergyStorage::emitted : EnergyStorage::weighted;
+  lemma.holds = left >= 0 && static_excess == 0;
+  if (left < 0) lemma.shortfall = ceiling(-left);
+  lemma.rounding_share = motor.error_bound + motor.unit_roundoff * double(8 + motor.modes.size());
+  return lemma;
+}
+
+}  // namespace dashpot::compiler

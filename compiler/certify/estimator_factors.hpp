@@ -1,0 +1,34 @@
+// A linear estimator held against the one-sample difference, as factors that are evaluated without cancellation:
+//     Ĝ(w) = E(z) T/(1 − w) = Σ taps[i] wⁱ · Π 1/(1 − p w),    w = z⁻¹,
+// which is 1 at rest. The runtime's pulse_transfer has the same E with its denominator expanded, which cancels for slow
+// filters; here each pole keeps its distance from 1.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <vector>
+
+#include "certify/sampled_loop.hpp"
+
+namespace dashpot::compiler {
+
+struct EstimatorPole {
+  std::complex<double> pole;  // p
+  std::complex<double> loss;  // 1 − p, without cancellation
+};
+
+struct EstimatorFactors {
+  std::vector<double> taps = {1};
+  std::vector<EstimatorPole> poles;
+};
+
+// Empty for an estimator that is not linear in the positions it is given.
+std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);
+
+// An adaptive window (FOAW) chooses at every sample one of the averages over n = 1 … N one-sample differences, with
+// weights w_{n,j}. Whatever it chooses, ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ with γ² = Σ_j max_n w_{n,j}: by Jensen's inequality
+// v̂_k² ≤ Σ_j w_{n(k),j} (Δu_{k−j}/T)², and each difference is used at most once at every age j. For the end fit,
+// w = 1/n, γ² = 1 + 1/2 + … + 1/N. Empty for other estimators.
+std::optional<double> adaptive_window_gain(const SampledLoop& loop);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,163 @@
+#include "certify/needed_damping.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double slack = 1 + 1e-12;  // covers the rounding of the bounds themselves
+
+// (1 + q)/2 − (1 − q)/y = Σ_{k≥2} (−y)^k (k − 1)/(2 (k + 1)!), q = e^{−y}
+double lag_spread(double y, double q) {
+  if (y > 0.5) return (1 + q) / 2 - (1 - q) / y;
+  double sum = 0, term = -y / 2;  // (−y)^k/(k + 1)! at k = 1
+  for (int k = 2; k < 24; ++k) {
+    term *= -y / (k + 1);
+    sum += term * (k - 1) / 2;
+  }
+  return sum;
+}
+
+}  // namespace
+
+NeededDamping::NeededDamping(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator)
+    : estimator_(estimator),
+      follows_estimate_(motor.follows_estimate()),
+      delay_(loop.delay_samples),
+      geometric_(loop.delay_samples + 1, 1.0),
+      stiffness_(loop.sample_period * motor.static_stiffness),
+      rest_(loop.sample_period * motor.step_stiffness),
+      velocity_gain_(motor.velocity_gain) {
+  for (const MotorMode& mode : motor.modes) add_mode(mode, loop.sample_period);
+  if (loop.amplifier_lag > 0) {
+    const double y = loop.sample_period / loop.amplifier_lag;
+    lag_decay_ = std::exp(-y);
+    lag_loss_ = -std::expm1(-y);
+    lag_share_ = lag_loss_ / y;
+    lag_spread_ = std::sqrt(lag_share_ * lag_spread(y, lag_decay_)) * (1 + 1e-13);
+  }
+  scale_ = stiffness_ * (1 + delay_) + std::abs(rest_) + std::abs(velocity_gain_);
+  for (const Mode& mode : modes_)
+    scale_ += std::abs(mode.position) * (1 + delay_) + std::abs(mode.velocity) / mode.loss;
+  const double roundings = 200.0 + delay_ + double(modes_.size()) + double(estimator_.taps.size());
+  roundoff_ = roundings * 0x1p-52;
+  rest_error_ = roundoff_ * loop.sample_period * std::abs(motor.step_stiffness);
+}
+
+void NeededDamping::add_mode(const MotorMode& mode, double sample_period) {
+  constexpr double vanishing = 1e-200;
+  if (mode.decay < vanishing) {
+    vanished_ += sample_period * mode.position_drive;
+    return;
+  }
+  const double position = sample_period * (mode.position_drive / mode.decay);
+  rest_ -= position;
+  modes_.push_back({mode.decay, mode.loss, position, mode.velocity_drive});
+}
+
+NeededDamping::ModeSums NeededDamping::mode_sums(const Arc& arc) const {
+  const Phasor delta = arc.difference(), w = arc.backward(), turning = {-w.imaginary, w.real};  // δ, w, δ′ = jw
+  const double least = arc.least_difference(), largest = std::min(arc.largest_difference(), 1.0);
+  const double centre_square = delta.real * delta.real + delta.imaginary * delta.imaginary, least_square = least * least;
+  ModeSums sums;
+  for (const Mode& mode : modes_) {
+    const double a = mode.decay, loss = mode.loss;
+    const double nearest = loss * loss + a * least_square, distance = loss * loss + a * centre_square;  // of D = |1 − a w|²
+    const double inverse = 1 / std::sqrt(nearest);
+    const Phasor phi = Phasor{loss + a * delta.real, a * delta.imaginary}.inverse();  // 1/(1 − a w)
+    const Phasor steps = phi * phi * turning;                                         // −φ′/a
+    const double square = inverse * inverse;
+    if (mode.velocity != 0) {
+      const ArcModel pole = {phi, -a * steps, inverse, a * square, a * square + 2 * a * a * square * inverse};
+      sums.velocity += mode.velocity * pole;
+    }
+    if (mode.position == 0) continue;
+    const double poisson = loss * (2 - loss) / 2;  // ½ (1 − a²)
+    const double steep = 2 * poisson * a * square * square;
+    sums.position += mode.position * ArcModel{delta * phi, loss * steps, arc.largest_difference() * inverse, loss * square,
+                                              loss * square + 2 * a * loss * square * inverse};
+    sums.poles = sums.poles + mode.position * RealArcModel{0.5 + poisson / distance,
+                                                           -2 * poisson * a * delta.imaginary / (distance * distance),
+                                                           0.5 + poisson * square, steep * largest,
+                                                           steep * (1 + 4 * a * largest * largest * square)};
+  }
+  return sums;
+}
+
+// 1/(1 − p w) of a complex pole. The distance to it shrinks by no more than |p| times the arc's radius.
+std::optional<ArcModel> NeededDamping::pole_model(const Arc& arc, const EstimatorPole& pole) const {
+  const Phasor p = {pole.pole.real(), pole.pole.imag()};
+  const Phasor denominator = Phasor{pole.loss.real(), pole.loss.imag()} + p * arc.difference();
+  const double size = p.magnitude(), nearest = (denominator.magnitude() - size * arc.radius()) * (1 - 1e-13);
+  if (!(nearest > 0)) return std::nullopt;
+  const Phasor phi = denominator.inverse(), w = arc.backward();
+  const double inverse = 1 / nearest, square = inverse * inverse;
+  return ArcModel{phi, -1.0 * (p * Phasor{-w.imaginary, w.real} * phi * phi), inverse, size * square,
+                  size * square + 2 * size * size * square * inverse};
+}
+
+ArcModel NeededDamping::estimate(const Arc& arc, const ModeSums& sums) const {
+  ArcModel gain = polynomial_model(arc, estimator_.taps);
+  for (const EstimatorPole& pole : estimator_.poles) {
+    const std::optional<ArcModel> factor = pole_model(arc, pole);
+    if (!factor) {
+      gain.size = infinite;
+      return gain;
+    }
+    gain = gain * *factor;
+  }
+  return gain * (ArcModel::constant(velocity_gain_) + power_model(arc, 1) * sums.velocity);
+}
+
+NeededDamping::Bounds NeededDamping::on(const Arc& arc) const {
+  const ModeSums sums = mode_sums(arc);
+  const ArcModel geometric = polynomial_model(arc, geometric_);   // Σ_{j≤n} wʲ
+  const ArcModel late = power_model(arc, delay_ + 1);                                      // wⁿ⁺¹
+  ArcModel rest = ArcModel::constant(rest_);
+  rest.size += rest_error_ / roundoff_;
+  if (vanished_ != 0) rest += vanished_ * power_model(arc, 1);
+  ArcModel estimated;
+  if (follows_estimate_) estimated = estimate(arc, sums);
+  if (!std::isfinite(estimated.size)) return {-infinite, infinite};
+  const RealArcModel springs = real_part(stiffness_ * (geometric + ArcModel::constant(-0.5)) + sums.position * geometric);
+  const RealArcModel needed = springs + -1.0 * sums.poles + -1.0 * real_part(late * (rest + estimated));
+  if (lag_share_ == 0) return without_lag(needed, arc.radius());
+
+  const ArcModel force = power_model(arc, delay_) * (ArcModel::constant(stiffness_) + sums.position +
+                                                     difference_model(arc) * (rest + estimated));  // T H
+  const std::optional<ArcModel> lag = pole_model(arc, {lag_decay_, lag_loss_});
+  if (!lag) return {-infinite, infinite};
+  const ArcModel lagged = force * *lag;
+  const RealArcModel late_part = lag_share_ * real_part(power_model(arc, 1) * lagged);
+  return with_lag(needed + late_part, lag_spread_ * lagged, arc.radius());
+}
+
+NeededDamping::Bounds NeededDamping::without_lag(const RealArcModel& needed, double radius) const {
+  const double error = roundoff_ * needed.size;
+  const double reach = (std::abs(needed.slope) + roundoff_ * needed.steepness) * radius + needed.second / 2 * radius * radius;
+  return {needed.value - error, needed.value + (error + reach) * slack};
+}
+
+// With V = (R, Z): S = ½ (R + |V|), |V|″ ≤ |V′|²/|V| + |V″|, and |V| falls by no more than |V′| times the radius. Where
+// that says nothing: S grows with R and with |Z|.
+NeededDamping::Bounds NeededDamping::with_lag(const RealArcModel& R, const ArcModel& Z, double radius) const {
+  const double length = std::hypot(R.value, Z.value.magnitude());
+  const double error = roundoff_ * (R.size + Z.size), value = (R.value + length) / 2;
+  const double steepness = std::hypot(R.steepness, Z.steepness), shortest = length - steepness * radius - error;
+  const double R_reach = (std::abs(R.slope) + roundoff_ * R.steepness) * radius + R.second / 2 * radius * radius;
+  const double Z_reach = (Z.slope.magnitude() + roundoff_ * Z.steepness) * radius + Z.second / 2 * radius * radius;
+  const double highest_R = R.value + R_reach;
+  double over_arc = (highest_R + std::hypot(highest_R, Z.value.magnitude() + Z_reach)) / 2;
+  if (shortest > 0) {
+    const double along = (R.value * R.slope + Z.value.real * Z.slope.real + Z.value.imaginary * Z.slope.imaginary) / length;
+    const double slope = std::abs(R.slope + along) / 2 + roundoff_ * (R.steepness + Z.steepness) + steepness * 2 * error / shortest;
+    const double second = (R.second + std::hypot(R.second, Z.second) + steepness * steepness / shortest) / 2;
+    over_arc = std::min(over_arc, value + slope * radius + second / 2 * radius * radius);
+  }
+  return {value - error, over_arc + error * slack + 1e-15 * std::abs(over_arc)};
+}
+
+}  // namespace dashpot::compiler

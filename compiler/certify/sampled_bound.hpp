@@ -1,0 +1,21 @@
+// The largest damping that the sampled loop needs at any frequency, rigorously (theory, section 6b).
+#pragma once
+
+#include "certify/needed_damping.hpp"
+
+namespace dashpot::compiler {
+
+struct SampledBound {
+  double needed = 0;     // not below the supremum of S, nor more than `precision` above it [N·s/m]
+  double attained = 0;   // not above it [N·s/m]
+  double frequency = 0;  // where it is nearly attained [Hz]
+  std::size_t arcs = 0;  // that were looked at
+};
+
+inline constexpr double bound_precision = 4e-10;  // relative; and 1e-12 of the size of the terms, or rounding if larger
+
+// Branch and bound over all frequencies from 0 to Nyquist: the arc with the highest bound is halved until that bound is
+// within the precision of what is attained. Every bound is outward.
+SampledBound sampled_bound(const NeededDamping& needed, double sample_period);
+
+}  // namespace dashpot::compiler

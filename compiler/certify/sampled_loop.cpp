@@ -1,0 +1,45 @@
+#include "certify/sampled_loop.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// 1/(1 + (v/v_c)²)
+Rational share_at_speed(const SampledLoop& loop) {
+  if (loop.critical_speed == 0) return 1;
+  if (loop.largest_speed == 0) return 0;
+  const Rational ratio = Rational(loop.largest_speed) / Rational(loop.critical_speed);
+  return 1 / (1 + ratio * ratio);
+}
+
+}  // namespace
+
+SampledLoop sampled_loop(const PortDevice& device, double sample_period) {
+  SampledLoop loop;
+  loop.sample_period = sample_period;
+  if (device.is_ideal()) return loop;
+  const device_description& joint = device.description();
+  loop.has_device = true;
+  loop.jitter = joint.loop.jitter;
+  loop.delay_samples = joint.loop.delay_samples;
+  loop.amplifier_lag = joint.motor.amplifier_lag;
+  loop.tolerance = joint.brake.tolerance;
+  loop.largest_speed = joint.encoder.max_speed;  // only their ratio counts: no conversion to the tool
+  loop.critical_speed = joint.brake.critical_speed;
+  loop.max_damping = device.max_damping().value_or(0);
+  loop.residual_damping = joint.brake.residual_damping * device.damping_scale();
+  loop.device_damping = joint.mechanics.damping * device.damping_scale();
+  loop.coulomb_friction = joint.mechanics.coulomb_friction / device.position_scale();
+  loop.encoder_step = joint.encoder.step * device.position_scale();
+  loop.velocity = joint.velocity;
+  loop.joint_encoder_step = joint.encoder.step;
+  return loop;
+}
+
+Rational assured_share(const SampledLoop& loop) { return (1 - Rational(loop.tolerance)) * share_at_speed(loop); }
+
+Rational assured_damping(const SampledLoop& loop, const Rational& brake) {
+  return assured_share(loop) * brake + share_at_speed(loop) * Rational(loop.residual_damping) +
+         Rational(loop.device_damping);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,86 @@
+// The known values of theory, section 6.
+#include <gtest/gtest.h>
+
+#include "motors.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double T = 0.001;  // [s]
+
+// The bound lies between the value and 1e-6 above it; what is attained meets the value to 1e-9.
+void expect_supremum(const SampledBound& bound, double value) {
+  EXPECT_NEAR(bound.attained / value, 1, 1e-9);
+  EXPECT_GE(bound.needed, value * (1 - 1e-12));
+  EXPECT_LE(bound.needed, value * (1 + 1e-6));
+}
+
+// A spring and a backward-difference damper would not need K T/2 + |B|.
+TEST(KnownValues, SpringWithBackwardDifferenceDamper) {
+  for (const double damping : {2.0, -2.0}) {
+    MotorConstants motor = spring_motor(3000);
+    motor.velocity_gain = damping;
+    expect_supremum(bound_of(motor, differencing_loop(T, 1)), 3000 * T / 2 + 2);
+  }
+}
+
+// A spring that acts n samples late would not need (K T/2)(1 + 2n).
+TEST(KnownValues, LateSpring) {
+  for (const unsigned delay : {0u, 1u, 2u, 7u, 40u}) {
+    SampledLoop loop = plain_loop(T);
+    loop.delay_samples = delay;
+    expect_supremum(bound_of(spring_motor(800), loop), 800 * T / 2 * (1 + 2 * delay));
+  }
+}
+
+// With everything in the motor and the exact scheme, the need would not be k0 T/2 + b∞ + Σ (k/λ) tanh(λT/2).
+TEST(KnownValues, EverythingInTheMotor) {
+  MotorConstants motor = spring_motor(500);
+  motor.velocity_gain = 0.7;
+  double value = 500 * T / 2 + 0.7;
+  for (const auto& [stiffness, rate] : {std::pair(1200.0, 2.4), std::pair(900.0, 310.0), std::pair(50.0, 5e4)}) {
+    add_maxwell(motor, stiffness, rate, T, true);
+    value += stiffness / rate * std::tanh(rate * T / 2);
+  }
+  const SampledBound bound = bound_of(motor, differencing_loop(T, 1));
+  expect_supremum(bound, value);
+  EXPECT_NEAR(bound.frequency, 500, 1);
+}
+
+// A damper through an N-sample difference would not need the tabled shares of itself.
+TEST(KnownValues, DamperThroughLongDifferences) {
+  const std::pair<unsigned, double> table[] = {{1, 1}, {3, 0.439}, {5, 0.346}, {10, 0.280}, {15, 0.259}, {20, 0.248}};
+  for (const auto& [window, share] : table) {
+    const SampledBound bound = bound_of(damper_motor(1), differencing_loop(T, window));
+    EXPECT_NEAR(bound.needed, share, 5.1e-4) << window;
+    // The sum of cosines that it is, scanned and refined at 50,000 angles.
+    double largest = 0;
+    for (int i = 0; i <= 50000; ++i) {
+      double sum = 0;
+      for (unsigned j = 1; j <= window; ++j) sum -= std::cos(j * 3.14159265358979323846 * i / 50000) / window;
+      largest = std::max(largest, sum);
+    }
+    EXPECT_GE(bound.needed, largest * (1 - 1e-12));
+    EXPECT_LE(bound.needed, largest * (1 + 2e-6));
+  }
+}
+
+// A velocity-driven Maxwell branch would not need what theory states for a brake that falls short by 2 or 5 per cent.
+TEST(KnownValues, ShortfallOfTheBrake) {
+  const double stiffness = 50, damping = 5;
+  for (const auto& [tolerance, missing, window] : {std::tuple(0.02, 0.075, 1u), std::tuple(0.05, 0.225, 1u), std::tuple(0.02, 0.0, 5u),
+                                                   std::tuple(0.05, 0.0, 15u)}) {
+    MotorConstants motor = damper_motor(-damping);
+    motor.brake = damping;
+    add_maxwell(motor, stiffness, stiffness / damping, T, false);
+    SampledLoop loop = differencing_loop(T, window);
+    loop.delay_samples = 1;
+    loop.tolerance = tolerance;
+    const PassivityBound bound = passivity_bound(motor, loop);
+    ASSERT_EQ(bound.proof, Proof::sampled);
+    EXPECT_NEAR(missing_damping(bound, loop, damping) * (1 - tolerance), missing, 6e-4) << tolerance << " " << window;
+  }
+}
+
+}  // namespace
+}  // namespace dashpot::compiler

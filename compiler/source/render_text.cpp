@@ -60,7 +60,7 @@ Picture cut_to_window(Picture picture) {
   Picture window{{picture.columns.begin() + static_cast<std::ptrdiff_t>(first),
                   picture.columns.begin() + static_cast<std::ptrdiff_t>(last)},
                  picture.underline_begin - first,
-                 std::min(picture.underline_end, last) - first};
+                 std::max(picture.underline_begin + 1, std::min(picture.underline_end, last)) - first};  // a file may end there
   if (first > 0) window.columns.front() = "…";
   if (last < picture.columns.size()) window.columns.back() = "…";
   return window;

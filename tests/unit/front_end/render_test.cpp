@@ -34,6 +34,15 @@ TEST(RenderText, ShowsTheFirstLineOfALongPlace) {
             "      |    ^\n");
 }
 
+// If this fails, what is missing behind a long last line cannot be shown.
+TEST(RenderText, ShowsTheEndOfALongLine) {
+  const SourceFile file("n.json", std::string(200, 'x'));
+  Diagnostics diagnostics;
+  diagnostics.report<DiagnosticCode::unknown_unit>({&file, 200, 200}, "y");
+  const std::string text = render_text(diagnostics);
+  EXPECT_TRUE(text.ends_with("x\n      | " + std::string(text.rfind('x') - text.find("…") - 1, ' ') + "^\n")) << text;
+}
+
 // If this fails, a name in a file can command the reader's terminal.
 TEST(RenderText, ShowsNoControlCharacters) {
   const SourceFile file("n\x1b.json", "\x1b[31m\x7F\xFF\n");

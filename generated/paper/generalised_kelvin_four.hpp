@@ -57,8 +57,9 @@ class generalised_kelvin_four {
     // m = f − b u̇
     const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
         relaxed_force_;
-    sampled_ = dashpot::all_finite(position, velocity, force);
-    if (!sampled_) return {damping, 0};
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    sampled_ = true;
     sampled_position_change_ = position_change;
     sampled_position_ = position;
     return {damping, force};

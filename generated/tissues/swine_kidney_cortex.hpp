@@ -48,8 +48,9 @@ class swine_kidney_cortex {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = static_stiffness * position;
-    sampled_ = dashpot::all_finite(position, velocity, force);
-    if (!sampled_) return {damping, 0};
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    sampled_ = true;
     sampled_position_ = position;
     return {damping, force};
   }

@@ -49,8 +49,9 @@ class maxwell_damper_at_tool {
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = velocity_gain * velocity + relaxed_force_;
-    sampled_ = dashpot::all_finite(position, velocity, force);
-    if (!sampled_) return {damping, 0};
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    sampled_ = true;
     sampled_velocity_ = velocity;
     return {damping, force};
   }

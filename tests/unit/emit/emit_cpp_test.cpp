@@ -58,7 +58,7 @@ TEST(EmitCpp, returns_a_brake_that_changes) {
   c.law.last_brake = static_cast<VariableId>(c.law.variables.size());
   c.law.variables.push_back({"last_damping", "N·s/m", "b", Role::state, 1, {}, 2.5});
   const std::string text = emit_cpp(c, {}, diagnostics)->front().text;
-  EXPECT_TRUE(contains(text, "if (!sampled_) return {last_damping_, 0};")) << text;
+  EXPECT_TRUE(contains(text, "if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};")) << text;
   EXPECT_TRUE(contains(text, "return {damping, force};")) << text;
   EXPECT_TRUE(contains(text, "    last_damping_ = 2.5;\n")) << text;
   EXPECT_TRUE(contains(text, "scalar last_damping_ = 2.5;")) << text;

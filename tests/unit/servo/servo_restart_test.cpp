@@ -78,6 +78,29 @@ TEST_F(ServoRestart, RunAfterARestartIsThatOfAFreshModel) {
   EXPECT_NEAR(restarted.energy, fresh.energy + credit, 1e-12);
 }
 
+// Broken, a coil that went on falling in the period of a fault would be credited after it with what it had before.
+TEST_F(ServoRestart, CreditsNoMoreAfterAFaultThanTheCoilHas) {
+  device_description lagging = scripted_description();
+  lagging.encoder.step = 0;
+  lagging.brake.coil_lag = 0.002;
+  lagging.brake.safe_damping = 0;
+  device = scripted_device(lagging);
+  device.on_read([](std::size_t read, device_sample& sample) {
+    sample.position = read > 22 ? 0.001 : 0.0;
+    return read == 21 ? device_status::fault : device_status::ok;
+  });
+  model.on_output([](std::size_t output, command<double>& wanted) { wanted = {output < 20 ? 15.0 : 0.0, 0.0}; });
+  const servo_summary summary = run(24, [](std::size_t write, servo_control& control) {
+    if (write == 21) control.reset(), control.start();
+  });
+  brake_coil<double> coil(lagging.brake);
+  for (int period = 0; period < 22; ++period) coil.advance(period < 20 ? std::sqrt(15.0) : 0.0, 0.001);
+  coil.advance(0, 0.001);
+  EXPECT_EQ(summary.faults.total(), 1u);
+  EXPECT_GE(summary.energy, 0);
+  EXPECT_LE(summary.energy, coil.damping() * 0.001 * 0.001 / 0.001);
+}
+
 // Broken, a deadline missed before the start would be held against the run after it.
 TEST_F(ServoRestart, DeadlinesMissedInIdleDoNotCountAgainstTheRun) {
   options.start_running = false;

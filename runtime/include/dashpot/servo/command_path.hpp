@@ -49,7 +49,7 @@ class command_path {
     fault_report found = monitor_.check_wake_up(missed);
     if (!found) found = monitor_.check_sample(status, sample);
     if (!found && monitor_.is_fresh()) found = respond(sample);
-    if (found) demand_ = safe_;
+    if (found) demand_ = safe_, forget_coil();
     return found;
   }
 
@@ -115,6 +115,10 @@ class command_path {
     }
     if (monitor_.periods_since_last() > 1) energy_.hold(output_.applied_force, assured);
   }
+
+  // Periods may have passed without an account of the coil: from nothing on it is never credited with too much, for two
+  // coils under the same demand keep their order.
+  void forget_coil() noexcept { actuator_.reset(); }
 
   // Of the hold that ends with this period's sample [s].
   double hold_time() const noexcept { return monitor_.periods_since_last() * sample_period_; }

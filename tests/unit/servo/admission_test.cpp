@@ -60,6 +60,53 @@ constexpr mismatch mismatches[] = {
      "device 'arm' states a sample period of 0 s; a loop needs one above zero"},
 };
 
+// A model that was made for what it is told, and an estimator that is called what it is told.
+struct told_model : scripted_model {
+  model_facts made_for;
+  model_facts facts() const noexcept { return made_for; }
+};
+struct told_estimator : scripted_estimator {
+  const char* called = "";
+  const char* name() const noexcept { return called; }
+};
+
+struct told_loop {
+  explicit told_loop(const model_facts& facts, const loop_facts& loop) : device(loop.device) {
+    model.made_for = facts;
+    estimator.called = loop.estimator;
+    options.identity = loop.identity;
+    options.duration = 0.01;
+    options.outputs.log = log.file();
+  }
+  admission run() { return servo_loop(model, device, estimator, options, simulated_clock{}).run().verdict; }
+
+  told_model model;
+  scripted_device device;
+  told_estimator estimator;
+  servo_options options;
+  log_text log;
+};
+
+// Broken, a verdict would be reached and not obeyed: each difference by itself must keep the loop from the device.
+TEST_P(Admission, LoopLeavesTheDeviceAlone) {
+  model_facts model = certified;
+  loop_facts loop = fitting_loop();
+  GetParam().change(model, loop);
+  told_loop with(model, loop);
+  EXPECT_EQ(with.run(), GetParam().verdict);
+  EXPECT_EQ(with.log.text(), GetParam().text + std::string("\n"));
+  EXPECT_EQ(with.device.reads(), 0u);
+  EXPECT_EQ(with.device.written().size(), 0u);
+  EXPECT_EQ(with.model.resets(), 0u);
+}
+
+// Broken, the test above would pass because no such loop ever runs.
+TEST(AdmittedLoop, RunsOnTheDeviceOfTheCertificate) {
+  told_loop with(certified, fitting_loop());
+  EXPECT_EQ(with.run(), admission::admitted);
+  EXPECT_EQ(with.device.reads(), 10u);
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, Admission, testing::ValuesIn(mismatches),
                          [](const auto& which) { return std::string(which.param.name); });
 

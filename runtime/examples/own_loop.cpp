@@ -1,5 +1,5 @@
-// A servo loop of one's own: an emitted model, one's own device class, and the loop between them. This device is a mass
-// of 1 kg on a soft spring, so that the program runs anywhere; an encoder, a motor and a brake take its place.
+// A servo loop around a device of one's own: a mass of 1 kg on a soft spring, so that the program runs anywhere. Yours
+// talks to its encoder in read(), and to its motor and brake in write().
 #include <cmath>
 #include <cstdio>
 
@@ -8,43 +8,37 @@
 
 #include "second_order_maxwell.hpp"
 
-class my_device {
- public:
+struct my_device {
+  my_device() {
+    facts.encoder = {1e-5, dashpot::quantiser::floor, -0.1, 0.1, 2.0};  // step, rounding, range [m], top speed [m/s]
+    facts.velocity.window = 15;                                         // samples
+    facts.motor.max_torque = 5.0;                                       // [N], for it moves in translation
+    facts.brake = {dashpot::brake_kind::eddy_current, 20.0};            // at most [N·s/m]
+    facts.brake.safe_damping = 5.0;                                     // after every fault [N·s/m]
+  }
   dashpot::device_status read(dashpot::device_sample& sample) noexcept {
-    sample.position = description_.encoder.step * std::floor(position_ / description_.encoder.step);
-    sample.sequence = ++sequence_;
+    sample.position = facts.encoder.step * std::floor(position / facts.encoder.step);
+    sample.sequence = ++samples;
     return dashpot::device_status::ok;
   }
-
   dashpot::device_status write(const dashpot::actuation& wanted) noexcept {
-    velocity_ += (wanted.motor_torque - wanted.brake_damping * velocity_ + 30.0 * (0.02 - position_)) * 0.001;
-    position_ += velocity_ * 0.001;
+    const double force = wanted.motor_torque - wanted.brake_damping * velocity + 30.0 * (0.02 - position);  // [N]
+    velocity += force * facts.loop.sample_period;
+    position += velocity * facts.loop.sample_period;
     return dashpot::device_status::ok;
   }
+  const dashpot::device_description& description() const noexcept { return facts; }
 
-  const dashpot::device_description& description() const noexcept { return description_; }
-
- private:
-  dashpot::device_description description_ = [] {
-    dashpot::device_description device;
-    device.loop.sample_period = dashpot::generated::second_order_maxwell::sample_period;
-    device.encoder = {1e-5, dashpot::quantiser::floor, -0.1, 0.1, 2.0};  // step, rounding, range [m], top speed [m/s]
-    device.velocity.window = 15;
-    device.motor.max_torque = 5.0;  // [N]: this device moves in translation
-    device.brake = {dashpot::brake_kind::eddy_current, 20.0};  // at most [N·s/m]
-    device.brake.safe_damping = 5.0;
-    return device;
-  }();
-  std::uint32_t sequence_ = 0;
-  double position_ = 0;  // [m]
-  double velocity_ = 0;  // [m/s]
+  dashpot::device_description facts;  // at 1 kHz, where nothing else is said
+  std::uint32_t samples = 0;
+  double position = 0, velocity = 0;  // [m], [m/s]
 };
 
 int main() {
   dashpot::generated::second_order_maxwell tissue;
   my_device device;
-  const dashpot::device_description& facts = device.description();
-  dashpot::any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
+  const double period = device.facts.loop.sample_period;
+  dashpot::any_estimator<double> estimator(device.facts.velocity, period, device.facts.encoder.step);
   dashpot::servo_options options;
   options.identity.name = "my_device";
   options.duration = 1.0;  // [s]

@@ -16,10 +16,13 @@
 #include "qemu_board.hpp"
 #include "stream_pair.hpp"
 
+#include DASHPOT_BOARD_MODEL_HEADER
+
 namespace dashpot {
 namespace {
 
 using namespace board;
+using model = DASHPOT_BOARD_MODEL_CLASS;
 
 // An emulator on a busy machine pauses: what would be a fault on hardware is none here, except where a test cuts the
 // wire.
@@ -85,7 +88,7 @@ class servo_session {
   std::function<void(faulty_wire&)> order_;
   std::atomic<bool> ordered_ = false;
   std::atomic<bool> done_ = false;
-  generated::stand_in_model model_;
+  model model_;
 
  public:
   faulty_wire wire;
@@ -95,7 +98,7 @@ class servo_session {
   any_estimator<double> estimator_;
 
  public:
-  servo_loop<generated::stand_in_model, board_device, any_estimator<double>> loop;
+  servo_loop<model, board_device, any_estimator<double>> loop;
 
  private:
   std::thread carrier_;

@@ -18,7 +18,7 @@
 namespace dashpot::tests {
 namespace {
 
-// DASHPOT_REALTIME_SECONDS=60 makes the long run of it.
+// A minute in RealClock.MinuteAtOneKilohertz (CMakeLists.txt).
 double seconds() {
   const char* const text = std::getenv("DASHPOT_REALTIME_SECONDS");
   return text != nullptr ? std::atof(text) : 2.0;

@@ -2,7 +2,7 @@
 // takes.
 #include <dashpot/servo/servo_loop.hpp>
 
-#include "stand_in/second_order_maxwell.hpp"
+#include "second_order_maxwell.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-// The stand-in model and a plain estimator, both able to misbehave where a test tells them to.
+// The law of Fig. 5 and a plain estimator, both able to misbehave where a test tells them to.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include <dashpot/estimators/backward_difference.hpp>
 
-#include "stand_in/second_order_maxwell.hpp"
+#include "second_order_maxwell.hpp"
 
 namespace dashpot::tests {
 

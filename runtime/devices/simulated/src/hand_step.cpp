@@ -18,10 +18,12 @@ double force_of(const hand& user, const hand_state& state, const motion_point& i
   return force;
 }
 
-// Answers a drive r of the hand's states, at a stage, with their slopes k at both: (I − h 𝒜⊗A) k = r.
+// Answers a drive r of the hand's states, at a stage, with their slopes k at both: (I − h 𝒜⊗A) k = r. The number of
+// states is known at compile time: where samples come with jitter, no two steps are equally long, and each is solved.
+template <unsigned n_>
 class hand_step::solver {
  public:
-  solver(const hand& user, double duration) : user_(user), n_(user.states), duration_(duration) {
+  solver(const hand& user, double duration) : user_(user), duration_(duration) {
     for (unsigned row = 0; row < 2 * n_; ++row) {
       for (unsigned column = 0; column < 2 * n_; ++column) {
         const double coefficient = gauss::a[row / n_][column / n_] * user.dynamics[row % n_][column % n_];
@@ -33,7 +35,7 @@ class hand_step::solver {
   }
 
   // `drive` acts at stage `at` alone.
-  void push(unsigned at, const double (&drive)[hand::max_states]) {
+  void push(unsigned at, const double* drive) {
     for (unsigned row = 0; row < 2 * n_; ++row) {
       slope_[row] = 0;
       for (unsigned j = 0; j < n_; ++j) slope_[row] += inverse_[row][at * n_ + j] * drive[j];
@@ -51,9 +53,7 @@ class hand_step::solver {
   }
 
  private:
-  static constexpr unsigned most = 2 * hand::max_states;
-
-  // Gauss and Jordan: in the end left_ is the identity, and inverse_ what was its inverse. Without pivoting: a passive
+    // Gauss and Jordan: in the end left_ is the identity, and inverse_ what was its inverse. Without pivoting: a passive
   // hand has A + Aᵀ ≤ 0, so I − hA/4 has a symmetric part of at least 1, and what is left of the second stage,
   // 4/3 (I − hA/4) − 2/3 I + 1/3 (I − hA/4)⁻¹, one of at least 2/3.
   void eliminate(unsigned k) {
@@ -75,58 +75,83 @@ class hand_step::solver {
   }
 
   const hand& user_;
-  unsigned n_;
   double duration_;
-  double left_[most][most];
-  double inverse_[most][most];
-  double slope_[most];
+  double left_[2 * n_][2 * n_];
+  double inverse_[2 * n_][2 * n_];
+  double slope_[2 * n_];
 };
 
 // ż = A (y + B x_d) − B u̇ and f = C (y + B x_d) + D (ẋ_d − u̇), for a unit of each x_d, u̇ and y in turn.
 hand_step::hand_step(const hand& user, double duration)
     : states_(user.states), duration_(duration), damping_(user.damping) {
-  solver answer(user, duration);
+  static_assert(hand::max_states == 6);
+  switch (states_) {
+    case 1: solve<1>(user); break;
+    case 2: solve<2>(user); break;
+    case 3: solve<3>(user); break;
+    case 4: solve<4>(user); break;
+    case 5: solve<5>(user); break;
+    case 6: solve<6>(user); break;
+    default: solve_without_states();
+  }
+}
+
+void hand_step::solve_without_states() {
+  for (unsigned stage = 0; stage < 2; ++stage) {
+    for (unsigned at = 0; at < 2; ++at) {
+      force_per_position_[stage][at] = 0;
+      coupling_[stage][at] = stage == at ? -damping_ : 0;
+    }
+  }
+}
+
+template <unsigned n>
+void hand_step::solve(const hand& user) {
+  solver<n> answer(user, duration_);
   for (unsigned at = 0; at < 2; ++at) {
     push_position(user, answer, at);
     push_velocity(user, answer, at);
   }
-  for (unsigned j = 0; j < states_; ++j) push_state(user, answer, j);
+  for (unsigned j = 0; j < n; ++j) push_state(user, answer, j);
 }
 
-void hand_step::push_position(const hand& user, solver& answer, unsigned at) {
-  double drive[hand::max_states];  // A B
+template <unsigned n>
+void hand_step::push_position(const hand& user, solver<n>& answer, unsigned at) {
+  double drive[n];  // A B
   double prompt = 0;               // C B
-  for (unsigned i = 0; i < states_; ++i) {
+  for (unsigned i = 0; i < n; ++i) {
     drive[i] = 0;
-    for (unsigned j = 0; j < states_; ++j) drive[i] += user.dynamics[i][j] * user.input[j];
+    for (unsigned j = 0; j < n; ++j) drive[i] += user.dynamics[i][j] * user.input[j];
     prompt += user.output[i] * user.input[i];
   }
   answer.push(at, drive);
-  for (unsigned i = 0; i < states_; ++i) end_per_position_[i][at] = answer.end(i);
+  for (unsigned i = 0; i < n; ++i) end_per_position_[i][at] = answer.end(i);
   for (unsigned stage = 0; stage < 2; ++stage) {
     force_per_position_[stage][at] = answer.force(stage) + (stage == at ? prompt : 0);
   }
 }
 
-void hand_step::push_velocity(const hand& user, solver& answer, unsigned at) {
+template <unsigned n>
+void hand_step::push_velocity(const hand& user, solver<n>& answer, unsigned at) {
   answer.push(at, user.input);
-  for (unsigned i = 0; i < states_; ++i) end_per_velocity_[i][at] = -answer.end(i);
+  for (unsigned i = 0; i < n; ++i) end_per_velocity_[i][at] = -answer.end(i);
   for (unsigned stage = 0; stage < 2; ++stage) {
     coupling_[stage][at] = -answer.force(stage) - (stage == at ? damping_ : 0);
   }
 }
 
 // A state drives the others at both stages alike.
-void hand_step::push_state(const hand& user, solver& answer, unsigned j) {
-  double drive[hand::max_states];
-  for (unsigned i = 0; i < states_; ++i) {
+template <unsigned n>
+void hand_step::push_state(const hand& user, solver<n>& answer, unsigned j) {
+  double drive[n];
+  for (unsigned i = 0; i < n; ++i) {
     drive[i] = user.dynamics[i][j];
     end_per_state_[i][j] = i == j ? 1 : 0;
   }
   for (auto& per_state : force_per_state_) per_state[j] = user.output[j];
   for (unsigned at = 0; at < 2; ++at) {
     answer.push(at, drive);
-    for (unsigned i = 0; i < states_; ++i) end_per_state_[i][j] += answer.end(i);
+    for (unsigned i = 0; i < n; ++i) end_per_state_[i][j] += answer.end(i);
     for (unsigned stage = 0; stage < 2; ++stage) force_per_state_[stage][j] += answer.force(stage);
   }
 }

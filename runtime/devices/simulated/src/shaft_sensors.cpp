@@ -5,6 +5,8 @@
 namespace dashpot::simulated {
 
 double shaft_sensors::cubic::position(double share) const noexcept {
+  if (share == 0) return before.position;
+  if (share == 1) return after.position;
   const double rest = 1 - share;
   const double bend = duration() * share * rest * (before.velocity * rest - after.velocity * share);
   return before.position * rest * rest * (1 + 2 * share) + after.position * share * share * (1 + 2 * rest) + bend;

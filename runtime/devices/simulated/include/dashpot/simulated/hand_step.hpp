@@ -33,10 +33,17 @@ class hand_step {
                       const double (&velocity)[2]) const noexcept;
 
  private:
+  template <unsigned n>
   class solver;
-  void push_position(const hand& user, solver& answer, unsigned at);
-  void push_velocity(const hand& user, solver& answer, unsigned at);
-  void push_state(const hand& user, solver& answer, unsigned j);
+  template <unsigned n>
+  void solve(const hand& user);
+  void solve_without_states();
+  template <unsigned n>
+  void push_position(const hand& user, solver<n>& answer, unsigned at);
+  template <unsigned n>
+  void push_velocity(const hand& user, solver<n>& answer, unsigned at);
+  template <unsigned n>
+  void push_state(const hand& user, solver<n>& answer, unsigned j);
 
   unsigned states_ = 0;
   double duration_ = 0;

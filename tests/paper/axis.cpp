@@ -21,7 +21,7 @@ double round_number_above(double value) { return round_step(value); }
 double round_number_below(double value) { return 1 / round_step(1 / value); }
 
 std::string plain_number(double value) {
-  return value >= 1e-3 && value < 1e5 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);
+  return value >= 1e-3 && value < 1e6 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);
 }
 
 Axis logarithmic_axis(Interval range) {

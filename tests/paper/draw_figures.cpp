@@ -13,6 +13,7 @@
 #include "fig8.hpp"
 #include "fig9.hpp"
 #include "page.hpp"
+#include "z_width.hpp"
 
 namespace {
 
@@ -27,6 +28,10 @@ Table table_of_choices() {
 void write(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path) << text;
   fmt::print("  {}\n", path.string());
+}
+
+void print_progress(std::size_t done, std::size_t all) {
+  fmt::print(stderr, "\r  map of walls: {} of {}{}", done, all, done == all ? "\n" : "");
 }
 
 }  // namespace
@@ -50,5 +55,6 @@ int main(int count, char** arguments) {
   add(show(measure_fig9()));
   add(show(measure_fig12()));
   add(show(measure_fig13()));
+  add(show(measure_z_width(map_places(false), (folder / "z_width.csv").string(), print_progress)));
   write(folder / "index.html", index_page(sections, table_of_choices()));
 }

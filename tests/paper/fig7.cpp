@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <dashpot/estimators/estimator_names.hpp>
-
 #include <cmath>
 
 #include "chosen.hpp"
+#include "compared_estimators.hpp"
 #include "zero_phase.hpp"
 
 namespace dashpot::paper {
@@ -33,44 +32,6 @@ Experiment slow_motion() {
   return experiment;
 }
 
-unsigned whole(const char* name) { return static_cast<unsigned>(std::lround(chosen(name))); }
-
-struct Named {
-  std::string name;
-  velocity_description velocity;
-};
-
-Named named(const char* name, estimator_kind kind) {
-  Named it{name, {}};
-  it.velocity.estimator = kind;
-  it.velocity.window = 1;
-  it.velocity.acceleration = chosen(kind == estimator_kind::kalman ? "fig7.kalman_acceleration" : "fig7.acceleration_bound");
-  it.velocity.filter_factor = chosen("fig7.filter_factor");
-  return it;
-}
-
-std::vector<Named> estimators() {
-  const velocity_description paper = rig().description.velocity;
-  std::vector<Named> all = {named("difference of one sample", estimator_kind::backward_difference),
-                            {"Butterworth, 4th order, 120 Hz: the paper's", paper}};
-  Named second{"Butterworth, 2nd order, 120 Hz", paper};
-  second.velocity.order = 2;
-  Named window = named("difference over 15 samples", estimator_kind::backward_difference);
-  Named slope = named("least squares over 15 samples", estimator_kind::least_squares);
-  window.velocity.window = slope.velocity.window = whole("fig7.window");
-  Named end = named("FOAW, end fit, up to 64 samples", estimator_kind::foaw);
-  end.velocity.window = whole("fig7.foaw_window");
-  Named best = end;
-  best.name = "FOAW, best fit, up to 64 samples";
-  best.velocity.best_fit = true;
-  for (const Named& each : {second, window, slope, end, best, named("inverse time", estimator_kind::inverse_time),
-                            named("Kalman, 200 rad/s²", estimator_kind::kalman),
-                            named("super-twisting, 200 rad/s²", estimator_kind::super_twisting),
-                            named("tracking differentiator, 200 rad/s², 20 samples", estimator_kind::tracking_differentiator)})
-    all.push_back(each);
-  return all;
-}
-
 // rms of v̂_k − v(t_k − delay), the truth between samples on straight lines.
 double error_at(const std::vector<double>& estimate, const std::vector<double>& truth, double delay) {
   const auto back = static_cast<std::size_t>(std::floor(delay));
@@ -94,7 +55,7 @@ double best_delay(const std::vector<double>& estimate, const std::vector<double>
   return best;
 }
 
-Fig7::Estimate estimate_of(const Named& which, const Experiment& experiment, Fig7& fig7) {
+Fig7::Estimate estimate_of(const NamedEstimator& which, const Experiment& experiment, Fig7& fig7) {
   const double arm = experiment.plant.arm_radius, period = experiment.plant.loop.sample_period;
   const Trace trace = run(experiment, {which.name, [] { return std::make_unique<NoLaw>(); }, which.velocity, 0});
   Fig7::Estimate estimate{which.name, {}, 0, 0, 0, 0};
@@ -169,7 +130,7 @@ Figure figure_of(const Fig7& fig7) {
 Fig7 measure_fig7() {
   Fig7 fig7;
   const Experiment experiment = slow_motion();
-  for (const Named& which : estimators()) fig7.estimates.push_back(estimate_of(which, experiment, fig7));
+  for (const NamedEstimator& which : compared_estimators()) fig7.estimates.push_back(estimate_of(which, experiment, fig7));
   fig7.quantum = smallest_step(fig7.estimates[0].velocity);
   fig7.averaged = centred_average(fig7.estimates[0].velocity, 100);
   fig7.crossing_delay = crossing_delay(fig7);

@@ -53,6 +53,7 @@ Json json_of(const Compilation& c) {
           {"kelvin", {{"glass_compliance", to_double(creep.glass_compliance)},
                       {"fluidity", to_double(creep.fluidity)},
                       {"elements", kelvin}}},
+          {"contact", c.network.contact ? Json({{"at", c.network.contact->at}, {"hysteresis", c.decomposition.encoder_step}}) : Json(nullptr)},
           {"scheme", name_of(c.law.scheme)},
           {"rate", c.rate},
           {"device", c.device ? Json(c.device->name) : Json(nullptr)},
@@ -87,6 +88,7 @@ std::string text_of(const Compilation& c) {
   text += pace_text(c) + kelvin_text(c) + "\n" + to_text(c.decomposition, c.network);
   text += fmt::format("passivity             {:.6g} of extra damping for any delay of the estimate; sampled: not computed\n",
                       choice.extra_damping_any_delay.value_or(0));
+  if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";
   text += fmt::format("cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
                       output.additions, output.multiplications, update.additions, update.multiplications, update.guards,
                       output.states);

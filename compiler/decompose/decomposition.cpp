@@ -61,6 +61,7 @@ class Decomposer {
     candidate.reason = split.reason;
     candidate.wanted_damping = split.damping;
     candidate.damping = std::min(split.damping, device_.max_damping().value_or(split.damping));
+    if (network_.contact) leave_nothing_to_compensate(candidate);
     for (StateInput input : inputs_to_compare(split)) candidate.state_inputs.push_back(merit(candidate, input, realisation));
     const StateInputMerit& best = best_of(candidate.state_inputs);
     candidate.state_input = best.state_input;
@@ -73,6 +74,15 @@ class Decomposer {
   }
 
  private:
+  // More than b∞ would be taken back by the motor through the estimate, also in the samples in which the tool touches or
+  // leaves: that can inject energy.
+  void leave_nothing_to_compensate(Candidate& candidate) const {
+    const double feedthrough = to_double(form_.feedthrough_damping);
+    if (candidate.damping <= feedthrough) return;
+    candidate.damping = candidate.wanted_damping = feedthrough;
+    candidate.reason += "; with the contact no more than the feedthrough damping, so that the motor compensates nothing";
+  }
+
   Split observed(const char* name, ObserverRule rule) const {
     if (!tree_)
       return {name, to_double(zero_frequency_damping(form_)),
@@ -84,6 +94,7 @@ class Decomposer {
   // `position` first: it is preferred where nothing else tells the inputs apart.
   std::vector<StateInput> inputs_to_compare(const Split& split) const {
     if (choices_.state_input) return {*choices_.state_input};
+    if (network_.contact) return {StateInput::position};
     const bool velocity_may_drive = device_.estimate_sums_to_displacement();
     if (split.fixed_input && (velocity_may_drive || *split.fixed_input == StateInput::position))
       return {*split.fixed_input};
@@ -117,6 +128,10 @@ class Decomposer {
 bool refuse_impossible_choices(const Network& network, const Choices& choices, const PortDevice& device,
                                Diagnostics& diagnostics) {
   bool refused = contradicts_itself(choices, diagnostics);
+  if (network.contact && choices.state_input.value_or(StateInput::position) != StateInput::position) {
+    diagnostics.report<DiagnosticCode::contact_needs_position>(network.contact->span, name_of(*choices.state_input));
+    refused = true;
+  }
   if (choices.state_input && *choices.state_input != StateInput::position && !device.estimate_sums_to_displacement()) {
     diagnostics.report<DiagnosticCode::velocity_input_drifts>({}, name_of(*choices.state_input), network.name);
     refused = true;
@@ -173,6 +188,7 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
     diagnostics.report<DiagnosticCode::unknown_decomposition>({}, *name);
     return std::nullopt;
   }
+  result.encoder_step = port->encoder_step();
   result.reason = reason_for_input(result.choice(), choices, *port);
   warn_about(result.choice(), result, form, diagnostics);
   return result;
@@ -188,6 +204,15 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
                         100 * c.largest_error, c.reason,
                         c.capped() ? fmt::format(" (capped from {:.8g})", c.wanted_damping) : "");
   text += fmt::format("chosen             {}: {}\n", decomposition.choice().name, decomposition.reason);
+  return text;
+}
+
+std::string contact_text(const Decomposition& decomposition, const Network& network) {
+  if (!network.contact) return "";
+  const char* unit = network.port_motion == motion::rotation ? "rad" : "m";
+  std::string text = fmt::format("at {} {}; brake and motor 0 while the tool is free", network.contact->at, unit);
+  if (decomposition.encoder_step > 0)
+    text += fmt::format(", from a gap of {:.6g} {} on, one step of the encoder, or as soon as they would pull", decomposition.encoder_step, unit);
   return text;
 }
 

@@ -40,6 +40,7 @@ struct Decomposition {
   std::vector<Candidate> candidates;  // the named ones in the order of theory, section 4, then a given damping
   std::size_t chosen;
   std::string reason;       // why the chosen state input
+  double encoder_step = 0;  // at the tool; 0 of an ideal device [m] or [rad]
   LinearForm realisation;   // the canonical form with the spring shares of the observer's realisation, for `nodal`
 
   const Candidate& choice() const { return candidates[chosen]; }
@@ -55,5 +56,8 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);
 
 std::string to_text(const Decomposition& decomposition, const Network& network);
+
+// What a contact does to the command; empty without one.
+std::string contact_text(const Decomposition& decomposition, const Network& network);
 
 }  // namespace dashpot::compiler

@@ -48,6 +48,8 @@ double PortDevice::tolerance() const { return is_ideal() ? 0 : device_->descript
 double PortDevice::band_low() const { return 2 * pi * device_->description.loop.band_low; }
 double PortDevice::band_high() const { return 2 * pi * device_->description.loop.band_high; }
 
+double PortDevice::encoder_step() const { return is_ideal() ? 0 : device_->description.encoder.step * position_scale_; }
+
 double PortDevice::reference_frequency() const {
   return is_ideal() ? 0 : 2 * pi * device_->description.loop.reference_frequency;
 }

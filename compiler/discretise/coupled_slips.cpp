@@ -43,6 +43,14 @@ CoupledSlips::Block CoupledSlips::block_of(const NormalTree& part, const Real& s
   return block;
 }
 
+void CoupledSlips::keep_elsewhere(const NormalTree& part) {
+  for (Block& block : blocks_) {
+    if (block.part != &part) continue;
+    block.modes.reset();
+    block.is_elsewhere = true;
+  }
+}
+
 double CoupledSlips::smallest_loss() const {
   double smallest = 1;
   for (const Block& block : blocks_)
@@ -60,12 +68,13 @@ void CoupledSlips::declare() {
   }
 }
 
-ExpressionId CoupledSlips::write_output(VariableId change) {
+ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_change) {
   UpdateLaw& law = writer_.law();
   Coupling coupling{name_, table_.nodes, {}, {}, {}};
   for (const Block& block : blocks_) coupling.held.push_back(write_held(block));
   for (const Block& block : blocks_) coupling.elongation.push_back(block.elongation);
   for (const NormalTree* slip : table_.slips) coupling.slips.push_back(slip->elements);
+  coupling.surface_change = surface_change;
   const VariableId force = writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
   writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers", origins());
   law.output.back().coupling = static_cast<std::uint32_t>(law.couplings.size());
@@ -75,6 +84,7 @@ ExpressionId CoupledSlips::write_output(VariableId change) {
 
 // π = F0 + Σ a F; nothing for a lone damper.
 VariableId CoupledSlips::write_held(const Block& block) {
+  if (block.is_elsewhere) return held_elsewhere_;
   if (!block.modes) return block.spring_force;
   if (!block.has_spring()) return block.modes->decayed_sum();
   const VariableId held = writer_.scalar(joined(block.name, "held"), writer_.force(), "force at rest", Role::local);

@@ -17,11 +17,17 @@ class CoupledSlips {
   // The component outlives this.
   CoupledSlips(LawWriter& writer, const Network& network, const Real& sample_period, const NormalTree& component);
 
+  // The states of this block, one of the component's, are written by others; π is set before the output is written, no
+  // variable for 0.
+  void keep_elsewhere(const NormalTree& block);
+  void set_held_elsewhere(VariableId held) { held_elsewhere_ = held; }
+
   double smallest_loss() const;  // min (1 − a) over all modes; 1 without
   void declare();                // to be called when the law's mode form is settled
 
-  // The component's force, from the tool's displacement in this sample.
-  ExpressionId write_output(VariableId change);
+  // The component's force, from the tool's displacement in this sample. Where the tool pushes and cannot pull, that is what
+  // the surface's change would be if it stuck to the tool, and `surface_change` becomes what it is.
+  ExpressionId write_output(VariableId change, VariableId surface_change = nothing);
   void write_update();
   ExpressionId energy();  // nothing without springs
 
@@ -33,8 +39,10 @@ class CoupledSlips {
     VariableId spring_force = nothing;  // F0, of the static stiffness
     VariableId elongation = nothing;    // δ
 
+    bool is_elsewhere = false;
+
     const LinearForm& form() const { return part->form; }
-    bool has_spring() const { return part->form.static_stiffness > 0; }
+    bool has_spring() const { return !is_elsewhere && part->form.static_stiffness > 0; }
   };
 
   Block block_of(const NormalTree& part, const Real& sample_period);
@@ -47,6 +55,7 @@ class CoupledSlips {
   SlipTable table_;
   std::string name_;
   std::vector<Block> blocks_;
+  VariableId held_elsewhere_ = no_variable;
 };
 
 }  // namespace dashpot::compiler

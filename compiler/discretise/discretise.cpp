@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "discretise/contact_surface.hpp"
 #include "discretise/coupled_slips.hpp"
 #include "discretise/element_names.hpp"
 #include "discretise/mode_bank.hpp"
@@ -66,14 +67,20 @@ void drop_unread_locals(UpdateLaw& law) {
 
 class LawBuilder {
  public:
-  LawBuilder(const Network& network, const NormalForm& form, const Candidate& choice, const Choices& choices,
+  LawBuilder(const Network& network, const NormalForm& form, const Decomposition& decomposition, const Choices& choices,
              const Real& sample_period)
-      : law_(blank_law(choice, choices, sample_period)),
+      : law_(blank_law(decomposition.choice(), choices, sample_period)),
         writer_(law_, network.port_motion),
         network_(network),
         form_(form.linear),
-        modes_(writer_, form.linear.modes, choice.state_input, sample_period,
+        sample_period_(sample_period),
+        modes_(writer_, form.linear.modes, law_.state_input, sample_period,
                names_of_modes(form.linear.modes, network, writer_), "") {
+    if (network.contact) contact_.emplace(writer_, network.contact->at, decomposition.encoder_step);
+    if (contact_ && !form.components.empty()) {
+      add_behind_contact(form);
+      return;
+    }
     for (const NormalTree& component : form.components) add(component, sample_period);
   }
 
@@ -83,7 +90,7 @@ class LawBuilder {
     modes_.declare();
     for (const auto& group : slips_) group->declare();
     for (const auto& component : coupled_) component->declare();
-    write_output();
+    contact_ ? write_contact_output() : write_output();
     write_update();
     write_energy();
     drop_unread_locals(law_);
@@ -102,6 +109,15 @@ class LawBuilder {
     slips_.back()->add(component);
   }
 
+  // Where the surface goes depends on all that is behind it: one tree, in which the states of the linear part at the tool
+  // stay where they are without slips.
+  void add_behind_contact(const NormalForm& form) {
+    whole_ = whole_tree(form, network_);
+    const bool has_linear = whole_.children.front().kind == NormalTree::Kind::block && whole_.kind == NormalTree::Kind::parallel;
+    coupled_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period_, whole_));
+    if (has_linear) coupled_.back()->keep_elsewhere(whole_.children.front());
+  }
+
   bool has_slips() const { return !slips_.empty() || !coupled_.empty(); }
 
   void settle_form() {
@@ -118,6 +134,11 @@ class LawBuilder {
     law_.velocity = writer_.scalar("velocity", writer_.velocity(), "estimate of u̇", Role::input);
     law_.force = writer_.scalar("force", writer_.force(), "motor's part m", Role::local);
     law_.stored = writer_.scalar("stored", "J", "energy in the springs", Role::local);
+    if (contact_) {
+      contact_->declare();
+      change_ = contact_->change();
+      return;
+    }
     const bool follows_change = modes_.follows_position() || has_slips();
     if (follows_change || form_.static_stiffness > 0)
       law_.rest_position = writer_.scalar("last_position", writer_.length(), "u of the sample before", Role::state);
@@ -144,6 +165,40 @@ class LawBuilder {
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
   }
 
+  // f′ = k0 s + (Σc) Δs + S, or f − b∞ Δs/h where slips are behind the surface.
+  void write_contact_output() {
+    const Real& feedthrough = form_.feedthrough_damping;
+    contact_->write_approach();
+    const VariableId opposing = writer_.scalar("opposing", writer_.force(), "f′, the network's force but for b∞ Δs/h", Role::local);
+    ExpressionId sum = nothing;
+    if (has_slips()) {
+      coupled_.front()->set_held_elsewhere(write_held());
+      sum = coupled_.front()->write_output(contact_->approach(), contact_->change());
+      contact_->write_surface();
+      sum = plus_product(sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h", -feedthrough / sample_period_, contact_->change());
+    } else {
+      contact_->write_change(form_.static_stiffness + modes_.step_stiffness() + feedthrough / sample_period_, write_held());
+      contact_->write_surface();
+      sum = plus_product(sum, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, contact_->now());
+      sum = plus_product(sum, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
+                         modes_.step_stiffness(), contact_->change());
+      if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
+    }
+    if (sum == nothing) sum = writer_.constant("none", writer_.force(), "of a free tool", 0);
+    writer_.assign(law_.output, opposing, sum, "f′ = f − b∞ Δs/h", {effective_elements(network_)});
+    contact_->write_command(opposing, feedthrough);
+  }
+
+  // π = k0 s₋ + S, of the linear part at the tool; no variable for a lone damper.
+  VariableId write_held() {
+    ExpressionId held = plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, contact_->before());
+    if (!modes_.empty()) held = writer_.plus(held, writer_.read(modes_.decayed_sum()));
+    if (held == nothing) return no_variable;
+    const VariableId force = writer_.scalar("held_force", writer_.force(), "of the linear part if the surface stayed", Role::local);
+    writer_.assign(law_.output, force, held, "π = k0 s₋ + S");
+    return force;
+  }
+
   // b∞ − b. Where the brake's number is b∞, rounded, nothing is left that a velocity estimate should be read for.
   Real feedthrough_of_motor() const {
     const bool all_in_brake = rounded(form_.feedthrough_damping, law_.scalar) == law_.damping;
@@ -156,7 +211,8 @@ class LawBuilder {
     modes_.write_update(modes_.follows_position() ? writer_.kept(change_) : nothing,
                         modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing);
     if (law_.rest_position != no_variable)
-      writer_.assign(law_.update, law_.rest_position, writer_.read(writer_.kept(law_.position)), "u₋ = u");
+      writer_.assign(law_.update, law_.rest_position, writer_.read(writer_.kept(contact_ ? contact_->now() : law_.position)),
+                     contact_ ? "s₋ = s" : "u₋ = u");
     for (const Variable& variable : law_.variables)
       if (variable.size > largest_straight_line) law_.lanes = law_.scalar == ScalarType::float64 ? 8 : 16;
   }
@@ -187,9 +243,12 @@ class LawBuilder {
   LawWriter writer_;
   const Network& network_;
   const LinearForm& form_;
+  Real sample_period_;
   ModeBank modes_;
+  std::optional<ContactSurface> contact_;
   std::vector<std::unique_ptr<SlipGroup>> slips_;
   std::vector<std::unique_ptr<CoupledSlips>> coupled_;
+  NormalTree whole_{};  // behind a contact
   VariableId change_ = nothing;
 };
 
@@ -224,7 +283,7 @@ UpdateLaw discretise(const Network& network, const NormalForm& form, const Decom
   const Real sample_period = 1 / Real(rate);
   warn_about_fast_relaxations(network, realised.linear, to_double(sample_period), diagnostics);
   if (choices.scalar == ScalarType::float32) warn_about_float_range(network, realised.linear, diagnostics);
-  return LawBuilder(network, realised, choice, choices, sample_period).build();
+  return LawBuilder(network, realised, decomposition, choices, sample_period).build();
 }
 
 }  // namespace dashpot::compiler

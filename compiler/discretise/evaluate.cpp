@@ -32,7 +32,7 @@ void Evaluation<Scalar>::reset(Scalar position) {
   for (std::size_t i = 0; i < variables_.size(); ++i)
     std::fill(variables_[i].begin(), variables_[i].end(), static_cast<Scalar>(law_.variables[i].rest_value));
   if (law_.rest_position != no_variable && all_finite(position, position, position))
-    variables_[law_.rest_position][0] = position;
+    variables_[law_.rest_position][0] = law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
   sampled_ = false;
 }
 
@@ -91,8 +91,12 @@ void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const S
     solver.held[i] = coupling.held[i] == no_variable ? Scalar(0) : variables_[coupling.held[i]][0];
   slip_tree<Scalar> tree(solver.nodes.data(), coupling.node_count(), solver.parts.data(), solver.corners.data(),
                          solver.merged.data());
-  variables_[statement.target][0] =
-      tree.step(value(statement.value, 0), solver.held.data(), solver.elongation.data(), solver.sign.data());
+  const Scalar change = value(statement.value, 0);
+  if (coupling.is_pushed())
+    variables_[statement.target][0] = tree.push(change, solver.held.data(), solver.elongation.data(), solver.sign.data(),
+                                                variables_[coupling.surface_change][0]);
+  else
+    variables_[statement.target][0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
   for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
     if (coupling.elongation[i] != no_variable) variables_[coupling.elongation[i]][0] = solver.elongation[i];
 }

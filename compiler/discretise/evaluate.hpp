@@ -21,6 +21,7 @@ class Evaluation {
   void update();
   command<Scalar> step(Scalar position, Scalar velocity);
   Scalar stored_energy();
+  Scalar at(VariableId scalar) const { return variables_[scalar][0]; }
 
  private:
   // The tables of coupled slips and the room for their steps.

@@ -65,6 +65,9 @@ ExpressionId LawWriter::where(ExpressionId condition, ExpressionId left, Express
 
 ExpressionId LawWriter::constant(const std::string& name, const std::string& unit, const std::string& meaning,
                                  const Real& value) {
+  const auto known = std::find_if(law_.coefficients.begin(), law_.coefficients.end(),
+                                  [&](const Coefficient& coefficient) { return coefficient.name == name; });
+  if (known != law_.coefficients.end()) return node(Operation::constant, static_cast<std::uint32_t>(known - law_.coefficients.begin()));
   law_.coefficients.push_back({name, unit, meaning, {rounded(value, law_.scalar)}, {}});
   return node(Operation::constant, static_cast<std::uint32_t>(law_.coefficients.size() - 1));
 }

@@ -58,6 +58,7 @@ class LawWriter {
   // `left` where `condition` is above zero, else `right`.
   ExpressionId where(ExpressionId condition, ExpressionId left, ExpressionId right);
   ExpressionId sum(VariableId vector) { return node(Operation::sum, read(vector)); }
+  // The constant of that name, made where there is none yet.
   ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, const Real& value);
   ExpressionId constants(const VectorName& name, const std::string& unit, const std::string& meaning,
                          const std::vector<Real>& values, const Names& names);

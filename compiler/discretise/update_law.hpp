@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,10 +88,14 @@ struct Coupling {
   std::vector<VariableId> held;                // π of each block [N]; no_variable where it is 0
   std::vector<VariableId> elongation;          // local, δ of each block [m]; no_variable where nothing follows it
   std::vector<std::vector<std::size_t>> slips; // of each slip, indices into Network::elements
+  VariableId surface_change = no_variable;     // local, of a tree that is pushed and not pulled: Δs [m]
 
+  bool is_pushed() const { return surface_change != no_variable; }
   int node_count() const { return static_cast<int>(nodes.size()); }
   int corners() const { return slip_tree_corners(nodes.data(), node_count()); }
-  int operations() const { return slip_tree_operations(nodes.data(), node_count()); }
+  int operations() const {
+    return is_pushed() ? slip_tree_push_operations(nodes.data(), node_count()) : slip_tree_operations(nodes.data(), node_count());
+  }
 };
 
 // How one mode is advanced; chosen by the error bound.
@@ -124,6 +129,7 @@ struct UpdateLaw {
   VariableId position = 0;  // the inputs
   VariableId velocity = 0;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
+  std::optional<double> surface_at;  // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
   VariableId force = 0;     // m_k, the motor's command [N]
   VariableId brake = no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with

@@ -125,9 +125,13 @@ class CppPrinter {
     lines.push_back(fmt::format("int {}_sign[{}] = {{}};", name, coupling.slips.size()));
     lines.push_back(fmt::format("dashpot::slip_tree_scratch<scalar, {}, {}, {}> {}_scratch;", coupling.nodes.size(),
                                 coupling.slips.size(), coupling.corners(), name));
+    if (coupling.is_pushed()) lines.push_back(fmt::format("scalar {}_change = 0;", name));
     append(lines, assignment(law_.variables[statement.target], 0) +
-                      fmt::format("dashpot::slip_tree<scalar>({0}, {0}_scratch).step({1}, {0}_held, {0}_elongation, {0}_sign);",
-                                  name, expression(statement.value, 0)));
+                      fmt::format("dashpot::slip_tree<scalar>({0}, {0}_scratch).{1}({2}, {0}_held, {0}_elongation, {0}_sign{3});", name,
+                                  coupling.is_pushed() ? "push" : "step", expression(statement.value, 0),
+                                  coupling.is_pushed() ? fmt::format(", {}_change", name) : ""));
+    if (coupling.is_pushed())
+      lines.push_back(assignment(law_.variables[coupling.surface_change], 0) + name + "_change;");
     for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
       if (coupling.elongation[i] != no_variable)
         lines.push_back(assignment(law_.variables[coupling.elongation[i]], 0) + fmt::format("{}_elongation[{}];", name, i));
@@ -269,7 +273,7 @@ class CppPrinter {
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       if (rests && &variable == &law_.variables[law_.rest_position])
-        lines.push_back(scalar_name(variable) + " = dashpot::all_finite(position, position, position) ? position : 0;");
+        lines.push_back(fmt::format("{} = dashpot::all_finite(position, position, position) ? {} : 0;", scalar_name(variable), rest_position()));
       else if (variable.size == 1)
         lines.push_back(fmt::format("{} = {};", scalar_name(variable), rest_value(variable)));
       else if (rolled_)
@@ -279,6 +283,10 @@ class CppPrinter {
           lines.push_back(fmt::format("{}_ = {};", name, rest_value(variable)));
     }
     return lines;
+  }
+
+  std::string rest_position() const {
+    return law_.surface_at ? fmt::format("dashpot::pushed_in({}, position)", literal(*law_.surface_at)) : "position";
   }
 
   std::string clearing(const Variable& variable) {

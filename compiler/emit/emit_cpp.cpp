@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <dashpot/estimators/estimator_names.hpp>
 
 #include "emit/cpp_program.hpp"
@@ -63,6 +64,7 @@ std::vector<std::string> banner(const Compilation& c) {
   if (choice.capped())
     facts.push_back(fmt::format("  capped from {} {} at what the brake can give", choice.wanted_damping, unit));
   facts.push_back("states: " + c.decomposition.reason);
+  if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
   facts.push_back(fmt::format("passivity: under any delay of the estimate {:.6g} {} of extra damping; sampled: not computed",
                               choice.extra_damping_any_delay.value_or(0), unit));
   facts.push_back(fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
@@ -115,12 +117,16 @@ CodeModel header_model(const Compilation& c) {
   return model;
 }
 
+constexpr double test_increment = 0x1p-12;  // of the position in a sample of the emitted test
+
 // How far rounding may take the force from the closed form, relative to the peak: the modes' bound, one roundoff for each
 // of the products and sums of a sample, and in double as many for the closed form's own.
 double test_tolerance(const UpdateLaw& law) {
   const double roundoff = law.scalar == ScalarType::float64 ? 0x1p-53 : 0x1p-24;
   const Cost cost = cost_of(law, law.output);
-  return law.relative_error_bound + roundoff * double(2 * (8 + cost.additions + cost.multiplications));
+  // Positions near a contact are rounded against where its surface lies, and a sample answers their change.
+  const double position_rounding = roundoff * std::abs(law.surface_at.value_or(0)) / (test_increment / 2);
+  return position_rounding + law.relative_error_bound + roundoff * double(2 * (8 + cost.additions + cost.multiplications));
 }
 
 CodeModel test_model(const Compilation& c) {
@@ -131,6 +137,7 @@ CodeModel test_model(const Compilation& c) {
   fields["rate"] = fmt::format("{:#}", c.rate);
   fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.linear.static_stiffness));
   fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.linear.feedthrough_damping));
+  fields["start"] = fmt::format("{:#}", c.law.surface_at.value_or(0));
   fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
   fields["decays"] = c.law.scheme == Scheme::exact ? "rate * period" : "std::log1p(rate * period)";
   for (const Mode& mode : c.form.linear.modes)

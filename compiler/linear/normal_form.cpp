@@ -121,6 +121,18 @@ Network linear_part(const Network& network, const NormalForm& form) {
   return linear;
 }
 
+NormalTree whole_tree(const NormalForm& form, const Network& network) {
+  NormalTree block{NormalTree::Kind::block, form.linear, 0, {}, {}};
+  const Network linear = linear_part(network, form);
+  for (std::size_t i = 0; i < linear.elements.size(); ++i)
+    if (linear.elements[i].has_effect) block.elements.push_back(i);
+  if (block.elements.empty() && form.components.size() == 1) return form.components.front();
+  NormalTree whole{NormalTree::Kind::parallel, {}, 0, {}, {}};
+  if (!block.elements.empty()) whole.children.push_back(std::move(block));
+  whole.children.insert(whole.children.end(), form.components.begin(), form.components.end());
+  return whole.children.size() == 1 ? whole.children.front() : whole;
+}
+
 std::size_t slip_count(const NormalTree& tree) {
   std::size_t count = tree.kind == NormalTree::Kind::slip ? 1 : 0;
   for (const NormalTree& child : tree.children) count += slip_count(child);

@@ -31,6 +31,9 @@ std::optional<NormalForm> normal_form(const Network& network);
 // The same network with everything that is behind a slip marked as without effect.
 Network linear_part(const Network& network, const NormalForm& form);
 
+// All of it as one tree: with a contact, whatever is behind the surface answers as one.
+NormalTree whole_tree(const NormalForm& form, const Network& network);
+
 // Slips in it.
 std::size_t slip_count(const NormalTree& tree);
 

@@ -16,10 +16,6 @@ void warn_about_tunables(const Network& network, Diagnostics& diagnostics) {
 }  // namespace
 
 std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics) {
-  if (network.contact) {
-    diagnostics.report<DiagnosticCode::contact_needs_linear>(network.contact->span);
-    return std::nullopt;
-  }
   std::optional<NormalForm> form = normal_form(network);
   if (!form) diagnostics.report<DiagnosticCode::slips_outside_tree>(network.name_span, network.name);
   return form;

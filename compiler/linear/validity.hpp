@@ -5,8 +5,7 @@
 
 namespace dashpot::compiler {
 
-// The normal form of a network whose step takes a number of operations known beforehand. Refuses: contact, and slips
-// outside a tree.
+// The normal form of a network whose step takes a number of operations known beforehand. Refuses: slips outside a tree.
 std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics);
 
 // Warns: no relaxation inside the stated frequency band; tunable parameters taken at their default.

@@ -27,7 +27,8 @@ def transcripts_wanted():
     wanted = {path.stem: of_network(path.relative_to(SOURCE)) for path in sorted(SOURCE.glob("networks/paper/*.json"))}
     fig_5 = "networks/paper/second_order_maxwell.json"
     wanted["with_a_device"] = [["explain", fig_5, "--device", PANTOGRAPH],
-                               ["explain", "networks/paper/kelvin.json", "--device", PANTOGRAPH]]
+                               ["explain", "networks/paper/kelvin.json", "--device", PANTOGRAPH],
+                               ["explain", "networks/paper/virtual_wall.json", "--device", PANTOGRAPH]]
     wanted["choices"] = [
         ["compile", fig_5, "--print", "law", "--scheme", "backward-euler", "--state-input", "nodal"],
         ["compile", fig_5, "--print", "law", "--state-input", "velocity", "--decomposition", "zero-frequency"],

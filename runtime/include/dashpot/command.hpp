@@ -52,4 +52,10 @@ constexpr Scalar clamp_to(Scalar limit, Scalar value) noexcept {
   return below > -limit ? below : -limit;
 }
 
+// How far a tool at `position` has pushed in a surface that lies at `at`, unloaded; 0 before it.
+template <class Scalar>
+constexpr Scalar pushed_in(Scalar at, Scalar position) noexcept {
+  return position > at ? position - at : Scalar(0);
+}
+
 }  // namespace dashpot

@@ -54,6 +54,12 @@ constexpr int slip_tree_operations(const slip_node<Scalar>* nodes, int count) no
   return operations;
 }
 
+// And of a push.
+template <class Scalar>
+constexpr int slip_tree_push_operations(const slip_node<Scalar>* nodes, int count) noexcept {
+  return slip_tree_operations(nodes, count) + 9;
+}
+
 // Corners that the curves of a tree need room for.
 template <class Scalar>
 constexpr int slip_tree_corners(const slip_node<Scalar>* nodes, int count) noexcept {
@@ -112,8 +118,23 @@ class slip_tree {
     find_signs(change, held, sign);
     add_up(held);
     share(change, elongation);
+    return force_at(change);
+  }
+
+  // The same where the tool pushes and cannot pull: `change` is what the root's elongation would be if it stuck to the
+  // tool, `surface` what it is, never less: the force is 0 where it is more.
+  constexpr Scalar push(Scalar change, const Scalar* held, Scalar* elongation, int* sign, Scalar& surface) noexcept {
+    draw_curves(held);
+    const Scalar near = free_elongation();
+    find_signs(near > change ? near : change, held, sign);
+    add_up(held);
     const slip_part_state<Scalar>& root = parts_[0];
-    return root.hold == slip_hold::affine ? root.stiffness * change + root.force : root.force;
+    const Scalar free = root.hold == slip_hold::affine ? -root.force * root.compliance : near;
+    const bool is_free = free > change;
+    surface = is_free ? free : change;
+    share(surface, elongation);
+    const Scalar force = force_at(surface);
+    return is_free || force < Scalar(0) ? Scalar(0) : force;
   }
 
  private:
@@ -210,6 +231,17 @@ class slip_tree {
     Reader<Way> reader(curve);
     while (!reader.at_end() && reader.next() < at) reader.skip();
     return reader.read(at);
+  }
+
+  constexpr Scalar force_at(Scalar change) const noexcept {
+    const slip_part_state<Scalar>& root = parts_[0];
+    return root.hold == slip_hold::affine ? root.stiffness * change + root.force : root.force;
+  }
+
+  // Where the root's curve crosses 0, to within what a reading of it loses.
+  constexpr Scalar free_elongation() const noexcept {
+    const Range range = range_at<Series>(curve<Series>(0), Scalar(0));
+    return range.open_low ? range.high : range.low;
   }
 
   constexpr void draw_curves(const Scalar* held) noexcept {

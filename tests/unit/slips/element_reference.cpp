@@ -13,11 +13,6 @@ using Matrix = std::vector<Vector>;
 
 constexpr int at_ground = -1, at_tool = -2;
 
-int row_of(compiler::NodeIndex node) {
-  if (node == compiler::ground) return at_ground;
-  return node == compiler::tool ? at_tool : static_cast<int>(node) - 2;
-}
-
 Matrix square(std::size_t size) { return Matrix(size, Vector(size, Number(0))); }
 
 // Gauss elimination with row pivots; several right-hand sides as columns.
@@ -51,11 +46,13 @@ Matrix inverse(const Matrix& a) {
 
 ElementReference::ElementReference(const compiler::Network& network, double sample_period) {
   inner_ = static_cast<int>(network.nodes.size()) - 2;
+  if (network.contact) add_contact(network.contact->at);
   for (const compiler::Element& element : network.elements) {
     Branch branch{row_of(element.a), row_of(element.b)};
     if (const auto* slip = std::get_if<compiler::Slip>(&element.law)) {
       slips_.push_back(branch);
-      yields_.push_back(slip->yield_force);
+      lowest_.push_back(-slip->yield_force);
+      highest_.push_back(slip->yield_force);
       continue;
     }
     if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) branch.spring = branch.companion = spring->stiffness;
@@ -64,6 +61,20 @@ ElementReference::ElementReference(const compiler::Network& network, double samp
   }
   signs_.assign(slips_.size(), 0);
   build();
+}
+
+int ElementReference::row_of(compiler::NodeIndex node) const {
+  if (node == compiler::ground) return at_ground;
+  if (node == compiler::tool) return surface_row_ >= 0 ? surface_row_ : at_tool;
+  return static_cast<int>(node) - 2;
+}
+
+void ElementReference::add_contact(double at) {
+  surface_row_ = inner_++;
+  at_ = position_ = at;
+  slips_.push_back({at_tool, surface_row_});
+  lowest_.push_back(0);
+  highest_.push_back(Number("1e300"));
 }
 
 void ElementReference::build() {
@@ -98,7 +109,7 @@ void ElementReference::add_to(Vector& rows, const Branch& branch, const Number& 
 }
 
 double ElementReference::step(double position) {
-  const Number change = Number(position) - position_;
+  const Number change = Number(position) - position_;  // without a contact; with it from where the surface is
   position_ = position;
   const auto inner = static_cast<std::size_t>(inner_);
   const Vector rest(inner, Number(0));
@@ -127,6 +138,10 @@ double ElementReference::step(double position) {
     branch.force += branch.spring * stretched;
   }
   for (std::size_t i = 0; i < slips_.size(); ++i) pull(slips_[i], slip_forces[i]);
+  if (surface_row_ >= 0) {
+    surface_ += moved[static_cast<std::size_t>(surface_row_)];
+    position_ = at_ + surface_;
+  }
   return force.convert_to<double>();
 }
 
@@ -152,7 +167,7 @@ Vector ElementReference::forces_for(const Vector& without_slips) const {
   Vector forces(slips_.size(), Number(0));
   std::vector<std::size_t> stuck;
   for (std::size_t i = 0; i < slips_.size(); ++i) {
-    forces[i] = signs_[i] * yields_[i];
+    forces[i] = signs_[i] == 0 ? Number(0) : signs_[i] < 0 ? lowest_[i] : highest_[i];
     if (signs_[i] == 0) stuck.push_back(i);
   }
   Matrix give = square(stuck.size()), gap(stuck.size(), Vector(1, Number(0)));
@@ -172,10 +187,10 @@ bool ElementReference::correct(const Vector& gap, const Vector& forces) {
   for (std::size_t i = 0; i < slips_.size(); ++i) {
     Number moves = gap[i];
     for (std::size_t j = 0; j < slips_.size(); ++j) moves -= slip_give_[i][j] * forces[j];
-    const bool gives_up = signs_[i] == 0 && abs(forces[i]) > yields_[i];
+    const bool gives_up = signs_[i] == 0 && (forces[i] < lowest_[i] || forces[i] > highest_[i]);
     const bool turns_back = signs_[i] != 0 && signs_[i] * moves < 0;
     if (!gives_up && !turns_back) continue;
-    signs_[i] = turns_back ? 0 : forces[i] > 0 ? 1 : -1;
+    signs_[i] = turns_back ? 0 : forces[i] > highest_[i] ? 1 : -1;
     return false;
   }
   return true;

@@ -3,6 +3,8 @@
 // In each sample the inner nodes minimise Φ (theory, section 5). Its dual, ½σᵀGσ − wᵀσ over |σ_i| ≤ Y_i, exists once every
 // node is tied to where it was, and every slip let creep, by 1e-30 of the network's stiffness; 40 digits remain. The box
 // problem is solved by changing the first slip that is wrong until none is: G being definite, that ends (Murty 1974).
+//
+// A contact is one more of them, between the tool and the surface: it holds any force from 0 up.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -24,6 +26,8 @@ class ElementReference {
   // In: the displacement of this sample [m]. Out: the force that the network opposes [N].
   double step(double position);
 
+  double surface() const { return surface_.convert_to<double>(); }  // of a contact, from where it lies unloaded [m]
+
   double stored_energy() const;       // [J]
   double largest_force() const { return largest_force_; }  // of any element so far [N]
 
@@ -38,6 +42,8 @@ class ElementReference {
     Number force = 0;      // K d of a spring [N]
   };
 
+  int row_of(compiler::NodeIndex node) const;
+  void add_contact(double at);
   void build();
   Number elongation(const Branch& branch, const Vector& inner, const Number& tool) const;
   void add_to(Vector& rows, const Branch& branch, const Number& force) const;
@@ -46,8 +52,10 @@ class ElementReference {
   Vector forces_for(const Vector& without_slips) const;
 
   std::vector<Branch> linear_, slips_;
-  Vector yields_;
+  Vector lowest_, highest_;  // what a slip holds [N]
   int inner_ = 0;
+  int surface_row_ = -1;     // with a contact: of the node that takes the tool's place
+  Number at_ = 0, surface_ = 0;
   Matrix give_;       // A = (H + ε)⁻¹ over the inner nodes
   Matrix slip_give_;  // G = S A Sᵀ + η
   std::vector<int> signs_;

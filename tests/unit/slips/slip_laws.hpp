@@ -9,7 +9,8 @@
 
 namespace dashpot::testing {
 
-// Every third seed is left as it comes; for the others the next network with coupled slips is taken.
+// Every third seed is left as it comes; for the others the next network with coupled slips is taken. Every fourth is behind
+// a contact.
 inline compiler::Network slip_network(std::uint64_t seed) {
   NetworkRecipe recipe;
   recipe.most_nodes = 9;
@@ -17,6 +18,7 @@ inline compiler::Network slip_network(std::uint64_t seed) {
   compiler::Network network = random_network(1000 * seed, recipe);
   for (std::uint64_t i = 1; seed % 3 != 0 && most_coupled(compiled(network, compiler::Scheme::exact)) < 2; ++i)
     network = random_network(1000 * seed + i, recipe);
+  if (seed % 4 == 0) network.contact = compiler::Contact{0, {}};
   network.name = "slips_" + std::to_string(seed);
   return network;
 }

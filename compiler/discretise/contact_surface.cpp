@@ -1,0 +1,90 @@
+#include "discretise/contact_surface.hpp"
+
+namespace dashpot::compiler {
+
+ContactSurface::ContactSurface(LawWriter& writer, double at, double encoder_step)
+    : writer_(writer), at_(at), encoder_step_(encoder_step) {}
+
+void ContactSurface::declare() {
+  surface_ = writer_.scalar("surface", writer_.length(), "s, how far the surface is pushed in", Role::state);
+  if (at_ != 0) depth_ = writer_.scalar("depth", writer_.length(), "of the tool behind the unloaded surface", Role::local);
+  approach_ = writer_.scalar("approach", writer_.length(), "Δ, the surface's change if it stuck to the tool", Role::local);
+  change_ = writer_.scalar("surface_change", writer_.length(), "Δs since the sample before", Role::local);
+  gap_ = writer_.scalar("gap", writer_.length(), "between tool and surface", Role::local);
+  now_ = writer_.scalar("surface_now", writer_.length(), "s", Role::local);
+  writer_.law().rest_position = surface_;
+  writer_.law().surface_at = at_;
+}
+
+void ContactSurface::write_approach() {
+  UpdateLaw& law = writer_.law();
+  if (at_ == 0) {
+    depth_ = law.position;
+  } else {
+    const ExpressionId at = writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies", Real(at_));
+    writer_.assign(law.output, depth_, writer_.subtract(writer_.read(law.position), at), "");
+  }
+  writer_.assign(law.output, approach_, writer_.subtract(writer_.read(depth_), writer_.read(surface_)), "Δ = u − s₋");
+}
+
+// f(Δ) ≥ 0 where Δ ≥ −π/g
+void ContactSurface::write_change(const Real& stiffness, VariableId held) {
+  std::vector<Statement>& output = writer_.law().output;
+  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
+  const VariableId recovery =
+      writer_.scalar("surface_recovery", writer_.length(), "the surface's change if nothing touched it", Role::local);
+  const ExpressionId compliance = writer_.constant("recovery_compliance", writer_.compliance(), "−1/g", -1 / stiffness);
+  writer_.assign(output, recovery, writer_.multiply(compliance, held == no_variable ? none : writer_.read(held)), "f = 0 at Δs = −π/g");
+  const ExpressionId ahead = writer_.subtract(writer_.read(recovery), writer_.read(approach_));
+  writer_.assign(output, change_, writer_.where(ahead, writer_.read(recovery), writer_.read(approach_)), "f ≥ 0");
+}
+
+void ContactSurface::write_surface() {
+  std::vector<Statement>& output = writer_.law().output;
+  writer_.assign(output, gap_, writer_.subtract(writer_.read(change_), writer_.read(approach_)), "gap = s − u");
+  const ExpressionId moved = writer_.flush(writer_.add(writer_.read(surface_), writer_.read(change_)));
+  writer_.assign(output, now_, writer_.where(writer_.read(gap_), moved, writer_.read(depth_)), "s = s₋ + Δs");
+}
+
+void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_damping) {
+  UpdateLaw& law = writer_.law();
+  const double damping = law.damping;
+  const Real left_to_motor = rounded(feedthrough_damping, law.scalar) == damping ? Real(0) : Real(feedthrough_damping - damping);
+  ExpressionId felt = writer_.read(opposing), motor = felt;
+  if (feedthrough_damping > 0) {
+    const ExpressionId feedthrough = writer_.constant("feedthrough", writer_.damping(), "b∞", feedthrough_damping);
+    felt = writer_.add(felt, writer_.multiply(feedthrough, writer_.read(law.velocity)));
+  }
+  if (left_to_motor != 0) {
+    const ExpressionId gain = writer_.constant("velocity_gain", writer_.damping(), "b∞ − b", left_to_motor);
+    motor = writer_.add(motor, writer_.multiply(gain, writer_.read(law.velocity)));
+  }
+  const VariableId released = writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
+  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
+  const ExpressionId release = release_of(opposing, felt, none);
+  writer_.assign(law.output, released, release, "above 0 where the tool is free");
+  if (damping > 0) {
+    law.brake = writer_.scalar("brake", writer_.damping(), "b", Role::local);
+    law.damping = 0;
+    const ExpressionId held = writer_.constant("contact_damping", writer_.damping(), "b while the tool touches", Real(damping));
+    writer_.assign(law.output, law.brake, writer_.where(writer_.read(released), none, held), "b = 0 of a free tool");
+    law.last_brake = writer_.kept(law.brake);
+  }
+  writer_.assign(law.output, law.force, writer_.where(writer_.read(released), none, motor), "m = f − b u̇ of a tool that touches");
+}
+
+// The state lets go with f; the command only where f′ + b∞ v̂ < 0, or beyond a gap that the encoder tells from none, or
+// where nothing pushes any more.
+ExpressionId ContactSurface::release_of(VariableId opposing, ExpressionId felt, ExpressionId none) {
+  const VariableId pull = writer_.scalar("pull", writer_.force(), "what the tool would feel, the other way", Role::local);
+  writer_.assign(writer_.law().output, pull, writer_.subtract(none, felt), "−(f′ + b∞ v̂)");
+  ExpressionId opened = writer_.read(gap_);
+  if (encoder_step_ > 0) {
+    const ExpressionId step = writer_.constant("encoder_step", writer_.length(), "of the gap before the command lets go", Real(encoder_step_));
+    const ExpressionId pushed = writer_.where(writer_.read(opposing), none, writer_.read(gap_));
+    opened = writer_.where(writer_.subtract(writer_.read(gap_), step), writer_.read(gap_), pushed);
+  }
+  return writer_.where(writer_.read(pull), writer_.read(pull), opened);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,40 @@
+// The surface that a tool touches and leaves (theory, section 5, "Contact"), written into a law: where the surface goes in
+// a sample, and when the command lets go.
+//
+// The state is the surface's displacement s from where it lies unloaded. The tool would have it change by Δ = u − at − s₋.
+// With f(Δ) ≥ 0 it goes along; else it goes where f = 0, and a gap opens.
+#pragma once
+
+#include "discretise/law_writer.hpp"
+
+namespace dashpot::compiler {
+
+class ContactSurface {
+ public:
+  // `encoder_step`: how far the gap may open before the command lets go [m].
+  ContactSurface(LawWriter& writer, double at, double encoder_step);
+
+  void declare();
+
+  VariableId before() const { return surface_; }    // s₋
+  VariableId approach() const { return approach_; }  // Δ
+  VariableId change() const { return change_; }      // Δs
+  VariableId now() const { return now_; }            // s
+
+  void write_approach();
+  // For p = g δ + π: the surface's change. `held` is π, no variable for 0.
+  void write_change(const Real& stiffness, VariableId held);
+  // Where it is, its change being known.
+  void write_surface();
+  // The brake's b and the motor's part while the tool touches; both 0 when it is free. `opposing` is f′ = f − b∞ Δs/h.
+  void write_command(VariableId opposing, const Real& feedthrough_damping);
+
+ private:
+  ExpressionId release_of(VariableId opposing, ExpressionId felt, ExpressionId none);
+
+  LawWriter& writer_;
+  double at_, encoder_step_;
+  VariableId surface_ = nothing, depth_ = nothing, approach_ = nothing, change_ = nothing, gap_ = nothing, now_ = nothing;
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,118 @@
+// Virtual wall: a contact with a Kelvin element
+//
+// source: Gosline & Hayward 2009, section 5.1 and (9); stiffness and damping are chosen, not printed
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 5 N·s/m: dampers at the tool in parallel add
+// states: position driven by definition
+// contact: at 0 m; brake and motor 0 while the tool is free
+// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 6 additions, 4 multiplications, 1 guards against subnormals
+// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormals; 3 states
+//
+// Written by dashpot 0.1.0 from a network with digest e60aea3a90d2a9f2. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class virtual_wall {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    surface_ = dashpot::all_finite(position, position, position) ? dashpot::pushed_in(0.0, position) : 0;
+    sampled_brake_ = 0;
+    sampled_surface_now_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δ = u − s₋
+    const scalar approach = position - surface_;
+    // π = k0 s₋ + S
+    const scalar held_force = static_stiffness * surface_;
+    // f = 0 at Δs = −π/g
+    const scalar surface_recovery = recovery_compliance * held_force;
+    // f ≥ 0
+    const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
+    // gap = s − u
+    const scalar gap = surface_change - approach;
+    // s = s₋ + Δs
+    const scalar surface_now = gap > 0 ? dashpot::flush_below(threshold, surface_ + surface_change) : position;
+    // f′ = f − b∞ Δs/h
+    const scalar opposing = static_stiffness * surface_now;
+    // −(f′ + b∞ v̂)
+    const scalar pull = none - (opposing + feedthrough * velocity);
+    // above 0 where the tool is free
+    const scalar released = pull > 0 ? pull : gap;
+    // b = 0 of a free tool
+    const scalar brake = released > 0 ? none : contact_damping;
+    // m = f − b u̇ of a tool that touches
+    const scalar force = released > 0 ? none : opposing;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {sampled_brake_, 0};
+    sampled_ = true;
+    sampled_brake_ = brake;
+    sampled_surface_now_ = surface_now;
+    return {brake, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // s₋ = s
+    surface_ = sampled_surface_now_;
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * surface_ * surface_;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar static_stiffness = 500.0;  // k0 [N/m]
+  static constexpr scalar none = 0.0;  // of a free tool [N]
+  static constexpr scalar recovery_compliance = -0.0001818181818181818;  // −1/g [m/N]
+  static constexpr scalar feedthrough = 5.0;  // b∞ [N·s/m]
+  static constexpr scalar contact_damping = 5.0;  // b while the tool touches [N·s/m]
+  static constexpr scalar half_static_stiffness = 250.0;  // ½ k0 [N/m]
+
+  scalar surface_ = 0;  // s, how far the surface is pushed in [m]
+  scalar sampled_brake_ = 0;  // b, at this sample [N·s/m]
+  scalar sampled_surface_now_ = 0;  // s, at this sample [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

@@ -15,6 +15,27 @@ double round_step(double rough) {
   return 10 * decade;
 }
 
+// 1, 2 or 5 times a power of ten, at least `value` but for rounding.
+double round_number_above(double value) { return round_step(value); }
+
+double round_number_below(double value) { return 1 / round_step(1 / value); }
+
+std::string plain_number(double value) {
+  return value >= 1e-3 && value < 1e6 ? fmt::format("{:g}", value) : fmt::format("{:.0e}", value);
+}
+
+Axis logarithmic_axis(Interval range) {
+  Axis axis{Scale::logarithmic, range.low, range.high, {}};
+  const bool decades_alone = range.high / range.low > 200;
+  for (double decade = std::pow(10, std::floor(std::log10(range.low) - 1e-9)); decade <= range.high * (1 + 1e-9); decade *= 10)
+    for (const double multiple : {1.0, 2.0, 5.0}) {
+      const double value = multiple * decade;
+      const bool is_inside = value >= range.low * (1 - 1e-9) && value <= range.high * (1 + 1e-9);
+      if (is_inside && (multiple == 1 || !decades_alone)) axis.ticks.push_back({value, plain_number(value)});
+    }
+  return axis;
+}
+
 }  // namespace
 
 Ticks ticks_for(Interval values, int wanted) {
@@ -32,8 +53,29 @@ std::string tick_label(const Ticks& ticks, long count) {
   return fmt::format("{}{:.{}f}", count < 0 ? "−" : "", std::abs(double(count) * ticks.step), decimals);
 }
 
-double place(const Ticks& ticks, double value, double from, double to) {
-  return from + (value - ticks.low()) / (ticks.high() - ticks.low()) * (to - from);
+double Axis::share(double value) const {
+  if (scale == Scale::linear) return (value - low) / (high - low);
+  return std::log(value / low) / std::log(high / low);
+}
+
+Axis axis_for(Interval values, int wanted, Scale scale) {
+  if (scale == Scale::logarithmic) return axis_within({round_number_below(values.low), round_number_above(values.high)}, wanted, scale);
+  const Ticks ticks = ticks_for(values, wanted);
+  Axis axis{scale, ticks.low(), ticks.high(), {}};
+  for (long i = ticks.first; i <= ticks.last; ++i) axis.ticks.push_back({double(i) * ticks.step, tick_label(ticks, i)});
+  return axis;
+}
+
+Axis axis_within(Interval range, int wanted, Scale scale) {
+  if (scale == Scale::logarithmic) return logarithmic_axis(range);
+  const Ticks ticks = ticks_for(range, wanted);
+  Axis axis{scale, range.low, range.high, {}};
+  const double slack = 1e-9 * ticks.step;
+  for (long i = ticks.first; i <= ticks.last; ++i) {
+    const double value = double(i) * ticks.step;
+    if (value >= range.low - slack && value <= range.high + slack) axis.ticks.push_back({value, tick_label(ticks, i)});
+  }
+  return axis;
 }
 
 }  // namespace dashpot::paper

@@ -24,7 +24,26 @@ Ticks ticks_for(Interval values, int wanted);
 // The label of the tick `count` steps from zero: as many decimals as the step needs.
 std::string tick_label(const Ticks& ticks, long count);
 
-// Where on the paper, between `from` and `to`, the value lies.
-double place(const Ticks& ticks, double value, double from, double to);
+enum class Scale { linear, logarithmic };
+
+// What a panel draws: where each value lies between the two ends of the axis, 0 to 1, and what is written there.
+struct Axis {
+  struct Tick {
+    double value;
+    std::string label;
+  };
+  Scale scale = Scale::linear;
+  double low = 0, high = 1;
+  std::vector<Tick> ticks;
+
+  double share(double value) const;
+};
+
+// In: the values to be shown, positive where the scale is logarithmic. Linear: ends at ticks. Logarithmic: ends at 1, 2 or 5
+// times a power of ten, which are its ticks; over more than two decades the powers alone.
+Axis axis_for(Interval values, int wanted, Scale scale);
+
+// The same without extending it: ends at the interval, ticks within.
+Axis axis_within(Interval range, int wanted, Scale scale);
 
 }  // namespace dashpot::paper

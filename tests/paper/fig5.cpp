@@ -2,9 +2,6 @@
 // Maxwell solid through a ramp and a hold in steps of 200 ms; then takes a published tissue through the same motion.
 // Exit status 1 if a law emitted with the scheme `exact` is not the closed form, or if the paper's scheme errs otherwise
 // than it is known to.
-//
-// The paper prints no rate of its ramp. All is linear in it, so every shape and relative error is independent of it; 10 mm/s
-// is the speed of a needle insertion (paper, section 2).
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -14,74 +11,24 @@
 #include <second_order_maxwell.hpp>
 #include <second_order_maxwell_euler.hpp>
 
-#include "figure.hpp"
+#include "fig5_figure.hpp"
 #include "ramp_and_hold.hpp"
 #include "response.hpp"
 
 namespace {
 
 using namespace dashpot::paper;
+using namespace dashpot::paper::fig5;
 using dashpot::generated::heel_fat_pad;
 using dashpot::generated::second_order_maxwell;
 using dashpot::generated::second_order_maxwell_euler;
 
-constexpr RampAndHold insertion{10e-3, 4};
-constexpr double end = 8;          // [s]
 constexpr double rounding = 1e-12;  // of the peak: some hundreds of operations on doubles
 
-// Of backward Euler in steps of 200 ms, from (13) and (15) by hand: relative to the peak, and when.
-constexpr double euler_error = 0.02200, euler_error_digits = 0.00001;
-constexpr double euler_error_time = 0.6;  // [s]
-
-// B1, K1 and B2, K2 of Fig. 5, and K3.
-const MaxwellSolid solid{{{5, 12}, {6, 10}}, 5};
 // B1 to B3 and K1 to K3 of networks/tissues/heel_fat_pad.json, and K0.
 const MaxwellSolid heel{{{0.3612, 361.2}, {46.354, 4635.4}, {1204, 120.4}}, 903};
 
-using Samples = std::vector<Sample>;
-
-Curve curve(const std::string& name, const Style& style, const Samples& samples, double (*value)(const Sample&)) {
-  Curve result{name, style, {}, {}};
-  for (const Sample& sample : samples) {
-    result.x.push_back(sample.time);
-    result.y.push_back(value(sample));
-  }
-  return result;
-}
-
-// The continuous answer between the samples, split as the emitted law splits it: `damping` [N·s/m] to the brake.
-Samples closed_form(double damping) {
-  Samples samples;
-  const auto add = [&](double time, double velocity) {
-    const double force = closed_form_force(solid, insertion, time);
-    samples.push_back({time, insertion.position(time), force, damping * velocity, force - damping * velocity});
-  };
-  add(0, 0);
-  for (int i = 0; i <= 800; ++i) add(i / 100.0, i <= 400 ? insertion.rate : 0);
-  return samples;
-}
-
-Figure figure(const Samples& exact, const Samples& euler) {
-  const auto force = [](const Sample& s) { return s.emitted(); };
-  const auto millimetres = [](const Sample& s) { return s.position * 1e3; };
-  const auto brake = [](const Sample& s) { return s.brake; };
-  const auto motor = [](const Sample& s) { return s.motor; };
-  const Samples line = closed_form(second_order_maxwell{}.output(0, 0).damping);
-  const auto panel = [&](const char* title, const char* label, double (*value)(const Sample&)) {
-    return Panel{title, "time [s]", label,
-                 {curve("closed form (6)", ideal, line, value),
-                  curve("emitted, exact", emitted, exact, value),
-                  curve("emitted, backward Euler", emitted_euler, euler, value)}};
-  };
-  return {"Fig. 5: 2nd-order Maxwell solid, ramp and hold in steps of 200 ms",
-          {fmt::format("K1 = 12, K2 = 10, K3 = 5 N/m; B1 = 5, B2 = 6 N·s/m; {} mm/s for {} s, then held.",
-                       insertion.rate * 1e3, insertion.ramp_time),
-           fmt::format("Largest error of the emitted law, relative to the peak: exact {:.0e}, backward Euler {:.3f} %.",
-                       relative_error(exact), 100 * relative_error(euler))},
-          {panel("Total force", "force [N]", force), panel("Brake: b·u̇", "force [N]", brake),
-           {"Displacement applied", "time [s]", "displacement [mm]", {curve("", plain, line, millimetres)}},
-           panel("Motor: m", "force [N]", motor)}};
-}
+using Samples = std::vector<ResponseSample>;
 
 std::string csv(const Samples& exact, const Samples& euler) {
   std::string text = "time [s],position [m],closed form [N],exact [N],brake [N],motor [N],error [N],"
@@ -123,7 +70,7 @@ bool run_solid(const std::filesystem::path& folder) {
   print_rows(exact, 2);
   const bool exact_agrees = is_closed_form(exact), euler_agrees = errs_as_known(euler);
   std::ofstream(folder / "fig5.csv") << csv(exact, euler);
-  std::ofstream(folder / "fig5.svg") << to_svg(figure(exact, euler));
+  std::ofstream(folder / "fig5.svg") << to_svg(figure(exact, euler, second_order_maxwell{}.output(0, 0).damping));
   return exact_agrees && euler_agrees;
 }
 

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "axis.hpp"
+#include <cmath>
+#include <limits>
 
 namespace dashpot::paper {
 namespace {
@@ -18,10 +18,10 @@ struct Box {
 };
 
 constexpr double page_width = 720;
-constexpr double heading = 62;  // title and legend
+constexpr double legend_line = 18;
 constexpr double row_height = 235;
 constexpr double caption_line = 17;
-constexpr Box margin{66, 26, 14, 46};  // of a panel, for title, ticks and labels
+constexpr Box margin{72, 26, 14, 46};  // of a panel, for title, ticks and labels
 constexpr double marker_radius = 2.8;
 
 std::string escaped(const std::string& text) {
@@ -62,38 +62,56 @@ std::string drawn(const Style& style, const std::vector<Point>& points) {
   return svg;
 }
 
-Interval extent(const Panel& panel, std::vector<double> Curve::* numbers) {
-  Interval all{0, 0};  // zero is always shown: forces and motions start there
+bool shows(const std::optional<Interval>& range, double value) {
+  return !range || (value >= range->low && value <= range->high);
+}
+
+// Of the numbers, x or y, of all points that lie in the panel's range of x.
+Interval extent(const Panel& panel, std::vector<double> Curve::* numbers, Scale scale) {
+  constexpr double unset = std::numeric_limits<double>::infinity();
+  Interval all{unset, -unset};
   for (const Curve& curve : panel.curves)
-    for (const double value : curve.*numbers) all = {std::min(all.low, value), std::max(all.high, value)};
-  return all;
+    for (std::size_t i = 0; i < curve.x.size(); ++i) {
+      const double value = (curve.*numbers)[i];
+      if (shows(panel.x_range, curve.x[i])) all = {std::min(all.low, value), std::max(all.high, value)};
+    }
+  if (scale == Scale::logarithmic) return all;
+  return {std::min(all.low, 0.0), std::max(all.high, 0.0)};  // zero is shown: forces and motions start there
+}
+
+Axis axis_of(const Panel& panel, std::vector<double> Curve::* numbers, const std::optional<Interval>& range, Scale scale,
+             int wanted) {
+  return range ? axis_within(*range, wanted, scale) : axis_for(extent(panel, numbers, scale), wanted, scale);
 }
 
 constexpr const char* grid = "stroke=\"#e6e6e6\" stroke-width=\"1\"";
 constexpr const char* frame = "stroke=\"#1a1a1a\" stroke-width=\"1\"";
 
-std::string x_axis(const Ticks& ticks, const Box& box) {
+double across(const Axis& axis, double value, const Box& box) { return box.left + axis.share(value) * (box.right - box.left); }
+double up(const Axis& axis, double value, const Box& box) { return box.bottom + axis.share(value) * (box.top - box.bottom); }
+
+std::string x_axis(const Axis& axis, const Box& box) {
   std::string svg;
-  for (long i = ticks.first; i <= ticks.last; ++i) {
-    const double x = place(ticks, double(i) * ticks.step, box.left, box.right);
+  for (const Axis::Tick& tick : axis.ticks) {
+    const double x = across(axis, tick.value, box);
     svg += line({x, box.top}, {x, box.bottom}, grid) + line({x, box.bottom}, {x, box.bottom + 4}, frame);
-    svg += text({x, box.bottom + 18}, tick_label(ticks, i), "text-anchor=\"middle\"");
+    svg += text({x, box.bottom + 18}, tick.label, "text-anchor=\"middle\"");
   }
   return svg;
 }
 
-std::string y_axis(const Ticks& ticks, const Box& box) {
+std::string y_axis(const Axis& axis, const Box& box) {
   std::string svg;
-  for (long i = ticks.first; i <= ticks.last; ++i) {
-    const double y = place(ticks, double(i) * ticks.step, box.bottom, box.top);
+  for (const Axis::Tick& tick : axis.ticks) {
+    const double y = up(axis, tick.value, box);
     svg += line({box.left, y}, {box.right, y}, grid) + line({box.left - 4, y}, {box.left, y}, frame);
-    svg += text({box.left - 8, y + 4}, tick_label(ticks, i), "text-anchor=\"end\"");
+    svg += text({box.left - 8, y + 4}, tick.label, "text-anchor=\"end\"");
   }
   return svg;
 }
 
 std::string labels(const Panel& panel, const Box& box) {
-  const double x = box.left - margin.left + 20;
+  const double x = box.left - margin.left + 17;
   const double y = (box.top + box.bottom) / 2;
   const std::string upright = fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, y);
   return text({box.left, box.top - 9}, panel.title, "font-weight=\"bold\"") +
@@ -101,58 +119,119 @@ std::string labels(const Panel& panel, const Box& box) {
          text({x, y}, panel.y_label, upright.c_str());
 }
 
-std::string drawn(const Panel& panel, const Box& box) {
-  const Ticks x = ticks_for(extent(panel, &Curve::x), 4);
-  const Ticks y = ticks_for(extent(panel, &Curve::y), 4);
-  std::string svg = x_axis(x, box) + y_axis(y, box) + line({box.left, box.top}, {box.left, box.bottom}, frame) +
-                    line({box.left, box.bottom}, {box.right, box.bottom}, frame);
-  if (y.first < 0) {
-    const double zero = place(y, 0, box.bottom, box.top);
-    svg += line({box.left, zero}, {box.right, zero}, "stroke=\"#9a9a9a\" stroke-width=\"1\"");
+// Points of one column of the print, half a point wide, are the line between their extremes.
+std::vector<Point> thinned(const std::vector<Point>& points) {
+  constexpr std::size_t few = 1500;
+  constexpr double column = 0.5;
+  if (points.size() < few) return points;
+  std::vector<Point> kept;
+  for (std::size_t i = 0; i < points.size();) {
+    std::size_t end = i, lowest = i, highest = i;
+    for (; end < points.size() && std::abs(points[end].x - points[i].x) < column; ++end) {
+      if (points[end].y < points[lowest].y) lowest = end;
+      if (points[end].y > points[highest].y) highest = end;
+    }
+    kept.push_back(points[std::min(lowest, highest)]);
+    if (lowest != highest) kept.push_back(points[std::max(lowest, highest)]);
+    i = end;
   }
-  for (const Curve& curve : panel.curves) {
-    std::vector<Point> points;
-    for (std::size_t i = 0; i < curve.x.size(); ++i)
-      points.push_back({place(x, curve.x[i], box.left, box.right), place(y, curve.y[i], box.bottom, box.top)});
-    svg += drawn(curve.style, points);
-  }
-  return svg + labels(panel, box);
+  return kept;
 }
 
-// One entry for each name, in order of appearance.
-std::string legend(const Figure& figure) {
-  std::vector<std::string> seen;
-  std::string svg;
-  double x = margin.left;
-  constexpr double y = 42;
+std::vector<Point> placed(const Curve& curve, const Axis& x, const Axis& y, const Box& box) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    points.push_back({across(x, curve.x[i], box), up(y, curve.y[i], box)});
+  return thinned(points);
+}
+
+// Curves do not leave a panel whose range is given.
+std::string clipped(const std::string& svg, const Panel& panel, const Box& box) {
+  if (!panel.x_range && !panel.y_range) return svg;
+  return fmt::format("<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" viewBox=\"{0:.1f} {1:.1f} {2:.1f} "
+                     "{3:.1f}\">\n{4}</svg>\n", box.left, box.top, box.right - box.left, box.bottom - box.top, svg);
+}
+
+std::string drawn(const Panel& panel, const Box& box) {
+  const Axis x = axis_of(panel, &Curve::x, panel.x_range, panel.x_scale, panel.wide ? 9 : 4);
+  const Axis y = axis_of(panel, &Curve::y, panel.y_range, panel.y_scale, 4);
+  std::string svg = x_axis(x, box) + y_axis(y, box) + line({box.left, box.top}, {box.left, box.bottom}, frame) +
+                    line({box.left, box.bottom}, {box.right, box.bottom}, frame);
+  if (y.scale == Scale::linear && y.low < 0 && y.high > 0) {
+    const double zero = up(y, 0, box);
+    svg += line({box.left, zero}, {box.right, zero}, "stroke=\"#9a9a9a\" stroke-width=\"1\"");
+  }
+  std::string curves;
+  for (const Curve& curve : panel.curves) curves += drawn(curve.style, placed(curve, x, y, box));
+  return svg + clipped(curves, panel, box) + labels(panel, box);
+}
+
+struct Entry {
+  const Curve* curve;
+  double x, y;
+};
+
+double length_of(const std::string& name) {
+  constexpr double letter = 6.4;  // its mean width at this size
+  const auto begins_a_letter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+  return letter * double(std::count_if(name.begin(), name.end(), begins_a_letter));
+}
+
+// One entry for each name, in order of appearance, in as many lines as it takes.
+std::vector<Entry> legend_entries(const Figure& figure) {
+  std::vector<Entry> entries;
+  double x = margin.left, y = 42;
   for (const Panel& panel : figure.panels)
     for (const Curve& curve : panel.curves) {
-      if (curve.name.empty() || std::find(seen.begin(), seen.end(), curve.name) != seen.end()) continue;
-      seen.push_back(curve.name);
-      svg += drawn(curve.style, {{x, y - 4}, {x + 14, y - 4}, {x + 28, y - 4}}) + text({x + 36, y}, curve.name);
-      x += 36 + 6.4 * double(curve.name.size()) + 26;  // the mean width of a letter at this size
+      const auto is_named_so = [&](const Entry& entry) { return entry.curve->name == curve.name; };
+      if (curve.name.empty() || std::any_of(entries.begin(), entries.end(), is_named_so)) continue;
+      const double width = 36 + length_of(curve.name) + 26;
+      if (x > margin.left && x + width - 26 > page_width - margin.right) x = margin.left, y += legend_line;
+      entries.push_back({&curve, x, y});
+      x += width;
     }
+  return entries;
+}
+
+std::string legend(const std::vector<Entry>& entries) {
+  std::string svg;
+  for (const auto& [curve, x, y] : entries)
+    svg += drawn(curve->style, {{x, y - 4}, {x + 14, y - 4}, {x + 28, y - 4}}) + text({x + 36, y}, curve->name);
   return svg;
 }
 
-Box place_of(std::size_t panel) {
-  const double left = page_width / 2 * double(panel % 2);
-  const double top = heading + row_height * double(panel / 2);
-  return {left + margin.left, top + margin.top, left + page_width / 2 - margin.right, top + row_height - margin.bottom};
+// Where each panel lies, and where the last row ends.
+std::vector<Box> places(const Figure& figure, double heading, double& end) {
+  std::vector<Box> boxes;
+  double top = heading;
+  bool right = false;  // the next narrow panel goes to the right
+  for (const Panel& panel : figure.panels) {
+    if (panel.wide && right) top += row_height, right = false;
+    const double left = right ? page_width / 2 : 0;
+    const double width = panel.wide ? page_width : page_width / 2;
+    boxes.push_back({left + margin.left, top + margin.top, left + width - margin.right, top + row_height - margin.bottom});
+    if (panel.wide || right) top += row_height;
+    right = !panel.wide && !right;
+  }
+  end = right ? top + row_height : top;
+  return boxes;
 }
 
 }  // namespace
 
 std::string to_svg(const Figure& figure) {
-  const double panels_end = heading + row_height * double((figure.panels.size() + 1) / 2);
+  const std::vector<Entry> entries = legend_entries(figure);
+  const double heading = (entries.empty() ? 28 : entries.back().y) + 20;
+  double panels_end = heading;
+  const std::vector<Box> boxes = places(figure, heading, panels_end);
   const double height = panels_end + caption_line * double(figure.caption.size()) + 8;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"180mm\" height=\"{:.1f}mm\" viewBox=\"0 0 {} {}\" "
       "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"13\" fill=\"#1a1a1a\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
       height / 4, page_width, height);
-  svg += text({margin.left, 20}, figure.title, "font-weight=\"bold\" font-size=\"15\"") + legend(figure);
-  for (std::size_t i = 0; i < figure.panels.size(); ++i) svg += drawn(figure.panels[i], place_of(i));
+  svg += text({margin.left, 20}, figure.title, "font-weight=\"bold\" font-size=\"15\"") + legend(entries);
+  for (std::size_t i = 0; i < figure.panels.size(); ++i) svg += drawn(figure.panels[i], boxes[i]);
   for (std::size_t i = 0; i < figure.caption.size(); ++i)
     svg += text({margin.left, panels_end + 10 + caption_line * double(i)}, figure.caption[i], "font-size=\"12\" fill=\"#444\"");
   return svg + "</svg>\n";

@@ -9,7 +9,7 @@
 
 namespace dashpot::paper {
 
-struct Sample {
+struct ResponseSample {
   double time;         // [s]
   double position;     // [m]
   double closed_form;  // force of the network [N]
@@ -21,10 +21,10 @@ struct Sample {
 
 // Runs `Law` from rest, once a sample period from 0 to `end` [s], with the true velocity.
 template <class Law>
-std::vector<Sample> respond(const MaxwellSolid& solid, const RampAndHold& motion, double end) {
+std::vector<ResponseSample> respond(const MaxwellSolid& solid, const RampAndHold& motion, double end) {
   Law law;
   law.reset();
-  std::vector<Sample> samples;
+  std::vector<ResponseSample> samples;
   const long last = std::lround(end / Law::sample_period);
   const double rate = std::round(1 / Law::sample_period);  // times as quotients: sums of 0.2 s drift off the knots
   for (long k = 0; k <= last; ++k) {
@@ -37,15 +37,15 @@ std::vector<Sample> respond(const MaxwellSolid& solid, const RampAndHold& motion
 }
 
 // The sample whose force is furthest from the closed form, the largest force [N], and the one over the other.
-inline const Sample& worst(const std::vector<Sample>& samples) {
+inline const ResponseSample& worst(const std::vector<ResponseSample>& samples) {
   return *std::max_element(samples.begin(), samples.end(),
-                           [](const Sample& a, const Sample& b) { return std::abs(a.error()) < std::abs(b.error()); });
+                           [](const ResponseSample& a, const ResponseSample& b) { return std::abs(a.error()) < std::abs(b.error()); });
 }
-inline double peak(const std::vector<Sample>& samples) {
+inline double peak(const std::vector<ResponseSample>& samples) {
   double force = 0;
-  for (const Sample& sample : samples) force = std::max(force, std::abs(sample.closed_form));
+  for (const ResponseSample& sample : samples) force = std::max(force, std::abs(sample.closed_form));
   return force;
 }
-inline double relative_error(const std::vector<Sample>& samples) { return std::abs(worst(samples).error()) / peak(samples); }
+inline double relative_error(const std::vector<ResponseSample>& samples) { return std::abs(worst(samples).error()) / peak(samples); }
 
 }  // namespace dashpot::paper

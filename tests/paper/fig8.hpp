@@ -1,0 +1,31 @@
+// The paper's Fig. 8: contact with a Kelvin element and release, on the rig. A hand presses and withdraws, presses again and
+// lets go. The wall of the literature is active while the tool is inside; a contact lets go when the tissue would pull.
+#pragma once
+
+#include "experiment.hpp"
+#include "page.hpp"
+
+namespace dashpot::paper {
+
+struct Fig8 {
+  // One way out of the tissue.
+  struct Release {
+    double impulse = 0;        // of the tissue pulling the tool inwards, brake included [N·s]
+    double largest_pull = 0;   // [N]
+    double point = 0;          // where the felt force goes through zero [m]
+    double motor_impulse = 0;  // of the motor alone pulling [N·s]
+  };
+  struct Part {
+    std::string name;
+    Style style;
+    Trace trace;
+    Release withdrawn;  // by the hand
+    Release let_go;
+  };
+  std::vector<Part> parts;  // single and dual with the wall of the literature, single and dual with the contact
+};
+
+Fig8 measure_fig8();
+Section show(const Fig8& fig8);
+
+}  // namespace dashpot::paper

@@ -59,7 +59,9 @@ class NoBlocking : public testing::Test {
  protected:
   void SetUp() override {
     watched_ = watch_system_calls();
-    if (!watched_) std::cerr << "WARNING: this kernel has no syscall user dispatch; only heap and locks are trapped\n";
+    if (!watched_) {
+      std::cerr << "WARNING: without syscall user dispatch, or under a sanitizer, only heap and locks are trapped\n";
+    }
   }
   void expect_nothing(const trap_counts& counts, const std::string& where) {
     EXPECT_EQ(counts.heap, 0) << where;

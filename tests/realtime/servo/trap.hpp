@@ -14,7 +14,8 @@ struct trap_counts {
   int total() const { return heap + locks + system_calls; }
 };
 
-// From here on the kernel watches the calling thread. False: this kernel cannot, and only heap and locks are counted.
+// From here on the kernel watches the calling thread. False: this kernel cannot, or a sanitizer
+// is in the way, and only heap and locks are counted.
 bool watch_system_calls();
 
 void arm_trap() noexcept;

@@ -4,7 +4,8 @@
     peer.py --unix PATH     listens on a Unix socket and serves one host
     peer.py --pty           opens a pseudo-terminal, prints the path of its far end, and serves that
 
-Its handle moves by itself: 3 counts a sample upwards until 500, then down again, and so on.
+Its handle moves by itself: 3 counts a sample upwards until 500, then down again, and so on. In the end it prints what the
+host has left it with.
 """
 import argparse
 import math
@@ -209,6 +210,13 @@ class Board:
 
 def serve(descriptor):
     board = Board(lambda data: os.write(descriptor, data))
+    try:
+        serve_until_hangup(board, descriptor)
+    finally:
+        print(f"left with torque {board.torque:g}, damping {board.damping:g}", flush=True)
+
+
+def serve_until_hangup(board, descriptor):
     next_period = time.monotonic_ns() + board.period
     while True:
         left = next_period - time.monotonic_ns()

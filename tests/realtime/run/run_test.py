@@ -97,22 +97,44 @@ class Run(unittest.TestCase):
         """Fails if `run` starts without knowing on what."""
         self.assertEqual(dashpot("run", network("paper/kelvin")).returncode, 2)
 
-    def test_board_on_a_socket(self):
-        """Fails if `run --port` does not serve a board that knows nothing but the protocol's page."""
+    def start_peer(self):
+        """A board that knows nothing but the protocol's page, and its port."""
         socket_path = os.path.join(self.folder.name, "board.sock")
-        peer = subprocess.Popen([sys.executable, os.path.join(ARGUMENTS.root, "tests/realtime/board/peer.py"), "--unix", socket_path])
+        peer = subprocess.Popen([sys.executable, os.path.join(ARGUMENTS.root, "tests/realtime/board/peer.py"), "--unix",
+                                 socket_path], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(peer.stdout.close)
         self.addCleanup(peer.wait)
         self.addCleanup(peer.kill)
         for _ in range(200):
             if os.path.exists(socket_path):
                 break
             time.sleep(0.05)
-        result = dashpot("run", network("paper/kelvin"), "--device", device("board_mps2"), "--for", "2", "--port",
-                         "unix:" + socket_path, "--log", self.log)
+        return peer, "unix:" + socket_path
+
+    def test_board_on_a_socket(self):
+        """Fails if `run --port` does not serve a board that knows nothing but the protocol's page."""
+        _, port = self.start_peer()
+        result = dashpot("run", network("paper/kelvin"), "--device", device("board_mps2"), "--for", "2", "--port", port,
+                         "--log", self.log)
         self.assertIn("device left safe", result.stdout, result.stderr)
         with open(self.log, newline="") as stream:
             moved = {row["position [m]"] for row in csv.DictReader(stream)}
         self.assertGreater(len(moved), 10)
+
+    def test_interrupt_leaves_the_board_safe(self):
+        """Fails if after Ctrl-C the board itself does not have the safe command, whatever `run` says."""
+        peer, port = self.start_peer()
+        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("board_mps2"),
+                                    "--port", port, "--log", self.log],
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for _ in range(2):  # the second line comes after a second of running
+            self.assertIn("Hz", process.stdout.readline())
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+        self.assertIn("device left safe", output, errors)
+        self.assertEqual(peer.stdout.readline(), "left with torque 0, damping 5\n")
+        with open(self.log, newline="") as stream:
+            self.assertTrue(any(float(row["motor_torque [N]"]) != 0 for row in csv.DictReader(stream)))
 
     def test_nobody_at_the_port(self):
         """Fails if a port without a board hangs or passes for one."""

@@ -1,5 +1,6 @@
 #include "compile.hpp"
 
+#include "decompose/slip_laws.hpp"
 #include "discretise/element_names.hpp"
 #include "linear/validity.hpp"
 #include "syntax/parse_network.hpp"
@@ -24,7 +25,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& choi
   result.form = std::move(*form);
   warn_about_validity(result.form.linear, result.network, diagnostics);
   std::optional<Decomposition> decomposition =
-      decompose(linear_part(result.network, result.form), result.form.linear, choices, device ? &*device : nullptr, diagnostics);
+      decompose(result.network, result.form, choices, device ? &*device : nullptr, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);

@@ -18,7 +18,8 @@ using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
 const std::map<std::string, Scheme> schemes = {{"exact", Scheme::exact}, {"backward-euler", Scheme::backward_euler}};
 const std::map<std::string, ScalarType> scalars = {{"double", ScalarType::float64}, {"float", ScalarType::float32}};
 const std::vector<std::string> decompositions = {"most-dissipative", "zero-frequency",   "quietest-passive",
-                                                 "velocity-free",    "largest-observer", "virtual"};
+                                                 "velocity-free",    "largest-observer", "gated",
+                                                 "compensated",      "virtual"};
 
 struct CommandLine {
   Options options;

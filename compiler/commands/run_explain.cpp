@@ -1,9 +1,11 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
 #include "compile.hpp"
+#include "decompose/slip_laws.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -35,6 +37,64 @@ Json json_of(const Candidate& c) {
           {"state_inputs", inputs}};
 }
 
+const SlipLawMerit* chosen_merit(const ComponentSplit& split) {
+  for (const SlipLawMerit& merit : split.merits)
+    if (merit.law == split.law) return &merit;
+  return nullptr;
+}
+
+// The keys of a candidate, where they make sense; the error is that of what slides.
+Json json_of(const ComponentSplit& split, std::size_t i, const Network& network) {
+  const Regime& regime = split.regimes.regimes[i];
+  const BrakeShare& share = split.shares[i];
+  const SlipLawMerit* merit = chosen_merit(split);
+  const bool slides = std::find(regime.slides.begin(), regime.slides.end(), true) != regime.slides.end();
+  const bool is_exact = !slides || merit == nullptr;
+  return {{"component", name_of(split, network)},
+          {"stuck", slip_names(split.regimes, regime, false, network)},
+          {"sliding", slip_names(split.regimes, regime, true, network)},
+          {"name", name_of(split.law)},
+          {"damping", share.damping},
+          {"wanted_damping", to_double(regime.damping)},
+          {"feedthrough_damping", to_double(regime.feedthrough())},
+          {"zero_frequency_damping", to_double(zero_frequency_damping(regime.form))},
+          {"static_stiffness", to_double(regime.form.static_stiffness)},
+          {"state_input", name_of(StateInput::position)},
+          {"velocity_gain", share.compensation},
+          {"motor_noise", is_exact ? Json(0.0) : or_null(merit->motor_noise)},
+          {"largest_error", is_exact ? 0.0 : merit->largest_error},
+          {"extra_damping_any_delay", share.compensation > 0 ? Json(nullptr) : Json(0.0)},
+          {"minimum_damping", nullptr},
+          {"certified", nullptr},
+          {"reason", regime.reason}};
+}
+
+Json regimes_of(const Compilation& c) {
+  Json regimes = Json::array();
+  for (const ComponentSplit& split : c.decomposition.slips.components)
+    for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) regimes.push_back(json_of(split, i, c.network));
+  return regimes;
+}
+
+// What each law would cost a component, and which is taken.
+Json slip_laws_of(const Compilation& c) {
+  Json components = Json::array();
+  for (const ComponentSplit& split : c.decomposition.slips.components) {
+    Json laws = Json::array();
+    for (const SlipLawMerit& merit : split.merits)
+      laws.push_back({{"name", name_of(merit.law)},
+                      {"largest_error", merit.refusal.empty() ? Json(merit.largest_error) : Json(nullptr)},
+                      {"motor_noise", merit.refusal.empty() ? or_null(merit.motor_noise) : Json(nullptr)},
+                      {"refusal", merit.refusal.empty() ? Json(nullptr) : Json(merit.refusal)}});
+    components.push_back({{"component", name_of(split, c.network)},
+                          {"regimes", split.regimes.count},
+                          {"laws", laws},
+                          {"chosen", name_of(split.law)},
+                          {"reason", split.reason}});
+  }
+  return components;
+}
+
 Json json_of(const Compilation& c) {
   Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
   for (const Mode& mode : c.form.linear.modes)
@@ -59,6 +119,8 @@ Json json_of(const Compilation& c) {
           {"device", c.device ? Json(c.device->name) : Json(nullptr)},
           {"coupled_operations", cost_of(c.law, c.law.output).coupled},
           {"candidates", candidates},
+          {"regimes", regimes_of(c)},
+          {"slip_laws", slip_laws_of(c)},
           {"chosen", choice.name},
           {"state_input", name_of(choice.state_input)},
           {"reason", choice.reason + "; " + c.decomposition.reason}};
@@ -86,6 +148,7 @@ std::string text_of(const Compilation& c) {
   text += to_text(c.form.linear, c.network);
   text += fmt::format("zero-frequency damping {:.10g}\n", to_double(zero_frequency_damping(c.form.linear)));
   text += pace_text(c) + kelvin_text(c) + "\n" + to_text(c.decomposition, c.network);
+  text += to_text(c.decomposition.slips, c.network);
   text += fmt::format("passivity             {:.6g} of extra damping for any delay of the estimate; sampled: not computed\n",
                       choice.extra_damping_any_delay.value_or(0));
   if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";

@@ -39,6 +39,10 @@ class Decomposer {
     list.push_back({"velocity-free", feedthrough, "the feedthrough damping: no velocity estimate in the motor",
                     StateInput::position});
     list.push_back(observed("largest-observer", ObserverRule::largest));
+    if (has_slips()) {
+      list.push_back(observed("gated", ObserverRule::most_dissipative));
+      list.push_back(observed("compensated", ObserverRule::most_dissipative));
+    }
     list.push_back({"virtual", 0, "no brake: everything computed", {}});
     if (const double* given = std::get_if<double>(&choices_.decomposition))
       list.push_back({fmt::format("{}", *given), *given, "given", {}});
@@ -81,6 +85,11 @@ class Decomposer {
     if (candidate.damping <= feedthrough) return;
     candidate.damping = candidate.wanted_damping = feedthrough;
     candidate.reason += "; with the contact no more than the feedthrough damping, so that the motor compensates nothing";
+  }
+
+  bool has_slips() const {
+    return std::any_of(network_.elements.begin(), network_.elements.end(),
+                       [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
   }
 
   Split observed(const char* name, ObserverRule rule) const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "decompose/choices.hpp"
+#include "decompose/slip_decomposition.hpp"
 #include "linear/linear_form.hpp"
 #include "network/device.hpp"
 #include "network/network.hpp"
@@ -41,6 +42,7 @@ struct Decomposition {
   std::size_t chosen;
   std::string reason;       // why the chosen state input
   double encoder_step = 0;  // at the tool; 0 of an ideal device [m] or [rad]
+  SlipDecomposition slips;  // of what is behind slips
   LinearForm realisation;   // the canonical form with the spring shares of the observer's realisation, for `nodal`
 
   const Candidate& choice() const { return candidates[chosen]; }

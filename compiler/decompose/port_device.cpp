@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <dashpot/estimators/any_estimator.hpp>
+#include <dashpot/estimators/estimator_names.hpp>
 #include <dashpot/estimators/frequency_response.hpp>
 
 namespace dashpot::compiler {
@@ -45,8 +46,32 @@ std::optional<double> PortDevice::max_damping() const {
 }
 
 double PortDevice::tolerance() const { return is_ideal() ? 0 : device_->description.brake.tolerance; }
-double PortDevice::band_low() const { return 2 * pi * device_->description.loop.band_low; }
-double PortDevice::band_high() const { return 2 * pi * device_->description.loop.band_high; }
+double PortDevice::band_low() const { return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_low; }
+double PortDevice::band_high() const { return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_high; }
+double PortDevice::sample_period() const { return (is_ideal() ? loop_description{} : device_->description.loop).sample_period; }
+double PortDevice::coil_lag() const { return is_ideal() ? 0 : device_->description.brake.coil_lag; }
+
+double PortDevice::coil_slew() const {
+  if (is_ideal()) return 0;
+  const brake_description& brake = device_->description.brake;
+  return brake.slew * std::sqrt(brake.damping_per_current_squared * damping_scale_);
+}
+
+std::string_view PortDevice::estimator_name() const {
+  return is_ideal() ? "exact" : name_of(device_->description.velocity.estimator);
+}
+
+// What an estimate made at a sample acts on is the hold that follows, one period after the last that it has seen.
+std::optional<unsigned> PortDevice::estimate_memory() const {
+  if (is_ideal()) return 1;
+  const velocity_description& velocity = device_->description.velocity;
+  const unsigned delay = device_->description.loop.delay_samples;
+  switch (velocity.estimator) {
+    case estimator_kind::backward_difference:
+    case estimator_kind::least_squares: return delay + velocity.window;
+    default: return std::nullopt;  // a sensor's reading is of an instant, not of the hold before
+  }
+}
 
 double PortDevice::encoder_step() const { return is_ideal() ? 0 : device_->description.encoder.step * position_scale_; }
 

@@ -4,6 +4,7 @@
 #include <complex>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <optional>
+#include <string_view>
 
 #include "network/device.hpp"
 #include "network/network.hpp"
@@ -32,6 +33,12 @@ class PortDevice {
   double encoder_step() const;                // at the tool [m] or [rad]; 0 for an ideal device
   bool estimator_is_linear() const;
   bool estimate_sums_to_displacement() const;  // so that velocity-driven slow modes do not drift
+  // Samples that an estimate reaches back from the hold that it acts in; empty where it never forgets or is not linear.
+  std::optional<unsigned> estimate_memory() const;
+  double sample_period() const;  // [s]
+  double coil_lag() const;       // [s]
+  double coil_slew() const;      // of √b [√(N·s/m)/s]; 0: unlimited
+  std::string_view estimator_name() const;
   std::optional<double> velocity_noise() const;  // rms of the estimate under quantisation [m/s]; empty: not linear
 
  private:

@@ -104,7 +104,11 @@ double largest_error(const LinearForm& form, double damping, StateInput input, c
         damping + motor.position_driven + motor.velocity_driven + static_stiffness / std::complex(0.0, w);
     return std::abs(error) == 0 ? 0.0 : std::abs(error) / std::abs(whole);
   };
-  return maximum(logarithmic_grid(device.band_low(), device.band_high()), error_at);
+  return largest_in_band(device, error_at);
+}
+
+double largest_in_band(const PortDevice& device, const std::function<double(double)>& function) {
+  return maximum(logarithmic_grid(device.band_low(), device.band_high()), function);
 }
 
 double extra_damping_any_delay(const LinearForm& form, double damping, StateInput input, double tolerance) {

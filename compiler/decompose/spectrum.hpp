@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <functional>
 #include <vector>
 
 #include "decompose/choices.hpp"
@@ -20,6 +21,9 @@ MotorImpedance motor_impedance(const LinearForm& form, double damping, StateInpu
 
 // max |Z_rendered − Z|/|Z| over the device's band, Z with the static spring [1].
 double largest_error(const LinearForm& form, double damping, StateInput input, const PortDevice& device);
+
+// Of a function of ω, over the device's band or the one that devices have by default: a scan refined at its maximum.
+double largest_in_band(const PortDevice& device, const std::function<double(double)>& function);
 
 // The least extra damping [N·s/m] that keeps the split passive for any estimator with |G| ≤ 1 and any delay, the brake
 // giving at least (1 − ε) b: max over ω of (|velocity_driven| − Re position_driven − (1 − ε) b), not below zero.

@@ -73,6 +73,8 @@ class LawBuilder {
         writer_(law_, network.port_motion),
         network_(network),
         form_(form.linear),
+        settings_(decomposition.slips),
+        linear_damping_(law_.damping),
         sample_period_(sample_period),
         modes_(writer_, form.linear.modes, law_.state_input, sample_period,
                names_of_modes(form.linear.modes, network, writer_), "") {
@@ -81,7 +83,12 @@ class LawBuilder {
       add_behind_contact(form);
       return;
     }
-    for (const NormalTree& component : form.components) add(component, sample_period);
+    const std::vector<ComponentSplit>& splits = decomposition.slips.components;
+    for (std::size_t i = 0; i < form.components.size(); ++i)
+      if (i < splits.size())
+        add(splits[i].rendered, brake_pair(splits[i]), sample_period);
+      else
+        add(form.components[i], {}, sample_period);
   }
 
   UpdateLaw build() {
@@ -98,15 +105,15 @@ class LawBuilder {
   }
 
  private:
-  void add(const NormalTree& component, const Real& sample_period) {
+  void add(const NormalTree& component, const BrakePair& pair, const Real& sample_period) {
     if (slip_count(component) > 1) {
       coupled_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period, component));
       return;
     }
-    const auto fitting = std::find_if(slips_.begin(), slips_.end(), [&](const auto& group) { return group->accepts(component); });
-    if (fitting != slips_.end()) return (*fitting)->add(component);
-    slips_.push_back(std::make_unique<SlipGroup>(writer_, network_, sample_period));
-    slips_.back()->add(component);
+    const auto fitting = std::find_if(slips_.begin(), slips_.end(), [&](const auto& group) { return group->accepts(component, pair); });
+    if (fitting != slips_.end()) return (*fitting)->add(component, pair);
+    slips_.push_back(std::make_unique<SlipGroup>(writer_, network_, sample_period, settings_));
+    slips_.back()->add(component, pair);
   }
 
   // Where the surface goes depends on all that is behind it: one tree, in which the states of the linear part at the tool
@@ -161,6 +168,8 @@ class LawBuilder {
     if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
     for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
     for (const auto& component : coupled_) sum = writer_.plus(sum, component->write_output(change_));
+    for (const auto& group : slips_) sum = compensated(sum, group->compensation());
+    write_brake();
     if (sum == nothing) sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0);
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
   }
@@ -199,10 +208,38 @@ class LawBuilder {
     return force;
   }
 
+  // m = f′ − β v̂
+  ExpressionId compensated(ExpressionId sum, ExpressionId compensation) {
+    if (compensation == nothing) return sum;
+    return writer_.subtract(sum, writer_.multiply(compensation, writer_.read(law_.velocity)));
+  }
+
+  // b = b of what reaches ground without a slip + Σ b of every component's regime
+  void write_brake() {
+    Real steady = linear_damping_, least = linear_damping_, largest = linear_damping_, at_rest = linear_damping_;
+    ExpressionId changing = nothing;
+    for (const auto& group : slips_) {
+      changing = writer_.plus(changing, group->changing_damping());
+      steady += group->brake().steady_damping();
+      least += group->brake().least_damping();
+      largest += group->brake().largest_damping();
+      at_rest += group->brake().damping_at_rest();
+    }
+    law_.damping = rounded(least, law_.scalar);
+    law_.largest_damping = rounded(largest, law_.scalar);
+    if (changing == nothing) return;
+    if (steady > 0) changing = writer_.plus(changing, writer_.constant("steady_damping", writer_.damping(), "of what no slip changes", steady));
+    law_.brake = writer_.scalar("damping", writer_.damping(), "b, the brake's part", Role::local);
+    writer_.assign(law_.output, law_.brake, changing, "b of the regime");
+    law_.last_brake = writer_.scalar("last_damping", writer_.damping(), "b of the sample before", Role::state);
+    law_.variables[law_.last_brake].rest_value = rounded(at_rest, law_.scalar);
+    writer_.assign(law_.keep, law_.last_brake, writer_.read(law_.brake), "");
+  }
+
   // b∞ − b. Where the brake's number is b∞, rounded, nothing is left that a velocity estimate should be read for.
   Real feedthrough_of_motor() const {
-    const bool all_in_brake = rounded(form_.feedthrough_damping, law_.scalar) == law_.damping;
-    return all_in_brake ? Real(0) : Real(form_.feedthrough_damping - Real(law_.damping));
+    const bool all_in_brake = rounded(form_.feedthrough_damping, law_.scalar) == linear_damping_;
+    return all_in_brake ? Real(0) : Real(form_.feedthrough_damping - Real(linear_damping_));
   }
 
   void write_update() {
@@ -243,6 +280,8 @@ class LawBuilder {
   LawWriter writer_;
   const Network& network_;
   const LinearForm& form_;
+  const SlipDecomposition& settings_;
+  double linear_damping_;  // b of what reaches ground without a slip [N·s/m]
   Real sample_period_;
   ModeBank modes_;
   std::optional<ContactSurface> contact_;

@@ -81,7 +81,7 @@ class LawWriter {
   UpdateLaw& law_;
   std::string length_, force_;
   std::map<VariableId, VariableId> kept_;
-  std::set<std::string> taken_ = {"relaxed", "velocity", "no", "step", "last", "sampled"};  // begin names of the law's own
+  std::set<std::string> taken_ = {"relaxed", "velocity", "no", "step", "last", "sampled", "steady"};  // begin names of the law's own
 };
 
 }  // namespace dashpot::compiler

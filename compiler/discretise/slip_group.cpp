@@ -37,8 +37,8 @@ void forget(std::size_t block, SlipResponse& response) {
 
 }  // namespace
 
-SlipGroup::SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period)
-    : writer_(writer), network_(network), sample_period_(sample_period) {}
+SlipGroup::SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period, const SlipDecomposition& settings)
+    : writer_(writer), network_(network), sample_period_(sample_period), brake_(writer, settings) {}
 
 // g = k0 + b∞/h + Σ c_i
 SlipResponse SlipGroup::response_of(const NormalTree& component) const {
@@ -55,9 +55,18 @@ SlipResponse SlipGroup::response_of(const NormalTree& component) const {
   return response;
 }
 
-std::string SlipGroup::shape(const SlipResponse& response) const {
-  std::string text = kind_of(response.trial) + kind_of(response.force);
-  text += same_but_for_excess(response.trial, response.force) ? "=" : "!";
+SlipGroup::MotorForce SlipGroup::motor_force(const SlipResponse& response, const BrakePair& pair) const {
+  MotorForce force{response.force, response.force, pair.stuck.feedthrough != pair.sliding.feedthrough};
+  force.stuck.change -= pair.stuck.feedthrough / sample_period_;
+  force.sliding.change -= pair.sliding.feedthrough / sample_period_;
+  return {snapped(force.stuck), snapped(force.sliding), force.differs};
+}
+
+std::string SlipGroup::shape(const SlipResponse& response, const MotorForce& force) const {
+  std::string text = kind_of(response.trial) + kind_of(force.stuck) + kind_of(force.sliding);
+  text += same_but_for_excess(response.trial, force.stuck) ? "=" : "!";
+  text += same_but_for_excess(response.trial, force.sliding) ? "=" : "!";
+  text += force.differs ? "d" : "-";
   for (std::size_t i = 0; i < response.blocks.size(); ++i) {
     const LinearForm& form = response.blocks[i].block->form;
     text += form.static_stiffness > 0 ? 's' : '-';
@@ -67,16 +76,19 @@ std::string SlipGroup::shape(const SlipResponse& response) const {
   return text;
 }
 
-bool SlipGroup::accepts(const NormalTree& component) const {
+bool SlipGroup::accepts(const NormalTree& component, const BrakePair& pair) const {
+  if (responses_.empty() || brake_.shape(pair) != brake_.shape(brake_.pair(0))) return false;
   const SlipResponse response = response_of(component);
   const auto has_modes = [](const CompanionBlock& block) { return !block.block->form.modes.empty(); };
-  return !responses_.empty() && shape(response) == shape(responses_.front()) &&
+  return shape(response, motor_force(response, pair)) == shape(responses_.front(), forces_.front()) &&
          std::none_of(response.blocks.begin(), response.blocks.end(), has_modes);
 }
 
-void SlipGroup::add(const NormalTree& component) {
+void SlipGroup::add(const NormalTree& component, const BrakePair& pair) {
   responses_.push_back(response_of(component));
   const SlipResponse& response = responses_.back();
+  forces_.push_back(motor_force(response, pair));
+  brake_.add(pair, response.yield_force, response.trial.change);
   names_.push_back(writer_.unique(name_of(response.slip_elements, network_)));
   blocks_.resize(response.blocks.size());
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -106,6 +118,7 @@ void SlipGroup::declare() {
       block.spring_force = writer_.vector({block.names.front(), "spring_force"}, writer_.force(), "force of the spring", Role::state, block.names);
     if (block.modes) block.modes->declare();
   }
+  brake_.declare(prefix_, names_);
 }
 
 // t = t_stuck, s = clamp(t, ±Y), r = t − s, f = f_stuck − ρ r
@@ -123,12 +136,37 @@ ExpressionId SlipGroup::write_output(VariableId change) {
   writer_.assign(output, now_.slip, writer_.clamp(writer_.read(now_.trial), limit), "s = clamp(t, ±Y)", origins());
   now_.excess = local("excess", "what the slip does not hold");
   writer_.assign(output, now_.excess, writer_.subtract(writer_.read(now_.trial), writer_.read(now_.slip)), "r = t − s");
-  const ExpressionId force = expression("force", rows(&SlipResponse::force), now_);
-  if (names_.size() == 1) return force;
-  if (writer_.reads(force) == now_.slip) return writer_.sum(now_.slip);
+  // Above zero where the slip gives way: r has the sign of s.
+  const ExpressionId sliding = writer_.multiply(writer_.read(now_.excess), writer_.read(now_.slip));
+  const ExpressionId force = write_force(sliding);
+  brake_.write_output(sliding, now_.trial, now_.slip, now_.excess);
+  // Sums after all vectors: what a loop computes does not outlive it.
+  damping_ = summed("damping", brake_.changing_damping());
+  compensation_ = summed("compensation", brake_.compensation());
+  return names_.size() == 1 ? force : summed("force", writer_.reads(force));
+}
+
+// f' = f_stuck − ρ r − x Δu/h
+ExpressionId SlipGroup::write_force(ExpressionId sliding) {
+  const bool differs = forces_.front().differs;
+  ExpressionId force = expression("force", rows(&MotorForce::sliding), now_);
+  if (differs) {
+    std::vector<Row> stuck = rows(&MotorForce::stuck);
+    for (Row& row : stuck) row.excess = 0;
+    force = writer_.where(sliding, force, expression("stuck_force", stuck, now_));
+  }
+  if (names_.size() == 1 && !differs) return force;
+  if (writer_.reads(force) == now_.slip) return force;
   const VariableId shares = local("force", "the component's force");
-  writer_.assign(output, shares, force, "f = f_stuck − ρ r", origins());
-  return writer_.sum(shares);
+  writer_.assign(writer_.law().output, shares, force, differs ? "f' = f − x Δu/h, x of the regime" : "f = f_stuck − ρ r", origins());
+  return writer_.read(shares);
+}
+
+ExpressionId SlipGroup::summed(const std::string& what, VariableId vector) {
+  if (vector == nothing || names_.size() == 1) return vector == nothing ? nothing : writer_.read(vector);
+  const VariableId sum = writer_.scalar(joined(joined(prefix_, what), "sum"), "", "", Role::local);
+  writer_.assign(writer_.law().output, sum, writer_.sum(vector), "");
+  return writer_.read(sum);
 }
 
 // F0 ← F0 + k0 δ; modes by their own drive δ. New forces come before old ones go.
@@ -163,6 +201,7 @@ void SlipGroup::write_update(VariableId) {
   for (const auto& [old, fresh] : replaced) writer_.assign(update, old, writer_.read(fresh), "");
   for (std::size_t i = 0; i < blocks_.size(); ++i)
     if (blocks_[i].modes) blocks_[i].modes->write_update(drives[i], nothing);
+  brake_.write_update();
 }
 
 // ½ F0²/k0 + Σ F²/(2k)
@@ -192,6 +231,12 @@ bool SlipGroup::is_only_state(std::size_t block) const {
 std::vector<Row> SlipGroup::rows(Row SlipResponse::*row) const {
   std::vector<Row> all;
   for (const SlipResponse& response : responses_) all.push_back(response.*row);
+  return all;
+}
+
+std::vector<Row> SlipGroup::rows(Row MotorForce::*row) const {
+  std::vector<Row> all;
+  for (const MotorForce& force : forces_) all.push_back(force.*row);
   return all;
 }
 

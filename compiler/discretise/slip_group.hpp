@@ -8,17 +8,20 @@
 
 #include "discretise/law_writer.hpp"
 #include "discretise/mode_bank.hpp"
+#include "discretise/slip_brake.hpp"
 #include "discretise/slip_response.hpp"
 
 namespace dashpot::compiler {
 
 class SlipGroup {
  public:
-  SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period);
+  // `settings` of the brake outlives this.
+  SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period, const SlipDecomposition& settings);
 
-  // True where the component fits those already in: the same rows but for their numbers, and no modes.
-  bool accepts(const NormalTree& component) const;
-  void add(const NormalTree& component);
+  // True where the component fits those already in: the same rows but for their numbers, and no modes. Components
+  // outlive this.
+  bool accepts(const NormalTree& component, const BrakePair& pair) const;
+  void add(const NormalTree& component, const BrakePair& pair);
 
   double smallest_loss() const;
   void declare();  // to be called when the law's mode form is settled
@@ -27,6 +30,10 @@ class SlipGroup {
   ExpressionId write_output(VariableId change);
   void write_update(VariableId sampled_change);
   ExpressionId energy();  // nothing without springs
+
+  const SlipBrake& brake() const { return brake_; }
+  ExpressionId changing_damping() const { return damping_; }   // Σ b of what changes; nothing without
+  ExpressionId compensation() const { return compensation_; }  // Σ β, whose β v̂ is to be taken from the force; nothing without
 
  private:
   struct Block {
@@ -37,14 +44,24 @@ class SlipGroup {
     bool has_spring = false;
   };
 
+  // What the component opposes to the tool but for what the brake takes over: f' = f − x Δu/h.
+  struct MotorForce {
+    Row stuck, sliding;
+    bool differs = false;  // by more than the excess
+  };
+
   // The variables that a row may refer to.
   struct Terms {
     VariableId change, trial, slip, excess;
   };
 
   SlipResponse response_of(const NormalTree& component) const;
-  std::string shape(const SlipResponse& response) const;
+  std::string shape(const SlipResponse& response, const MotorForce& force) const;
+  MotorForce motor_force(const SlipResponse& response, const BrakePair& pair) const;
   std::vector<Row> rows(Row SlipResponse::*row) const;
+  std::vector<Row> rows(Row MotorForce::*row) const;
+  ExpressionId write_force(ExpressionId sliding);
+  ExpressionId summed(const std::string& what, VariableId vector);
   std::vector<Row> elongations(std::size_t block) const;
   ExpressionId held_force(const Block& block);
   ExpressionId expression(const std::string& what, const std::vector<Row>& rows, Terms terms);
@@ -61,7 +78,10 @@ class SlipGroup {
   std::string prefix_;
   Names names_;  // of the slips
   std::vector<SlipResponse> responses_;
+  std::vector<MotorForce> forces_;
+  SlipBrake brake_;
   std::vector<Block> blocks_;
+  ExpressionId damping_ = nothing, compensation_ = nothing;
   Terms now_{nothing, nothing, nothing, nothing};
 };
 

@@ -68,7 +68,10 @@ const char* part_name(slip_part kind) {
 
 class CppPrinter {
  public:
-  CppPrinter(const UpdateLaw& law, const Network& network) : law_(law), network_(network), rolled_(law.lanes > 1) {}
+  CppPrinter(const UpdateLaw& law, const Network& network) : law_(law), network_(network), rolled_(law.lanes > 1) {
+    if (!rolled_) return;
+    for (const Statement& statement : law.keep) find_vectors(statement.value);
+  }
 
   CppProgram print() {
     CppProgram program;
@@ -92,13 +95,16 @@ class CppPrinter {
  private:
   std::vector<std::string> lines_of(const std::vector<Statement>& program) {
     std::vector<std::string> lines;
+    summed_.clear();
+    for (const Statement& statement : program)
+      if (law_.variables[statement.target].size == 1) find_sums(statement.value);
     for (std::size_t i = 0; i < program.size();) {
       if (law_.variables[program[i].target].size == 1 || !rolled_) {
         print_unrolled(program[i++], lines);
         continue;
       }
-      const std::size_t first = i;
-      while (i < program.size() && law_.variables[program[i].target].size > 1) ++i;
+      const std::size_t first = i, size = law_.variables[program[i].target].size;
+      while (i < program.size() && law_.variables[program[i].target].size == size) ++i;
       print_loop(program, first, i, lines);
     }
     return lines;
@@ -137,40 +143,62 @@ class CppPrinter {
         lines.push_back(assignment(law_.variables[coupling.elongation[i]], 0) + fmt::format("{}_elongation[{}];", name, i));
   }
 
-  // Elementwise statements in one loop, with the partial sums of any vector that the next statement adds up.
+  // Elementwise statements in one loop, with the partial sums of those vectors that are added up later.
   void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last,
                   std::vector<std::string>& lines) {
-    summed_.clear();
-    if (last < program.size()) find_sums(program[last].value);
-    if (!summed_.empty()) clear_lanes(lines);
+    for (std::size_t i = first; i < last; ++i) {
+      const Variable& target = law_.variables[program[i].target];
+      if (outlives_loop(target)) lines.push_back(fmt::format("{} {}[{}];", scalar(), target.name, padded(target.size)));
+      if (summed_.count(program[i].target) != 0) clear_lane(target, lines);
+    }
     lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", padded_size(program[first]), law_.lanes));
     lines.push_back(fmt::format("  for (int j = 0; j < {}; ++j) {{", law_.lanes));
     for (std::size_t i = first; i < last; ++i) {
       const Variable& target = law_.variables[program[i].target];
       append(lines, "    " + assignment(target, 0) + expression(program[i].value, 0) + ";", program[i].purpose);
     }
-    for (VariableId vector : summed_)
-      lines.push_back(fmt::format("    lane[j] += {};", vector_name(law_.variables[vector], 0)));
+    for (std::size_t i = first; i < last; ++i)
+      if (const Variable& target = law_.variables[program[i].target]; summed_.count(program[i].target) != 0)
+        lines.push_back(fmt::format("    {}[j] += {};", lane(target), vector_name(target, 0)));
     lines.push_back("  }");
   }
 
   // One by one: from an empty initialiser a compiler may make a call of memset.
-  void clear_lanes(std::vector<std::string>& lines) const {
-    lines.push_back(fmt::format("{} lane[{}];", scalar(), law_.lanes));
-    lines.push_back(fmt::format("for (int j = 0; j < {}; ++j) lane[j] = 0;", law_.lanes));
+  void clear_lane(const Variable& vector, std::vector<std::string>& lines) const {
+    lines.push_back(fmt::format("{} {}[{}];", scalar(), lane(vector), law_.lanes));
+    lines.push_back(fmt::format("for (int j = 0; j < {}; ++j) {}[j] = 0;", law_.lanes, lane(vector)));
   }
+
+  // Partial sums; called after their vector where a function has several.
+  std::string lane(const Variable& vector) const { return summed_.size() == 1 ? "lane" : vector.name + "_lane"; }
 
   void find_sums(ExpressionId id) {
     const Expression& e = law_.expressions[id];
     if (e.operation == Operation::sum) summed_.insert(law_.expressions[e.left].left);
     if (e.operation == Operation::read || e.operation == Operation::constant || e.operation == Operation::sum) return;
     find_sums(e.left);
+    if (e.operation == Operation::where) find_sums(e.condition);
     if (e.operation != Operation::flush) find_sums(e.right);
   }
 
   std::string assignment(const Variable& target, std::size_t place) const {
     const std::string name = target.size == 1 ? scalar_name(target) : vector_name(target, place);
-    return (target.role == Role::local ? fmt::format("const {} ", scalar()) : std::string()) + name + " = ";
+    const bool is_declared = target.role != Role::local || outlives_loop(target);
+    return (is_declared ? std::string() : fmt::format("const {} ", scalar())) + name + " = ";
+  }
+
+  void find_vectors(ExpressionId id) {
+    const Expression& e = law_.expressions[id];
+    if (e.operation == Operation::read && law_.variables[e.left].size > 1) outliving_.insert(&law_.variables[e.left]);
+    if (e.operation == Operation::read || e.operation == Operation::constant) return;
+    find_vectors(e.left);
+    if (e.operation == Operation::where) find_vectors(e.condition);
+    if (e.operation != Operation::flush && e.operation != Operation::sum) find_vectors(e.right);
+  }
+
+  // Of a rolled loop's locals those that are remembered after the command has been found finite need a place each.
+  bool outlives_loop(const Variable& variable) const {
+    return variable.role == Role::local && outliving_.count(&variable) != 0;
   }
 
   std::string expression(ExpressionId id, std::size_t place) {
@@ -203,7 +231,7 @@ class CppPrinter {
   std::string sum_text(const Variable& vector) {
     if (rolled_) {
       uses_total_ = true;
-      return "total(lane)";
+      return fmt::format("total({})", lane(vector));
     }
     std::string text;
     for (std::size_t place = 0; place < vector.size; ++place)
@@ -217,6 +245,7 @@ class CppPrinter {
   }
 
   std::string vector_name(const Variable& variable, std::size_t place) const {
+    if (rolled_ && outlives_loop(variable)) return variable.name + "[i + j]";
     if (rolled_) return variable.role == Role::state ? variable.name + "_[i + j]" : variable.name;
     return variable.role == Role::state ? variable.element_names[place] + "_" : variable.element_names[place];
   }
@@ -338,7 +367,8 @@ class CppPrinter {
   bool uses_flush_ = false, uses_total_ = false, uses_clear_ = false;
   std::set<const Variable*> used_variables_;
   std::set<const Coefficient*> used_coefficients_;
-  std::set<VariableId> summed_;
+  std::set<VariableId> summed_;  // of the program at hand
+  std::set<const Variable*> outliving_;
 };
 
 }  // namespace

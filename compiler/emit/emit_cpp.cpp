@@ -4,6 +4,7 @@
 #include <cmath>
 #include <dashpot/estimators/estimator_names.hpp>
 
+#include "decompose/slip_laws.hpp"
 #include "emit/cpp_program.hpp"
 #include "emit/emission.hpp"
 #include "emit/template_text.hpp"
@@ -53,6 +54,12 @@ std::vector<std::string> split_lines(std::string text, std::size_t width) {
   return lines;
 }
 
+std::string brake_line(const SlipLikes& likes, const std::string& unit) {
+  const std::vector<BrakeShare>& shares = likes.first->shares;
+  if (shares.size() != 2) return to_text(likes);
+  return to_text(likes) + fmt::format("; b = {} {} stuck, {} sliding", shares.front().damping, unit, shares.back().damping);
+}
+
 std::vector<std::string> banner(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
@@ -63,6 +70,7 @@ std::vector<std::string> banner(const Compilation& c) {
   facts.push_back(fmt::format("decomposition: {}, b = {} {}: {}", choice.name, choice.damping, unit, choice.reason));
   if (choice.capped())
     facts.push_back(fmt::format("  capped from {} {} at what the brake can give", choice.wanted_damping, unit));
+  for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) facts.push_back(brake_line(likes, unit));
   facts.push_back("states: " + c.decomposition.reason);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
   facts.push_back(fmt::format("passivity: under any delay of the estimate {:.6g} {} of extra damping; sampled: not computed",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "decompose/slip_laws.hpp"
 #include "linear/validity.hpp"
 #include "source/render.hpp"
 #include "support/random.hpp"
@@ -26,19 +27,22 @@ double typical_displacement(const compiler::Network& network, Random& random) {
 
 compiler::Compilation compiled(const compiler::Network& network, compiler::Scheme scheme, compiler::ScalarType scalar) {
   compiler::Choices choices;
-  choices.rate = 1 / slip_period;
   choices.scheme = scheme;
   choices.scalar = scalar;
   choices.state_input = compiler::StateInput::position;
   choices.decomposition = "velocity-free";
+  return compiled(network, choices, nullptr);
+}
+
+compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices, const compiler::Device* device) {
   compiler::Diagnostics diagnostics;
   compiler::Compilation result;
   result.network = network;
-  result.rate = *choices.rate;
+  result.rate = 1 / slip_period;
   std::optional<compiler::NormalForm> form = compiler::closed_normal_form(network, diagnostics);
   if (!form) throw std::runtime_error(compiler::render_text(diagnostics));
   result.form = std::move(*form);
-  const auto decomposition = compiler::decompose(compiler::linear_part(network, result.form), result.form.linear, choices, nullptr, diagnostics);
+  const auto decomposition = compiler::decompose(network, result.form, choices, device, diagnostics);
   if (!decomposition) throw std::runtime_error(compiler::render_text(diagnostics));
   result.decomposition = *decomposition;
   result.law = compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);

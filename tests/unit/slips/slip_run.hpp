@@ -18,6 +18,9 @@ inline constexpr double slip_period = 1e-3;  // [s]
 compiler::Compilation compiled(const compiler::Network& network, compiler::Scheme scheme,
                                compiler::ScalarType scalar = compiler::ScalarType::float64);
 
+// The same with any choices but the rate, for a device or the ideal one.
+compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices, const compiler::Device* device);
+
 // Displacements [m]: rests, steps over many decades about what makes the slips give way, reversals, returns to where it
 // was before.
 std::vector<double> random_motion(const compiler::Network& network, std::uint64_t seed, std::size_t samples);
@@ -25,17 +28,17 @@ std::vector<double> random_motion(const compiler::Network& network, std::uint64_
 // The law with the brake's part at the true velocity: the whole force that the network opposes [N].
 class WholeForce {
  public:
-  explicit WholeForce(const compiler::UpdateLaw& law) : damping_(law.damping), law_(law) { law_.reset(0); }
+  explicit WholeForce(const compiler::UpdateLaw& law) : law_(law) { law_.reset(0); }
 
   double step(double position) {
     const double change = position - position_;
     position_ = position;
-    return damping_ * (change / slip_period) + law_.step(position, change / slip_period).force;
+    const command<double> now = law_.step(position, change / slip_period);
+    return now.damping * (change / slip_period) + now.force;
   }
   double stored_energy() { return law_.stored_energy(); }
 
  private:
-  double damping_;  // [N·s/m]
   compiler::Evaluation<double> law_;
   double position_ = 0;
 };

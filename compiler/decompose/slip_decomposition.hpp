@@ -1,0 +1,50 @@
+// What decompose_slips() decides, as values.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "decompose/regimes.hpp"
+#include "linear/normal_form.hpp"
+
+namespace dashpot::compiler {
+
+enum class SlipLaw {
+  by_motor,       // b = 0, m = f: everything computed
+  velocity_free,  // b = b∞(regime), m = f′
+  gated,          // while sliding the observer's b; the dampers beside the slips are left out of m
+  compensated,    // while sliding the observer's b, m = f′ − β v̂ with a β that the brake has earned
+};
+
+// What a component gives to the brake in one regime [N·s/m].
+struct BrakeShare {
+  double damping = 0;       // b
+  Real feedthrough = 0;     // x of f′ = f − x Δu/h, not rounded: what is left of a lone damper is nothing
+  double compensation = 0;  // β at most
+};
+
+struct SlipLawMerit {
+  SlipLaw law;
+  double largest_error;               // max |Z_rendered − Z|/|Z| over the band while sliding [1]
+  std::optional<double> motor_noise;  // rms, from quantisation through the estimate [N]; empty: not linear
+  std::string refusal;                // why it cannot be had; empty where it can
+};
+
+struct ComponentSplit {
+  NormalTree rendered;  // what the law computes; under the gated law without the dampers beside the slips
+  RegimeList regimes;
+  std::vector<BrakeShare> shares;  // one a listed regime
+  std::vector<SlipLawMerit> merits;
+  SlipLaw law = SlipLaw::by_motor;
+  std::string reason;
+};
+
+struct SlipDecomposition {
+  std::vector<ComponentSplit> components;  // in the order of NormalForm::components
+  double hysteresis = 0;         // displacement that does not end a slide for the command [m]
+  unsigned hold_samples = 0;     // a slide's samples before it is compensated
+  double coil_share = 1;         // of what is missing from √b, that the coil makes up in a sample at least [1]
+};
+
+}  // namespace dashpot::compiler

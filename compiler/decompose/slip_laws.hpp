@@ -1,0 +1,52 @@
+// How the force of what is behind slips is shared between brake and motor, regime by regime (theory, section 5).
+//
+// In every regime V_k − V_{k−1} ≤ f′Δu, f′ = f − x Δu/h for any x up to the regime's feedthrough damping b∞. So a motor
+// that makes f′ is passive with any brake, whatever the slips, the coil and the tolerance do; only what an estimate of the
+// velocity takes away again, the compensation, has to stay below a brake that is certain.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+#include "decompose/port_device.hpp"
+#include "decompose/regimes.hpp"
+
+namespace dashpot::compiler {
+
+// What the gated law may err by in the device's band where `most-dissipative` takes it.
+inline constexpr double gated_tolerance = 0.05;  // [1]
+
+// How far a displacement must go back before the command takes the slips for stuck, in steps of the encoder.
+inline constexpr double hysteresis_steps = 1.5;
+
+std::string_view name_of(SlipLaw law);
+
+// In: the network, its normal form, the decomposition of what reaches ground without a slip. Ensures: together with that
+// part no regime asks for more than the brake gives; every feedthrough ≤ b∞ and ≤ b of its regime, every compensation
+// ≤ (1 − ε) b.
+SlipDecomposition decompose_slips(const Network& network, const NormalForm& form, const Candidate& linear_part,
+                                  const Choices& choices, const PortDevice& device);
+
+// Both: what reaches ground without a slip, then the rest. Warns and refuses as decompose() of linear networks.
+std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& choices,
+                                       const Device* device, Diagnostics& diagnostics);
+
+// The elements of the slips that slide, or hold, in a regime.
+std::vector<std::string> slip_names(const RegimeList& list, const Regime& regime, bool sliding, const Network& network);
+// A component is called after its slips.
+std::string name_of(const ComponentSplit& split, const Network& network);
+
+// Components that are decided alike.
+struct SlipLikes {
+  const ComponentSplit* first;
+  std::vector<std::string> names;
+};
+std::vector<SlipLikes> likes_of(const SlipDecomposition& slips, const Network& network);
+std::string to_text(const SlipLikes& likes);  // whose they are, the law and the reason
+
+std::string to_text(const SlipDecomposition& slips, const Network& network);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,347 @@
+// The brake's command as slips hold and give way: the three laws of theory, section 5.
+#include <dashpot/brake_coil.hpp>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "element_reference.hpp"
+#include "slip_run.hpp"
+#include "support/random.hpp"
+#include "support/shrink.hpp"
+#include "support/written_network.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using compiler::SlipLaw;
+
+struct FigureTen {
+  double stiffness = 300;   // K [N/m]
+  double yield = 1;         // Y [N]
+  double at_tool = 2;       // B1 [N·s/m]
+  double beside_slip = 3;   // B2 [N·s/m]
+
+  compiler::Network network() const {
+    return written_network(fmt::format("{{\"parallel\": [{{\"damper\": {}}}, {{\"series\": [{{\"spring\": {}}}, {{\"parallel\": "
+                                       "[{{\"slip\": {}}}, {{\"damper\": {}}}]}}]}}]}}", at_tool, stiffness, yield, beside_slip));
+  }
+};
+
+const char* const kelvin_and_slip = R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})";
+
+// A linear device at 1 kHz with the difference of two samples for a velocity, everything else exact.
+compiler::Device device_with(double encoder_step) {
+  compiler::Device device;
+  device.name = "written";
+  device_description& d = device.description;
+  d.loop.sample_period = slip_period;
+  d.encoder.step = encoder_step;
+  d.brake.kind = brake_kind::eddy_current;
+  d.brake.max_damping = 1000;
+  return device;
+}
+
+compiler::Compilation decided(const compiler::Network& network, const std::string& law, const compiler::Device* device = nullptr) {
+  compiler::Choices choices;
+  choices.decomposition = law;
+  return compiled(network, choices, device);
+}
+
+std::vector<command<double>> commands_along(const compiler::UpdateLaw& law, const std::vector<double>& motion) {
+  compiler::Evaluation<double> evaluation(law);
+  evaluation.reset(0);
+  std::vector<command<double>> commands;
+  double last = 0;
+  for (double position : motion) {
+    commands.push_back(evaluation.step(position, (position - last) / slip_period));
+    last = position;
+  }
+  return commands;
+}
+
+std::vector<double> slide(double speed, std::size_t samples) {
+  std::vector<double> motion;
+  for (std::size_t i = 1; i <= samples; ++i) motion.push_back(speed * slip_period * double(i));
+  return motion;
+}
+
+// The difference of N samples, N from the device; positions before the first are 0.
+double difference(const std::vector<double>& motion, std::size_t i, std::size_t window) {
+  return (motion[i] - (i >= window ? motion[i - window] : 0)) / (double(window) * slip_period);
+}
+
+std::size_t toggles(const std::vector<command<double>>& commands, std::size_t first, std::size_t last) {
+  std::size_t count = 0;
+  for (std::size_t i = first + 1; i < last; ++i)
+    if (commands[i].damping != commands[i - 1].damping) ++count;
+  return count;
+}
+
+}  // namespace
+
+// Fails if what hangs behind a slip is braked while it slides, or the motor then pushes along the motion.
+TEST(RegimeLaws, KelvinBehindASlipIsLetGo) {
+  const auto commands = commands_along(decided(written_network(kelvin_and_slip), "most-dissipative").law, slide(0.2, 100));
+  // Stuck, the Kelvin element would carry 5·0.2 + 500 u > 0.4 at once, so that every sample slides.
+  for (const command<double>& now : commands) {
+    EXPECT_EQ(now.damping, 0);
+    EXPECT_EQ(now.force, 0.4);
+  }
+  const auto slow = commands_along(decided(written_network(kelvin_and_slip), "most-dissipative").law, slide(0.02, 30));
+  for (std::size_t i = 0; i < 29; ++i) {
+    EXPECT_EQ(slow[i].damping, 5) << i;
+    EXPECT_NEAR(slow[i].force, 500 * 0.02 * slip_period * double(i + 1), 1e-15) << i;
+  }
+  for (const auto& now : slow) EXPECT_GE(now.force, 0);
+}
+
+// Fails if `most-dissipative` takes another law than theory's order says, or does not say why.
+TEST(RegimeLaws, MostDissipativeTakesTheFirstThatServes) {
+  const auto chosen = [](const FigureTen& model, const compiler::Device* device) {
+    return decided(model.network(), "most-dissipative", device).decomposition.slips.components.front();
+  };
+  const compiler::ComponentSplit stiff = chosen({.stiffness = 3e5}, nullptr), soft = chosen({}, nullptr);
+  EXPECT_EQ(stiff.law, SlipLaw::gated);
+  EXPECT_NE(stiff.reason.find("no more than 5 %"), std::string::npos) << stiff.reason;
+  EXPECT_EQ(soft.law, SlipLaw::compensated);
+  compiler::Device device = device_with(0);
+  EXPECT_EQ(chosen({}, &device).law, SlipLaw::compensated);
+  device.description.velocity.estimator = estimator_kind::butterworth;
+  device.description.velocity.cutoff = 100;
+  const compiler::ComponentSplit late = chosen({}, &device);
+  EXPECT_EQ(late.law, SlipLaw::velocity_free);
+  EXPECT_NE(late.reason.find("'butterworth' never forgets"), std::string::npos) << late.reason;
+}
+
+// Fails if the gated law's error is not B2·jω/(jω + K/B2) over the impedance, greatest where the band ends.
+TEST(RegimeLaws, GatedErrorIsThatOfTheTheory) {
+  const FigureTen model;
+  const double w = 2 * std::numbers::pi * loop_description{}.band_high;
+  const std::complex<double> s(0, w), corner = model.stiffness / model.beside_slip;
+  const std::complex<double> error = model.beside_slip * s / (s + corner);
+  const std::complex<double> whole = model.at_tool + model.beside_slip * corner / (s + corner);
+  const compiler::Compilation compilation = decided(model.network(), "gated");
+  EXPECT_NEAR(compilation.decomposition.slips.components.front().merits[1].largest_error, std::abs(error) / std::abs(whole), 1e-12);
+}
+
+// (21) with the sign of the sliding force: B1 ∥ (K — slip) ∥ [B2 while sliding].
+TEST(RegimeLaws, GatedIsEquationTwentyOne) {
+  const FigureTen model;
+  const compiler::Network network = model.network();
+  const auto motion = random_motion(network, 3, 500);
+  const auto commands = commands_along(decided(network, "gated").law, motion);
+  const double reach = model.yield / model.stiffness;  // δ_max
+  double x = 0, scale = 0;
+  for (double u : motion) scale = std::max(scale, std::abs(u));
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const double u = motion[i];
+    const bool slides = std::abs(u - x) > reach * (1 + 1e-9);
+    if (std::abs(std::abs(u - x) - reach) < 1e-9 * reach) continue;  // either
+    if (slides) x = u - std::copysign(reach, u - x);
+    EXPECT_EQ(commands[i].damping, model.at_tool + (slides ? model.beside_slip : 0)) << i;
+    EXPECT_NEAR(commands[i].force, model.stiffness * (u - x), 0x1p-44 * model.stiffness * scale) << i;
+  }
+}
+
+// Fails if (21) is not the limit of the network for a stiff spring: at the same K δ_max the error of the force in a slide
+// that changes its speed falls as B2/K.
+TEST(RegimeLaws, EquationTwentyOneIsTheStiffLimit) {
+  double last = 0;
+  for (double stiffness : {1e4, 2e4, 4e4}) {
+    const FigureTen model{.stiffness = stiffness, .beside_slip = 0.5};
+    std::vector<double> motion;
+    for (int i = 1; i <= 4000; ++i) motion.push_back(0.05 * i * slip_period + 0.01 * std::sin(2 * i * slip_period));
+    const auto truth = commands_along(decided(model.network(), "velocity-free").law, motion);
+    const auto printed = commands_along(decided(model.network(), "gated").law, motion);
+    double worst = 0;
+    for (std::size_t i = 1000; i < motion.size(); ++i) {
+      const double velocity = (motion[i] - motion[i - 1]) / slip_period;
+      worst = std::max(worst, std::abs((truth[i].damping - printed[i].damping) * velocity + truth[i].force - printed[i].force));
+    }
+    if (last > 0) {
+      EXPECT_NEAR(worst / last, 0.5, 0.02);
+    }
+    last = worst;
+  }
+}
+
+// Fails if a slow slide over a quantised encoder makes the brake toggle, or a reversal more than once there and back.
+TEST(RegimeLaws, SlowSlidesOverAnEncoderDoNotToggle) {
+  const double step = 30e-6, speed = 0.01;
+  const compiler::Device device = device_with(step), blind = device_with(0);
+  std::vector<double> motion;
+  for (int i = 1; i <= 6000; ++i) {
+    const int within = i % 4000;
+    const double u = speed * slip_period * (within < 2000 ? within : 4000 - within);
+    motion.push_back(std::floor(u / step) * step);
+  }
+  for (const char* law : {"gated", "compensated"}) {
+    const auto calm = commands_along(decided(FigureTen{}.network(), law, &device).law, motion);
+    EXPECT_EQ(toggles(calm, 1000, 2000), 0u) << law;
+    EXPECT_LE(toggles(calm, 2000, 3999), 2u) << law;
+    EXPECT_EQ(toggles(calm, 3000, 3999), 0u) << law;
+  }
+  const auto calm = commands_along(decided(FigureTen{}.network(), "gated", &device).law, motion);
+  const auto literal = commands_along(decided(FigureTen{}.network(), "gated", &blind).law, motion);
+  EXPECT_GT(toggles(literal, 1000, 2000), 300u);
+  for (std::size_t i = 0; i < motion.size(); ++i) EXPECT_EQ(calm[i].force, literal[i].force) << "the hysteresis is of the command only";
+}
+
+// A coil that lags, a brake that is weaker than it says, an estimate of five samples.
+struct SlowBrake {
+  compiler::Device device = device_with(0);
+
+  SlowBrake() {
+    device.description.velocity.window = 5;
+    device.description.brake.coil_lag = 0.02;
+    device.description.brake.tolerance = 0.1;
+  }
+
+  // The least of V and of what has gone in, Σ (m + b v) Δu, over the motion: below zero, energy was made.
+  double least_balance(const compiler::UpdateLaw& law, const std::vector<double>& motion) const {
+    compiler::Evaluation<double> evaluation(law);
+    evaluation.reset(0);
+    brake_coil<double> coil(device.description.brake);
+    double work = 0, last = 0, least = 0;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      const double change = motion[i] - last;
+      last = motion[i];
+      const command<double> now = evaluation.step(motion[i], difference(motion, i, device.description.velocity.window));
+      const double before = coil.damping();
+      coil.advance(std::sqrt(now.damping), slip_period);
+      const double certain = (1 - device.description.brake.tolerance) * std::min(before, coil.damping());
+      work += (now.force + certain * change / slip_period) * change;
+      least = std::min(least, work - evaluation.stored_energy());
+    }
+    return least;
+  }
+};
+
+// To and fro by many times what makes the slip give way, at a pace that changes.
+std::vector<double> adversarial_motion(std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> motion;
+  double u = 0, velocity = 0;
+  for (int i = 0; i < 400; ++i) {
+    if (i % 7 == 0) velocity = random.chance(0.3) ? 0 : (random.uniform() - 0.5) * random.log_uniform(0.1, 10);
+    u += velocity * slip_period;
+    motion.push_back(u);
+  }
+  return motion;
+}
+
+// Fails if the hold, the coil or the tolerance is not allowed for in what the motor takes back of the brake.
+TEST(RegimeLaws, HeldCompensationNeverMakesEnergy) {
+  const SlowBrake slow;
+  const compiler::Network network = FigureTen{.at_tool = 0.01}.network();
+  const compiler::Compilation held = decided(network, "compensated", &slow.device);
+  ASSERT_EQ(held.decomposition.slips.components.front().law, SlipLaw::compensated);
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) EXPECT_GE(slow.least_balance(held.law, adversarial_motion(seed)), -1e-12) << seed;
+}
+
+// The test above would prove nothing if compensation that is not held could not make energy.
+TEST(RegimeLaws, CompensationThatIsNotHeldMakesEnergy) {
+  const SlowBrake slow;
+  const compiler::Compilation bold = decided(FigureTen{.at_tool = 0.01}.network(), "compensated");
+  double least = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) least = std::min(least, slow.least_balance(bold.law, adversarial_motion(seed)));
+  EXPECT_LT(least, -0.01);
+}
+
+// Fails if compensation is held for ever: in a long slide the whole force is that of the network, but for the tolerance.
+TEST(RegimeLaws, LongSlidesAreCompensated) {
+  SlowBrake slow;
+  slow.device.description.brake.tolerance = 0;
+  const FigureTen model;
+  const auto commands = commands_along(decided(model.network(), "compensated", &slow.device).law, slide(0.1, 1000));
+  EXPECT_NEAR(commands.back().damping * 0.1 + commands.back().force, model.yield + 0.1 * (model.at_tool + model.beside_slip), 1e-9);
+  EXPECT_EQ(commands.back().damping, model.at_tool + model.beside_slip);
+}
+
+namespace {
+
+NetworkRecipe few_slips() {
+  NetworkRecipe recipe;
+  recipe.most_nodes = 8;
+  recipe.most_slips = 3;
+  return recipe;
+}
+
+bool has_slips(const compiler::Network& network) {
+  return std::any_of(network.elements.begin(), network.elements.end(), [](const compiler::Element& element) {
+    return std::holds_alternative<compiler::Slip>(element.law);
+  });
+}
+
+// V_k − V_{k−1} ≤ m_k Δu_k whatever the brake does, since it takes no part: with `law` and a brake of little reach.
+std::string gain_without_brake(const compiler::Network& network, const char* law) {
+  if (!has_slips(network)) return "";
+  compiler::Device device = device_with(1e-5);
+  device.description.brake.max_damping = 0.1;
+  device.description.velocity.estimator = estimator_kind::butterworth;  // so that nothing is compensated
+  device.description.velocity.cutoff = 100;
+  compiler::Choices choices;
+  choices.decomposition = law;
+  choices.state_input = compiler::StateInput::position;
+  const compiler::Compilation compilation = compiled(network, choices, &device);
+  if (compilation.decomposition.choice().velocity_gain != 0) return "";  // what reaches ground without a slip asks for an estimate
+  compiler::Evaluation<double> evaluation(compilation.law);
+  evaluation.reset(0);
+  double stored = 0, last = 0, scale = 0;
+  for (double position : random_motion(network, 11, 200)) {
+    const double change = position - last;
+    last = position;
+    const command<double> now = evaluation.step(position, change / slip_period);
+    if (now.damping < 0 || now.damping > device.description.brake.max_damping * (1 + 1e-12)) return fmt::format("a damping of {}", now.damping);
+    const double work = now.force * change, after = evaluation.stored_energy();
+    scale = std::max({scale, std::abs(work), after});
+    if (!(after - stored - work <= 1e-13 * scale)) return fmt::format("energy rose by {} for {} at a scale of {}", after - stored, work, scale);
+    stored = after;
+  }
+  return "";
+}
+
+// Capped, the law of the whole is still that of the elements.
+std::string departure_when_capped(const compiler::Network& network) {
+  if (!has_slips(network)) return "";
+  compiler::Device device = device_with(0);
+  device.description.brake.max_damping = 0.1;
+  compiler::Choices choices;
+  choices.decomposition = "velocity-free";
+  choices.scheme = compiler::Scheme::backward_euler;
+  const compiler::Compilation compilation = compiled(network, choices, &device);
+  WholeForce law(compilation.law);
+  ElementReference reference(network, slip_period);
+  double scale = 0, last = 0, trial = 0;
+  for (double position : random_motion(network, 7, 200)) {
+    const double expected = reference.step(position), actual = law.step(position);
+    scale = std::max(scale, std::abs(expected));
+    for (const compiler::Element& element : network.elements) {
+      if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) trial = std::max(trial, spring->stiffness * std::abs(position - last));
+      if (const auto* damper = std::get_if<compiler::Damper>(&element.law)) trial = std::max(trial, damper->damping / slip_period * std::abs(position - last));
+    }
+    last = position;
+    if (!(std::abs(actual - expected) <= 1e-10 * scale + 0x1p-48 * trial)) return fmt::format("force {} for {} at a scale of {}", actual, expected, scale);
+  }
+  return "";
+}
+
+std::string first_gain(const char* law) {
+  return first_failure(1, repetitions(300, 20000), few_slips(), [=](const compiler::Network& network) { return gain_without_brake(network, law); });
+}
+
+}  // namespace
+
+// Fails if the motor alone, under any switching of the brake, could give more than it took.
+TEST(SwitchingTheorem, VelocityFree) { EXPECT_EQ(first_gain("velocity-free"), ""); }
+
+// Fails likewise for the law that leaves the dampers beside the slips to the brake.
+TEST(SwitchingTheorem, Gated) { EXPECT_EQ(first_gain("gated"), ""); }
+
+// Fails if a brake that cannot give all makes another network of it.
+TEST(SwitchingTheorem, CappedLawsAreExact) { EXPECT_EQ(first_failure(1, repetitions(300, 20000), few_slips(), departure_when_capped), ""); }
+
+}  // namespace dashpot::testing

@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from dashpot_command import FIG_5, KELVIN, MAXWELL, PANTOGRAPH, CommandTest, network
+from dashpot_command import FIG_5, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest, network
 
 NAMES = ["most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual"]
 NUMBER, TEXT = (int, float), str
@@ -73,6 +73,23 @@ class Json(CommandTest):
         done = self.dashpot("explain", "fast.json", "--json")
         json.loads(done.stdout)
         self.assertIn("[fast-relaxation]", done.stderr)
+
+    def test_regimes_of_slips(self):
+        """Fails if a regime of Fig. 10 is missing, or gives the brake another damping than theory says: B1 alone is at the
+        tool, B2 = 0.8 joins it while the slip gives way."""
+        found = self.explained(SOURCE / "networks/paper/visco_elasto_plastic.json")
+        self.assertEqual(found["feedthrough_damping"], 2.5)
+        self.assertEqual([regime["stuck"] for regime in found["regimes"]], [["Y"], []])
+        self.assertEqual([regime["sliding"] for regime in found["regimes"]], [[], ["Y"]])
+        self.assertEqual([regime["damping"] for regime in found["regimes"]], [0, 0.8])
+        self.assertEqual([regime["feedthrough_damping"] for regime in found["regimes"]], [0, 0])
+        for regime in found["regimes"]:
+            self.assertLessEqual(set(found["candidates"][0]) - set(regime), {"state_inputs"})
+        (component,) = found["slip_laws"]
+        self.assertEqual(component["regimes"], 2)
+        self.assertEqual([law["name"] for law in component["laws"]], ["velocity-free", "gated", "compensated"])
+        self.assertEqual(component["chosen"], "gated")
+        self.assertEqual(self.explained(FIG_5)["regimes"], [])
 
 
 class Text(CommandTest):

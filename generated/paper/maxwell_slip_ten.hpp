@@ -1,0 +1,149 @@
+// Presliding friction of ten springs with slips, which yield one after the other, every 0.1 mm
+//
+// source: beyond Gosline & Hayward 2009, whose Fig. 10 has one; values chosen here
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 0 N·s/m: dampers at the tool in parallel add
+// behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck,
+//   0 sliding
+// states: position driven: on an ideal device nothing tells the inputs apart
+// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 20 additions, 10 multiplications, 0 guards against subnormals
+// cost of update(): 0 additions, 0 multiplications, 10 guards against subnormals; 23 states
+// rounding: a mode's force is off by at most 5.6e-16 of its peak
+//
+// Written by dashpot 0.1.0 from a network with digest 29c7245beaf6283a. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class maxwell_slip_ten {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    clear(K1_spring_force_);
+    sampled_position_change_ = 0;
+    clear(sampled_Y1_slip_);
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    scalar Y1_slip[16];
+    scalar lane[8];
+    for (int j = 0; j < 8; ++j) lane[j] = 0;
+    for (int i = 0; i < 16; i += 8)
+      for (int j = 0; j < 8; ++j) {
+        // t = stuck trial
+        const scalar Y1_trial = Y1_trial_by_change[i + j] * position_change + K1_spring_force_[i + j];
+        Y1_slip[i + j] = dashpot::clamp_to(Y1_yield[i + j], Y1_trial);  // s = clamp(t, ±Y)
+        lane[j] += Y1_slip[i + j];
+      }
+    const scalar Y1_force_sum = total(lane);
+    // m = f − b u̇
+    const scalar force = Y1_force_sum;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    sampled_ = true;
+    sampled_position_change_ = position_change;
+    for (int i = 0; i < 16; i += 8)
+      for (int j = 0; j < 8; ++j) {
+        sampled_Y1_slip_[i + j] = Y1_slip[i + j];
+      }
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    for (int i = 0; i < 16; i += 8)
+      for (int j = 0; j < 8; ++j) {
+        K1_spring_force_[i + j] = dashpot::flush_below(threshold, sampled_Y1_slip_[i + j]);  // F ← F + k δ
+      }
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    scalar lane[8];
+    for (int j = 0; j < 8; ++j) lane[j] = 0;
+    for (int i = 0; i < 16; i += 8)
+      for (int j = 0; j < 8; ++j) {
+        // F²/(2k)
+        const scalar K1_spring_energy = K1_compliance[i + j] * K1_spring_force_[i + j] * K1_spring_force_[i + j];
+        lane[j] += K1_spring_energy;
+      }
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = total(lane);
+    return stored;
+  }
+
+ private:
+  static scalar total(const scalar (&lane)[8]) noexcept {
+    scalar sum = lane[0];
+    for (int j = 1; j < 8; ++j) sum += lane[j];
+    return sum;
+  }
+
+  // Through volatile: compilers turn a plain loop into a call of memset, which may not be there.
+  template <int size>
+  static void clear(volatile scalar (&states)[size]) noexcept {
+    for (int i = 0; i < size; ++i) states[i] = 0;
+  }
+
+  static constexpr scalar damping = 0.0;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  // for a change of position [N/m]
+  static constexpr scalar Y1_trial_by_change[16] = {200.0, 190.0, 180.0, 170.0, 160.0, 150.0, 140.0, 130.0, 120.0,
+      110.0};
+  // Y [N]
+  static constexpr scalar Y1_yield[16] = {0.02, 0.038, 0.054, 0.068, 0.08, 0.09, 0.098, 0.104, 0.108, 0.11};
+  // 1/(2 k) [m/N]
+  static constexpr scalar K1_compliance[16] = {0.0025, 0.002631578947368421, 0.002777777777777778,
+      0.0029411764705882353, 0.003125, 0.0033333333333333335, 0.0035714285714285713, 0.0038461538461538464,
+      0.004166666666666667, 0.004545454545454545};
+
+  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar K1_spring_force_[16] = {};  // force of the spring [N]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_Y1_slip_[16] = {};  // the slip's force, at this sample [N]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

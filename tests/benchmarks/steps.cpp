@@ -4,9 +4,11 @@
 #include <cstring>
 
 #include "printed_law.hpp"
+#include "printed_slip.hpp"
 #include "runs.hpp"
 #include "second_order_maxwell.hpp"
 #include "second_order_maxwell_euler.hpp"
+#include "visco_elasto_plastic.hpp"
 
 namespace {
 
@@ -24,5 +26,7 @@ int main(int argc, char** argv) {
   if (std::strcmp(argv[1], "exact") == 0) return run<dashpot::generated::second_order_maxwell>(count);
   if (std::strcmp(argv[1], "euler") == 0) return run<dashpot::generated::second_order_maxwell_euler>(count);
   if (std::strcmp(argv[1], "printed") == 0) return run<dashpot::benchmarks::printed_law>(count);
+  if (std::strcmp(argv[1], "slip") == 0) return run<dashpot::generated::visco_elasto_plastic>(count);
+  if (std::strcmp(argv[1], "printed_slip") == 0) return run<dashpot::benchmarks::printed_slip>(count);
   return 2;
 }

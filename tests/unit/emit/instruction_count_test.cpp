@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <sstream>
 
 #include "emitted_headers.hpp"
@@ -13,17 +15,34 @@ struct Instructions {
   int multiplications = 0;
   int additions = 0;  // and subtractions
   int divisions = 0;
+  int comparisons = 0;  // and least and greatest of two
+  int packed = 0;       // additions, multiplications and comparisons of several numbers at once
   int calls = 0;
 };
 
-// Of the function `step` alone; scalar instructions only, so that each is one operation.
-Instructions instructions_of_step(const std::filesystem::path& folder, const std::string& network) {
+constexpr const char* scalar_code = "-O2 -fno-tree-vectorize -mno-avx";
+constexpr const char* vector_code = "-O3 -march=x86-64-v3";
+
+void count_instruction(const std::string& instruction, Instructions& count) {
+  const auto is_one_of = [&](std::initializer_list<const char*> names) {
+    return std::find(names.begin(), names.end(), instruction) != names.end();
+  };
+  count.multiplications += is_one_of({"mulsd"});
+  count.additions += is_one_of({"addsd", "subsd"});
+  count.divisions += is_one_of({"divsd", "vdivsd", "vdivpd", "sqrtsd"});
+  count.comparisons += is_one_of({"comisd", "ucomisd", "minsd", "maxsd"}) || (instruction.rfind("cmp", 0) == 0 && instruction.ends_with("sd"));
+  count.packed += is_one_of({"vaddpd", "vsubpd", "vmulpd"}) || (instruction.rfind("vcmp", 0) == 0 && instruction.ends_with("pd"));
+  count.calls += is_one_of({"call"});
+}
+
+// Of the function `step` alone, by default of scalar instructions only, so that each is one operation.
+Instructions instructions_of_step(const std::filesystem::path& folder, const std::string& network, const char* kind = scalar_code) {
   write_text(folder / "step.cpp", fmt::format("#include \"{0}.hpp\"\n"
                                               "dashpot::command<double> step(dashpot::generated::{0}& model, double p, double v) "
                                               "{{ return model.step(p, v); }}\n",
                                               network));
   const Finished finished = run_command(
-      fmt::format("'{}' -std=c++17 -O2 -ffp-contract=off -fno-tree-vectorize -mno-avx {} -I'{}' -S -o - '{}'", DASHPOT_GXX,
+      fmt::format("'{}' -std=c++17 {} -ffp-contract=off {} -I'{}' -S -o - '{}'", DASHPOT_GXX, kind,
                   runtime_include(), folder.string(), (folder / "step.cpp").string()));
   EXPECT_EQ(finished.status, 0) << finished.output;
   Instructions count;
@@ -32,10 +51,7 @@ Instructions instructions_of_step(const std::filesystem::path& folder, const std
     std::istringstream words(line);
     std::string instruction;
     words >> instruction;
-    count.multiplications += instruction == "mulsd";
-    count.additions += instruction == "addsd" || instruction == "subsd";
-    count.divisions += instruction == "divsd";
-    count.calls += instruction == "call";
+    count_instruction(instruction, count);
   }
   return count;
 }
@@ -74,6 +90,28 @@ TEST(InstructionCount, is_what_the_banner_states) {
   }
   EXPECT_EQ(count.multiplications, multiplications);
   EXPECT_EQ(count.additions - finite_check, additions);
+}
+
+// Fails if a step of Fig. 10 costs more than 25 operations on floating-point numbers, checks of its inputs included, or
+// divides.
+TEST(InstructionCount, of_figure_10_is_25_at_most) {
+  const TemporaryFolder folder;
+  emit_headers(folder.path(), {DASHPOT_NETWORKS "/paper/visco_elasto_plastic.json"}, "");
+  const Instructions count = instructions_of_step(folder.path(), "visco_elasto_plastic");
+  EXPECT_LE(count.multiplications + count.additions + count.comparisons, 25);
+  EXPECT_GE(count.comparisons, 3) << "the instructions are not those of the step";
+  EXPECT_EQ(count.divisions, 0);
+  EXPECT_EQ(count.calls, 0);
+}
+
+// Fails if ten springs with slips are not computed several at once.
+TEST(InstructionCount, of_ten_slips_is_vectorised) {
+  const TemporaryFolder folder;
+  emit_headers(folder.path(), {DASHPOT_NETWORKS "/paper/maxwell_slip_ten.json"}, "");
+  const Instructions count = instructions_of_step(folder.path(), "maxwell_slip_ten", vector_code);
+  EXPECT_GE(count.packed, 12);  // three or four vectors of four: product, sum, two comparisons of the clamp in each
+  EXPECT_EQ(count.divisions, 0);
+  EXPECT_EQ(count.calls, 0);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ struct Fig8 {
     double largest_pull = 0;   // [N]
     double point = 0;          // where the felt force goes through zero [m]
     double motor_impulse = 0;  // of the motor alone pulling [N·s]
+    int releases = 0;          // how often the brake is told to let go
   };
   struct Part {
     std::string name;
@@ -22,7 +23,7 @@ struct Fig8 {
     Release withdrawn;  // by the hand
     Release let_go;
   };
-  std::vector<Part> parts;  // single and dual with the wall of the literature, single and dual with the contact
+  std::vector<Part> parts;  // single and dual with the wall of the literature, single and dual with the contact, and that without the coil’s lag
 };
 
 Fig8 measure_fig8();

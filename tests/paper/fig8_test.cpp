@@ -27,6 +27,28 @@ TEST(Fig8, pulls_by_the_brake_as_much_as_by_the_motor) {
   EXPECT_GT(fig8().parts[1].withdrawn.impulse, fig8().parts[0].withdrawn.impulse);
 }
 
+// Fails if a contact pulls by the single motor at all.
+TEST(Fig8, does_not_pull_with_a_contact_by_the_single_motor) {
+  EXPECT_LT(fig8().parts[2].withdrawn.impulse, 1e-6);
+  EXPECT_LT(fig8().parts[2].let_go.impulse, 1e-6);
+}
+
+// Fails if a contact pulls by the dual channel more than the coil keeps of b when it is told to let go, ∫ b e^{−2t/τ} u̇ dt with
+// τ = 2 ms and u̇ as fast as the stroke, and an encoder step of b a release. The claim "none" comes out but for that.
+TEST(Fig8, pulls_with_a_contact_by_the_dual_channel_only_while_the_coil_lets_go) {
+  constexpr double b = 2.5, lag = 2e-3, fastest = 0.094, step = 4.8e-6;
+  const Fig8::Release& release = fig8().parts[3].withdrawn;
+  EXPECT_LT(release.impulse, b * fastest * lag / 2 + release.releases * b * step);
+  EXPECT_LT(release.impulse, fig8().parts[1].withdrawn.impulse / 50);
+}
+
+// Fails if without the coil's lag more is left than an encoder step of b a release.
+TEST(Fig8, pulls_one_encoder_step_a_release_without_the_coils_lag) {
+  constexpr double b = 2.5, step = 4.8e-6;
+  for (const Fig8::Release& release : {fig8().parts[4].withdrawn, fig8().parts[4].let_go})
+    EXPECT_LT(release.impulse, release.releases * b * step);
+}
+
 // Fails if the recovery of a tool that is let go is not the same curve in both, to a tenth of the depth.
 TEST(Fig8, recovers_alike_when_let_go) {
   const Trace &single = fig8().parts[0].trace, &dual = fig8().parts[1].trace;

@@ -2,6 +2,8 @@
 
 #include "decompose/slip_laws.hpp"
 #include "discretise/element_names.hpp"
+#include "discretise/representable.hpp"
+#include "linear/reach.hpp"
 #include "linear/validity.hpp"
 #include "syntax/parse_network.hpp"
 
@@ -15,7 +17,7 @@ std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics)
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics) {
   std::optional<Network> network = check(source, diagnostics);
-  if (!network) return std::nullopt;
+  if (!network || !is_within_reach(*network, diagnostics)) return std::nullopt;
   std::optional<NormalForm> form = closed_normal_form(*network, diagnostics);
   if (!form) return std::nullopt;
   Compilation result;
@@ -29,6 +31,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& choi
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
+  if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }

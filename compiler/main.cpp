@@ -15,14 +15,14 @@ using namespace dashpot::compiler;
 
 using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
 
-const std::map<std::string, Scheme> schemes = {{"exact", Scheme::exact}, {"backward-euler", Scheme::backward_euler}};
-const std::map<std::string, ScalarType> scalars = {{"double", ScalarType::float64}, {"float", ScalarType::float32}};
 const std::vector<std::string> decompositions = {"most-dissipative", "zero-frequency",   "quietest-passive",
                                                  "velocity-free",    "largest-observer", "gated",
                                                  "compensated",      "virtual"};
 
 struct CommandLine {
   Options options;
+  std::string scheme = "exact";
+  std::string scalar = "double";
   std::string state_input = "auto";
   std::string decomposition = "most-dissipative";
   std::string diagnostics = "text";
@@ -39,7 +39,13 @@ std::optional<double> decimal(const std::string& text) {
 
 std::string check_rate(const std::string& text) {
   const std::optional<double> rate = decimal(text);
-  return rate && *rate > 0 && *rate <= highest_rate ? "" : "'" + text + "' is no rate; a number of hertz above 0 is expected";
+  const bool ok = rate && *rate >= lowest_rate && *rate <= highest_rate;
+  return ok ? "" : "'" + text + "' is no rate; a number of hertz from 1e-6 to 1e9 is expected";
+}
+
+std::string check_duration(const std::string& text) {
+  const std::optional<double> duration = decimal(text);
+  return duration && *duration > 0 ? "" : "'" + text + "' is no duration; a number of seconds above 0 is expected";
 }
 
 std::string check_decomposition(const std::string& text) {
@@ -54,8 +60,8 @@ void add_choices(CLI::App& command, CommandLine& line) {
   Choices& choices = line.options.choices;
   command.add_option("--device", line.options.device, "Device file; without one an ideal device at --rate");
   command.add_option("--rate", choices.rate, "Rate of the servo loop [Hz], default 1000 or the device's")->check(check_rate);
-  command.add_option("--scheme", choices.scheme, "exact (default) or backward-euler")
-      ->transform(CLI::Transformer(schemes))
+  command.add_option("--scheme", line.scheme, "How states are advanced, default exact")
+      ->check(CLI::IsMember({"exact", "backward-euler"}))
       ->option_text("exact|backward-euler");
   command.add_option("--state-input", line.state_input, "What drives the states")
       ->check(CLI::IsMember({"auto", "position", "velocity", "nodal"}))
@@ -63,8 +69,8 @@ void add_choices(CLI::App& command, CommandLine& line) {
   command.add_option("--decomposition", line.decomposition, "What the brake takes over")
       ->check(check_decomposition)
       ->option_text("NAME|DAMPING (" + CLI::detail::join(decompositions) + ", or a number in SI)");
-  command.add_option("--scalar", choices.scalar, "Type of the emitted numbers")
-      ->transform(CLI::Transformer(scalars))
+  command.add_option("--scalar", line.scalar, "Type of the emitted numbers, default double")
+      ->check(CLI::IsMember({"double", "float"}))
       ->option_text("double|float");
 }
 
@@ -131,19 +137,21 @@ void describe(CLI::App& app, CommandLine& line) {
   CLI::App* run = add_command(app, line, "run", "Run the servo loop on a device, simulated unless --port names a board");
   add_networks(*run, line, false);
   add_choices(*run, line);
-  run->get_option("--device")->required();
-  run->add_option("--for", options.duration, "How long [s], default until Ctrl-C")->check(CLI::PositiveNumber)->option_text("SECONDS");
+  run->get_option("--device")->required()->description("Device file");
+  run->add_option("--for", options.duration, "How long [s], default until Ctrl-C")->check(check_duration)->option_text("SECONDS");
   run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH, udp:HOST:PORT or pty:PATH")->option_text("URL");
   run->add_option("--hand", options.hand, "Who moves the simulated device")
       ->check(CLI::IsMember({"none", "relaxed", "firm", "stiff"}))
       ->option_text("none|relaxed|firm|stiff");
-  run->add_option("--seed", options.seed, "Of the simulated device's chance")->option_text("N");
+  run->add_option("--seed", options.seed, "Of the simulated device's chance, default 0")->check(CLI::NonNegativeNumber)->option_text("N");
   run->add_flag("--fast", options.fast, "Simulated time: as fast as the machine allows");
   run->add_option("--log", options.output, "Telemetry, default NAME_run.csv")->option_text("FILE.csv");
 }
 
 void take_over_words(CommandLine& line) {
   Choices& choices = line.options.choices;
+  if (line.scheme == "backward-euler") choices.scheme = Scheme::backward_euler;
+  if (line.scalar == "float") choices.scalar = ScalarType::float32;
   if (line.state_input == "position") choices.state_input = StateInput::position;
   if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
   if (line.state_input == "nodal") choices.state_input = StateInput::nodal;
@@ -159,10 +167,12 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   SourceFiles files;
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;
-  if (contradicts_itself(line.options.choices, diagnostics))
+  const std::string command = app.get_subcommands().front()->get_name();
+  // `device` may fill in its own file.
+  if (contradicts_itself(line.options.choices, diagnostics) || (command != "device" && !spares_inputs(line.options, diagnostics)))
     status = ExitStatus::command_line_wrong;
   else
-    status = commands.at(app.get_subcommands().front()->get_name())(line.options, files, diagnostics);
+    status = commands.at(command)(line.options, files, diagnostics);
   std::cerr << (line.diagnostics == "json" ? render_json(diagnostics) : render_text(diagnostics));
   return status;
 }

@@ -28,6 +28,9 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
 // Refuses, with a diagnostic, where standard output cannot take the text: a full disk must not pass for success.
 ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnostics);
 
+// False, with a diagnostic, where what is to be written is one of the files that are read.
+bool spares_inputs(const Options& options, Diagnostics& diagnostics);
+
 // The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
 struct DeviceChoice {
   std::optional<Device> device;  // empty where none was asked for

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <initializer_list>
 #include <string_view>
 
 #include "decompose/choices.hpp"
@@ -24,8 +25,9 @@ class Table {
   std::optional<Motion> read() {
     const std::vector<Cell> header = next_row();
     if (header.empty()) return refuse_empty();
-    const auto time = column(header, "time", true), position = column(header, "position", true);
-    const auto velocity = column(header, "velocity", false);
+    const auto time = column(header, {"time", "time [s]"}, true);
+    const auto position = column(header, {"position", "position [m]", "position [rad]"}, true);
+    const auto velocity = column(header, {"velocity", "velocity [m/s]", "velocity [rad/s]"}, false);
     if (failed_) return std::nullopt;
     Motion motion;
     for (std::vector<Cell> row = next_row(); !row.empty(); row = next_row()) {
@@ -76,14 +78,15 @@ class Table {
     return {all.substr(begin, end - begin), {&file_, begin, end}};
   }
 
-  std::optional<std::size_t> column(const std::vector<Cell>& header, std::string_view name, bool needed) {
+  // A column by its name alone, or with its unit as the loop's own log writes it.
+  std::optional<std::size_t> column(const std::vector<Cell>& header, std::initializer_list<std::string_view> names, bool needed) {
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < header.size(); ++i) {
-      if (header[i].text != name) continue;
-      if (found) fail<DiagnosticCode::csv_column_twice>(header[i].span, name);
+      if (std::find(names.begin(), names.end(), header[i].text) == names.end()) continue;
+      if (found) fail<DiagnosticCode::csv_column_twice>(header[i].span, *names.begin());
       found = i;
     }
-    if (needed && !found) fail<DiagnosticCode::csv_missing_column>(header.front().span, name);
+    if (needed && !found) fail<DiagnosticCode::csv_missing_column>(header.front().span, *names.begin());
     return found;
   }
 
@@ -120,10 +123,12 @@ class Table {
       const double rounding = 4 * 0x1p-52 * std::abs(motion.time[i + 1]);
       if (median > 0 && std::abs(steps[i] - median) <= uniformity * median + rounding) continue;
       diagnostics_.report<DiagnosticCode::csv_not_uniform>(row_spans_[i + 1], steps[i], median);
+      diagnostics_.note<DiagnosticCode::csv_uniform_remedy>({}, uniformity);
       return false;
     }
     if (1 / median > highest_rate) fail<DiagnosticCode::csv_rate_too_high>(row_spans_[1], 1 / median, highest_rate);
-    motion.period = median;
+    // No step is far from the median, and the whole has less of the rounding of times than one step.
+    motion.period = (motion.time.back() - motion.time.front()) / static_cast<double>(steps.size());
     return !failed_;
   }
 

@@ -12,11 +12,11 @@ struct Motion {
   std::vector<double> time;      // [s]
   std::vector<double> position;  // [m] or [rad]
   std::vector<double> velocity;  // [m/s] or [rad/s]; empty where the file has none
-  std::optional<double> period;  // [s], the median; empty for a single row
+  std::optional<double> period;  // [s]; empty for a single row
 };
 
 // In: comma-separated text with a header that names `time` and `position`, optionally `velocity`, in any order among
-// other columns; blank lines do not count. Refuses: missing or repeated columns, rows of another length, cells that are
+// other columns, alone or with units as in "time [s]"; blank lines do not count. Refuses: missing or repeated columns, rows of another length, cells that are
 // no finite numbers, a period that is not uniform to 1e-6.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
 

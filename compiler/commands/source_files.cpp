@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 
 #include "commands/commands.hpp"
 #include "syntax/parse_device.hpp"
@@ -29,6 +30,21 @@ DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics
     return {std::nullopt, ExitStatus::command_line_wrong};
   }
   return {std::move(device), ExitStatus::done};
+}
+
+bool spares_inputs(const Options& options, Diagnostics& diagnostics) {
+  std::vector<std::string> inputs = options.networks;
+  if (options.device) inputs.push_back(*options.device);
+  if (!options.input.empty()) inputs.push_back(options.input);
+  bool spares = true;
+  for (const std::optional<std::string>& output : {options.output, options.depfile})
+    for (const std::string& input : inputs) {
+      std::error_code not_there;
+      if (!output || !std::filesystem::equivalent(*output, input, not_there)) continue;
+      diagnostics.report<DiagnosticCode::would_overwrite_input>({}, *output);
+      spares = false;
+    }
+  return spares;
 }
 
 }  // namespace dashpot::compiler

@@ -148,6 +148,17 @@ bool refuse_impossible_choices(const Network& network, const Choices& choices, c
   return refused;
 }
 
+constexpr double overwhelming = 1e4;  // a brake that is off by 1 % is then off by a hundred times the force
+
+void warn_about_share(const Candidate& chosen, const LinearForm& form, const PortDevice& device, Diagnostics& diagnostics) {
+  const double share = largest_brake_share(form, chosen.damping, device);
+  if (share <= overwhelming) return;
+  constexpr double two_pi = 6.28318530717958647692;
+  diagnostics.report<DiagnosticCode::brake_dwarfs_network>({}, chosen.name, share, device.band_low() / two_pi,
+                                                           device.band_high() / two_pi);
+  diagnostics.note<DiagnosticCode::take_velocity_free>({});
+}
+
 void warn_about(const Candidate& chosen, const Decomposition& all, const LinearForm& form, Diagnostics& diagnostics) {
   if (chosen.capped())
     diagnostics.report<DiagnosticCode::damping_capped>({}, chosen.name, chosen.wanted_damping, chosen.damping);
@@ -200,6 +211,7 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
   result.encoder_step = port->encoder_step();
   result.reason = reason_for_input(result.choice(), choices, *port);
   warn_about(result.choice(), result, form, diagnostics);
+  warn_about_share(result.choice(), form, *port, diagnostics);
   return result;
 }
 
@@ -210,8 +222,8 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
   for (const Candidate& c : decomposition.candidates)
     text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>11.4g}%  {}{}\n", c.name, c.damping,
                         name_of(c.state_input), c.velocity_gain, c.extra_damping_any_delay.value_or(0),
-                        100 * c.largest_error, c.reason,
-                        c.capped() ? fmt::format(" (capped from {:.8g})", c.wanted_damping) : "");
+                        100 * c.largest_error,
+                        c.capped() ? fmt::format("capped from {:.8g}: ", c.wanted_damping) : "", c.reason);
   text += fmt::format("chosen             {}: {}\n", decomposition.choice().name, decomposition.reason);
   return text;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "decompose/observer_response.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -28,45 +30,19 @@ struct Dissipation {
   }
 };
 
-Dissipation dissipation_of(const LinearForm& form, const Real& reference) {
+Dissipation dissipation_of(const ObserverResponse& response, const Real& reference) {
   if (reference > 0) {
-    const ComplexReal d = dynamic_stiffness(form, reference);
+    const ComplexReal& d = response.at_reference;
     return {0, reference * d.imaginary / (d.real * d.real + d.imaginary * d.imaginary)};
   }
-  const Real viscosity = zero_frequency_damping(form);
-  if (form.static_stiffness == 0) return {0, 1 / viscosity};
-  return {2, viscosity / (form.static_stiffness * form.static_stiffness)};
-}
-
-// D_first/D_second where it is one number at all frequencies, else zero.
-Real constant_ratio(const LinearForm& first, const LinearForm& second) {
-  if (first.modes.size() != second.modes.size()) return 0;
-  Real first_total = first.static_stiffness + first.feedthrough_damping;
-  Real second_total = second.static_stiffness + second.feedthrough_damping;
-  for (std::size_t i = 0; i < first.modes.size(); ++i) {
-    if (!nearly_equal(first.modes[i].relaxation_rate, second.modes[i].relaxation_rate)) return 0;
-    first_total += first.modes[i].stiffness;
-    second_total += second.modes[i].stiffness;
-  }
-  const Real ratio = first_total / second_total;
-  bool constant = nearly_equal(first.static_stiffness, ratio * second.static_stiffness) &&
-                  nearly_equal(first.feedthrough_damping, ratio * second.feedthrough_damping);
-  for (std::size_t i = 0; i < first.modes.size(); ++i)
-    constant = constant && nearly_equal(first.modes[i].stiffness, ratio * second.modes[i].stiffness);
-  return constant ? ratio : Real(0);
-}
-
-LinearForm scaled(LinearForm form, const Real& factor) {
-  form.static_stiffness *= factor;
-  form.feedthrough_damping *= factor;
-  for (Mode& mode : form.modes) mode.stiffness *= factor;
-  return form;
+  if (response.stiffness == 0) return {0, 1 / response.viscosity};
+  return {2, response.viscosity / (response.stiffness * response.stiffness)};
 }
 
 // A subtree with its observers chosen: children of a series are reordered, the observed ones first.
 struct Observed {
   Tree tree;
-  LinearForm form;
+  ObserverResponse response;
   Real damping;
 };
 
@@ -76,12 +52,12 @@ struct Group {
   Real compliance_ratio = 0;  // Σ D_first/D_i
   Real damping = 0;
 
-  LinearForm form() const { return scaled(members.front().form, 1 / compliance_ratio); }
+  ObserverResponse response() const { return scaled(members.front().response, 1 / compliance_ratio); }
 };
 
 void join(std::vector<Group>& groups, Observed child) {
   for (Group& group : groups) {
-    const Real ratio = constant_ratio(group.members.front().form, child.form);
+    const Real ratio = constant_ratio(group.members.front().response, child.response);
     if (ratio == 0) continue;
     const Real sum = group.compliance_ratio + ratio;
     group.damping = std::max(Real(group.damping * group.compliance_ratio), Real(child.damping * ratio)) / sum;
@@ -104,7 +80,7 @@ std::string names_in(const Tree& tree, const Network& network) {
 class Observer {
  public:
   Observer(const Network& network, ObserverRule rule, double reference)
-      : network_(network), rule_(rule), reference_(reference) {}
+      : network_(network), rule_(rule), reference_(reference), places_(network, reference) {}
 
   Observed visit(const Tree& tree) {
     switch (tree.kind) {
@@ -125,30 +101,22 @@ class Observer {
 
  private:
   Observed visit_leaf(const Tree& tree) const {
-    LinearForm form;
     const Law& law = network_.elements[tree.element].law;
-    if (const Spring* spring = std::get_if<Spring>(&law)) form.static_stiffness = spring->stiffness;
-    if (const Damper* damper = std::get_if<Damper>(&law)) form.feedthrough_damping = damper->damping;
-    const Real damping = form.feedthrough_damping;
-    return {tree, std::move(form), damping};
+    const Damper* damper = std::get_if<Damper>(&law);
+    return {tree, places_.of(law), damper ? Real(damper->damping) : Real(0)};
   }
 
   Observed visit_parallel(const Tree& tree) {
     Observed whole{{Tree::Kind::parallel, 0, {}}, {}, 0};
+    std::vector<ObserverResponse> responses;
     for (const Tree& child : tree.children) {
       Observed part = visit(child);
       whole.damping += part.damping;
-      append(whole.form, part.form);
+      responses.push_back(std::move(part.response));
       whole.tree.children.push_back(std::move(part.tree));
     }
-    whole.form = in_parallel(std::move(whole.form), {});
+    whole.response = in_parallel(responses);
     return whole;
-  }
-
-  static void append(LinearForm& sum, const LinearForm& part) {
-    sum.static_stiffness += part.static_stiffness;
-    sum.feedthrough_damping += part.feedthrough_damping;
-    sum.modes.insert(sum.modes.end(), part.modes.begin(), part.modes.end());
   }
 
   Observed visit_series(const Tree& tree) {
@@ -156,7 +124,9 @@ class Observer {
     for (const Tree& child : tree.children) join(groups, visit(child));
     const auto observed = std::min_element(groups.begin(), groups.end(),
                                            [this](const Group& x, const Group& y) { return is_preferred(x, y); });
-    Observed whole{{Tree::Kind::series, 0, {}}, form_in_series(groups), observed->damping};
+    std::vector<ObserverResponse> responses;
+    for (const Group& group : groups) responses.push_back(group.response());
+    Observed whole{{Tree::Kind::series, 0, {}}, in_series(responses), observed->damping};
     explain_choice(groups, *observed);
     std::rotate(groups.begin(), observed, observed + 1);
     for (Group& group : groups)
@@ -166,23 +136,16 @@ class Observer {
 
   bool is_preferred(const Group& x, const Group& y) const {
     if (rule_ == ObserverRule::largest) return x.damping > y.damping;
-    const Dissipation of_x = dissipation_of(x.form(), reference_), of_y = dissipation_of(y.form(), reference_);
+    const Dissipation of_x = dissipation_of(x.response(), reference_), of_y = dissipation_of(y.response(), reference_);
     return of_x.ties_with(of_y) ? x.damping > y.damping : of_x.exceeds(of_y);
-  }
-
-  static LinearForm form_in_series(const std::vector<Group>& groups) {
-    if (groups.size() == 1) return groups.front().form();
-    LinearForm mobility;
-    for (const Group& group : groups) append(mobility, reciprocal(group.form()));
-    return reciprocal(in_parallel(std::move(mobility), {}));
   }
 
   // The observed group's share of what all groups dissipate, in percent.
   double share_of(const Group& observed, const std::vector<Group>& groups) const {
-    const Dissipation own = dissipation_of(observed.form(), reference_);
+    const Dissipation own = dissipation_of(observed.response(), reference_);
     Real total = 0;
     for (const Group& group : groups) {
-      const Dissipation other = dissipation_of(group.form(), reference_);
+      const Dissipation other = dissipation_of(group.response(), reference_);
       if (other.order == own.order) total += other.coefficient;
     }
     return total > 0 ? to_double(100 * own.coefficient / total) : 0;
@@ -210,6 +173,7 @@ class Observer {
   const Network& network_;
   ObserverRule rule_;
   Real reference_;
+  ObserverPlaces places_;
   std::vector<std::string> clauses_;
 };
 

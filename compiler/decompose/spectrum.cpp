@@ -111,6 +111,19 @@ double largest_in_band(const PortDevice& device, const std::function<double(doub
   return maximum(logarithmic_grid(device.band_low(), device.band_high()), function);
 }
 
+double largest_brake_share(const LinearForm& form, double damping, const PortDevice& device) {
+  if (damping == 0) return 0;
+  const Motor motor(form, damping, StateInput::position);
+  const double static_stiffness = to_double(form.static_stiffness);
+  const auto share_at = [&](double w) {
+    const MotorImpedance z = motor.impedance(w);
+    const std::complex<double> whole =
+        damping + z.position_driven + z.velocity_driven + static_stiffness / std::complex(0.0, w);
+    return std::abs(whole) == 0 ? 0.0 : damping / std::abs(whole);
+  };
+  return largest_in_band(device, share_at);
+}
+
 double extra_damping_any_delay(const LinearForm& form, double damping, StateInput input, double tolerance) {
   const Motor scanned(form, damping, input);
   const auto lack_at = [&](double w) {

@@ -25,6 +25,9 @@ double largest_error(const LinearForm& form, double damping, StateInput input, c
 // Of a function of ω, over the device's band or the one that devices have by default: a scan refined at its maximum.
 double largest_in_band(const PortDevice& device, const std::function<double(double)>& function);
 
+// max b ω/|D| over the device's band: how many times the network's force the brake makes, for the motor to take off [1].
+double largest_brake_share(const LinearForm& form, double damping, const PortDevice& device);
+
 // The least extra damping [N·s/m] that keeps the split passive for any estimator with |G| ≤ 1 and any delay, the brake
 // giving at least (1 − ε) b: max over ω of (|velocity_driven| − Re position_driven − (1 − ε) b), not below zero.
 // A scan refined at its maximum, not a bound.

@@ -291,14 +291,18 @@ class LawBuilder {
   VariableId change_ = nothing;
 };
 
+// The fastest alone is shown: it decides which rate samples them all.
 void warn_about_fast_relaxations(const Network& network, const LinearForm& form, double period, Diagnostics& diagnostics) {
-  for (const Mode& mode : form.modes) {
-    const double relaxation_time = to_double(1 / mode.relaxation_rate);
-    if (relaxation_time >= 2 * period) continue;
-    diagnostics.report<DiagnosticCode::fast_relaxation>(network.elements[mode.elements.front()].span, relaxation_time,
-                                                        name_of(mode.elements, network), period);
+  const auto is_fast = [&](const Mode& mode) { return to_double(1 / mode.relaxation_rate) < 2 * period; };
+  const auto count = std::count_if(form.modes.begin(), form.modes.end(), is_fast);
+  if (count == 0) return;
+  const Mode& fastest = form.modes.back();
+  const double relaxation_time = to_double(1 / fastest.relaxation_rate);
+  diagnostics.report<DiagnosticCode::fast_relaxation>(network.elements[fastest.elements.front()].span, relaxation_time,
+                                                      name_of(fastest.elements, network), period);
+  if (count > 1) diagnostics.note<DiagnosticCode::further_fast_relaxations>({}, count - 1);
+  if (2 / relaxation_time <= highest_rate)
     diagnostics.note<DiagnosticCode::fast_relaxation_remedy>({}, std::ceil(2 / relaxation_time));
-  }
 }
 
 // The stiffest mode's rounding against the slowest mode's whole force.

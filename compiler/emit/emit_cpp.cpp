@@ -31,11 +31,31 @@ std::string cost_line(const char* phase, const Cost& cost) {
                      cost.multiplications, cost.guards);
 }
 
+// U+202A to U+202E and U+2066 to U+2069 turn the direction of what follows: code would not read as it is compiled.
+bool turns_direction(std::string_view text) {
+  return text.starts_with("\xE2\x80") ? text.size() > 2 && text[2] >= '\xAA' && text[2] <= '\xAE'
+                                        : text.starts_with("\xE2\x81") && text.size() > 2 && text[2] >= '\xA6' && text[2] <= '\xA9';
+}
+
 // The author's words stay in the comment that they are put in: they hold no end of line, and no backslash at one.
 std::string comment_text(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (turns_direction(std::string_view(text).substr(i))) text.replace(i, 3, "?");
   return text.ends_with('\\') || text.ends_with("\?\?/") ? text + "." : text;
+}
+
+// What stands between the quotes of a C++ string.
+std::string string_text(const std::string& text) {
+  std::string result;
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) result += fmt::format("\\{:03o}", byte);
+    else if (c == '"' || c == '\\' || c == '?') result += {'\\', c};
+    else result += c;
+  }
+  return result;
 }
 
 // At spaces; a word longer than a line keeps a line to itself.
@@ -60,16 +80,30 @@ std::string brake_line(const SlipLikes& likes, const std::string& unit) {
   return to_text(likes) + fmt::format("; b = {} {} stuck, {} sliding", shares.front().damping, unit, shares.back().damping);
 }
 
+// Where the numbers were measured, as far as the author says.
+std::string validity_text(const Network& network) {
+  std::string text;
+  const auto add = [&](const char* what, const std::optional<Range>& range, const std::string& unit) {
+    if (range) text += fmt::format("{}{} {} to {} {}", text.empty() ? "" : ", ", what, range->low, range->high, unit);
+  };
+  const std::string length = network.port_motion == motion::rotation ? "rad" : "m";
+  add("displacement", network.valid.displacement, length);
+  add("rate", network.valid.rate, length + "/s");
+  add("frequency", network.valid.frequency, "Hz");
+  return text;
+}
+
 std::vector<std::string> banner(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
   const std::string unit = damping_unit(c.network);
   std::vector<std::string> facts;
   if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
+  if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
-  facts.push_back(fmt::format("decomposition: {}, b = {} {}: {}", choice.name, choice.damping, unit, choice.reason));
-  if (choice.capped())
-    facts.push_back(fmt::format("  capped from {} {} at what the brake can give", choice.wanted_damping, unit));
+  const std::string capped =
+      choice.capped() ? fmt::format(", capped at what the brake can give from {}", choice.wanted_damping) : "";
+  facts.push_back(fmt::format("decomposition: {}, b = {} {}{}: {}", choice.name, choice.damping, unit, capped, choice.reason));
   for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) facts.push_back(brake_line(likes, unit));
   facts.push_back("states: " + c.decomposition.reason);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
@@ -90,7 +124,7 @@ std::vector<std::string> banner(const Compilation& c) {
 
 void describe_device(const Compilation& c, Fields& fields) {
   fields["any_device"] = c.device ? "false" : "true";
-  fields["device"] = c.device ? c.device->name : "ideal";
+  fields["device"] = c.device ? string_text(c.device->name) : "ideal";
   fields["device_digest"] = c.device ? c.device->digest : "";
   fields["estimator"] = c.device ? name_of(c.device->description.velocity.estimator) : "exact";
   fields["loop_delay"] = std::to_string(c.device ? c.device->description.loop.delay_samples : 0u);

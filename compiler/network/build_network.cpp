@@ -13,6 +13,8 @@
 namespace dashpot::compiler {
 namespace {
 
+constexpr std::size_t longest_network_name = 200;  // files are called after it, and file systems take 255
+
 constexpr std::size_t most_elements = 20'000;
 
 // A leaf with its ends; a tree has been laid out as a graph.
@@ -102,6 +104,8 @@ class NetworkBuilder {
       if (placed.leaf->name) given.emplace_back(&*placed.leaf->name, "element");
     std::sort(given.begin(), given.end(),
               [](const auto& x, const auto& y) { return x.first->span.begin < y.first->span.begin; });
+    if (decl_.name && decl_.name->text.size() > longest_network_name)
+      diagnostics_.report<DiagnosticCode::name_too_long>(decl_.name->span, decl_.name->text.size(), longest_network_name);
     for (const auto& [name, owner] : given)
       if (check_name(*name, owner, diagnostics_)) names_.add(*name, diagnostics_);
   }

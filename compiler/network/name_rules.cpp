@@ -26,7 +26,9 @@ constexpr std::string_view keywords[] = {
     "true",        "try",      "typedef",    "typeid",    "typename",  "union",        "unsigned",
     "using",       "virtual",  "void",       "volatile",  "wchar_t",   "while",        "xor",
     "xor_eq",      "linux",    "unix",       "i386",      "NULL",      "NAN",          "INFINITY",
-    "EOF",         "errno"};
+    "EOF",         "errno",    "HUGE_VAL",   "M_E",       "M_LOG2E",   "M_LOG10E",     "M_LN2",
+    "M_LN10",      "M_PI",     "M_PI_2",     "M_PI_4",    "M_1_PI",    "M_2_PI",       "M_2_SQRTPI",
+    "M_SQRT2",     "M_SQRT1_2"};
 
 // Members of the emitted class (architecture, section 5), names inside its functions, and the namespaces around it.
 constexpr std::string_view members[] = {

@@ -3,6 +3,7 @@
 // source: Asbach et al. 2008, Magn Reson Med 60:373, from the abstract: mu1 2.91 +- 0.84 kPa, mu2 4.83 +- 1.77
 //   kPa, eta 14.4 +- 6.6 Pa s; mu1 taken as the equilibrium spring, which is assumed. At a flat punch of radius a
 //   = 5 mm on an incompressible half-space: f = 8 G a u, so 0.04 m times each modulus and viscosity
+// valid: frequency 25 to 62.5 Hz
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 0.576 N·s/m: in series B2 dissipates 100 % at low frequency and is
 //   observed

@@ -5,6 +5,7 @@
 //   tissue: Asbach et al. 2008, Magn Reson Med 60:373, normal liver, from the abstract: mu1 1.16 kPa, mu2 1.97
 //   kPa, eta 7.3 Pa s; at a shaft of radius a = 0.6 mm, l = 30 mm deep, in tissue of radius R = 20 mm: f = 2 pi G
 //   l u / ln(R/a), so 0.05375 m times each. The needle pushes and is not drawn out: the contact lets it go
+// valid: displacement 0 to 0.03 m, rate 0 to 0.02 m/s
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 5 N·s/m: in series B2 dissipates 100 % at low frequency and is observed;
 //   with the contact no more than the feedthrough damping, so that the motor compensates nothing

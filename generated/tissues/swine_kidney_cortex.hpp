@@ -3,6 +3,7 @@
 // source: Amador et al. 2011 (SDUV), from the abstract: Kelvin-Voigt, 1.81 +- 0.17 kPa, 1.48 +- 0.49 Pa s. At a
 //   flat punch of radius a = 5 mm on an incompressible half-space: f = 8 G a u, so 0.04 m times modulus and
 //   viscosity
+// valid: frequency 50 to 500 Hz
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 0.0592 N·s/m: dampers at the tool in parallel add
 // states: position driven: on an ideal device nothing tells the inputs apart

@@ -115,6 +115,11 @@ class Velocity(SimulateTest):
         self.assertEqual([row["velocity"] for row in rows], [7, 8])
         self.assertEqual([row["force"] for row in rows], [35, 140])
 
+    def test_columns_with_units(self):
+        """Fails if what the loop logs cannot be simulated."""
+        rows = self.simulated("kelvin.json", table([(0, 7, 0), (1, 8, 0.5)], "time [s],position [m],velocity [m/s]"))
+        self.assertEqual([row["velocity"] for row in rows], [0, 0.5])
+
     def test_columns_in_any_order_among_others(self):
         """Fails if columns are found by place rather than by name."""
         rows = self.simulated("kelvin.json", table([(9, 7, 0, 0), (9, 8, 1, 0.5)], "force,velocity,position,time"))
@@ -133,6 +138,12 @@ class Rate(SimulateTest):
         rows = [(f"{n / 3000:.12f}", f"{n / 3000:.17g}") for n in range(3000)]
         answer = self.simulated("maxwell.json", table(rows))[-1]["force"]
         self.assertAlmostEqual(answer, 5 * (1 - math.exp(-10 * 2999 / 3000)), delta=1e-11)
+
+    def test_times_since_an_epoch(self):
+        """Fails if times so late that a double rounds them to 0.1 us make a law of another rate."""
+        rows = [(f"{1_700_000_000 + n / 1000:.6f}", n / 1000) for n in range(5001)]
+        answer = self.simulated("maxwell.json", table(rows))[-1]["force"]
+        self.assertAlmostEqual(answer, 5 * (1 - math.exp(-50)), delta=5e-10)
 
     def test_agreement_is_no_contradiction(self):
         """Fails if the rate that the file has anyway may not be given."""
@@ -206,6 +217,14 @@ class Validity(SimulateTest):
         self.assertEqual(codes(done.stderr), ["outside-valid-range"] * 2)
         self.write("motion.csv", table(ramp(5, speed=0.1)))
         self.assertEqual(self.dashpot("simulate", "valid.json", "--input", "motion.csv").stderr, "")
+
+    def test_rest_is_within_any_range_of_rates(self):
+        """Fails if a motion is blamed for its rests, or a number in the warning has no unit."""
+        self.write("valid.json", network('{ "spring": 3 }', more='"valid": { "rate": ["0.5 m/s", "2 m/s"] },'))
+        self.write("motion.csv", table([(0, 0), (0.001, 0.001), (0.002, 0.001)]))
+        self.assertEqual(self.dashpot("simulate", "valid.json", "--input", "motion.csv").stderr, "")
+        self.write("motion.csv", table([(0, 0), (0.001, 0.003), (0.002, 0.003)]))
+        self.assertIn("rate is 3 m/s at 0.001 s", self.dashpot("simulate", "valid.json", "--input", "motion.csv").stderr)
 
 
 if __name__ == "__main__":

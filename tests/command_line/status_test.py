@@ -61,16 +61,28 @@ class WrongCommandLine(CommandTest):
 
     def test_of_a_choice(self):
         """Fails if a value that no network can make sense of is accepted or rounded to one that it can."""
-        for rate in ["0", "-1000", "fast", "nan", "inf", "1e10", "", "1000Hz", "0x10"]:
+        for rate in ["0", "-1000", "fast", "nan", "inf", "1e10", "1e-7", "", "1000Hz", "0x10"]:
             self.wrong("check", FIG_5, "--rate", rate)
         for damping in ["most", "-1", "nan", "inf", "1e999", "5 N s/m", "", "0x1p3"]:
             self.wrong("check", FIG_5, "--decomposition", damping)
-        self.wrong("check", FIG_5, "--scheme", "euler", mentions="euler")
+        self.wrong("check", FIG_5, "--scheme", "euler", mentions="backward-euler")
+        for duration in ["nan", "inf", "0", "-1", "soon"]:
+            self.wrong("run", FIG_5, "--device", PANTOGRAPH, "--for", duration, mentions="seconds")
+        self.wrong("run", FIG_5, "--device", PANTOGRAPH, "--seed", "-1", mentions="-1")
         self.wrong("check", FIG_5, "--state-input", "force", mentions="force")
         self.wrong("check", FIG_5, "--scalar", "half", mentions="half")
         self.wrong("check", FIG_5, "--diagnostics", "xml", mentions="xml")
         self.wrong("compile", FIG_5, "--target", "cobol", mentions="cobol")
         self.wrong("compile", FIG_5, "--print", "everything", mentions="everything")
+
+    def test_of_files_that_would_be_overwritten(self):
+        """Fails if a network, a device or a motion can be lost to the output of the same command."""
+        self.write("n.json", KELVIN)
+        self.write("m.csv", "time,position\n0,0\n0.001,0\n")
+        for arguments in [("compile", "n.json", "--depfile", "./n.json"), ("simulate", "n.json", "--input", "m.csv", "-o", "m.csv"),
+                          ("run", "n.json", "--device", PANTOGRAPH, "--log", "n.json", "--for", "0.1")]:
+            self.refused(*arguments, code="would-overwrite-input", status=COMMAND_LINE_WRONG)
+        self.assertEqual((self.folder / "n.json").read_text(), KELVIN)
 
     def test_of_choices_that_exclude_each_other(self):
         """Fails if nodal states are taken with the exact scheme, or refused without the remedy."""

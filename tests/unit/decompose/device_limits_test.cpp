@@ -144,4 +144,12 @@ TEST(DeviceLimits, more_error_than_a_single_motor_is_reported) {
   EXPECT_FALSE(decomposed(maxwell, choices, &device).reports(DiagnosticCode::more_error_than_virtual));
 }
 
+// Fails if a brake that makes thousands of times the network's force, for the motor to take off, goes unsaid.
+TEST(DeviceLimits, a_brake_that_dwarfs_the_network_is_reported) {
+  const Device device = late_device(10);
+  EXPECT_TRUE(decomposed(R"({ "series": [ { "damper": 10 }, { "spring": 0.01 } ] })", {}, &device)
+                  .reports(DiagnosticCode::brake_dwarfs_network));
+  EXPECT_FALSE(decomposed(maxwell, {}, &device).reports(DiagnosticCode::brake_dwarfs_network));
+}
+
 }  // namespace

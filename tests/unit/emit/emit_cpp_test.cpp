@@ -80,7 +80,8 @@ TEST(EmitCpp, takes_its_names_from_the_author) {
 TEST(EmitCpp, keeps_the_authors_words_inside_comments) {
   const std::string words[] = {R"(ends with a backslash \\)",  R"(two\nlines)",    R"(carriage\rreturn)",
                                R"(line separator \u2028 x)",   R"(bell \u0007)",   R"(nul \u0000 inside)",
-                               R"(*/ #error out /*)",          R"({{name}} {{#x}})", R"(what ??/)"};
+                               R"(*/ #error out /*)",          R"({{name}} {{#x}})", R"(what ??/)",
+                               R"(turned \u202e round \u2066 and round)"};
   const testing::TemporaryFolder folder;
   for (const std::string& text : words) {
     const std::string header = header_of(fmt::format(
@@ -95,6 +96,26 @@ TEST(EmitCpp, keeps_the_authors_words_inside_comments) {
       EXPECT_EQ(finished.status, 0) << text << "\n" << finished.output;
     }
   }
+}
+
+// Fails if a device's name ends the string that it stands in, or comes out as another name.
+TEST(EmitCpp, keeps_the_devices_name_inside_its_string) {
+  const std::string name = "a\nb\"; evil(); // \\ ?\?/ é";
+  const SourceFile file("test.json", R"({ "dashpot": 1, "name": "words", "network": { "damper": 5 } })");
+  Device device;
+  device.name = name;
+  device.description.loop.sample_period = 0.001;
+  Diagnostics diagnostics;
+  const std::optional<Compilation> compilation = compile(file, {}, device, diagnostics);
+  ASSERT_TRUE(compilation);
+  const testing::TemporaryFolder folder;
+  testing::write_text(folder.path() / "words.hpp", emit_cpp(*compilation, {}, diagnostics)->front().text);
+  const testing::Finished finished = testing::run_command(fmt::format(
+      "cd '{}' && printf '#include \"words.hpp\"\n#include <cstdio>\n"
+      "int main() {{ std::fputs(dashpot::generated::words::certified_for::device, stdout); }}' > m.cpp && "
+      "'{}' -std=c++17 -trigraphs {} m.cpp -o m && ./m",
+      folder.path().string(), DASHPOT_GXX, testing::runtime_include()));
+  EXPECT_EQ(finished.output, name);
 }
 
 // Fails if a word longer than a line, or blanks without end, are cut, run for ever, or are taken for a defect.

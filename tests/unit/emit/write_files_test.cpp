@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 
 #include "support/shell_command.hpp"
@@ -48,6 +52,32 @@ TEST(WriteFiles, writes_none_where_one_cannot_be_written) {
   EXPECT_TRUE(diagnostics.has_errors());
   EXPECT_EQ(testing::text_of(folder.path() / "good.hpp"), "before\n");
   EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"bad.hpp", "good.hpp"}));
+}
+
+// Fails if a link to a file becomes a file of its own.
+TEST(WriteFiles, follows_links) {
+  const testing::TemporaryFolder folder;
+  testing::write_text(folder.path() / "far.csv", "before\n");
+  fs::create_symlink("far.csv", folder.path() / "near.csv");
+  Diagnostics diagnostics;
+  ASSERT_TRUE(write_files(folder.path().string(), {{"near.csv", "after\n"}}, diagnostics));
+  EXPECT_TRUE(fs::is_symlink(folder.path() / "near.csv"));
+  EXPECT_EQ(testing::text_of(folder.path() / "far.csv"), "after\n");
+}
+
+// Fails if a pipe or a device, /dev/stdout for one, is replaced by a file.
+TEST(WriteFiles, writes_into_pipes) {
+  const testing::TemporaryFolder folder;
+  const std::string pipe = (folder.path() / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  Diagnostics diagnostics;
+  ASSERT_TRUE(write_files("", {{pipe, "through\n"}}, diagnostics));
+  char read[16] = {};
+  EXPECT_EQ(::read(reader, read, sizeof read), 8);
+  EXPECT_STREQ(read, "through\n");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  ::close(reader);
 }
 
 // Fails if a folder that cannot be made is not reported.

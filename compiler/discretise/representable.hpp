@@ -1,0 +1,11 @@
+// Whether the constants of a law exist in its scalar type.
+#pragma once
+
+#include "discretise/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// Refuses, each once, constants that are not finite after rounding.
+bool is_representable(const UpdateLaw& law, const Network& network, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,47 @@
+#include "linear/reach.hpp"
+
+#include <algorithm>
+
+#include "linear/modal_reduction.hpp"
+#include "network/law.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+template <class Kind>
+bool are_near(const Network& network, std::string_view kinds, Diagnostics& diagnostics) {
+  const Element* least = nullptr;
+  const Element* most = nullptr;
+  for (const Element& element : network.elements) {
+    if (!element.has_effect || !std::holds_alternative<Kind>(element.law) || value_of(element.law) == 0) continue;
+    if (least == nullptr || value_of(element.law) < value_of(least->law)) least = &element;
+    if (most == nullptr || value_of(element.law) > value_of(most->law)) most = &element;
+  }
+  if (least == nullptr || value_of(most->law) / widest_spread <= value_of(least->law)) return true;
+  diagnostics.report<DiagnosticCode::values_far_apart>(least->span, kinds, least->name, value_of(least->law), most->name,
+                                                       value_of(most->law), widest_spread);
+  return false;
+}
+
+bool are_small(const Network& network, Diagnostics& diagnostics) {
+  std::vector<std::size_t> elements;
+  for (std::size_t i = 0; i < network.elements.size(); ++i)
+    if (network.elements[i].has_effect) elements.push_back(i);
+  for (const Part& part : independent_parts(network, elements, tool, ground)) {
+    if (part.internal.size() <= most_inner_nodes) continue;
+    const Element& first = network.elements[part.elements.front()];
+    diagnostics.report<DiagnosticCode::part_too_large>(first.span, first.name, part.internal.size(), most_inner_nodes);
+    return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool is_within_reach(const Network& network, Diagnostics& diagnostics) {
+  const bool springs = are_near<Spring>(network, "springs", diagnostics);
+  const bool dampers = are_near<Damper>(network, "dampers", diagnostics);
+  return springs && dampers && are_small(network, diagnostics);
+}
+
+}  // namespace dashpot::compiler

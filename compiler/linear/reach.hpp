@@ -1,0 +1,17 @@
+// What the extended precision and the dense elimination of a part carry.
+#pragma once
+
+#include "network/network.hpp"
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+// Of stiffnesses among each other, and of dampings [1]. Up to here results were compared with exact ones.
+inline constexpr double widest_spread = 1e24;
+// Inner nodes that springs, dampers and slips join without passing tool or ground: the work grows with their cube.
+inline constexpr std::size_t most_inner_nodes = 400;
+
+// Refuses, with the elements, values further apart, and parts of more nodes.
+bool is_within_reach(const Network& network, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -42,6 +42,8 @@ function(dashpot_compile target)
   file(MAKE_DIRECTORY ${folder})
   add_custom_command(
     OUTPUT ${outputs}
+    # A network under a new name leaves no header of the old one.
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
     COMMAND dashpot::dashpot compile ${arg_NETWORK} ${options} -o ${folder} --depfile ${folder}/${name}.d
     DEPENDS ${arg_NETWORK} ${arg_DEVICE} dashpot::dashpot
     DEPFILE ${folder}/${name}.d

@@ -173,6 +173,7 @@ class Installed(Consumer, unittest.TestCase):
         before = self.project.press()
         self.project.build()
         self.assertEqual(before, self.project.press())
+        self.assertFalse((self.project.build_folder / "tissue/tissue.hpp").exists())  # else a program may go on with it
 
     # Fails if a law goes on being certified for a device that has changed.
     def test_changed_device(self):

@@ -108,7 +108,7 @@ Figure figure_by_estimator(const ZWidth& map) {
 Figure figure_by_decomposition(const ZWidth& map) {
   Figure figure{"Z-width: walls K behind B, by every decomposition", {"Thick: stable in simulation; 100,000 N/m is as far as the map goes. Dotted: certified."}, {}};
   const std::vector<std::string> names = realisations(map, WallKind::maxwell);
-  const Style of_each[] = {{"#c1440e", 5}, {"#0b5fa5", 3}, {"#2f8f5b", 1.8}, {"#e8e0f0", 1.2}};
+  const Style of_each[] = {{"#c1440e", 5}, {"#0b5fa5", 3}, {"#2f8f5b", 1.8}, {"#1a1a1a", 1.2, "5 4"}};
   for (const double rate : rates) {
     std::vector<Curve> curves;
     for (std::size_t i = 0; i < names.size(); ++i) {

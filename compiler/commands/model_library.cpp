@@ -1,76 +1,17 @@
 #include "commands/model_library.hpp"
 
 #include <dlfcn.h>
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 
+#include "commands/system_compiler.hpp"
 #include "emit/write_files.hpp"
-
-extern char** environ;
 
 namespace dashpot::compiler {
 namespace {
 
 namespace fs = std::filesystem;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (fs::temp_directory_path() / "dashpot-XXXXXX").string();
-    if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-// Beside an installed compiler, else where this one was built from.
-std::string runtime_headers() {
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = self.parent_path().parent_path() / DASHPOT_INSTALL_INCLUDEDIR;
-  return fs::exists(installed / "dashpot" / "command.hpp", error) ? installed.string() : DASHPOT_RUNTIME_HEADERS;
-}
-
-// Standard error goes to `log`. Returns the exit status, or 127 where the program cannot be started.
-int run_program(std::vector<std::string> words, const std::string& log) {
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  ::posix_spawn_file_actions_init(&actions);
-  ::posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-  pid_t child = 0;
-  const int refused = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-  ::posix_spawn_file_actions_destroy(&actions);
-  if (refused != 0) return 127;
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
-}
-
-std::string contents_of(const fs::path& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 const model_table* open_library(const fs::path& library, Diagnostics& diagnostics) {
   void* handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
@@ -104,7 +45,7 @@ std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOp
                                   (folder.path() / (compilation.network.name + "_library.cpp")).string(), "-o", library.string()},
                                  log.string());
   if (status != 0) {
-    diagnostics.report<DiagnosticCode::system_compiler_failed>({}, compiler, status == 127 ? "cannot be started" : contents_of(log));
+    diagnostics.report<DiagnosticCode::system_compiler_failed>({}, compiler, status == program_not_found ? "cannot be started" : contents_of(log));
     return std::nullopt;
   }
   const model_table* table = open_library(library, diagnostics);

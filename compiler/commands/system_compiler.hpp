@@ -1,0 +1,34 @@
+// The system's compiler, for those commands that run what they emit.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dashpot::compiler {
+
+// A folder of its own below the system's temporary one, removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Where <dashpot/command.hpp> is: beside an installed compiler, else where this one was built from.
+std::string runtime_headers();
+
+inline constexpr int program_not_found = 127;
+
+// Standard error goes to `log`. Returns the exit status, or program_not_found where it cannot be started.
+int run_program(std::vector<std::string> words, const std::string& log);
+
+std::string contents_of(const std::filesystem::path& path);
+
+}  // namespace dashpot::compiler

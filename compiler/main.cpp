@@ -120,6 +120,11 @@ void describe(CLI::App& app, CommandLine& line) {
       ->option_text("FILE.csv");
   simulate->add_option("-o,--output", options.output, "File to write to, default standard output")->option_text("FILE.csv");
 
+  CLI::App* report = add_command(app, line, "report", "Draw the network, its responses and the choice as one HTML page");
+  add_networks(*report, line, false);
+  add_choices(*report, line);
+  report->add_option("-o,--output", options.output, "File to write to")->required()->option_text("FILE.html");
+
   CLI::App* device = add_command(app, line, "device", "Fill in a device file's brake from the geometry of its blade");
   BladeWords& blade = options.blade;
   device->add_option("DEVICE", options.device, "Device file")->required();
@@ -163,7 +168,7 @@ void take_over_words(CommandLine& line) {
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
   static const std::map<std::string, Command> commands = {
-      {"check", run_check}, {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate}, {"device", run_device}, {"run", run_run}};
+      {"check", run_check}, {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate}, {"report", run_report}, {"device", run_device}, {"run", run_run}};
   SourceFiles files;
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;

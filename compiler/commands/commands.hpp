@@ -22,6 +22,7 @@ ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& di
 ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 

@@ -25,6 +25,7 @@ struct Compilation {
 struct EmissionOptions {
   bool with_test = false;
   bool with_library = false;  // a source that makes the class loadable at run time
+  bool with_live = false;     // a source for WebAssembly, the same behind the functions that a page calls
   std::optional<std::string> templates;  // folder in place of the built-in ones
 };
 
@@ -33,7 +34,7 @@ struct OutputFile {
   std::string text;
 };
 
-// <name>.hpp, and <name>_test.cpp and <name>_library.cpp where asked for. Refuses: templates that do not fit.
+// <name>.hpp, and <name>_test.cpp <name>_library.cpp and <name>_live.cpp where asked for. Refuses: templates that do not fit.
 std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 

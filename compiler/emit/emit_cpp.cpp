@@ -209,6 +209,8 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
     ok &= append("network_test.cpp.in", name + "_test.cpp", test_model(compilation), options, files, diagnostics);
   if (options.with_library)
     ok &= append("model_library.cpp.in", name + "_library.cpp", {{{"name", name}}, {}}, options, files, diagnostics);
+  if (options.with_live)
+    ok &= append("live.cpp.in", name + "_live.cpp", {{{"name", name}}, {}}, options, files, diagnostics);
   if (!ok) return std::nullopt;
   return files;
 }

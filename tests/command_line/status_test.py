@@ -14,7 +14,7 @@ LINEAR_DEVICE = """{ "dashpot_device": 1, "name": "slide", "source": "none", "mo
   "motor": { "max_torque": "10 N" },
   "mechanics": { "inertia": "0.1 kg", "damping": "0.1 N s/m", "coulomb_friction": "0.1 N" } }
 """
-COMMANDS = ["check", "explain", "compile", "simulate"]
+COMMANDS = ["check", "explain", "compile", "simulate", "report"]
 
 
 class Help(CommandTest):
@@ -58,6 +58,7 @@ class WrongCommandLine(CommandTest):
         self.wrong("compile", FIG_5, "--fast-math", mentions="--fast-math")
         self.wrong("explain", FIG_5, FIG_5)
         self.wrong("simulate", FIG_5, mentions="--input")
+        self.wrong("report", FIG_5, mentions="--output")
 
     def test_of_a_choice(self):
         """Fails if a value that no network can make sense of is accepted or rounded to one that it can."""

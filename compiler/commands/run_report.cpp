@@ -1,0 +1,21 @@
+#include "commands/commands.hpp"
+#include "commands/web_module.hpp"
+#include "compile.hpp"
+#include "emit/write_files.hpp"
+#include "report/report.hpp"
+
+namespace dashpot::compiler {
+
+ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const DeviceChoice device = open_device(options, files, diagnostics);
+  if (device.status != ExitStatus::done) return device.status;
+  const SourceFile* file = files.open(options.networks.front(), diagnostics);
+  if (file == nullptr) return ExitStatus::input_refused;
+  const std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
+  if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  const std::optional<std::string> page = report(*compilation, web_module(*compilation, diagnostics), diagnostics);
+  if (!page || diagnostics.has_errors()) return ExitStatus::input_refused;
+  return write_files("", {{*options.output, *page}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,15 @@
+// A network's emitted code as a module of WebAssembly, for a page.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// Compiles with $DASHPOT_CLANG, else with the clang++ that there is. Warns, and returns nothing, where none makes
+// WebAssembly. Refuses, with an error: templates that do not fit.
+std::optional<std::string> web_module(const Compilation& compilation, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

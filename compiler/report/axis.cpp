@@ -1,0 +1,61 @@
+#include "report/axis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/number_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+double round_step(double rough) {
+  const double decade = std::pow(10, std::floor(std::log10(rough)));
+  for (const double multiple : {1.0, 2.0, 5.0})
+    if (rough <= multiple * decade * (1 + 1e-9)) return multiple * decade;
+  return 10 * decade;
+}
+
+// A multiple of three, so that it goes with a prefix of the unit.
+int power_for(double largest) {
+  const int decade = static_cast<int>(std::floor(std::log10(largest) + 1e-9));
+  return decade >= -2 && decade <= 3 ? 0 : 3 * static_cast<int>(std::floor(decade / 3.0));
+}
+
+constexpr int most_labels = 7;
+
+}  // namespace
+
+double Axis::place(double value) const {
+  if (scale == AxisScale::linear) return (value - shown.low) / (shown.high - shown.low);
+  return std::log(value / shown.low) / std::log(shown.high / shown.low);
+}
+
+Axis linear_axis(Interval values, int wanted) {
+  // A curve that is flat but for rounding is shown as flat.
+  const double size = std::max(std::abs(values.low), std::abs(values.high));
+  if (values.high - values.low <= 1e-9 * size) values = {values.low - 0.5 * size, values.high + 0.5 * size};
+  if (size == 0) values = {-1, 1};
+  const double step = round_step((values.high - values.low) / wanted);
+  const double first = std::floor(values.low / step + 1e-9);
+  const double last = std::max(first + 1, std::ceil(values.high / step - 1e-9));
+  Axis axis{AxisScale::linear, {first * step, last * step}, power_for(std::max(std::abs(first), std::abs(last)) * step), {}};
+  for (double i = first; i <= last; ++i)
+    axis.ticks.push_back({i * step, number_text(i * step / std::pow(10, axis.power_of_ten), 6)});
+  return axis;
+}
+
+Axis logarithmic_axis(Interval values) {
+  Axis axis{AxisScale::logarithmic, values, 0, {}};
+  const int first = static_cast<int>(std::floor(std::log10(values.low) + 1e-9));
+  const int last = static_cast<int>(std::ceil(std::log10(values.high) - 1e-9));
+  const int stride = 1 + (last - first) / most_labels;
+  for (int decade = first; decade <= last; ++decade)
+    for (int multiple = 1; multiple < (stride == 1 ? 10 : 2); ++multiple) {
+      const double value = multiple * std::pow(10, decade);
+      if (value < values.low * (1 - 1e-9) || value > values.high * (1 + 1e-9)) continue;
+      axis.ticks.push_back({value, multiple == 1 && decade % stride == 0 ? number_text(value) : ""});
+    }
+  return axis;
+}
+
+}  // namespace dashpot::compiler

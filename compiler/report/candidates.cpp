@@ -1,0 +1,80 @@
+#include "report/candidates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "report/markup.hpp"
+#include "report/number_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double not_computed = std::numeric_limits<double>::quiet_NaN();
+
+struct FigureOfMerit {
+  std::string label;
+  std::string unit;
+  std::function<double(const Candidate&)> value;  // not_computed where it is not there
+};
+
+// In the order of the plot's menus.
+std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
+  const PortUnits units = port_units(c.network.port_motion);
+  std::vector<FigureOfMerit> all = {
+      {"motor noise", units.force, [](const Candidate& k) { return k.motor_noise.value_or(not_computed); }},
+      {"velocity gain of the motor", units.damping, [](const Candidate& k) { return k.velocity_gain; }},
+      {"minimum damping", units.damping, [](const Candidate& k) { return k.minimum_damping.value_or(not_computed); }},
+      {"extra damping under any delay", units.damping, [](const Candidate& k) { return k.extra_damping_any_delay.value_or(not_computed); }},
+      {"largest error in the band", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
+      {"damping asked of the brake", units.damping, [](const Candidate& k) { return k.damping; }}};
+  const auto is_known = [&](const FigureOfMerit& figure) {
+    return std::any_of(c.decomposition.candidates.begin(), c.decomposition.candidates.end(),
+                       [&](const Candidate& k) { return figure.value(k) == figure.value(k); });
+  };
+  std::erase_if(all, [&](const FigureOfMerit& figure) { return !is_known(figure); });
+  const bool is_ideal = !c.device;  // which has neither noise nor error
+  std::erase_if(all, [&](const FigureOfMerit& figure) { return is_ideal && (figure.unit == "%" || figure.label == "motor noise"); });
+  return all;
+}
+
+std::string cell(double value) { return "<td>" + (value == value ? number_text(value) : std::string("–")) + "</td>"; }
+
+std::string row(const Candidate& candidate, bool chosen, const std::vector<FigureOfMerit>& figures) {
+  std::string html = fmt::format("<tr{}><th scope=\"row\">{}</th><td class=\"word\">{}</td>", chosen ? " class=\"chosen\"" : "",
+                                 escaped(candidate.name), name_of(candidate.state_input));
+  for (const FigureOfMerit& figure : figures) html += cell(figure.value(candidate));
+  const std::string capped = candidate.capped() ? " (capped from " + number_text(candidate.wanted_damping) + " at what the brake can give)" : "";
+  return html + "<td class=\"reason\">" + escaped(candidate.reason + capped) + "</td></tr>\n";
+}
+
+}  // namespace
+
+std::string candidates_table_html(const Compilation& c) {
+  const std::vector<FigureOfMerit> figures = figures_of_merit(c);
+  std::string html = "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>candidate</th><th class=\"word\">states driven by</th>";
+  for (const FigureOfMerit& figure : figures) html += fmt::format("<th>{} [{}]</th>", figure.label, figure.unit);
+  html += "<th class=\"reason\">why this damping</th></tr></thead><tbody>\n";
+  for (const Candidate& candidate : c.decomposition.candidates)
+    html += row(candidate, &candidate == &c.decomposition.choice(), figures);
+  return html + "</tbody></table></div>\n";
+}
+
+std::string candidates_json(const Compilation& c) {
+  const std::vector<FigureOfMerit> figures = figures_of_merit(c);
+  std::string labels, candidates;
+  for (const FigureOfMerit& figure : figures)
+    labels += fmt::format("{}{{\"label\":{},\"unit\":{}}}", labels.empty() ? "" : ",", json_literal(figure.label), json_literal(figure.unit));
+  for (const Candidate& candidate : c.decomposition.candidates) {
+    std::string values;
+    for (const FigureOfMerit& figure : figures) values += (values.empty() ? "" : ",") + json_literal(figure.value(candidate));
+    candidates += fmt::format("{}{{\"name\":{},\"chosen\":{},\"values\":[{}]}}", candidates.empty() ? "" : ",", json_literal(candidate.name),
+                              &candidate == &c.decomposition.choice(), values);
+  }
+  return "{\"figures\":[" + labels + "],\"candidates\":[" + candidates + "]}";
+}
+
+}  // namespace dashpot::compiler

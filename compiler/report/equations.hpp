@@ -1,0 +1,16 @@
+// The network's equations as MathML, with its numbers.
+#pragma once
+
+#include <string>
+
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// D(s) in letters, then with this network's numbers, then the modes as a table.
+std::string canonical_form_html(const Compilation& compilation);
+
+// What the emitted code does at each sample, statement by statement, from the law itself.
+std::string update_law_html(const Compilation& compilation);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,114 @@
+#include "report/law_mathml.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "report/markup.hpp"
+#include "report/number_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// The letters of theory, sections 3 and 4, for the names of the law.
+const std::map<std::string, std::string>& letters() {
+  static const std::string change = "<mrow><mi mathvariant=\"normal\">Δ</mi><mi>u</mi></mrow>";
+  static const std::map<std::string, std::string> all = {
+      {"position", "<mi>u</mi>"},
+      {"velocity", "<mover><mi>v</mi><mo>^</mo></mover>"},
+      {"position_change", change},
+      {"last_position", "<msub><mi>u</mi><mo>−</mo></msub>"},
+      {"sampled_position", "<mi>u</mi>"},
+      {"sampled_position_change", change},
+      {"sampled_velocity", "<mover><mi>v</mi><mo>^</mo></mover>"},
+      {"force", "<mi>m</mi>"},
+      {"relaxed_force", "<mi>S</mi>"},
+      {"mode_force", "<mi>F</mi>"},
+      {"mode_error", "<mi>e</mi>"},
+      {"mode_increment", "<mi>y</mi>"},
+      {"mode_next", "<mi>t</mi>"},
+      {"mode_decay", "<mi>a</mi>"},
+      {"mode_gain", "<mi>g</mi>"},
+      {"mode_velocity_drive", "<mi>w</mi>"},
+      {"mode_loss", "<mi>α</mi>"}};
+  return all;
+}
+
+std::string symbol(const std::string& name, bool indexed) {
+  const auto known = letters().find(name);
+  const std::string letter = known == letters().end() ? "<mtext>" + escaped(name) + "</mtext>" : known->second;
+  return indexed ? "<msub>" + letter + "<mi>i</mi></msub>" : letter;
+}
+
+int precedence(Operation operation) {
+  switch (operation) {
+    case Operation::add:
+    case Operation::subtract: return 1;
+    case Operation::multiply: return 2;
+    case Operation::where: return 0;
+    default: return 3;
+  }
+}
+
+class Writer {
+ public:
+  explicit Writer(const UpdateLaw& law) : law_(law) {}
+
+  std::string written(ExpressionId id) const {
+    const Expression& e = law_.expressions[id];
+    switch (e.operation) {
+      case Operation::read: return variable_mathml(law_.variables[e.left]);
+      case Operation::constant: return constant(law_.coefficients[e.left]);
+      case Operation::add: return added(e);
+      case Operation::subtract: return grouped(e.left, 1) + "<mo>−</mo>" + grouped(e.right, 2);
+      case Operation::multiply: return grouped(e.left, 2) + "<mo>&#x2062;</mo>" + grouped(e.right, 3);
+      case Operation::flush: return written(e.left);
+      case Operation::clamp: return "<mi>clamp</mi><mo stretchy=\"false\">(</mo>" + written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3) + "<mo stretchy=\"false\">)</mo>";
+      case Operation::where: return choice(e);
+      case Operation::sum: return "<munder><mo>∑</mo><mi>i</mi></munder>" + variable_mathml(law_.variables[law_.expressions[e.left].left]);
+    }
+    return "";
+  }
+
+ private:
+  static std::string constant(const Coefficient& c) {
+    return c.values.size() == 1 ? number_mathml(c.values.front(), 6) : coefficient_mathml(c);
+  }
+
+  // A negative number behind a plus is a minus: the value is the same to the last bit.
+  std::string added(const Expression& e) const {
+    static const std::string minus = "<mn>−";
+    std::string right = grouped(e.right, 2);
+    const std::size_t number = right.find("<mn>");
+    const bool comes_first = number != right.npos && right.substr(0, number).find_first_not_of("<mrow>") == right.npos;
+    if (!comes_first || right.compare(number, minus.size(), minus) != 0) return grouped(e.left, 1) + "<mo>+</mo>" + right;
+    right.replace(number, minus.size(), "<mn>");
+    return grouped(e.left, 1) + "<mo>−</mo>" + right;
+  }
+
+  std::string choice(const Expression& e) const {
+    return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.left) + "</mtd><mtd><mtext>if </mtext>" +
+           grouped(e.condition, 1) + "<mo>&gt;</mo><mn>0</mn></mtd></mtr><mtr><mtd>" + written(e.right) +
+           "</mtd><mtd><mtext>else</mtext></mtd></mtr></mtable></mrow>";
+  }
+
+  std::string grouped(ExpressionId id, int least_precedence) const {
+    const Expression& e = law_.expressions[id];
+    // The guard is not shown: what it guards decides.
+    if (e.operation == Operation::flush) return grouped(e.left, least_precedence);
+    const std::string inner = "<mrow>" + written(id) + "</mrow>";
+    if (precedence(e.operation) < least_precedence) return "<mrow><mo stretchy=\"false\">(</mo>" + inner + "<mo stretchy=\"false\">)</mo></mrow>";
+    return e.operation == Operation::read || e.operation == Operation::constant ? written(id) : inner;
+  }
+
+  const UpdateLaw& law_;
+};
+
+}  // namespace
+
+std::string expression_mathml(const UpdateLaw& law, ExpressionId expression) { return Writer(law).written(expression); }
+
+std::string variable_mathml(const Variable& variable) { return symbol(variable.name, variable.size > 1); }
+std::string coefficient_mathml(const Coefficient& coefficient) { return symbol(coefficient.name, coefficient.values.size() > 1); }
+
+}  // namespace dashpot::compiler

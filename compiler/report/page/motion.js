@@ -1,0 +1,53 @@
+// Motions: {position: Float64Array, velocity: Float64Array or null, time: Float64Array or null}. Without velocities they
+// are the slope since the sample before; without times those are counted from 0.
+
+// A recorded motion as `dashpot simulate` reads it. Throws what is wrong with it.
+function motion_of_csv(text, period) {
+  const rows = text.replace(/^\uFEFF/, '').split('\n').map((line) => line.trim()).filter((line) => line !== '')
+    .map((line) => line.split(',').map((cell) => cell.replace(/^[\s"]+|[\s"]+$/g, '')));
+  if (rows.length < 2) throw new Error('no rows; a header and at least one row are expected');
+  const column = (name) => {
+    if (rows[0].filter((title) => title === name).length > 1) throw new Error(`column '${name}' is there twice`);
+    return rows[0].indexOf(name);
+  };
+  const places = { time: column('time'), position: column('position'), velocity: column('velocity') };
+  for (const name of ['time', 'position'])
+    if (places[name] < 0) throw new Error(`no column '${name}'; 'time' and 'position' are expected`);
+  const values = (name) => Float64Array.from(rows.slice(1), (row, i) => number(row, places[name], rows[0].length, name, i + 2));
+  const motion = { time: values('time'), position: values('position'), velocity: places.velocity < 0 ? null : values('velocity') };
+  check_period(motion.time, period);
+  return motion;
+}
+
+function number(row, place, count, name, line) {
+  if (row.length !== count) throw new Error(`row ${line} has ${row.length} fields; the header has ${count}`);
+  if (!/^-?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$/.test(row[place]) || !isFinite(Number(row[place])))
+    throw new Error(`row ${line}: ${name} is '${row[place]}'; a finite number is expected`);
+  return Number(row[place]);
+}
+
+// Decimal times are rounded; the median step tells the period.
+function check_period(time, period) {
+  if (time.length < 2) return;
+  const steps = time.slice(1).map((t, i) => t - time[i]);
+  const median = steps.slice().sort()[steps.length >> 1];
+  steps.forEach((step, i) => {
+    if (!(Math.abs(step - median) <= 1e-6 * median + 2 ** -50 * Math.abs(time[i + 1])))
+      throw new Error(`row ${i + 3} follows after ${step} s; a uniform period of ${median} s is expected`);
+  });
+  if (!(Math.abs(median / period - 1) <= 1e-6))
+    throw new Error(`rows come at ${rounded(1 / median)} Hz, the law of this page runs at ${rounded(1 / period)} Hz; write the report with --rate ${rounded(1 / median)}`);
+}
+
+// Of depth 1, over times from 0 to 1.
+const shapes = {
+  press: (t) => Math.min(1, 4 * t),
+  sine: (t) => Math.sin(8 * Math.PI * t),
+  triangle: (t) => 1 - Math.abs(((6 * t + 3) % 4) - 2),
+  steps: (t) => Math.min(3, Math.floor(4 * t)) / 3,
+};
+
+function motion_of_shape(shape, depth, duration, period) {
+  const count = Math.round(duration / period);
+  return { time: null, velocity: null, position: Float64Array.from({ length: count + 1 }, (_, k) => depth * shape(k / count)) };
+}

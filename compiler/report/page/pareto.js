@@ -1,0 +1,105 @@
+// The candidates by two figures of merit of the reader's choice.
+function set_up_pareto(figures, candidates) {
+  const holder = element('pareto');
+  const menus = [element('pareto-x'), element('pareto-y')];
+  // At first the figures that tell the candidates apart.
+  const tells = (i) => new Set(candidates.map((candidate) => candidate.values[i])).size > 1;
+  const first = figures.map((_, i) => i).sort((i, j) => tells(j) - tells(i) || i - j);
+  menus.forEach((menu, place) => {
+    figures.forEach((figure, i) => menu.add(new Option(`${figure.label} [${figure.unit}]`, i)));
+    menu.value = first[Math.min(place, first.length - 1)];
+    menu.addEventListener('change', () => draw());
+  });
+  let chart = null;
+
+  // Candidates that agree in both figures are one point.
+  function points_of(x, y) {
+    const points = [];
+    for (const candidate of candidates) {
+      const at = [candidate.values[x], candidate.values[y]];
+      if (at.includes(null)) continue;
+      const same = points.find((p) => p.x === at[0] && p.y === at[1]);
+      if (same) { same.names.push(candidate.name); same.chosen ||= candidate.chosen; }
+      else points.push({ x: at[0], y: at[1], names: [candidate.name], chosen: candidate.chosen });
+    }
+    for (const p of points)
+      p.beaten = points.some((q) => q !== p && q.x <= p.x && q.y <= p.y);
+    return points.sort((p, q) => p.x - q.x || p.y - q.y);
+  }
+
+  const range = (chart, low, high) => {
+    const top = high > 0 ? high : 1;
+    return [-0.05 * top, 1.15 * top];
+  };
+
+  function draw() {
+    const [x, y] = menus.map((menu) => Number(menu.value));
+    const points = points_of(x, y);
+    const titles = [x, y].map((i) => `${figures[i].label} [${figures[i].unit}]`);
+    chart?.destroy();
+    holder.replaceChildren();
+    const tip = document.createElement('div');
+    tip.className = 'tip';
+    tip.hidden = true;
+    const width = width_of(holder);
+    chart = new uPlot({
+      width, height: Math.round(Math.min(360, 120 + width * 0.5)), legend: { show: false }, padding: [12, 16, 0, 0],
+      scales: { x: { time: false, range }, y: { range } },
+      axes: [axis(titles[0]), axis(titles[1], { size: 66, space: 40 })],
+      series: [{}, { paths: () => null, points: { show: false } }],
+      cursor: { drag: { x: false, y: false }, points: { show: false } },
+      hooks: { draw: [(u) => paint(u, points)] },
+    }, points.length ? [points.map((p) => p.x), points.map((p) => p.y)] : [[0], [null]], holder);
+    holder.append(tip);
+    chart.over.addEventListener('pointermove', (event) => show_nearest(event, points, titles, tip));
+    chart.over.addEventListener('pointerleave', () => { tip.hidden = true; });
+  }
+
+  function paint(u, points) {
+    const ctx = u.ctx, scale = devicePixelRatio;
+    const place = (p) => [u.valToPos(p.x, 'x', true), u.valToPos(p.y, 'y', true)];
+    ctx.save();
+    ctx.lineWidth = 1.5 * scale;
+    ctx.strokeStyle = colour('--muted');
+    ctx.setLineDash([4 * scale, 3 * scale]);
+    ctx.beginPath();
+    points.filter((p) => !p.beaten).map(place).forEach(([px, py], i, all) => {
+      if (i > 0) ctx.lineTo(px, all[i - 1][1]);
+      ctx.lineTo(px, py);
+    });
+    ctx.stroke();
+    ctx.setLineDash([]);
+    ctx.font = `${11.5 * scale}px ${sans()}`;
+    for (const p of points) paint_point(u, ctx, p, place(p), scale);
+    ctx.restore();
+  }
+
+  function paint_point(u, ctx, p, [px, py], scale) {
+    ctx.beginPath();
+    ctx.arc(px, py, (p.chosen ? 6 : 4.5) * scale, 0, 2 * Math.PI);
+    ctx.fillStyle = p.chosen ? colour('--brake') : colour('--paper');
+    ctx.strokeStyle = p.chosen ? colour('--brake') : colour(p.beaten ? '--muted' : '--ink');
+    ctx.fill();
+    ctx.stroke();
+    const name = p.names.length > 2 ? `${p.names[0]} and ${p.names.length - 1} more` : p.names.join(', ');
+    const goes_left = px + ctx.measureText(name).width + 14 * scale > u.bbox.left + u.bbox.width;
+    ctx.textAlign = goes_left ? 'right' : 'left';
+    ctx.fillStyle = colour(p.beaten && !p.chosen ? '--muted' : '--ink');
+    ctx.fillText(name, px + (goes_left ? -10 : 10) * scale, py - 7 * scale);
+  }
+
+  function show_nearest(event, points, titles, tip) {
+    const box = chart.over.getBoundingClientRect(), outer = holder.getBoundingClientRect();
+    const from = (p) => Math.hypot(chart.valToPos(p.x, 'x') - event.clientX + box.left, chart.valToPos(p.y, 'y') - event.clientY + box.top);
+    const nearest = points.reduce((best, p) => (best && from(best) <= from(p) ? best : p), null);
+    tip.hidden = !nearest || from(nearest) > 40;
+    if (tip.hidden) return;
+    tip.textContent = `${nearest.names.join('\n')}\n${titles[0]}: ${rounded(nearest.x)}\n${titles[1]}: ${rounded(nearest.y)}`;
+    const left = box.left - outer.left + chart.valToPos(nearest.x, 'x') + 14;
+    tip.style.left = `${Math.min(left, outer.width - tip.offsetWidth)}px`;
+    tip.style.top = `${Math.max(0, box.top - outer.top + chart.valToPos(nearest.y, 'y') - tip.offsetHeight - 12)}px`;
+  }
+
+  drawings.push(draw);
+  draw();
+}

@@ -1,0 +1,232 @@
+"""Clicks through the pages that `dashpot report` writes.
+
+The environment names what ctest knows: DASHPOT (the executable) and DASHPOT_SOURCE (this repository).
+"""
+import csv
+import io
+import math
+import os
+import pathlib
+import struct
+import subprocess
+import tempfile
+import unittest
+
+from browser import Browser
+
+DASHPOT = os.environ["DASHPOT"]
+SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
+NETWORKS = sorted([*SOURCE.glob("networks/paper/*.json"), *SOURCE.glob("networks/tissues/*.json")])
+FIG_5 = SOURCE / "networks/paper/second_order_maxwell.json"
+PANTOGRAPH = SOURCE / "runtime/devices/pantograph_brake_2009.json"
+MOST_BYTES = 300_000
+
+FIG_10 = """{ "dashpot": 1, "name": "fig_10", "title": "Spring before a slip beside a damper", "network": { "parallel": [
+    { "damper": "2 N s/m", "name": "B1" },
+    { "series": [ { "spring": "200 N/m", "name": "K" },
+                  { "parallel": [ { "slip": "0.3 N", "name": "Y" }, { "damper": "5 N s/m", "name": "B2" } ] } ] } ] } }"""
+COUPLED = """{ "dashpot": 1, "name": "coupled", "network": { "parallel": [
+    { "spring": "50 N/m", "name": "K0" },
+    { "series": [ { "spring": "200 N/m", "name": "K1" },
+                  { "parallel": [ { "slip": "0.2 N", "name": "Y1" }, { "damper": "3 N s/m", "name": "B1" } ] },
+                  { "parallel": [ { "slip": "0.3 N", "name": "Y2" }, { "spring": "80 N/m", "name": "K2" } ] } ] } ] } }"""
+HOSTILE = """{ "dashpot": 1, "name": "hostile", "title": "</title><script>document.title='taken'</script>&amp;",
+    "source": "\\"><img src=x onerror=alert(1)> {{name}}", "network": { "parallel": [ { "spring": 100 }, { "damper": 5 } ] } }"""
+ROTARY = """{ "dashpot": 1, "name": "rotary", "motion": "rotation", "network": { "parallel": [
+    { "spring": "20 mN m/rad", "name": "K" }, { "series": [ { "spring": "80 mN m/rad" }, { "damper": "4 mN m s/rad" } ] } ] } }"""
+LONE = '{ "dashpot": 1, "name": "lone_%s", "network": { "%s": 5 } }'
+
+# What the page hands out for download, as text.
+DOWNLOADED = """
+  const create = URL.createObjectURL;
+  let blob = null;
+  URL.createObjectURL = (given) => { blob = given; return create(given); };
+  document.getElementById('download').click();
+  URL.createObjectURL = create;
+  return blob.text();"""
+# The page has shown a response, or says what is wrong.
+SETTLED = "return document.getElementById('status').textContent"
+
+
+def wiggle(rate, with_velocity, count=700):
+    """A motion with everything in it: smooth, steep, back through 0, at rest."""
+    rows = ["time,position" + (",velocity" if with_velocity else "")]
+    for k in range(count):
+        t = k / rate
+        u = 0.002 * math.sin(0.013 * k) + 0.0007 * math.sin(0.31 * k + 1) + (0.0004 if k > 400 else 0)
+        rows.append(f"{t!r},{u!r}" + (f",{0.026 * rate * math.cos(0.013 * k) / 1000!r}" if with_velocity else ""))
+    return "\n".join(rows) + "\n"
+
+
+def columns(text, scalar):
+    """Every cell as the bytes of its number: times are double, the others of the law's type."""
+    rows = list(csv.reader(io.StringIO(text)))
+    kind = {"double": "d", "float": "f"}[scalar]
+    return [rows[0]] + [[struct.pack("d" if i == 0 else kind, float(cell)) for i, cell in enumerate(row)] for row in rows[1:]]
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = cls.enterClassContext(Browser())
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def report(self, network, *choices, **environment):
+        page = self.folder / "report.html"
+        done = subprocess.run([DASHPOT, "report", str(network), *map(str, choices), "-o", str(page)], capture_output=True, text=True,
+                              timeout=120, env={**os.environ, **environment})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return page, done.stderr
+
+    def open(self, network, *choices):
+        page, _ = self.report(network, *choices)
+        self.assertLess(page.stat().st_size, MOST_BYTES)
+        self.browser.open(page)
+        self.wait_for("sample")
+
+    def wait_for(self, words):
+        for _ in range(200):
+            if words in (said := self.browser.run(SETTLED)):
+                return
+        self.fail(f"the page says '{said}', not '{words}'")
+
+    def assert_quiet(self):
+        self.assertEqual(self.browser.log("browser"), [])
+        self.assertEqual(self.browser.requested(), [])
+
+    def upload(self, text):
+        path = self.write("motion.csv", text)
+        self.browser.type("#upload", str(path))
+        return path
+
+    def click_through(self):
+        for motion in ["sine", "triangle", "steps", "press"]:
+            self.browser.click(f"[data-motion={motion}]")
+            self.assertIn("largest force", self.browser.run(SETTLED))
+        for menu in self.browser.run("return [...document.querySelectorAll('select')].map((menu) => menu.id)"):
+            for i in range(self.browser.run(f"return document.getElementById('{menu}').options.length")):
+                self.browser.click(f"#{menu} option:nth-child({i + 1})")
+                self.assertEqual(self.browser.run("return document.querySelectorAll('#pareto canvas').length"), 1)
+        self.browser.drag("#pad", [(-300, 0), (-100, -40), (50, 30), (200, 10)])
+        self.assertIn("largest force", self.browser.run(SETTLED))
+        self.browser.click("summary")
+
+    def assert_simulates(self, network, *choices, rate=1000, scalar="double"):
+        for with_velocity in [False, True]:
+            motion = self.upload(wiggle(rate, with_velocity))
+            self.wait_for("700 samples")
+            done = subprocess.run([DASHPOT, "simulate", str(network), *map(str, choices), "--input", str(motion)], capture_output=True,
+                                  text=True, timeout=60, check=True)
+            self.assertEqual(columns(self.browser.run(DOWNLOADED), scalar), columns(done.stdout, scalar), network)
+
+    def test_every_network(self):
+        """Fails if a page of a network in networks/ is too large, says anything on the console, asks for anything beyond
+        itself, has a control that does nothing, or computes another bit than `dashpot simulate`."""
+        for network in NETWORKS:
+            with self.subTest(network=network.name):
+                self.open(network)
+                self.click_through()
+                self.assert_simulates(network)
+                self.assert_quiet()
+
+    def test_choices(self):
+        """Fails if the page's law is not the one that was chosen, or its numbers are not those of its scalar type."""
+        choices = {"--scheme": "backward-euler", "--decomposition": "zero-frequency", "--state-input": "velocity"}
+        for name, value in choices.items():
+            with self.subTest(name):
+                self.open(FIG_5, name, value)
+                self.assert_simulates(FIG_5, name, value)
+        self.open(FIG_5, "--scalar", "float")
+        self.assert_simulates(FIG_5, "--scalar", "float", scalar="float")
+        self.open(FIG_5, "--device", PANTOGRAPH)
+        self.click_through()
+        self.assert_simulates(FIG_5, "--device", PANTOGRAPH, rate=10000)
+        self.assert_quiet()
+
+    def test_networks_with_slips(self):
+        """Fails if a network with slips has no page of its own, with what is linear left out and the loops drawn."""
+        for name, text in {"fig_10": FIG_10, "coupled": COUPLED}.items():
+            with self.subTest(name):
+                network = self.write(name + ".json", text)
+                self.open(network)
+                self.assertIn("three amplitudes", self.browser.run("return document.body.textContent"))
+                for left_out in ["candidates", "agreement", "passivity"]:
+                    self.assertIsNone(self.browser.run(f"return document.getElementById('{left_out}')"))
+                self.assert_simulates(network)
+                self.assert_quiet()
+
+    def test_least_networks(self):
+        """Fails if a lone element, which has no mode and perhaps no stiffness, breaks a page."""
+        for kind in ["spring", "damper"]:
+            self.open(self.write("lone.json", LONE % (kind, kind)))
+            self.click_through()
+            self.assert_quiet()
+        self.open(self.write("rotary.json", ROTARY))
+        self.assertIn("N·m·s/rad", self.browser.run("return document.body.textContent"))
+
+    def test_the_author_s_words(self):
+        """Fails if a title or a source is taken for markup, script or a placeholder."""
+        self.open(self.write("hostile.json", HOSTILE))
+        self.assertEqual(self.browser.run("return document.querySelector('h1').textContent"),
+                         "</title><script>document.title='taken'</script>&amp;")
+        self.assertIn("{{name}}", self.browser.run("return document.querySelector('.source').textContent"))
+        self.assertEqual(self.browser.run("return document.images.length"), 0)
+        self.assert_quiet()
+
+    def test_motions_that_are_refused(self):
+        """Fails if an upload that `dashpot simulate` refuses is taken, or is refused without a word."""
+        self.open(FIG_5)
+        for text, said in {"time,place\n0,1\n": "no column 'position'", "time,position\n0,0\n0.001,x\n": "a finite number is expected",
+                           "time,position\n0,0\n0.001,1\n0.003,1\n0.004,1\n": "a uniform period", "": "no rows",
+                           "time,position\n0,0\n0.002,1\n": "--rate 500", "time,position\n0,0,0\n": "row 2 has 3 fields",
+                           "time,position,time\n0,0,0\n": "there twice"}.items():
+            self.upload(text)
+            self.wait_for(said)
+        self.assert_quiet()
+
+    def test_phone_dark_and_paper(self):
+        """Fails if a page is wider than a phone, stays light in dark mode, or is not drawn anew for paper."""
+        for network in [FIG_5, SOURCE / "networks/paper/generalised_kelvin_four.json"]:
+            self.open(network)
+            self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=3, mobile=True)
+            self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
+            colours = []
+            for scheme in ["light", "dark"]:
+                self.browser.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+                colours.append(self.browser.run("return getComputedStyle(document.documentElement).backgroundColor"))
+            self.assertNotEqual(*colours)
+            self.browser.run("dispatchEvent(new Event('beforeprint'))")
+            self.assertEqual(self.browser.run("return getComputedStyle(document.documentElement).backgroundColor"), colours[0])
+            self.browser.run("dispatchEvent(new Event('afterprint'))")
+            self.assertGreater(len(self.browser.devtools("Page.printToPDF")["data"]), 20_000)
+            self.browser.devtools("Emulation.setEmulatedMedia", features=[])
+            self.assert_quiet()
+
+    def test_without_clang(self):
+        """Fails if a page is not written without clang, or promises a live response that it does not have."""
+        page, said = self.report(FIG_5, DASHPOT_CLANG="/nowhere/clang++")
+        self.assertIn("[no-live-response]", said)
+        self.browser.open(page)
+        self.assertIn("no clang", self.browser.run("return document.getElementById('live').textContent"))
+        self.assertIsNone(self.browser.run("return document.getElementById('pad')"))
+        self.assert_quiet()
+
+    def test_equal_input_gives_equal_bytes(self):
+        """Fails if a page holds a date, a path, or anything else that changes from one run to the next."""
+        first = self.report(FIG_5)[0].read_bytes()
+        self.assertEqual(first, self.report(FIG_5)[0].read_bytes())
+        self.assertNotIn(str(self.folder).encode(), first)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,6 +1,7 @@
 #include "decompose/port_device.hpp"
 
 #include <cmath>
+#include <limits>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/estimators/estimator_names.hpp>
 #include <dashpot/estimators/frequency_response.hpp>
@@ -48,6 +49,11 @@ std::optional<double> PortDevice::max_damping() const {
 double PortDevice::tolerance() const { return is_ideal() ? 0 : device_->description.brake.tolerance; }
 double PortDevice::band_low() const { return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_low; }
 double PortDevice::band_high() const { return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_high; }
+double PortDevice::largest_estimator_gain() const {
+  if (is_ideal()) return 1;
+  return estimator_is_linear() ? estimator().max_gain() : std::numeric_limits<double>::infinity();
+}
+
 double PortDevice::sample_period() const { return (is_ideal() ? loop_description{} : device_->description.loop).sample_period; }
 double PortDevice::coil_lag() const { return is_ideal() ? 0 : device_->description.brake.coil_lag; }
 

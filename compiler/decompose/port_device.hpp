@@ -35,6 +35,7 @@ class PortDevice {
   bool estimate_sums_to_displacement() const;  // so that velocity-driven slow modes do not drift
   // Samples that an estimate reaches back from the hold that it acts in; empty where it never forgets or is not linear.
   std::optional<unsigned> estimate_memory() const;
+  double largest_estimator_gain() const;  // max |G|; infinite where it is not linear
   double sample_period() const;  // [s]
   double coil_lag() const;       // [s]
   double coil_slew() const;      // of √b [√(N·s/m)/s]; 0: unlimited

@@ -44,7 +44,8 @@ struct SlipDecomposition {
   std::vector<ComponentSplit> components;  // in the order of NormalForm::components
   double hysteresis = 0;         // displacement that does not end a slide for the command [m]
   unsigned hold_samples = 0;     // a slide's samples before it is compensated
-  double coil_share = 1;         // of what is missing from √b, that the coil makes up in a sample at least [1]
+  double coil_share = 1;         // κ: of what is missing from √b, that the coil makes up in a sample at least [1]
+  double make_up = 0;            // what the motor may add or take of a brake on its way, β at most [N·s/m]
 };
 
 }  // namespace dashpot::compiler

@@ -187,6 +187,13 @@ double coil_share(const PortDevice& device, double root_span) {
   return lag > 0 ? -std::expm1(-device.sample_period() / lag) : 1;
 }
 
+// Of the damping that no slip changes, what is certain and does not cover a compensation yet. With a constant bound any
+// estimator will do that does not make the velocity larger, ‖v̂‖₂ ≤ ‖u̇‖₂.
+double make_up(const Candidate& linear_part, const PortDevice& device) {
+  if (!(device.largest_estimator_gain() <= 1)) return 0;
+  return std::max(0.0, (1 - device.tolerance()) * linear_part.damping - linear_part.velocity_gain);
+}
+
 bool offers_choice(const ComponentSplit& split) {
   return std::count_if(split.merits.begin(), split.merits.end(), [](const SlipLawMerit& merit) { return merit.refusal.empty(); }) > 1;
 }
@@ -248,6 +255,7 @@ SlipDecomposition decompose_slips(const Network& network, const NormalForm& form
   for (const ComponentSplit& split : slips.components) span += largest_damping(split);
   slips.hysteresis = hysteresis_steps * device.encoder_step();
   slips.coil_share = coil_share(device, std::sqrt(span));
+  slips.make_up = make_up(linear_part, device);
   slips.hold_samples = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
   return slips;
 }

@@ -169,6 +169,7 @@ class LawBuilder {
     for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
     for (const auto& component : coupled_) sum = writer_.plus(sum, component->write_output(change_));
     for (const auto& group : slips_) sum = compensated(sum, group->compensation());
+    sum = made_up(sum);
     write_brake();
     if (sum == nothing) sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0);
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
@@ -212,6 +213,15 @@ class LawBuilder {
   ExpressionId compensated(ExpressionId sum, ExpressionId compensation) {
     if (compensation == nothing) return sum;
     return writer_.subtract(sum, writer_.multiply(compensation, writer_.read(law_.velocity)));
+  }
+
+  // While the coil is on its way the motor makes up (b_regime − b) v̂, within what a brake that is always there covers.
+  ExpressionId made_up(ExpressionId sum) {
+    ExpressionId shortfall = nothing;
+    for (const auto& group : slips_) shortfall = writer_.plus(shortfall, group->shortfall());
+    if (shortfall == nothing) return sum;
+    const ExpressionId most = writer_.constant("steady_make_up", writer_.damping(), "what the motor makes up at most", settings_.make_up);
+    return writer_.plus(sum, writer_.multiply(writer_.clamp(shortfall, most), writer_.read(law_.velocity)));
   }
 
   // b = b of what reaches ground without a slip + Σ b of every component's regime

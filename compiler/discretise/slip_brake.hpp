@@ -42,13 +42,17 @@ class SlipBrake {
   Real largest_damping() const;
   Real damping_at_rest() const;
   VariableId compensation() const { return compensation_; }  // β of each place, `nothing` for none
+  VariableId shortfall() const { return shortfall_; }  // of b where the coil is on its way, `nothing` for none
 
  private:
+  bool coil_lags() const { return settings_.coil_share < 1; }
   bool has_hysteresis() const { return settings_.hysteresis > 0; }
   bool changes() const { return !pairs_.empty() && pairs_.front().changes(); }
   bool compensates() const { return !pairs_.empty() && pairs_.front().compensates(); }
   ExpressionId keep_sliding(ExpressionId sliding, VariableId trial, VariableId slip, VariableId excess);
   void write_damping(ExpressionId commanded);
+  ExpressionId nearer(VariableId from, ExpressionId goal);
+  void write_limited_damping(ExpressionId wanted);
   void write_compensation(ExpressionId commanded);
   VariableId local(const std::string& what, const std::string& unit, const std::string& meaning);
   VariableId state(const std::string& what, const std::string& unit, const std::string& meaning);
@@ -61,8 +65,9 @@ class SlipBrake {
   Names names_;
   std::vector<BrakePair> pairs_;
   std::vector<Real> leave_;  // Y (Y − hysteresis·∂t/∂u) [N²]
-  VariableId slid_ = nothing, samples_ = nothing, earned_ = nothing;                      // states
-  VariableId damping_ = nothing, slide_ = nothing, samples_now_ = nothing, earned_now_ = nothing, compensation_ = nothing;  // locals
+  ExpressionId share_ = nothing;
+  VariableId slid_ = nothing, samples_ = nothing, way_ = nothing, earned_way_ = nothing, earned_ = nothing;  // states
+  VariableId damping_ = nothing, slide_ = nothing, samples_now_ = nothing, way_now_ = nothing, earned_way_now_ = nothing, earned_now_ = nothing, shortfall_ = nothing, compensation_ = nothing;  // locals
 };
 
 }  // namespace dashpot::compiler

@@ -142,6 +142,7 @@ ExpressionId SlipGroup::write_output(VariableId change) {
   brake_.write_output(sliding, now_.trial, now_.slip, now_.excess);
   // Sums after all vectors: what a loop computes does not outlive it.
   damping_ = summed("damping", brake_.changing_damping());
+  shortfall_ = summed("shortfall", brake_.shortfall());
   compensation_ = summed("compensation", brake_.compensation());
   return names_.size() == 1 ? force : summed("force", writer_.reads(force));
 }

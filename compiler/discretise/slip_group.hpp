@@ -33,6 +33,7 @@ class SlipGroup {
 
   const SlipBrake& brake() const { return brake_; }
   ExpressionId changing_damping() const { return damping_; }   // Σ b of what changes; nothing without
+  ExpressionId shortfall() const { return shortfall_; }        // Σ of what b lacks on its way; nothing without
   ExpressionId compensation() const { return compensation_; }  // Σ β, whose β v̂ is to be taken from the force; nothing without
 
  private:
@@ -81,7 +82,7 @@ class SlipGroup {
   std::vector<MotorForce> forces_;
   SlipBrake brake_;
   std::vector<Block> blocks_;
-  ExpressionId damping_ = nothing, compensation_ = nothing;
+  ExpressionId damping_ = nothing, shortfall_ = nothing, compensation_ = nothing;
   Terms now_{nothing, nothing, nothing, nothing};
 };
 

@@ -6,6 +6,7 @@
 #include "discretise/coupled_slips.hpp"
 #include "discretise/element_names.hpp"
 #include "discretise/mode_bank.hpp"
+#include "discretise/networked_slips.hpp"
 #include "discretise/rounding.hpp"
 #include "discretise/slip_group.hpp"
 #include "discretise/update_law.hpp"
@@ -59,6 +60,12 @@ void drop_unread_locals(UpdateLaw& law) {
   for (const Coupling& coupling : law.couplings)
     for (VariableId held : coupling.held)
       if (held != no_variable) read[held] = true;
+  for (const SlipNetwork& network : law.networks)
+    for (VariableId held : network.held)
+      if (held != no_variable) read[held] = true;
+  for (SlipNetwork& network : law.networks)
+    for (VariableId& moved : network.moved)
+      if (!read[moved]) moved = no_variable;
   for (auto* program : {&law.output, &law.update, &law.energy})
     std::erase_if(*program, [&](const Statement& statement) {
       return law.variables[statement.target].role == Role::local && !read[statement.target];
@@ -79,7 +86,7 @@ class LawBuilder {
         modes_(writer_, form.linear.modes, law_.state_input, sample_period,
                names_of_modes(form.linear.modes, network, writer_), "") {
     if (network.contact) contact_.emplace(writer_, network.contact->at, decomposition.encoder_step);
-    if (contact_ && !form.components.empty()) {
+    if (contact_ && form.has_slips()) {
       add_behind_contact(form);
       return;
     }
@@ -89,6 +96,7 @@ class LawBuilder {
         add(splits[i].rendered, brake_pair(splits[i]), sample_period);
       else
         add(form.components[i], {}, sample_period);
+    for (const std::vector<std::size_t>& elements : form.networks) add(elements, false);
   }
 
   UpdateLaw build() {
@@ -97,6 +105,7 @@ class LawBuilder {
     modes_.declare();
     for (const auto& group : slips_) group->declare();
     for (const auto& component : coupled_) component->declare();
+    for (const auto& network : networks_) network->declare();
     contact_ ? write_contact_output() : write_output();
     write_update();
     write_energy();
@@ -116,21 +125,33 @@ class LawBuilder {
     slips_.back()->add(component, pair);
   }
 
+  void add(const std::vector<std::size_t>& elements, bool is_pushed) {
+    networks_.push_back(std::make_unique<NetworkedSlips>(writer_, network_, sample_period_, elements, is_pushed));
+  }
+
   // Where the surface goes depends on all that is behind it: one tree, in which the states of the linear part at the tool
   // stay where they are without slips.
   void add_behind_contact(const NormalForm& form) {
+    if (!form.networks.empty()) {
+      std::vector<std::size_t> elements;
+      for (const NormalTree& component : form.components)
+        for (std::size_t element : elements_of(component)) elements.push_back(element);
+      for (const std::vector<std::size_t>& part : form.networks) elements.insert(elements.end(), part.begin(), part.end());
+      return add(elements, true);
+    }
     whole_ = whole_tree(form, network_);
     const bool has_linear = whole_.children.front().kind == NormalTree::Kind::block && whole_.kind == NormalTree::Kind::parallel;
     coupled_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period_, whole_));
     if (has_linear) coupled_.back()->keep_elsewhere(whole_.children.front());
   }
 
-  bool has_slips() const { return !slips_.empty() || !coupled_.empty(); }
+  bool has_slips() const { return !slips_.empty() || !coupled_.empty() || !networks_.empty(); }
 
   void settle_form() {
     double smallest_loss = modes_.smallest_loss();
     for (const auto& group : slips_) smallest_loss = std::min(smallest_loss, group->smallest_loss());
     for (const auto& component : coupled_) smallest_loss = std::min(smallest_loss, component->smallest_loss());
+    for (const auto& network : networks_) smallest_loss = std::min(smallest_loss, network->smallest_loss());
     law_.mode_form = cheapest_form(smallest_loss, law_.scalar);
     if (!modes_.empty() || has_slips())
       law_.relative_error_bound = error_bound(law_.mode_form, smallest_loss, unit_roundoff(law_.scalar));
@@ -168,6 +189,7 @@ class LawBuilder {
     if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
     for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
     for (const auto& component : coupled_) sum = writer_.plus(sum, component->write_output(change_));
+    for (const auto& network : networks_) sum = writer_.plus(sum, network->write_output(change_));
     for (const auto& group : slips_) sum = compensated(sum, group->compensation());
     sum = made_up(sum);
     write_brake();
@@ -182,12 +204,11 @@ class LawBuilder {
     const VariableId opposing = writer_.scalar("opposing", writer_.force(), "f′, the network's force but for b∞ Δs/h", Role::local);
     ExpressionId sum = nothing;
     if (has_slips()) {
-      coupled_.front()->set_held_elsewhere(write_held());
-      sum = coupled_.front()->write_output(contact_->approach(), contact_->change());
+      sum = write_push();
       contact_->write_surface();
       sum = plus_product(sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h", -feedthrough / sample_period_, contact_->change());
     } else {
-      contact_->write_change(form_.static_stiffness + modes_.step_stiffness() + feedthrough / sample_period_, write_held());
+      contact_->write_change(linear_stiffness(), write_held());
       contact_->write_surface();
       sum = plus_product(sum, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, contact_->now());
       sum = plus_product(sum, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
@@ -198,6 +219,15 @@ class LawBuilder {
     writer_.assign(law_.output, opposing, sum, "f′ = f − b∞ Δs/h", {effective_elements(network_)});
     contact_->write_command(opposing, feedthrough);
   }
+
+  ExpressionId write_push() {
+    if (!networks_.empty()) return networks_.front()->write_push(contact_->approach(), contact_->change(), {linear_stiffness(), write_held()});
+    coupled_.front()->set_held_elsewhere(write_held());
+    return coupled_.front()->write_output(contact_->approach(), contact_->change());
+  }
+
+  // g = k0 + b∞/h + Σ c_i
+  Real linear_stiffness() const { return form_.static_stiffness + modes_.step_stiffness() + form_.feedthrough_damping / sample_period_; }
 
   // π = k0 s₋ + S, of the linear part at the tool; no variable for a lone damper.
   VariableId write_held() {
@@ -255,6 +285,7 @@ class LawBuilder {
   void write_update() {
     for (const auto& group : slips_) group->write_update(change_);
     for (const auto& component : coupled_) component->write_update();
+    for (const auto& network : networks_) network->write_update();
     modes_.write_update(modes_.follows_position() ? writer_.kept(change_) : nothing,
                         modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing);
     if (law_.rest_position != no_variable)
@@ -275,6 +306,7 @@ class LawBuilder {
     sum = writer_.plus(sum, modes_.energy());
     for (const auto& group : slips_) sum = writer_.plus(sum, group->energy());
     for (const auto& component : coupled_) sum = writer_.plus(sum, component->energy());
+    for (const auto& network : networks_) sum = writer_.plus(sum, network->energy());
     if (sum == nothing) sum = writer_.constant("no_energy", "J", "no spring", 0);
     writer_.assign(law_.energy, law_.stored, sum, "V = ½ k0 u² + Σ F_i²/(2 k_i)", {effective_elements(network_)});
   }
@@ -297,6 +329,7 @@ class LawBuilder {
   std::optional<ContactSurface> contact_;
   std::vector<std::unique_ptr<SlipGroup>> slips_;
   std::vector<std::unique_ptr<CoupledSlips>> coupled_;
+  std::vector<std::unique_ptr<NetworkedSlips>> networks_;
   NormalTree whole_{};  // behind a contact
   VariableId change_ = nothing;
 };

@@ -9,6 +9,7 @@ Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
   for (const Coefficient& coefficient : law.coefficients)
     coefficients_.emplace_back(coefficient.values.begin(), coefficient.values.end());
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
+  for (const SlipNetwork& network : law.networks) network_solvers_.push_back(solver_of(network));
 }
 
 template <class Scalar>
@@ -24,6 +25,24 @@ typename Evaluation<Scalar>::Solver Evaluation<Scalar>::solver_of(const Coupling
   solver.held.resize(coupling.held.size());
   solver.elongation.resize(coupling.elongation.size());
   solver.sign.resize(coupling.slips.size());
+  return solver;
+}
+
+template <class Scalar>
+typename Evaluation<Scalar>::NetworkSolver Evaluation<Scalar>::solver_of(const SlipNetwork& network) {
+  NetworkSolver solver;
+  for (const slip_link<double>& link : network.links)
+    solver.links.push_back({link.a, link.b, static_cast<Scalar>(link.lowest), static_cast<Scalar>(link.highest)});
+  solver.between.assign(network.between.begin(), network.between.end());
+  solver.to_tool.assign(network.to_tool.begin(), network.to_tool.end());
+  solver.to_ground.assign(network.to_ground.begin(), network.to_ground.end());
+  const auto nodes = static_cast<std::size_t>(network.node_count);
+  solver.held.resize(nodes + 1);
+  solver.moved.resize(nodes);
+  solver.sign.resize(network.links.size());
+  solver.group.resize(nodes + 2);
+  solver.room.resize(nodes * nodes);
+  solver.numbers.resize(8 * nodes);
   return solver;
 }
 
@@ -80,6 +99,10 @@ void Evaluation<Scalar>::run(const std::vector<Statement>& program) {
       solve(law_.couplings[statement.coupling], solvers_[statement.coupling], statement);
       continue;
     }
+    if (statement.network != no_coupling) {
+      solve(law_.networks[statement.network], network_solvers_[statement.network], statement);
+      continue;
+    }
     std::vector<Scalar>& target = variables_[statement.target];
     for (std::size_t place = 0; place < target.size(); ++place) target[place] = value(statement.value, place);
   }
@@ -99,6 +122,20 @@ void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const S
     variables_[statement.target][0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
   for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
     if (coupling.elongation[i] != no_variable) variables_[coupling.elongation[i]][0] = solver.elongation[i];
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement) {
+  for (std::size_t i = 0; i < network.held.size(); ++i)
+    solver.held[i] = network.held[i] == no_variable ? Scalar(0) : variables_[network.held[i]][0];
+  for (std::size_t i = 0; i < network.sign.size(); ++i) solver.sign[i] = static_cast<int>(variables_[network.last_sign[i]][0]);
+  slip_network<Scalar> step(solver.links.data(), network.slip_count(),
+                            {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), static_cast<Scalar>(network.through)},
+                            network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
+  variables_[statement.target][0] = step.step(value(statement.value, 0), solver.held.data(), solver.moved.data(), solver.sign.data());
+  for (std::size_t i = 0; i < network.moved.size(); ++i)
+    if (network.moved[i] != no_variable) variables_[network.moved[i]][0] = solver.moved[i];
+  for (std::size_t i = 0; i < network.sign.size(); ++i) variables_[network.sign[i]][0] = static_cast<Scalar>(solver.sign[i]);
 }
 
 template <class Scalar>

@@ -33,9 +33,19 @@ class Evaluation {
     std::vector<int> sign;
   };
 
+  // The same of slips outside a tree.
+  struct NetworkSolver {
+    std::vector<slip_link<Scalar>> links;
+    std::vector<Scalar> between, to_tool, to_ground, held, moved;
+    std::vector<int> sign, group;
+    std::vector<Scalar> room, numbers;
+  };
+
   static Solver solver_of(const Coupling& coupling);
+  static NetworkSolver solver_of(const SlipNetwork& network);
   void run(const std::vector<Statement>& program);
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
+  void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
   Scalar damping(VariableId changing) const;
   Scalar value(ExpressionId expression, std::size_t place) const;
   Scalar sum(ExpressionId vector) const;
@@ -44,6 +54,7 @@ class Evaluation {
   std::vector<std::vector<Scalar>> variables_;
   std::vector<std::vector<Scalar>> coefficients_;
   std::vector<Solver> solvers_;  // one a coupling
+  std::vector<NetworkSolver> network_solvers_;
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

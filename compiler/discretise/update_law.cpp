@@ -42,6 +42,7 @@ const Spelling& plain_spelling() {
 
 std::string value_text(const UpdateLaw& law, const Statement& statement) {
   const std::string value = expression_text(law, statement.value, plain_spelling());
+  if (statement.network != no_coupling) return fmt::format("{}({})", law.networks[statement.network].name, value);
   return statement.coupling == no_coupling ? value : fmt::format("{}({})", law.couplings[statement.coupling].name, value);
 }
 
@@ -61,6 +62,21 @@ std::string coupling_text(const UpdateLaw& law, const Coupling& coupling) {
                           node.first_child, node.first_child + node.child_count - 1);
   }
   return text;
+}
+
+std::string network_text(const UpdateLaw& law, const SlipNetwork& network) {
+  const int nodes = network.node_count;
+  const auto end = [&](int i) { return i < nodes ? name_of_variable(law, network.moved[static_cast<std::size_t>(i)]) : i == nodes ? std::string("tool") : std::string("ground"); };
+  std::string text = fmt::format("  {}: slips coupled through no tree, at most {} patterns, {} operations\n", network.name, network.patterns(), network.operations());
+  for (const slip_link<double>& link : network.links)
+    text += fmt::format("    slip from {} to {}, {} to {}\n", end(link.a), end(link.b), link.lowest, link.highest);
+  for (int i = 0; i < nodes; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    text += fmt::format("    {} from {}: to tool {}, to ground {}", end(i), name_of_variable(law, network.held[row]), network.to_tool[row], network.to_ground[row]);
+    for (int j = 0; j < i; ++j) text += fmt::format(", to {} {}", end(j), network.between[row * static_cast<std::size_t>(nodes) + static_cast<std::size_t>(j)]);
+    text += "\n";
+  }
+  return text + fmt::format("    tool to ground {}\n", network.through);
 }
 
 std::string program_text(const UpdateLaw& law, const char* title, const std::vector<Statement>& program) {
@@ -91,6 +107,8 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
     count(law, statement.value, law.variables[statement.target].size, cost);
     if (statement.coupling != no_coupling)
       cost.coupled += static_cast<std::size_t>(law.couplings[statement.coupling].operations());
+    if (statement.network != no_coupling)
+      cost.coupled += static_cast<std::size_t>(law.networks[statement.network].operations());
   }
   for (const Variable& variable : law.variables)
     if (variable.role == Role::state) cost.states += variable.size;
@@ -108,6 +126,7 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
     text += fmt::format("  // {}\n", coefficient.meaning);
   }
   for (const Coupling& coupling : law.couplings) text += coupling_text(law, coupling);
+  for (const SlipNetwork& part : law.networks) text += network_text(law, part);
   return text + program_text(law, "output", law.output) + program_text(law, "keep", law.keep) +
          program_text(law, "update", law.update) + program_text(law, "energy", law.energy);
 }

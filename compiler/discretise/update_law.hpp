@@ -5,6 +5,7 @@
 // act elementwise, and `sum` reduces in a stated order. So a law has the same few statements at any number of states.
 #pragma once
 
+#include <dashpot/slip_network.hpp>
 #include <dashpot/slip_tree.hpp>
 
 #include <cstddef>
@@ -79,6 +80,7 @@ struct Statement {
   std::vector<std::vector<std::size_t>> origins;    // for each place of the target, indices into Network::elements
   std::uint32_t coupling = no_coupling;  // of a step of coupled slips: index into UpdateLaw::couplings; `value` is Δu,
                                          // `target` the force, and the coupling's elongations are assigned too
+  std::uint32_t network = no_coupling;   // the same of slips outside a tree: index into UpdateLaw::networks
 };
 
 // Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
@@ -96,6 +98,23 @@ struct Coupling {
   int operations() const {
     return is_pushed() ? slip_tree_push_operations(nodes.data(), node_count()) : slip_tree_operations(nodes.data(), node_count());
   }
+};
+
+// Slips that meet where a network is no tree: one step is dashpot::slip_network. Ends are numbered as there.
+struct SlipNetwork {
+  std::string name;  // of the emitted tables
+  int node_count = 0;
+  std::vector<slip_link<double>> links;  // numbers already rounded to the law's scalar type
+  std::vector<double> between, to_tool, to_ground;
+  double through = 0;
+  std::vector<VariableId> held;       // at every inner end, then at the tool [N]; no_variable where it is 0
+  std::vector<VariableId> moved;      // local, of every inner end [m]
+  std::vector<VariableId> sign;       // local, of every slip: −1, 0 or 1
+  std::vector<VariableId> last_sign;  // the states that remember them
+
+  int slip_count() const { return static_cast<int>(links.size()); }
+  int patterns() const { return slip_network_patterns(links.data(), slip_count()); }
+  int operations() const { return slip_network_operations(links.data(), slip_count(), node_count); }
 };
 
 // How one mode is advanced; chosen by the error bound.
@@ -124,6 +143,7 @@ struct UpdateLaw {
   std::vector<Statement> keep;    // states that remember the sample; only where inputs and force are finite
   std::vector<Statement> update;
   std::vector<Coupling> couplings;
+  std::vector<SlipNetwork> networks;
   std::vector<Statement> energy;  // ends with the assignment of `stored`
 
   VariableId position = 0;  // the inputs

@@ -76,6 +76,7 @@ class CppPrinter {
   CppProgram print() {
     CppProgram program;
     program.headers = {"dashpot/command.hpp"};
+    if (!law_.networks.empty()) program.headers.push_back("dashpot/slip_network.hpp");
     if (!law_.couplings.empty()) program.headers.push_back("dashpot/slip_tree.hpp");
     program.output = lines_of(law_.output);
     program.command = law_.brake_changes() ? fmt::format("{{{}, {}}}", scalar_name(law_.variables[law_.brake]),
@@ -114,6 +115,7 @@ class CppPrinter {
     const Variable& target = law_.variables[statement.target];
     if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
     if (statement.coupling != no_coupling) return print_step(statement, law_.couplings[statement.coupling], lines);
+    if (statement.network != no_coupling) return print_step(statement, law_.networks[statement.network], lines);
     for (std::size_t place = 0; place < target.size; ++place) {
       const std::string line = assignment(target, place) + expression(statement.value, place) + ";";
       const bool has_origin = target.size > 1 && place < statement.origins.size();
@@ -141,6 +143,26 @@ class CppPrinter {
     for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
       if (coupling.elongation[i] != no_variable)
         lines.push_back(assignment(law_.variables[coupling.elongation[i]], 0) + fmt::format("{}_elongation[{}];", name, i));
+  }
+
+  void print_step(const Statement& statement, const SlipNetwork& network, std::vector<std::string>& lines) {
+    const std::string& name = network.name;
+    std::string held, sign;
+    for (VariableId id : network.held)
+      held += (held.empty() ? "" : ", ") + (id == no_variable ? std::string("0") : scalar_name(law_.variables[id]));
+    for (VariableId id : network.last_sign) sign += (sign.empty() ? "" : ", ") + fmt::format("static_cast<int>({})", scalar_name(law_.variables[id]));
+    append(lines, fmt::format("const scalar {}_held[{}] = {{{}}};", name, network.held.size(), held));
+    lines.push_back(fmt::format("scalar {}_moved[{}] = {{}};", name, network.node_count));
+    append(lines, fmt::format("int {}_sign[{}] = {{{}}};", name, network.slip_count(), sign));
+    lines.push_back(fmt::format("dashpot::slip_network_scratch<scalar, {}> {}_scratch;", network.node_count, name));
+    append(lines, fmt::format("dashpot::slip_network<scalar> {0}_step({0}_links, {1}, {{{0}_between, {0}_to_tool, {0}_to_ground, {2}}}, {3}, {0}_scratch.room());",
+                              name, network.slip_count(), literal(network.through), network.node_count));
+    append(lines, assignment(law_.variables[statement.target], 0) +
+                      fmt::format("{0}_step.step({1}, {0}_held, {0}_moved, {0}_sign);", name, expression(statement.value, 0)));
+    for (std::size_t i = 0; i < network.moved.size(); ++i)
+      if (network.moved[i] != no_variable) lines.push_back(assignment(law_.variables[network.moved[i]], 0) + fmt::format("{}_moved[{}];", name, i));
+    for (std::size_t i = 0; i < network.sign.size(); ++i)
+      lines.push_back(assignment(law_.variables[network.sign[i]], 0) + fmt::format("static_cast<scalar>({}_sign[{}]);", name, i));
   }
 
   // Elementwise statements in one loop, with the partial sums of those vectors that are added up later.
@@ -265,6 +287,7 @@ class CppPrinter {
     for (const Coefficient& coefficient : law_.coefficients)
       if (used_coefficients_.count(&coefficient) != 0) append_constant(coefficient, lines);
     for (const Coupling& coupling : law_.couplings) append_table(coupling, lines);
+    for (const SlipNetwork& network : law_.networks) append_tables(network, lines);
     return lines;
   }
 
@@ -276,6 +299,20 @@ class CppPrinter {
                                   node.first_child, node.child_count, node.slips, node.place, node.first_corner,
                                   literal(node.stiffness), literal(node.compliance), literal(node.yield)));
     lines.push_back("};");
+  }
+
+  void append_tables(const SlipNetwork& network, std::vector<std::string>& lines) const {
+    lines.push_back("// ends, lowest and highest force of each slip; inner ends come first, then tool and ground");
+    lines.push_back(fmt::format("static constexpr dashpot::slip_link<scalar> {}_links[{}] = {{", network.name, network.slip_count()));
+    for (const slip_link<double>& link : network.links)
+      lines.push_back(fmt::format("    {{{}, {}, {}, {}}},", link.a, link.b, literal(link.lowest), literal(link.highest)));
+    lines.push_back("};");
+    lines.push_back("// stiffness over one sample between inner ends, to the tool and to the ground [N/m] or [N·m/rad]");
+    for (const auto& [what, values] : {std::pair("between", &network.between), std::pair("to_tool", &network.to_tool), std::pair("to_ground", &network.to_ground)}) {
+      std::string table = fmt::format("static constexpr scalar {}_{}[{}] = {{", network.name, what, values->size());
+      for (std::size_t i = 0; i < values->size(); ++i) table += (i == 0 ? "" : ", ") + literal((*values)[i]);
+      append(lines, table + "};");
+    }
   }
 
   void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {

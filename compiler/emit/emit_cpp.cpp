@@ -181,11 +181,13 @@ CodeModel test_model(const Compilation& c) {
   fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.linear.feedthrough_damping));
   fields["start"] = fmt::format("{:#}", c.law.surface_at.value_or(0));
   fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
-  fields["decays"] = c.law.scheme == Scheme::exact ? "rate * period" : "std::log1p(rate * period)";
   for (const Mode& mode : c.form.linear.modes)
     model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},
                                     {"relaxation_rate", fmt::format("{:#}", to_double(mode.relaxation_rate))}});
   model.lists["modes"];
+  // Forces of slips have no closed form along a ramp.
+  model.lists["closed_forms"];
+  if (!c.form.has_slips()) model.lists["closed_forms"].push_back({{"decays", c.law.scheme == Scheme::exact ? "rate * period" : "std::log1p(rate * period)"}});
   return model;
 }
 

@@ -1,19 +1,16 @@
 #include "linear/modal_reduction.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
 
-#include "linear/real_traits.hpp"
+#include "linear/pencil.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+using Matrix = RealMatrix;
+using Vector = RealVector;
 
 class DisjointSets {
  public:
@@ -103,24 +100,6 @@ bool leads_through(const Part& part, const Network& network, ValueOf value_of) {
   return sets.find(part.port) == sets.find(part.held);
 }
 
-// K v = μ (K + ω0 B) v, VᵀKV = diag(μ), Vᵀ(K + ω0 B)V = I.
-struct Pencil {
-  Vector mu;  // ascending
-  Matrix vectors;
-  Real shift;  // ω0 [1/s]
-};
-
-Pencil solve_pencil(const NodalEquations& equations) {
-  const Real stiffness_trace = equations.stiffness.trace(), damping_trace = equations.damping.trace();
-  const Real shift = stiffness_trace > 0 && damping_trace > 0 ? Real(stiffness_trace / damping_trace) : Real(1);
-  const Matrix metric = equations.stiffness + shift * equations.damping;
-  const Eigen::LLT<Matrix> cholesky(metric);
-  Matrix reduced = cholesky.matrixL().solve(equations.stiffness);
-  reduced = cholesky.matrixL().solve(Matrix(reduced.transpose()));
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix((reduced + reduced.transpose()) / Real(2)));
-  return {solver.eigenvalues(), cholesky.matrixL().transpose().solve(solver.eigenvectors()), shift};
-}
-
 // One mode's −(p + s q)²/(m + s d), as in theory, section 2.
 void add_relaxing_mode(LinearForm& form, const Real& p, const Real& q, const Real& m, const Real& d, const Part& part) {
   const Real rate = m / d;
@@ -132,7 +111,7 @@ void add_relaxing_mode(LinearForm& form, const Real& p, const Real& q, const Rea
 }
 
 void add_modes(LinearForm& form, const Part& part, const Network& network, const NodalEquations& equations) {
-  const Pencil pencil = solve_pencil(equations);
+  const Pencil pencil = solve_pencil(equations.stiffness, equations.damping);
   const auto held_by_dampers = static_cast<Eigen::Index>(floating_clusters(part, network, stiffness_of));
   const auto held_by_springs = static_cast<Eigen::Index>(floating_clusters(part, network, damping_of));
   const Vector p = pencil.vectors.transpose() * equations.port_stiffness;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "linear/modal_reduction.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -83,10 +85,39 @@ NormalTree normal(const Tree& tree, const Network& network) {
   return result;
 }
 
-bool has_slips(const Network& network) {
-  return std::any_of(network.elements.begin(), network.elements.end(), [](const Element& element) {
-    return element.has_effect && std::holds_alternative<Slip>(element.law);
-  });
+std::vector<std::size_t> effective_elements(const Network& network) {
+  std::vector<std::size_t> elements;
+  for (std::size_t i = 0; i < network.elements.size(); ++i)
+    if (network.elements[i].has_effect) elements.push_back(i);
+  return elements;
+}
+
+bool has_slips(const Network& network, const std::vector<std::size_t>& elements) {
+  return std::any_of(elements.begin(), elements.end(),
+                     [&](std::size_t element) { return std::holds_alternative<Slip>(network.elements[element].law); });
+}
+
+std::optional<Tree> tree_of(Network network, const std::vector<std::size_t>& elements) {
+  for (Element& element : network.elements) element.has_effect = false;
+  for (std::size_t element : elements) network.elements[element].has_effect = true;
+  return series_parallel_tree(network);
+}
+
+// Of a network that is no tree: parts that share no inner node are each linear, a tree, or neither.
+NormalForm form_by_parts(const Network& network) {
+  NormalForm form;
+  std::vector<std::size_t> linear;
+  for (Part& part : independent_parts(network, effective_elements(network), tool, ground)) {
+    if (!has_slips(network, part.elements))
+      linear.insert(linear.end(), part.elements.begin(), part.elements.end());
+    else if (const std::optional<Tree> tree = tree_of(network, part.elements))
+      form.components.push_back(normal(*tree, network));
+    else
+      form.networks.push_back(std::move(part.elements));
+  }
+  std::sort(linear.begin(), linear.end());
+  form.linear = linear_form(network, linear, tool, ground);
+  return form;
 }
 
 void mark_without_effect(const NormalTree& tree, Network& network) {
@@ -96,10 +127,10 @@ void mark_without_effect(const NormalTree& tree, Network& network) {
 
 }  // namespace
 
-std::optional<NormalForm> normal_form(const Network& network) {
-  if (!has_slips(network)) return NormalForm{linear_form(network), {}};
+NormalForm normal_form(const Network& network) {
+  if (!has_slips(network, effective_elements(network))) return {linear_form(network), {}, {}};
   const std::optional<Tree> tree = series_parallel_tree(network);
-  if (!tree) return std::nullopt;
+  if (!tree) return form_by_parts(network);
   NormalTree root = normal(*tree, network);
   NormalForm form;
   if (root.kind != NormalTree::Kind::parallel) {
@@ -118,6 +149,8 @@ std::optional<NormalForm> normal_form(const Network& network) {
 Network linear_part(const Network& network, const NormalForm& form) {
   Network linear = network;
   for (const NormalTree& component : form.components) mark_without_effect(component, linear);
+  for (const std::vector<std::size_t>& elements : form.networks)
+    for (std::size_t element : elements) linear.elements[element].has_effect = false;
   return linear;
 }
 
@@ -131,6 +164,15 @@ NormalTree whole_tree(const NormalForm& form, const Network& network) {
   if (!block.elements.empty()) whole.children.push_back(std::move(block));
   whole.children.insert(whole.children.end(), form.components.begin(), form.components.end());
   return whole.children.size() == 1 ? whole.children.front() : whole;
+}
+
+std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network, const std::vector<std::size_t>& elements) {
+  std::map<std::pair<NodeIndex, NodeIndex>, double> slips;
+  for (std::size_t index : elements) {
+    const Element& element = network.elements[index];
+    if (const Slip* slip = std::get_if<Slip>(&element.law)) slips[std::minmax(element.a, element.b)] += slip->yield_force;
+  }
+  return slips;
 }
 
 std::size_t slip_count(const NormalTree& tree) {

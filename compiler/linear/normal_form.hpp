@@ -2,8 +2,10 @@
 // canonical form, every part of slips alone one slip.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "linear/linear_form.hpp"
@@ -23,16 +25,22 @@ struct NormalTree {
 struct NormalForm {
   LinearForm linear;                   // what reaches from tool to ground without a slip
   std::vector<NormalTree> components;  // series with at least one slip each, in parallel with it
+  std::vector<std::vector<std::size_t>> networks;  // the same of parts that are no tree: indices into Network::elements
+
+  bool has_slips() const { return !components.empty() || !networks.empty(); }
 };
 
-// Empty for a network with slips that is no tree. Without slips, `linear` is the canonical form of the whole.
-std::optional<NormalForm> normal_form(const Network& network);
+// Without slips, `linear` is the canonical form of the whole.
+NormalForm normal_form(const Network& network);
 
 // The same network with everything that is behind a slip marked as without effect.
 Network linear_part(const Network& network, const NormalForm& form);
 
 // All of it as one tree: with a contact, whatever is behind the surface answers as one.
 NormalTree whole_tree(const NormalForm& form, const Network& network);
+
+// Yield forces by the nodes that slips join, among these elements; side by side they add.
+std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network, const std::vector<std::size_t>& elements);
 
 // Slips in it.
 std::size_t slip_count(const NormalTree& tree);

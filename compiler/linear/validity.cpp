@@ -5,6 +5,20 @@
 namespace dashpot::compiler {
 namespace {
 
+// 3⁵ = 243 patterns; no bound is known that grows less.
+constexpr std::size_t most_slips_outside_tree = 5;
+
+// Of the part that is no tree and has most; behind a contact all parts are one.
+std::size_t most_slips_together(const NormalForm& form, const Network& network) {
+  std::size_t most = 0, all = 0;
+  for (const std::vector<std::size_t>& elements : form.networks) {
+    most = std::max(most, slips_between(network, elements).size());
+    all += slips_between(network, elements).size();
+  }
+  for (const NormalTree& component : form.components) all += slip_count(component);
+  return network.contact && !form.networks.empty() ? all : most;
+}
+
 constexpr double two_pi = 6.28318530717958647692;
 
 void warn_about_tunables(const Network& network, Diagnostics& diagnostics) {
@@ -16,9 +30,11 @@ void warn_about_tunables(const Network& network, Diagnostics& diagnostics) {
 }  // namespace
 
 std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics) {
-  std::optional<NormalForm> form = normal_form(network);
-  if (!form) diagnostics.report<DiagnosticCode::slips_outside_tree>(network.name_span, network.name);
-  return form;
+  NormalForm form = normal_form(network);
+  const std::size_t slips = most_slips_together(form, network);
+  if (slips <= most_slips_outside_tree) return form;
+  diagnostics.report<DiagnosticCode::too_many_slips_outside_tree>(network.name_span, slips, most_slips_outside_tree);
+  return std::nullopt;
 }
 
 void warn_about_validity(const LinearForm& form, const Network& network, Diagnostics& diagnostics) {

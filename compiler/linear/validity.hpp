@@ -5,7 +5,8 @@
 
 namespace dashpot::compiler {
 
-// The normal form of a network whose step takes a number of operations known beforehand. Refuses: slips outside a tree.
+// The normal form of a network whose step takes a number of operations known beforehand. Refuses: more slips outside
+// a tree than can be solved in a bounded time.
 std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics);
 
 // Warns: no relaxation inside the stated frequency band; tunable parameters taken at their default.

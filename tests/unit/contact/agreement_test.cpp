@@ -69,8 +69,9 @@ std::string breach(const compiler::Network& free_network, compiler::Scheme schem
   return "";
 }
 
-NetworkRecipe recipe(std::size_t most_slips) {
+NetworkRecipe recipe(std::size_t most_slips, Topology topology = Topology::tree) {
   NetworkRecipe recipe;
+  recipe.topology = topology;
   recipe.most_nodes = 9;
   recipe.most_slips = most_slips;
   return recipe;
@@ -88,11 +89,16 @@ TEST(ContactAgreement, SlipsAreThatOfTheElements) {
   EXPECT_EQ(first_failure(1, repetitions(300, 20000), recipe(6), disagreement), "");
 }
 
+// The same where the slips meet outside a tree: the contact is one of them.
+TEST(ContactAgreement, SlipsOutsideTreesAreThatOfTheElements) {
+  EXPECT_EQ(first_failure(1, repetitions(300, 20000), recipe(5, Topology::graph), disagreement), "");
+}
+
 // A tissue would give energy away when it is left or touched again, or hold on to the tool.
 TEST(ContactEnergy, NeverRisesByMoreThanTheWork) {
   for (const compiler::Scheme scheme : {compiler::Scheme::exact, compiler::Scheme::backward_euler})
-    for (const std::size_t slips : {0u, 6u})
-      EXPECT_EQ(first_failure(1, repetitions(300, 20000), recipe(slips), [=](const compiler::Network& network) { return breach(network, scheme); }), "");
+    for (const NetworkRecipe& shape : {recipe(0), recipe(6), recipe(5, Topology::graph)})
+      EXPECT_EQ(first_failure(1, repetitions(300, 20000), shape, [=](const compiler::Network& network) { return breach(network, scheme); }), "");
 }
 
 // The motions above would hardly ever leave the tissue, and the tests prove nothing about it.

@@ -25,16 +25,22 @@ inline compiler::Network many_slips(std::uint64_t seed) {
   return written_network("{\"parallel\": [" + branches + "]}");
 }
 
-// Every third seed is left as it comes; for the others the next network with coupled slips is taken. Every fourth is behind
-// a contact.
+// Every third seed is left as it comes; for the others the next network with coupled slips is taken. Every sixth has slips
+// outside a tree, every twelfth many branches; about every third is behind a contact.
 inline compiler::Network slip_network(std::uint64_t seed) {
   NetworkRecipe recipe;
   recipe.most_nodes = 9;
   recipe.most_slips = 6;
+  if (seed % 6 == 3) {
+    recipe.topology = Topology::graph;
+    recipe.most_slips = 5;
+  }
   compiler::Network network = seed % 12 == 0 ? many_slips(seed) : random_network(1000 * seed, recipe);
+  for (std::uint64_t i = 1; seed % 6 == 3 && compiled(network, compiler::Scheme::exact).law.networks.empty(); ++i)
+    network = random_network(1000 * seed + i, recipe);
   for (std::uint64_t i = 1; seed % 3 != 0 && most_coupled(compiled(network, compiler::Scheme::exact)) < 2; ++i)
     network = random_network(1000 * seed + i, recipe);
-  if (seed % 4 == 0) network.contact = compiler::Contact{0, {}};
+  if ((seed % 4 == 0 && seed % 12 != 0) || seed % 12 == 9) network.contact = compiler::Contact{0, {}};
   network.name = "slips_" + std::to_string(seed);
   return network;
 }

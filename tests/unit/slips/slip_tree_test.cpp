@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "counted.hpp"
 #include "discretise/slip_table.hpp"
 #include "support/random.hpp"
 
@@ -16,27 +17,6 @@ namespace {
 
 using compiler::NormalTree;
 using Kind = NormalTree::Kind;
-
-// A number that counts what is done with it.
-struct Counted {
-  double value = 0;
-  static inline long operations = 0;
-
-  constexpr Counted() = default;
-  constexpr Counted(double number) : value(number) {}
-  friend Counted operator+(Counted a, Counted b) { return ++operations, Counted(a.value + b.value); }
-  friend Counted operator-(Counted a, Counted b) { return ++operations, Counted(a.value - b.value); }
-  friend Counted operator*(Counted a, Counted b) { return ++operations, Counted(a.value * b.value); }
-  friend Counted operator/(Counted a, Counted b) { return ++operations, Counted(a.value / b.value); }
-  Counted operator-() const { return Counted(-value); }
-  Counted& operator+=(Counted b) { return *this = *this + b; }
-  Counted& operator-=(Counted b) { return *this = *this - b; }
-  friend bool operator<(Counted a, Counted b) { return a.value < b.value; }
-  friend bool operator>(Counted a, Counted b) { return a.value > b.value; }
-  friend bool operator<=(Counted a, Counted b) { return a.value <= b.value; }
-  friend bool operator>=(Counted a, Counted b) { return a.value >= b.value; }
-  friend bool operator==(Counted a, Counted b) { return a.value == b.value; }
-};
 
 NormalTree leaf(Kind kind, double yield = 0) { return {kind, {}, yield, {}, {}}; }
 

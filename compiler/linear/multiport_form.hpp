@@ -1,0 +1,36 @@
+// The canonical form of a linear part that slips join at several nodes: springs and dampers between its terminals, and
+// modes that pull at several of them (theory, section 2, with vectors for p and q):
+//     F(s) = [K0 + B∞ s + Σ k_i w_i w_iᵀ s/(s + λ_i)] X(s)
+#pragma once
+
+#include <vector>
+
+#include "linear/linear_form.hpp"
+
+namespace dashpot::compiler {
+
+// Between two terminals, by index; the ground is behind the last.
+struct Tie {
+  std::size_t a, b;
+  Real value;  // k [N/m] or b [N·s/m]
+};
+
+struct MultiportMode {
+  Real stiffness;             // k [N/m]
+  Real relaxation_rate;       // λ [1/s]
+  std::vector<Real> weights;  // w of each terminal and the ground: largest magnitude 1 among the terminals, sum 0
+  std::vector<std::size_t> elements;  // indices into Network::elements: where the mode comes from
+};
+
+struct MultiportForm {
+  std::vector<NodeIndex> terminals;  // without the ground
+  std::vector<Tie> springs, dampers;  // one a pair at most
+  std::vector<MultiportMode> modes;
+};
+
+// In: springs and dampers, the nodes at which they are looked at. Every other node is tied to terminals or the ground by
+// them. Ensures: what nothing joins has no tie and no weight in common, exactly.
+MultiportForm multiport_form(const Network& network, const std::vector<std::size_t>& elements,
+                             const std::vector<NodeIndex>& terminals);
+
+}  // namespace dashpot::compiler

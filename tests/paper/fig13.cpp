@@ -8,6 +8,7 @@
 
 #include "chosen.hpp"
 #include "curves.hpp"
+#include "evaluated_law.hpp"
 
 namespace dashpot::paper {
 namespace {
@@ -54,6 +55,22 @@ Fig13::Part part_of(const Experiment& experiment, const Realisation& realisation
   return part;
 }
 
+// The laws that the paper prints, for a single motor or with b = B.
+LawMaker printed_law(double stiffness, const char* decomposition) {
+  compiler::Choices choices;
+  choices.rate = 1 / rig().description.loop.sample_period;
+  choices.scheme = compiler::Scheme::backward_euler;
+  choices.state_input = compiler::StateInput::velocity;
+  choices.decomposition = decomposition;
+  return law_of(compiled(maxwell_element(stiffness, chosen("tissue.damping")), choices));
+}
+
+Fig13::Variation variation_of(const Experiment& experiment, double stiffness) {
+  const velocity_description& velocity = experiment.plant.velocity;
+  return {stiffness, part_of(experiment, {"", printed_law(stiffness, "virtual"), velocity, 0}, plain).undershoot,
+          part_of(experiment, {"", printed_law(stiffness, "most-dissipative"), velocity, 0}, plain).undershoot};
+}
+
 Figure figure_of(const Fig13& fig13) {
   const double arm = rig().description.arm_radius;
   const auto velocity = [&](const Sample& s) { return s.velocity / arm; };
@@ -87,6 +104,7 @@ Fig13 measure_fig13() {
       part_of(experiment, {"single motor", law_of<laws::maxwell_single>(), plant.velocity, 0}, single_motor),
       part_of(experiment, {"dual channel", law_of<laws::maxwell_dual>(), plant.velocity, 0}, dual_channel),
       part_of(experiment, {"dashpot’s choice for this device", law_of<laws::maxwell_own>(), plant.velocity, 0}, third)};
+  for (const double factor : {1, 2, 4, 8}) fig13.variations.push_back(variation_of(experiment, factor * chosen("tissue.stiffness")));
   return fig13;
 }
 
@@ -96,6 +114,11 @@ Section show(const Fig13& fig13) {
   for (const Fig13::Part& part : fig13.parts)
     table.rows.push_back({part.name, fmt::format("{:.3f}", part.release_velocity), fmt::format("{:.3f}", part.undershoot),
                           fmt::format("{:.3f}", part.overshoot), fmt::format("{:.3f}", part.settling)});
+  Table variations{"The same with stiffer springs: what the ratio depends on",
+                   {"K [N/m]", "single motor [rad/s]", "dual channel [rad/s]", "ratio"}, {}};
+  for (const Fig13::Variation& v : fig13.variations)
+    variations.rows.push_back({fmt::format("{}", v.stiffness), fmt::format("{:.2f}", v.single), fmt::format("{:.2f}", v.dual),
+                               fmt::format("{:.2f}", v.single / v.dual)});
   const double ratio = fig13.parts[1].undershoot / fig13.parts[2].undershoot;
   return {"fig13", "Fig. 13: drag and release",
           {fmt::format("First undershoot: single motor {:.2f}, dual channel {:.2f} rad/s, a ratio of {:.2f}; the paper has −3.8 and −2, a "
@@ -104,12 +127,12 @@ Section show(const Fig13& fig13) {
                        fig13.parts[0].undershoot),
            "That the size does not come out has a reason. With Z_d the element’s impedance and τ the delay, both realisations lose the "
            "same damping to first order, ωτ·|Im Z_d|, because the brake’s b is real; what the dual channel gains is an apparent "
-           "inertia bτ, which slows the swing, and damping to second order. Which stiffness and inertia the paper’s rig had is not "
-           "printed.",
+           "inertia bτ, which slows the swing, and damping to second order. The ratio grows with the stiffness (second table). "
+           "Which stiffness and inertia the paper’s rig had is not printed.",
            fmt::format("Settling does not come out either: {:.0f} ms by the single motor, {:.0f} ms by the dual channel, {:.0f} ms ideally. "
                        "The assumed friction of 20 mN stops the arm after one swing in each case, and the dual channel’s is slower.",
                        fig13.parts[1].settling * 1e3, fig13.parts[2].settling * 1e3, fig13.parts[0].settling * 1e3)},
-          {figure_of(fig13)}, {table}};
+          {figure_of(fig13)}, {table, variations}};
 }
 
 }  // namespace dashpot::paper

@@ -16,7 +16,13 @@ struct Fig13 {
     double overshoot = 0;         // the highest after that [rad/s]
     double settling = 0;          // from the release until the speed stays below 5 % of that [s]
   };
+  // The same with another spring.
+  struct Variation {
+    double stiffness;       // [N/m]
+    double single, dual;    // first undershoots [rad/s]
+  };
   double release = 0;       // [s]
+  std::vector<Variation> variations;
   std::vector<Part> parts;  // ideal, single motor, dual channel, dashpot's own choice for the device
 };
 

@@ -28,6 +28,13 @@ TEST(Fig13, has_a_smaller_ratio_than_the_papers) {
   EXPECT_NEAR(fig13().parts[1].undershoot / fig13().parts[2].undershoot, 1.19, 0.02);
 }
 
+// Fails if the ratio does not grow with the stiffness, as the page says.
+TEST(Fig13, has_a_larger_ratio_with_a_stiffer_spring) {
+  const auto& all = fig13().variations;
+  EXPECT_NEAR(all[0].single, fig13().parts[1].undershoot, 1e-9);
+  for (std::size_t i = 1; i < all.size(); ++i) EXPECT_GT(all[i].single / all[i].dual, all[i - 1].single / all[i - 1].dual);
+}
+
 // Fails if settling changes. The paper's "faster settling" of the dual channel does not come out: it swings more slowly.
 TEST(Fig13, settles_no_faster_by_the_dual_channel) {
   EXPECT_NEAR(fig13().parts[1].settling, 0.251, 0.01);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "evaluated_law.hpp"
+
 namespace {
 
 using namespace dashpot::paper;
@@ -55,6 +57,19 @@ TEST(Fig6, returns_most_energy_by_the_single_motor) {
 TEST(Fig6, needs_damping_in_the_single_motor_alone) {
   EXPECT_GT(fig6().candidates[0].minimum_damping, 0.2);
   EXPECT_EQ(fig6().candidates[1].minimum_damping, 0);
+}
+
+// Fails if the scan over frequencies and the compiler's certificate, which bounds them all, disagree about the law that both know.
+TEST(Fig6, needs_what_the_certificate_says) {
+  dashpot::compiler::Choices choices;
+  choices.rate = 1000;
+  choices.decomposition = "virtual";
+  choices.state_input = dashpot::compiler::StateInput::position;
+  dashpot::compiler::SampledLoop loop;
+  loop.sample_period = 1e-3;
+  const Compiled law = compiled(maxwell_element(50, 5), choices);
+  const auto bound = dashpot::compiler::passivity_bound(dashpot::compiler::motor_constants(law->law), loop);
+  EXPECT_NEAR(fig6().candidates[7].minimum_damping, bound.needed, 1e-6 * bound.needed);
 }
 
 // Fails if force and velocity are not opposed after the reversal: (14) would be within a damper's reach.

@@ -41,11 +41,11 @@ RampAndHold motion_for(const Compilation& c) {
 }
 
 // f(t) = r [k0 t + b∞ + Σ B_i (1 − e^{−λ_i t})], t ≤ t_r; then r [k0 t_r + Σ B_i (e^{−λ_i (t − t_r)} − e^{−λ_i t})].
-Real closed_form(const LinearForm& form, const RampAndHold& press, double time) {
+Real closed_form(const LinearForm& form, double added_damping, const RampAndHold& press, double time) {
   if (time == 0) return 0;  // the left limit: at rest
   const Real t = time, ramp = press.length();
   const bool presses = time <= press.length();
-  Real force = form.static_stiffness * (presses ? t : ramp) + (presses ? form.feedthrough_damping : Real(0));
+  Real force = form.static_stiffness * (presses ? t : ramp) + (presses ? Real(form.feedthrough_damping + added_damping) : Real(0));
   for (const Mode& mode : form.modes) {
     const Real late = exp(-mode.relaxation_rate * t);
     const Real early = presses ? Real(1) : exp(-mode.relaxation_rate * (t - ramp));
@@ -70,7 +70,7 @@ Comparison compare(const Compilation& c, const RampAndHold& press) {
   for (std::size_t i = 0; i <= drawn_points; ++i) {
     const std::size_t sample = i * count / drawn_points;
     if (!result.shown.empty() && sample == result.shown.back()) continue;
-    const Real closed = closed_form(c.form.linear, press, result.run.time[sample]);
+    const Real closed = closed_form(c.form.linear, uncompensated_damping(c), press, result.run.time[sample]);
     result.shown.push_back(sample);
     result.closed.push_back(to_double(closed));
     result.difference.push_back(to_double(Real(result.run.force(sample)) - closed));

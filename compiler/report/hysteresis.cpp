@@ -51,9 +51,9 @@ Curve loop(const std::string& name, Channel channel, const Oscillation& motion, 
 }
 
 // u = A sin ωt around 0, from rest: k0 u + b∞ u̇ + Σ k_i A ω (λ cos ωt + ω sin ωt − λ e^{−λt})/(λ² + ω²)
-double closed_form(const LinearForm& form, const Oscillation& motion, double t) {
+double closed_form(const LinearForm& form, double added_damping, const Oscillation& motion, double t) {
   const double w = motion.angular();
-  double force = to_double(form.static_stiffness) * motion.position(t) + to_double(form.feedthrough_damping) * motion.velocity(t);
+  double force = to_double(form.static_stiffness) * motion.position(t) + (to_double(form.feedthrough_damping) + added_damping) * motion.velocity(t);
   for (const Mode& mode : form.modes) {
     const double rate = to_double(mode.relaxation_rate), ratio = w / rate;
     force += to_double(mode.stiffness) * motion.amplitude * ratio *
@@ -79,7 +79,7 @@ std::string linear_loop(const Compilation& c) {
   const PortUnits units = port_units(c.network.port_motion);
   Plot plot = empty_plot("Hysteresis at " + number_text(motion.frequency, 3) + " Hz", units);
   plot.curves.push_back(loop("closed form", Channel::closed_form, motion, all, drawn_points,
-                             [&](std::size_t k) { return closed_form(c.form.linear, motion, all.time[k]); }));
+                             [&](std::size_t k) { return closed_form(c.form.linear, uncompensated_damping(c), motion, all.time[k]); }));
   plot.curves.push_back(loop("brake b·v̂", Channel::brake, motion, all, drawn_points, [&](std::size_t k) { return all.brake[k]; }));
   plot.curves.push_back(loop("motor m", Channel::motor, motion, all, drawn_points, [&](std::size_t k) { return all.motor[k]; }));
   plot.curves.push_back(loop("emitted code", Channel::total, motion, all, drawn_dots, [&](std::size_t k) { return all.force(k); }));

@@ -21,6 +21,7 @@ const std::map<std::string, std::string>& letters() {
       {"sampled_position", "<mi>u</mi>"},
       {"sampled_position_change", change},
       {"sampled_velocity", "<mover><mi>v</mi><mo>^</mo></mover>"},
+      {"damping", "<mi>b</mi>"},
       {"force", "<mi>m</mi>"},
       {"relaxed_force", "<mi>S</mi>"},
       {"mode_force", "<mi>F</mi>"},
@@ -61,7 +62,7 @@ class Writer {
       case Operation::constant: return constant(law_.coefficients[e.left]);
       case Operation::add: return added(e);
       case Operation::subtract: return grouped(e.left, 1) + "<mo>−</mo>" + grouped(e.right, 2);
-      case Operation::multiply: return grouped(e.left, 2) + "<mo>&#x2062;</mo>" + grouped(e.right, 3);
+      case Operation::multiply: return product(grouped(e.left, 2), grouped(e.right, 3));
       case Operation::flush: return written(e.left);
       case Operation::clamp: return "<mi>clamp</mi><mo stretchy=\"false\">(</mo>" + written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3) + "<mo stretchy=\"false\">)</mo>";
       case Operation::where: return choice(e);
@@ -73,6 +74,13 @@ class Writer {
  private:
   static std::string constant(const Coefficient& c) {
     return c.values.size() == 1 ? number_mathml(c.values.front(), 6) : coefficient_mathml(c);
+  }
+
+  // Letters stand side by side; names, and numbers behind anything, need a dot between them.
+  static std::string product(const std::string& left, const std::string& right) {
+    const auto needs_dot = [](const std::string& factor) { return factor.find("<mtext>") != factor.npos; };
+    const bool dotted = needs_dot(left) || needs_dot(right) || right.compare(0, 4, "<mn>") == 0;
+    return left + (dotted ? "<mo>·</mo>" : "<mo>&#x2062;</mo>") + right;
   }
 
   // A negative number behind a plus is a minus: the value is the same to the last bit.
@@ -87,9 +95,9 @@ class Writer {
   }
 
   std::string choice(const Expression& e) const {
-    return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.left) + "</mtd><mtd><mtext>if </mtext>" +
+    return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.left) + "</mtd><mtd><mspace width=\"1em\"/><mtext>if</mtext><mspace width=\"0.4em\"/>" +
            grouped(e.condition, 1) + "<mo>&gt;</mo><mn>0</mn></mtd></mtr><mtr><mtd>" + written(e.right) +
-           "</mtd><mtd><mtext>else</mtext></mtd></mtr></mtable></mrow>";
+           "</mtd><mtd><mspace width=\"1em\"/><mtext>else</mtext></mtd></mtr></mtable></mrow>";
   }
 
   std::string grouped(ExpressionId id, int least_precedence) const {

@@ -15,6 +15,8 @@
 #include "report/linear_responses.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
+#include "report/regime_table.hpp"
+#include "report/sampled_margin.hpp"
 #include "report/schematic.hpp"
 
 namespace dashpot::compiler {
@@ -33,7 +35,7 @@ Fields fact(const std::string& label, const std::string& value, const std::strin
 std::vector<Fields> facts(const Compilation& c) {
   const PortUnits units = port_units(c.network.port_motion);
   std::vector<Fields> list;
-  list.push_back(fact(c.law.brake == no_variable ? "brake b" : "brake b, at least", number_text(c.law.damping), units.damping, "brake"));
+  list.push_back(fact("brake b", brake_text(c.law), units.damping, "brake"));
   if (is_linear(c)) {
     list.push_back(fact("motor, velocity gain", number_text(c.decomposition.choice().velocity_gain), units.damping, "motor"));
     list.push_back(fact("static stiffness", number_text(to_double(c.form.linear.static_stiffness)), units.stiffness));
@@ -44,14 +46,17 @@ std::vector<Fields> facts(const Compilation& c) {
 }
 
 void add_linear_parts(const Compilation& c, CodeModel& model) {
-  for (const char* list : {"canonical", "agreement", "candidates"}) model.lists[list];
-  if (!is_linear(c)) return;
+  for (const char* list : {"canonical", "agreement", "candidates", "regimes"}) model.lists[list];
+  if (!is_linear(c)) {
+    model.lists["regimes"].push_back({{"regimes", regimes_html(c)}});
+    return;
+  }
   model.lists["canonical"].push_back({{"form", canonical_form_html(c)}});
   if (!c.network.contact) model.lists["agreement"].push_back({{"body", agreement_html(c)}});
   model.lists["candidates"].push_back({{"choice", escaped(c.decomposition.choice().name)},
                                        {"reason", escaped(c.decomposition.reason)},
                                        {"table", candidates_table_html(c)},
-                                       {"margin", delay_margin_html(c)}});
+                                       {"margin", sampled_margin_html(c) + delay_margin_html(c)}});
 }
 
 // Two digits of ten times the slowest relaxation, within what a reader waits for.

@@ -159,6 +159,7 @@ class Pages(unittest.TestCase):
                 network = self.write(name + ".json", text)
                 self.open(network)
                 self.assertIn("three amplitudes", self.browser.run("return document.body.textContent"))
+                self.assertIn("brake b", self.browser.run("return document.getElementById('regimes').textContent"))
                 for left_out in ["candidates", "agreement", "passivity"]:
                     self.assertIsNone(self.browser.run(f"return document.getElementById('{left_out}')"))
                 self.assert_simulates(network)

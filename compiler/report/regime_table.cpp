@@ -1,0 +1,49 @@
+#include "report/regime_table.hpp"
+
+#include <fmt/format.h>
+
+#include "decompose/slip_laws.hpp"
+#include "report/markup.hpp"
+#include "report/number_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "–" : text;
+}
+
+std::string row(const ComponentSplit& split, std::size_t i, const Network& network) {
+  const Regime& regime = split.regimes.regimes[i];
+  const BrakeShare& share = split.shares[i];
+  return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                     escaped(joined(slip_names(split.regimes, regime, true, network))),
+                     escaped(joined(slip_names(split.regimes, regime, false, network))), number_text(share.damping),
+                     number_text(to_double(regime.feedthrough())), number_text(share.compensation),
+                     number_text(to_double(regime.form.static_stiffness)));
+}
+
+std::string table(const ComponentSplit& split, const Network& network) {
+  const PortUnits units = port_units(network.port_motion);
+  std::string html = fmt::format(
+      "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>sliding</th><th class=\"word\">stuck</th><th>brake <i>b</i> [{0}]</th>"
+      "<th>feedthrough <i>b</i><sub>∞</sub> [{0}]</th><th>compensated at most [{0}]</th><th>static stiffness [{1}]</th></tr></thead><tbody>\n",
+      units.damping, units.stiffness);
+  for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) html += row(split, i, network);
+  return html + "</tbody></table></div>\n";
+}
+
+}  // namespace
+
+std::string regimes_html(const Compilation& c) {
+  std::string html;
+  for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) {
+    html += "<p>" + escaped(to_text(likes)) + "</p>\n";
+    if (!likes.first->regimes.regimes.empty()) html += table(*likes.first, c.network);
+  }
+  return html;
+}
+
+}  // namespace dashpot::compiler

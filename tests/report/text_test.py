@@ -1,0 +1,112 @@
+"""What the pages of `dashpot report` say, as text, compared with what they said when somebody last looked.
+
+    python3 text_test.py --dashpot build/compiler/dashpot [--update]
+
+Each file of texts/ is the page of one network without its style, scripts and live part: a line for each block of the page,
+labels of drawings and plots included, curves not. A difference is shown as a diff and fails; --update writes them anew.
+"""
+import argparse
+import difflib
+import html.parser
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+TEXTS = pathlib.Path(__file__).parent / "texts"
+SOURCE = TEXTS.parents[2]
+PANTOGRAPH = "runtime/devices/pantograph_brake_2009.json"
+BLOCKS = {"p", "h1", "h2", "h3", "h4", "tr", "li", "dt", "figcaption", "svg", "section", "header", "option"}
+BETWEEN = {"td", "th", "dd", "text"}
+LEFT_OUT = {"style", "script", "footer"}
+EMPTY = {"meta", "link", "input", "br", "img"}
+
+
+class Text(html.parser.HTMLParser):
+    """Collects the page's words into lines."""
+
+    def __init__(self):
+        super().__init__()
+        self.text = ""
+        self._skipped = 0  # depth below what is left out
+
+    def handle_starttag(self, tag, attributes):
+        if tag in EMPTY:
+            return
+        if self._skipped or tag in LEFT_OUT or (tag == "section" and dict(attributes)["id"] == "live"):
+            self._skipped += 1
+        elif tag in BLOCKS or (tag == "math" and "display" in dict(attributes)):
+            self.text += "\n"
+        elif tag in BETWEEN:
+            self.text += " | "
+
+    def handle_endtag(self, tag):
+        self._skipped -= self._skipped > 0
+
+    def handle_data(self, data):
+        if not self._skipped:
+            self.text += data.replace("\n", " ")
+
+
+def text_of(page):
+    reader = Text()
+    reader.feed(page)
+    lines = (re.sub(r" +", " ", line).strip() for line in reader.text.split("\n"))
+    return "".join(line + "\n" for line in lines if line)
+
+
+def wanted():
+    """From the name of each text to the arguments behind `dashpot report`."""
+    networks = sorted([*SOURCE.glob("networks/paper/*.json"), *SOURCE.glob("networks/tissues/*.json")])
+    arguments = {path.stem: [path.relative_to(SOURCE)] for path in networks}
+    return {**arguments, "with_a_device": ["networks/paper/second_order_maxwell.json", "--device", PANTOGRAPH]}
+
+
+def page_of(dashpot, arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        page = pathlib.Path(folder) / "report.html"
+        # The live part is left out anyway, and the compiler for it takes longer than everything else.
+        subprocess.run([dashpot, "report", *map(str, arguments), "-o", page], cwd=SOURCE, check=True, stderr=subprocess.DEVNULL,
+                       timeout=60, env={**os.environ, "DASHPOT_CLANG": "/nowhere"})
+        return page.read_text()
+
+
+def differs(name, text):
+    path = TEXTS / f"{name}.txt"
+    recorded = path.read_text() if path.exists() else ""
+    diff = difflib.unified_diff(recorded.splitlines(True), text.splitlines(True), f"recorded/{path.name}", f"now/{path.name}")
+    sys.stdout.writelines(diff)
+    return text != recorded
+
+
+def record(texts):
+    TEXTS.mkdir(exist_ok=True)
+    for path in TEXTS.glob("*.txt"):
+        path.unlink()
+    for name, text in texts.items():
+        (TEXTS / f"{name}.txt").write_text(text)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--dashpot", type=pathlib.Path, required=True)
+    parser.add_argument("--update", action="store_true")
+    options = parser.parse_args()
+    dashpot = options.dashpot.resolve()
+    texts = {name: text_of(page_of(dashpot, arguments)) for name, arguments in wanted().items()}
+    if options.update:
+        record(texts)
+        return 0
+    left_over = sorted({path.stem for path in TEXTS.glob("*.txt")} - set(texts))
+    for name in left_over:
+        print(f"texts/{name}.txt belongs to nothing")
+    changed = [name for name, text in texts.items() if differs(name, text)]
+    if changed or left_over:
+        print("if this is meant, run text_test.py again with --update and review the change")
+    return 1 if changed or left_over else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -14,11 +14,29 @@ std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics)
   return decl ? build_network(*decl, diagnostics) : std::nullopt;
 }
 
-std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
+namespace {
+
+// False, with a diagnostic, for what does not go with tunable parameters. Their states follow the position: only so does
+// set() inject no energy.
+bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diagnostics) {
+  if (!has_tunables(network)) return true;
+  if (network.contact) diagnostics.report<DiagnosticCode::tunable_with_contact>(network.contact->span);
+  const StateInput asked = choices.state_input.value_or(StateInput::position);
+  if (asked != StateInput::position) diagnostics.report<DiagnosticCode::tunable_needs_position>({}, name_of(asked));
+  choices.state_input = StateInput::position;
+  return !network.contact && asked == StateInput::position;
+}
+
+}  // namespace
+
+std::optional<Compilation> compile(const SourceFile& source, const Choices& asked, const std::optional<Device>& device,
                                    Diagnostics& diagnostics) {
   std::optional<Network> network = check(source, diagnostics);
-  if (!network || !is_within_reach(*network, diagnostics)) return std::nullopt;
-  std::optional<NormalForm> form = closed_normal_form(*network, diagnostics);
+  Choices choices = asked;
+  if (!network || !settle_tunables(*network, choices, diagnostics)) return std::nullopt;
+  const Network present = at_default(*network);
+  if (!is_within_reach(present, diagnostics)) return std::nullopt;
+  std::optional<NormalForm> form = closed_normal_form(present, diagnostics);
   if (!form) return std::nullopt;
   Compilation result;
   result.network = std::move(*network);
@@ -26,11 +44,23 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& choi
   result.rate = choices.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
   result.form = std::move(*form);
   warn_about_validity(result.form.linear, result.network, diagnostics);
+  const Device* const on = device ? &*device : nullptr;
+  const bool is_tunable = has_tunables(result.network);
+  // Of slips with tunables the brake takes nothing: its rule is that of what reaches ground without them.
   std::optional<Decomposition> decomposition =
-      decompose(result.network, result.form, choices, device ? &*device : nullptr, diagnostics);
+      is_tunable ? decompose(linear_part(present, result.form), result.form.linear, choices, on, diagnostics)
+                 : decompose(result.network, result.form, choices, on, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
-  result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
+  if (is_tunable) {
+    result.decomposition.reason = "position driven, so that a change of parameters injects no energy";
+    std::optional<UpdateLaw> law =
+        discretise_tunable(result.network, result.form, result.decomposition, choices, result.rate, on, diagnostics);
+    if (!law) return std::nullopt;
+    result.law = std::move(*law);
+  } else {
+    result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
+  }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;

@@ -30,11 +30,18 @@ class Table {
     const auto velocity = column(header, {"velocity", "velocity [m/s]", "velocity [rad/s]"}, false);
     if (failed_) return std::nullopt;
     Motion motion;
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      if (i == time || i == position || i == velocity) continue;
+      others.push_back(i);
+      motion.others.push_back({std::string(header[i].text), {}, {}});
+    }
     for (std::vector<Cell> row = next_row(); !row.empty(); row = next_row()) {
       if (!has_fields(row, header.size())) break;
       append(motion.time, row[*time], "time");
       append(motion.position, row[*position], "position");
       if (velocity) append(motion.velocity, row[*velocity], "velocity");
+      for (std::size_t i = 0; i < motion.others.size(); ++i) append(motion.others[i], row[others[i]]);
       row_spans_.push_back(row.front().span);
     }
     if (failed_) return std::nullopt;
@@ -96,13 +103,25 @@ class Table {
     return row.size() == count;
   }
 
-  // Of many bad cells the first is reported.
-  void append(std::vector<double>& values, const Cell& cell, const char* name) {
+  static std::optional<double> number_in(const Cell& cell) {
     double value = 0;
     const auto [end, error] = std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
     const bool is_number = error == std::errc() && end == cell.text.data() + cell.text.size() && std::isfinite(value);
-    if (!is_number && !failed_) fail<DiagnosticCode::csv_not_a_number>(cell.span, name, cell.text);
-    values.push_back(value);
+    return is_number ? std::optional(value) : std::nullopt;
+  }
+
+  // Of many bad cells the first is reported.
+  void append(std::vector<double>& values, const Cell& cell, const char* name) {
+    const std::optional<double> value = number_in(cell);
+    if (!value && !failed_) fail<DiagnosticCode::csv_not_a_number>(cell.span, name, cell.text);
+    values.push_back(value.value_or(0));
+  }
+
+  // What is in it may be of no interest to anybody.
+  static void append(OtherColumn& column, const Cell& cell) {
+    const std::optional<double> value = number_in(cell);
+    if (!value && !column.not_a_number) column.not_a_number = cell.span;
+    column.values.push_back(value.value_or(0));
   }
 
   template <DiagnosticCode code, class... Arguments>

@@ -2,16 +2,25 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "source/diagnostic.hpp"
 
 namespace dashpot::compiler {
 
+// A column that is neither time, position nor velocity.
+struct OtherColumn {
+  std::string name;
+  std::vector<double> values;        // one a row; 0 where a cell is no finite number
+  std::optional<Span> not_a_number;  // the first such cell
+};
+
 struct Motion {
   std::vector<double> time;      // [s]
   std::vector<double> position;  // [m] or [rad]
   std::vector<double> velocity;  // [m/s] or [rad/s]; empty where the file has none
+  std::vector<OtherColumn> others;
   std::optional<double> period;  // [s]; empty for a single row
 };
 

@@ -95,6 +95,13 @@ Json slip_laws_of(const Compilation& c) {
   return components;
 }
 
+Json json_of(const TunableTables& tables) {
+  Json list = Json::array();
+  for (const Tunable& t : tables.tunables)
+    list.push_back({{"name", t.name}, {"value", t.range.value}, {"min", t.range.min}, {"max", t.range.max}});
+  return list;
+}
+
 Json json_of(const Compilation& c) {
   Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
   for (const Mode& mode : c.form.linear.modes)
@@ -104,7 +111,7 @@ Json json_of(const Compilation& c) {
     kelvin.push_back({{"stiffness", to_double(element.stiffness)}, {"damping", to_double(element.damping)}});
   for (const Candidate& candidate : c.decomposition.candidates) candidates.push_back(json_of(candidate));
   const Candidate& choice = c.decomposition.choice();
-  return {{"name", c.network.name},
+  Json all = {{"name", c.network.name},
           {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
           {"static_stiffness", to_double(c.form.linear.static_stiffness)},
           {"feedthrough_damping", to_double(c.form.linear.feedthrough_damping)},
@@ -124,6 +131,8 @@ Json json_of(const Compilation& c) {
           {"chosen", choice.name},
           {"state_input", name_of(choice.state_input)},
           {"reason", choice.reason + "; " + c.decomposition.reason}};
+  if (c.law.tunable) all["tunables"] = json_of(*c.law.tunable);
+  return all;
 }
 
 std::string kelvin_text(const Compilation& c) {
@@ -141,8 +150,30 @@ std::string pace_text(const Compilation& c) {
   return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", fastest, fastest * c.rate, c.rate);
 }
 
-std::string text_of(const Compilation& c) {
+std::string cost_text(const Compilation& c) {
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
+  std::string text = fmt::format("cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
+                                 output.additions, output.multiplications, update.additions, update.multiplications,
+                                 update.guards, output.states);
+  if (output.coupled > 0)
+    text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n", output.coupled);
+  return text;
+}
+
+// What is above holds for the default values.
+std::string tunable_text(const TunableTables& tables) {
+  const TunableCost cost = cost_of(tables);
+  std::string text, elements;
+  for (const Tunable& t : tables.tunables)
+    text += fmt::format("tunable               {} {} {}, {} to {}\n", t.name, t.range.value, t.unit, t.range.min, t.range.max);
+  text += fmt::format("damping follows       {}\n", tables.brake);
+  for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
+  if (!elements.empty()) text += fmt::format("backward Euler        {}\n", elements);
+  return text + fmt::format("cost at most          output {}, update {}, set {} additions, multiplications and divisions, {} states\n",
+                            cost.output, cost.update, cost.set, cost.states);
+}
+
+std::string text_of(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
   std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
   text += to_text(c.form.linear, c.network);
@@ -152,12 +183,7 @@ std::string text_of(const Compilation& c) {
   text += fmt::format("passivity             {:.6g} of extra damping for any delay of the estimate; sampled: not computed\n",
                       choice.extra_damping_any_delay.value_or(0));
   if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";
-  text += fmt::format("cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
-                      output.additions, output.multiplications, update.additions, update.multiplications, update.guards,
-                      output.states);
-  if (output.coupled > 0)
-    text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n", output.coupled);
-  return text;
+  return text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -40,6 +41,55 @@ void warn_once_outside(const std::optional<Range>& range, double value, double t
                                                           range->high);
 }
 
+// Columns of the motion that are called like tunables.
+class ValueColumns {
+ public:
+  // Refuses: a cell that is no finite number.
+  ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) : network_(c.network) {
+    if (!c.law.tunable) return;
+    tunables_ = c.law.tunable->tunables;
+    warned_.resize(tunables_.size());
+    for (const Tunable& tunable : tunables_) columns_.push_back(column_of(tunable.name, motion, diagnostics));
+    is_empty_ = std::all_of(columns_.begin(), columns_.end(), [](const OtherColumn* column) { return column == nullptr; });
+  }
+
+  // Sets the values of a row, and warns once of each tunable that is out of its range.
+  template <class Scalar>
+  void set(Evaluation<Scalar>& law, std::size_t row, double time, Diagnostics& diagnostics) {
+    if (is_empty_) return;
+    std::vector<Scalar> values;
+    for (std::size_t i = 0; i < tunables_.size(); ++i) {
+      const tunable_range<double>& range = tunables_[i].range;
+      const double value = columns_[i] == nullptr ? range.value : columns_[i]->values[row];
+      warn_once_outside(Range{range.min, range.max}, value, time, tunables_[i].name.c_str(), tunables_[i].unit.c_str(), warned_[i], network_,
+                        diagnostics);
+      values.push_back(static_cast<Scalar>(value));
+    }
+    law.set(values);
+  }
+
+ private:
+  static const OtherColumn* column_of(const std::string& name, const Motion& motion, Diagnostics& diagnostics) {
+    const auto found = std::find_if(motion.others.begin(), motion.others.end(), [&](const OtherColumn& c) { return c.name == name; });
+    if (found == motion.others.end()) return nullptr;
+    if (found->not_a_number)
+      diagnostics.report<DiagnosticCode::csv_not_a_number>(*found->not_a_number, name, found->not_a_number->file->text().substr(
+          found->not_a_number->begin, found->not_a_number->end - found->not_a_number->begin));
+    return &*found;
+  }
+
+  struct Once {
+    bool is_done = false;
+    operator bool&() { return is_done; }
+  };
+
+  const Network& network_;
+  std::vector<Tunable> tunables_;
+  std::vector<const OtherColumn*> columns_;
+  std::vector<Once> warned_;
+  bool is_empty_ = true;
+};
+
 template <class Scalar>
 std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) {
   Evaluation<Scalar> law(c.law);
@@ -48,7 +98,9 @@ std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& di
   double last_position = 0;
   bool warned_displacement = false, warned_rate = false;
   const bool turns = c.network.port_motion == motion::rotation;
+  ValueColumns values(c, motion, diagnostics);
   for (std::size_t i = 0; i < motion.time.size(); ++i) {
+    values.set(law, i, motion.time[i], diagnostics);
     const double position = motion.position[i];
     const double slope = i == 0 ? 0 : (position - last_position) * c.rate;
     const Scalar velocity = static_cast<Scalar>(motion.velocity.empty() ? slope : motion.velocity[i]);
@@ -81,6 +133,7 @@ ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics&
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   const std::string text = choices.scalar == ScalarType::float64 ? simulate<double>(*compilation, *motion, diagnostics)
                                                                  : simulate<float>(*compilation, *motion, diagnostics);
+  if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (!options.output) return write_standard_output(text, diagnostics);
   return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }

@@ -372,4 +372,16 @@ UpdateLaw discretise(const Network& network, const NormalForm& form, const Decom
   return LawBuilder(network, realised, decomposition, choices, sample_period).build();
 }
 
+std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                                            const Choices& choices, double rate, const Device* device, Diagnostics& diagnostics) {
+  const Real sample_period = 1 / Real(rate);
+  warn_about_fast_relaxations(network, form.linear, to_double(sample_period), diagnostics);
+  if (choices.scalar == ScalarType::float32) warn_about_float_range(network, form.linear, diagnostics);
+  UpdateLaw law = blank_law(decomposition.choice(), choices, sample_period);
+  law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, form.linear, decomposition, choices,
+                                  sample_period, device, diagnostics);
+  law.mode_form = ModeForm::delta;
+  return law.tunable ? std::optional(std::move(law)) : std::nullopt;
+}
+
 }  // namespace dashpot::compiler

@@ -4,6 +4,7 @@ namespace dashpot::compiler {
 
 template <class Scalar>
 Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
+  if (law.tunable) tunable_ = std::make_unique<TunableRun<Scalar>>(*law.tunable);
   for (const Variable& variable : law.variables)
     variables_.emplace_back(variable.size, static_cast<Scalar>(variable.rest_value));
   for (const Coefficient& coefficient : law.coefficients)
@@ -48,6 +49,7 @@ typename Evaluation<Scalar>::NetworkSolver Evaluation<Scalar>::solver_of(const S
 
 template <class Scalar>
 void Evaluation<Scalar>::reset(Scalar position) {
+  if (tunable_) tunable_->reset(all_finite(position, position, position) ? position : Scalar(0));
   for (std::size_t i = 0; i < variables_.size(); ++i)
     std::fill(variables_[i].begin(), variables_[i].end(), static_cast<Scalar>(law_.variables[i].rest_value));
   if (law_.rest_position != no_variable && all_finite(position, position, position))
@@ -57,6 +59,7 @@ void Evaluation<Scalar>::reset(Scalar position) {
 
 template <class Scalar>
 command<Scalar> Evaluation<Scalar>::output(Scalar position, Scalar velocity) {
+  if (tunable_) return tunable_output(position, velocity);
   variables_[law_.position][0] = position;
   variables_[law_.velocity][0] = velocity;
   run(law_.output);
@@ -73,9 +76,25 @@ Scalar Evaluation<Scalar>::damping(VariableId changing) const {
 }
 
 template <class Scalar>
+command<Scalar> Evaluation<Scalar>::tunable_output(Scalar position, Scalar velocity) {
+  const Scalar force = tunable_->force(position, velocity);
+  sampled_ = all_finite(position, velocity, force);
+  if (!sampled_) return {tunable_->damping(), Scalar(0)};
+  tunable_->keep();
+  return {tunable_->damping(), force};
+}
+
+template <class Scalar>
+unsigned Evaluation<Scalar>::set(const std::vector<Scalar>& values) {
+  update();
+  return tunable_ ? tunable_->set(values.data()) : 0;
+}
+
+template <class Scalar>
 void Evaluation<Scalar>::update() {
   if (!sampled_) return;
   sampled_ = false;
+  if (tunable_) return tunable_->update();
   run(law_.update);
 }
 
@@ -88,6 +107,7 @@ command<Scalar> Evaluation<Scalar>::step(Scalar position, Scalar velocity) {
 
 template <class Scalar>
 Scalar Evaluation<Scalar>::stored_energy() {
+  if (tunable_) return tunable_->stored_energy();
   run(law_.energy);
   return variables_[law_.stored][0];
 }

@@ -4,8 +4,10 @@
 
 #include <dashpot/command.hpp>
 
+#include <memory>
 #include <vector>
 
+#include "discretise/tunable_run.hpp"
 #include "discretise/update_law.hpp"
 
 namespace dashpot::compiler {
@@ -22,6 +24,8 @@ class Evaluation {
   command<Scalar> step(Scalar position, Scalar velocity);
   Scalar stored_energy();
   Scalar at(VariableId scalar) const { return variables_[scalar][0]; }
+  // Values of the tunables in the order of the network's parameters; bit i: value i was no number within its range.
+  unsigned set(const std::vector<Scalar>& values);
 
  private:
   // The tables of coupled slips and the room for their steps.
@@ -50,7 +54,10 @@ class Evaluation {
   Scalar value(ExpressionId expression, std::size_t place) const;
   Scalar sum(ExpressionId vector) const;
 
+  command<Scalar> tunable_output(Scalar position, Scalar velocity);
+
   const UpdateLaw& law_;
+  std::unique_ptr<TunableRun<Scalar>> tunable_;  // in place of all that follows
   std::vector<std::vector<Scalar>> variables_;
   std::vector<std::vector<Scalar>> coefficients_;
   std::vector<Solver> solvers_;  // one a coupling

@@ -90,6 +90,28 @@ std::string program_text(const UpdateLaw& law, const char* title, const std::vec
   return text;
 }
 
+std::string number_text(const TunableTables& tables, int index) {
+  const tunable_number<double>& number = tables.numbers[static_cast<std::size_t>(index)];
+  std::string text = fmt::format("{}", number.base);
+  for (int i = number.first; i < number.first + number.count; ++i)
+    text += " + " + tables.tunables[static_cast<std::size_t>(tables.terms[static_cast<std::size_t>(i)])].name;
+  return text;
+}
+
+std::string tunable_text(const TunableTables& tables) {
+  std::string text = fmt::format("damping follows {}\n", tables.brake);
+  for (const Tunable& t : tables.tunables)
+    text += fmt::format("tunable {} [{}] {}, {} to {}\n", t.name, t.unit, t.range.value, t.range.min, t.range.max);
+  for (std::size_t i = 0; i < tables.springs.size(); ++i)
+    text += fmt::format("spring {} {}\n", tables.spring_names[i], number_text(tables, tables.springs[i]));
+  for (const tunable_part<double>& part : tables.parts) {
+    if (part.spring != no_index) text += fmt::format("part with spring {}\n", tables.spring_names[static_cast<std::size_t>(part.spring)]);
+    if (part.damping != no_index) text += fmt::format("part with damping {}\n", number_text(tables, part.damping));
+    if (part.kind == tunable_kind::mesh) text += fmt::format("part of {} nodes and {} edges\n", part.node_count, part.edge_count);
+  }
+  return text;
+}
+
 std::string_view name_of(ModeForm form) {
   switch (form) {
     case ModeForm::product: return "product";
@@ -120,6 +142,7 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
   std::string text = fmt::format("law of {}: {}, {} driven, {}, period {} s, damping {}, modes in {} form\n", network.name,
                                  name_of(law.scheme), name_of(law.state_input), name_of(law.scalar), law.sample_period,
                                  damping, name_of(law.mode_form));
+  if (law.tunable) return text + tunable_text(*law.tunable);
   for (const Coefficient& coefficient : law.coefficients) {
     text += fmt::format("  {} [{}]", coefficient.name, coefficient.unit);
     for (double value : coefficient.values) text += fmt::format(" {}", value);

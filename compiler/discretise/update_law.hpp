@@ -16,6 +16,7 @@
 
 #include "decompose/choices.hpp"
 #include "decompose/decomposition.hpp"
+#include "discretise/tunable_network.hpp"
 #include "linear/normal_form.hpp"
 #include "network/network.hpp"
 
@@ -146,6 +147,8 @@ struct UpdateLaw {
   std::vector<SlipNetwork> networks;
   std::vector<Statement> energy;  // ends with the assignment of `stored`
 
+  std::optional<TunableTables> tunable;  // of a network with tunables: all of its law, the programs are then empty
+
   VariableId position = 0;  // the inputs
   VariableId velocity = 0;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
@@ -172,6 +175,11 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);
 // precision. Warns: a relaxation faster than two samples; a float that cannot carry stiffest and slowest mode together.
 UpdateLaw discretise(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                      const Choices& choices, double rate, Diagnostics& diagnostics);
+
+// The same for a network with tunables; form and decomposition are those of its default values. Refuses: what
+// tunable_tables_of() refuses.
+std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                                            const Choices& choices, double rate, const Device* device, Diagnostics& diagnostics);
 
 std::string to_text(const UpdateLaw& law, const Network& network);
 

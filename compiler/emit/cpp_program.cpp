@@ -6,6 +6,7 @@
 #include <set>
 
 #include "discretise/expression_text.hpp"
+#include "emit/cpp_tunable.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -86,6 +87,8 @@ class CppPrinter {
     program.keep = lines_of(law_.keep);
     program.update = lines_of(law_.update);
     program.energy = lines_of(law_.energy);
+    program.parameters = {"struct parameters {};"};
+    program.set = {"// No parameter of this network can be set while it runs.", "unsigned set(const parameters&) noexcept { return 0; }"};
     program.reset = reset();
     program.constants = constants();
     program.states = states();
@@ -414,6 +417,8 @@ std::string cpp_literal(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? fmt::format("{:#}", value) : fmt::format("{:#}f", static_cast<float>(value));
 }
 
-CppProgram cpp_program(const UpdateLaw& law, const Network& network) { return CppPrinter(law, network).print(); }
+CppProgram cpp_program(const UpdateLaw& law, const Network& network) {
+  return law.tunable ? tunable_program(law) : CppPrinter(law, network).print();
+}
 
 }  // namespace dashpot::compiler

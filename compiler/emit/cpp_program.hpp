@@ -14,6 +14,8 @@ struct CppProgram {
   std::vector<std::string> functions;  // private helpers that the lines below call
   std::vector<std::string> constants;
   std::vector<std::string> states;
+  std::vector<std::string> parameters; // the struct of that name
+  std::vector<std::string> set;        // the function of that name, with its contract
   std::vector<std::string> reset;
   std::vector<std::string> output;
   std::string command;                 // what output() returns

@@ -93,9 +93,32 @@ std::string validity_text(const Network& network) {
   return text;
 }
 
+// What may change, what follows it, and what that costs.
+void describe_tunables(const TunableTables& tables, const std::string& damping_unit, std::vector<std::string>& facts) {
+  std::string names, elements;
+  for (const Tunable& t : tables.tunables)
+    names += fmt::format("{}{} ({} to {} {})", names.empty() ? "" : ", ", t.name, t.range.min, t.range.max, t.unit);
+  for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
+  const TunableCost cost = cost_of(tables);
+  facts.push_back("tunable: " + names);
+  facts.push_back("  set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay");
+  facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake));
+  if (!elements.empty()) facts.push_back("  by backward Euler, since their relaxations mix with a tunable: " + elements);
+  facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions", cost.output));
+  facts.push_back(fmt::format("cost of update(): at most {} additions and multiplications; {} states", cost.update, cost.states));
+  facts.push_back(fmt::format("cost of set(): at most {} additions, multiplications and divisions", cost.set));
+}
+
+void describe_cost(const Compilation& c, std::vector<std::string>& facts) {
+  const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
+  facts.push_back(cost_line("cost of output():", output));
+  if (output.coupled > 0)
+    facts.push_back(fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
+  facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
+}
+
 std::vector<std::string> banner(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
-  const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
   const std::string unit = damping_unit(c.network);
   std::vector<std::string> facts;
   if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
@@ -110,10 +133,10 @@ std::vector<std::string> banner(const Compilation& c) {
   facts.push_back(fmt::format("passivity: under any delay of the estimate {:.6g} {} of extra damping; sampled: not computed",
                               choice.extra_damping_any_delay.value_or(0), unit));
   facts.push_back(fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
-  facts.push_back(cost_line("cost of output():", output));
-  if (output.coupled > 0)
-    facts.push_back(fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
-  facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
+  if (c.law.tunable)
+    describe_tunables(*c.law.tunable, unit, facts);
+  else
+    describe_cost(c, facts);
   if (c.law.relative_error_bound > 0)
     facts.push_back(fmt::format("rounding: a mode's force is off by at most {:.2g} of its peak", c.law.relative_error_bound));
   std::vector<std::string> lines;
@@ -148,6 +171,10 @@ CodeModel header_model(const Compilation& c) {
   fields["safe_command"] = program.safe_command;
   for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
   model.lists["banner"] = as_list(banner(c));
+  fields["energy_contract"] = c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
+                                            : "In the springs after the last update() [J].";
+  model.lists["parameters"] = as_list(program.parameters);
+  model.lists["set"] = as_list(program.set);
   model.lists["reset"] = as_list(program.reset);
   model.lists["output"] = as_list(program.output);
   model.lists["keep"] = as_list(program.keep);

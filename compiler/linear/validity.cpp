@@ -21,12 +21,6 @@ std::size_t most_slips_together(const NormalForm& form, const Network& network) 
 
 constexpr double two_pi = 6.28318530717958647692;
 
-void warn_about_tunables(const Network& network, Diagnostics& diagnostics) {
-  for (const Parameter& parameter : network.parameters)
-    if (parameter.tunable)
-      diagnostics.report<DiagnosticCode::tunable_compiled_at_default>(parameter.span, parameter.name, parameter.value);
-}
-
 }  // namespace
 
 std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics) {
@@ -38,7 +32,6 @@ std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics
 }
 
 void warn_about_validity(const LinearForm& form, const Network& network, Diagnostics& diagnostics) {
-  warn_about_tunables(network, diagnostics);
   if (!network.valid.frequency || form.modes.empty()) return;
   const Range& band = *network.valid.frequency;
   const auto in_band = [&](const Mode& mode) { return band.contains(to_double(mode.relaxation_rate) / two_pi); };

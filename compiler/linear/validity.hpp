@@ -9,7 +9,7 @@ namespace dashpot::compiler {
 // a tree than can be solved in a bounded time.
 std::optional<NormalForm> closed_normal_form(const Network& network, Diagnostics& diagnostics);
 
-// Warns: no relaxation inside the stated frequency band; tunable parameters taken at their default.
+// Warns: no relaxation inside the stated frequency band.
 void warn_about_validity(const LinearForm& form, const Network& network, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -40,6 +40,7 @@ std::vector<Recording> recordings() {
   return {
       {"paper", "", networks_in("paper")},
       {"tissues", "", networks_in("tissues")},
+      {"tunable", "", networks_in("tunable")},
       {"forms/backward_euler", "--scheme backward-euler", {paper / "second_order_maxwell.json"}},
       {"forms/nodal", "--scheme backward-euler --state-input nodal", {paper / "generalised_kelvin_two.json"}},
       {"forms/velocity", "--state-input velocity", {paper / "maxwell_damper_at_tool.json"}},

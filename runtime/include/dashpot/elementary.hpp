@@ -13,16 +13,26 @@ inline constexpr Scalar reciprocal_of[] = {
     Scalar(1) / 6,  Scalar(1) / 7,  Scalar(1) / 8,  Scalar(1) / 9,  Scalar(1) / 10, Scalar(1) / 11,
     Scalar(1) / 12, Scalar(1) / 13, Scalar(1) / 14, Scalar(1) / 15, Scalar(1) / 16, Scalar(1) / 17};
 
+// Powers of two by which square_root() takes any number to between 1 and 4.
+template <class Scalar>
+inline constexpr Scalar halves[] = {0x1p256, 0x1p256, 0x1p128, 0x1p64, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1};
+template <>
+inline constexpr float halves<float>[] = {0x1p32f, 0x1p32f, 0x1p16f, 0x1p8f, 0x1p4f, 0x1p2f, 0x1p1f};
+
 }  // namespace detail
 
-// √x, and 0 for x ≤ 0. Infinity stays infinity.
+// √x, and 0 for x ≤ 0. Infinity stays infinity. The same steps for every x.
 template <class Scalar>
 constexpr Scalar square_root(Scalar x) noexcept {
   if (!(x > 0)) return 0;
   if (x - x != 0) return x;
   Scalar scale = 1;
-  for (; x >= 4; x /= 4) scale *= 2;
-  for (; x < 1; x *= 4) scale /= 2;
+  for (const Scalar half : detail::halves<Scalar>) {
+    const bool is_large = x / half >= half, is_small = !is_large && x * half < 4 / half;
+    if (is_large) x = x / half / half;
+    if (is_small) x = x * half * half;
+    scale = is_large ? scale * half : is_small ? scale / half : scale;
+  }
   // The chord through (1, 1) and (4, 2) is at most 6 % wrong; each of Newton's steps squares the relative error.
   Scalar root = (x + 2) / 3;
   for (int step = 0; step < 4; ++step) root = (root + x / root) / 2;

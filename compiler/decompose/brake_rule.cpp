@@ -1,0 +1,80 @@
+#include "decompose/brake_rule.hpp"
+
+#include <cmath>
+
+#include "decompose/observer.hpp"
+#include "decompose/port_device.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+bool is_at_tool(const Element& element) { return element.a == tool || element.b == tool; }
+
+// The dampers at the tool once every observed child stands there.
+std::vector<std::size_t> dampers_at_tool(const Network& realisation) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < realisation.elements.size(); ++i) {
+    const Element& element = realisation.elements[i];
+    if (element.has_effect && std::holds_alternative<Damper>(element.law) && is_at_tool(element)) found.push_back(i);
+  }
+  return found;
+}
+
+double sum_of(const std::vector<std::size_t>& dampers, const Network& network) {
+  double sum = 0;
+  for (std::size_t i : dampers) sum += std::get<Damper>(network.elements[i].law).damping;
+  return sum;
+}
+
+// A damper between tool and ground is the brake's, also where its value is zero to begin with.
+void add_direct_dampers(const Network& network, std::vector<std::size_t>& dampers) {
+  for (std::size_t i = 0; i < network.elements.size(); ++i) {
+    const Element& element = network.elements[i];
+    const bool is_direct = (element.a == tool && element.b == ground) || (element.a == ground && element.b == tool);
+    const Damper* damper = std::get_if<Damper>(&element.law);
+    if (is_direct && damper != nullptr && damper->damping == 0) dampers.push_back(i);
+  }
+}
+
+std::string names_of(const std::vector<std::size_t>& elements, const Network& network) {
+  std::string names;
+  for (std::size_t i : elements) names += (names.empty() ? "" : " + ") + network.elements[i].name;
+  return names.empty() ? "0" : names;
+}
+
+BrakeRule observed_rule(const Network& network, const Candidate& choice, double reference_frequency, ObserverRule observer) {
+  const std::optional<Tree> tree = series_parallel_tree(network);
+  if (!tree) return {brake_rule::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
+  std::vector<std::size_t> dampers = dampers_at_tool(observe(*tree, network, observer, reference_frequency).realisation);
+  if (std::abs(sum_of(dampers, network) - choice.wanted_damping) > 1e-12 * choice.wanted_damping)
+    return {brake_rule::within_viscosity, choice.wanted_damping, {}, {},
+            "its value at the defaults, never above the network's viscosity at low frequency"};
+  add_direct_dampers(network, dampers);
+  const std::string text = names_of(dampers, network);
+  return {brake_rule::observed, 0, std::move(dampers), {}, text};
+}
+
+BrakeRule uncapped_rule(const Network& network, const Candidate& choice, double reference_frequency) {
+  if (choice.name == "velocity-free") return {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
+  if (choice.name == "zero-frequency")
+    return {brake_rule::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
+  if (choice.name == "quietest-passive")
+    return {brake_rule::half_zero_frequency, 0, {}, {}, "half the network's viscosity at low frequency"};
+  if (choice.name == "most-dissipative")
+    return observed_rule(network, choice, reference_frequency, ObserverRule::most_dissipative);
+  if (choice.name == "largest-observer") return observed_rule(network, choice, reference_frequency, ObserverRule::largest);
+  return {brake_rule::constant, choice.wanted_damping, {}, {}, "no parameter"};
+}
+
+}  // namespace
+
+BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const Device* device) {
+  Diagnostics already_reported;  // by decompose()
+  const std::optional<PortDevice> port =
+      device ? PortDevice::of(*device, network, already_reported) : std::optional(PortDevice::ideal());
+  BrakeRule rule = uncapped_rule(network, decomposition.choice(), port ? port->reference_frequency() : 0);
+  if (port) rule.max_damping = port->max_damping();
+  return rule;
+}
+
+}  // namespace dashpot::compiler

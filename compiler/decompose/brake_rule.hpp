@@ -1,0 +1,26 @@
+// What the brake's damping follows while the parameters of a network change.
+#pragma once
+
+#include <dashpot/tunable/tables.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+
+namespace dashpot::compiler {
+
+struct BrakeRule {
+  brake_rule rule;
+  double damping;                     // of a rule that has a constant [N·s/m]
+  std::vector<std::size_t> observed;  // dampers whose sum b is, of brake_rule::observed; indices into Network::elements
+  std::optional<double> max_damping;  // what the brake can give [N·s/m]
+  std::string text;                   // one clause for people
+};
+
+// In: the linear part of a network at its default values, and what was chosen for it. Out: the same choice as a rule for all
+// values. Ensures: the rule gives the chosen damping at the default values, within rounding, and never less than zero.
+BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const Device* device);
+
+}  // namespace dashpot::compiler

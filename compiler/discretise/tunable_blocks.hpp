@@ -1,0 +1,44 @@
+// Linear one-ports whose elements may be tunable, as parts in parallel.
+#pragma once
+
+#include <vector>
+
+#include "discretise/tunable_network.hpp"
+#include "linear/linear_form.hpp"
+#include "linear/modal_reduction.hpp"
+#include "network/tree.hpp"
+
+namespace dashpot::compiler {
+
+class TunableBlocks {
+ public:
+  TunableBlocks(const Network& network, const Choices& choices, const Real& sample_period, TunableTables& tables);
+
+  // The next block: `elements` of `network`, which joins tool and ground by them. `is_loose`: in series with a slip.
+  void add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose);
+
+  // base + Σ of the values of elements of one kind.
+  int number(const Network& network, const std::vector<std::size_t>& elements, const Real& base = 0);
+
+ private:
+  int constant(const Real& value) { return number({}, {}, value); }
+  int add_spring(int stiffness, std::string name);
+  void add_direct(const Network& network, const std::vector<std::size_t>& elements, const LinearForm& fixed, bool is_loose);
+  void add_fixed(const Network& network, const LinearForm& fixed);
+  bool add_relaxation(const Network& network, const Part& part);
+  void add_mesh(const Network& network, const Part& part);
+
+  const Network& whole_;
+  Choices choices_;
+  Real sample_period_;
+  TunableTables& tables_;
+  std::vector<int> tunable_of_parameter_;
+};
+
+// The branches of `tree` that hold `elements`, laid out between tool and ground on nodes of their own.
+Network laid_out_part(const Network& network, const Tree& tree, const std::vector<std::size_t>& elements);
+
+// Every way to cut through `slips`: the yield force is the least of the sums. One list of elements a way.
+std::vector<std::vector<std::size_t>> cuts_through(const Tree& tree, const std::vector<std::size_t>& slips);
+
+}  // namespace dashpot::compiler

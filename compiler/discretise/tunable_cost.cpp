@@ -1,0 +1,76 @@
+#include "discretise/tunable_network.hpp"
+
+#include "discretise/update_law.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// What one call takes at most, counted in the headers of the runtime.
+constexpr std::size_t square_root_operations = 110, mean_decay_operations = 56;
+
+std::size_t size_of(int count) { return static_cast<std::size_t>(count); }
+
+std::size_t pairs(std::size_t n) { return n * (n - (n > 0 ? 1 : 0)) / 2; }
+
+// tunable_mesh::eliminate: every node joins all that are left.
+std::size_t elimination(std::size_t nodes) {
+  std::size_t operations = 0;
+  for (std::size_t left = 0; left < nodes; ++left) operations += 8 + 7 * left + 2 * pairs(left);
+  return operations;
+}
+
+// tunable_mesh::eliminate_to_first_order: nine operations a bridge.
+std::size_t first_order_elimination(std::size_t nodes) {
+  std::size_t operations = 0;
+  for (std::size_t left = 0; left < nodes; ++left) operations += 2 + 2 * left + 9 * (1 + 2 * left + pairs(left));
+  return operations;
+}
+
+std::size_t held(const TunableTables& tables) {
+  std::size_t operations = 0;
+  for (const tunable_part<double>& part : tables.parts) {
+    const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
+    operations += part.kind == tunable_kind::mesh ? 5 * edges + 2 * pairs(nodes) + 2 * nodes + 2 : 6;
+  }
+  return operations;
+}
+
+std::size_t advance(const TunableTables& tables) {
+  std::size_t operations = 0;
+  for (const tunable_part<double>& part : tables.parts) {
+    const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
+    operations += part.kind == tunable_kind::mesh ? 2 * edges + 2 * pairs(nodes) + 3 * nodes : 4;
+  }
+  return operations;
+}
+
+std::size_t slips(const TunableTables& tables) {
+  std::size_t operations = 0;
+  for (const tunable_coupling& coupling : tables.couplings)
+    operations += size_of(slip_tree_operations(tables.nodes.data() + coupling.first_node, coupling.node_count));
+  return operations;
+}
+
+std::size_t tuning(const TunableTables& tables) {
+  std::size_t operations = 8 + 4 * tables.nodes.size();
+  // A number is asked for up to five times: by the brake, by two eliminations, by the viscosity, by the step.
+  for (const tunable_number<double>& number : tables.numbers) operations += 5 * size_of(number.count);
+  for (const tunable_part<double>& part : tables.parts) {
+    const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
+    operations += 12;
+    if (part.kind == tunable_kind::relaxation) operations += 2 * (6 + mean_decay_operations);
+    if (part.kind == tunable_kind::mesh) operations += 16 * edges + 4 * elimination(nodes) + first_order_elimination(nodes);
+  }
+  return operations;
+}
+
+}  // namespace
+
+TunableCost cost_of(const TunableTables& tables) {
+  const std::size_t springs = tables.springs.size();
+  const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
+  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables), 5 + slips(tables),
+          advance(tables) + held(tables) + 9 * springs, springs};
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,89 @@
+// A law with tunable parameters in evaluate(): the runtime's own class over the compiler's tables.
+#pragma once
+
+#include <dashpot/tunable_law.hpp>
+
+#include <vector>
+
+#include "discretise/tunable_network.hpp"
+
+namespace dashpot::compiler {
+
+template <class Scalar>
+class TunableRun {
+ public:
+  explicit TunableRun(const TunableTables& tables)
+      : ranges_(converted<tunable_range<Scalar>>(tables.tunables, [](const Tunable& t) { return range_of(t.range); })),
+        numbers_(converted<tunable_number<Scalar>>(tables.numbers, number_of)),
+        parts_(converted<tunable_part<Scalar>>(tables.parts, part_of)),
+        nodes_(converted<slip_node<Scalar>>(tables.nodes, node_of)),
+        tables_(tables_of(tables)),
+        law_(tables_) {}
+  TunableRun(const TunableRun&) = delete;  // tables_ points into this
+  TunableRun& operator=(const TunableRun&) = delete;
+
+  void reset(Scalar position) {
+    last_position_ = sampled_position_ = position;
+    sampled_change_ = change_ = 0;
+    law_.reset(tables_, position);
+  }
+
+  Scalar damping() const { return law_.damping(); }
+
+  Scalar force(Scalar position, Scalar velocity) {
+    position_ = position;
+    change_ = position - last_position_;
+    return law_.force(tables_, change_) + law_.velocity_gain() * velocity;
+  }
+
+  void keep() {
+    sampled_change_ = change_;
+    sampled_position_ = position_;
+  }
+
+  void update() {
+    law_.update(tables_, sampled_change_, sampled_position_);
+    last_position_ = sampled_position_;
+  }
+
+  unsigned set(const Scalar* values) { return law_.set(tables_, values); }
+  Scalar stored_energy() const { return law_.stored_energy(tables_); }
+
+ private:
+  template <class To, class From, class Convert>
+  static std::vector<To> converted(const std::vector<From>& all, Convert convert) {
+    std::vector<To> result;
+    for (const From& one : all) result.push_back(convert(one));
+    return result;
+  }
+
+  static Scalar scalar(double value) { return static_cast<Scalar>(value); }
+  static tunable_range<Scalar> range_of(const tunable_range<double>& r) { return {scalar(r.value), scalar(r.min), scalar(r.max)}; }
+  static tunable_number<Scalar> number_of(const tunable_number<double>& n) { return {scalar(n.base), n.first, n.count}; }
+  static tunable_part<Scalar> part_of(const tunable_part<double>& p) {
+    return {p.kind, p.spring, p.damping, p.first_node, p.node_count, p.first_edge, p.edge_count, p.is_loose, scalar(p.share), scalar(p.loss)};
+  }
+  static slip_node<Scalar> node_of(const slip_node<double>& n) {
+    return {n.kind, n.first_child, n.child_count, n.slips, n.place, n.first_corner, 0, 0, 0};
+  }
+
+  tunable_tables<Scalar> tables_of(const TunableTables& t) {
+    const tunable_tables<double>& h = t.head;
+    return {scalar(h.period), scalar(h.rate), h.is_exact, scalar(h.retention), scalar(h.threshold), scalar(h.least_share),
+            h.rule, scalar(h.damping), h.observed, scalar(h.max_damping), h.static_spring,
+            h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count, h.coupling_count,
+            ranges_.data(), t.terms.data(), numbers_.data(), t.springs.data(), parts_.data(), t.edges.data(), t.blocks.data(),
+            t.cuts.data(), t.yields.data(), t.couplings.data(), nodes_.data()};
+  }
+
+  std::vector<tunable_range<Scalar>> ranges_;
+  std::vector<tunable_number<Scalar>> numbers_;
+  std::vector<tunable_part<Scalar>> parts_;
+  std::vector<slip_node<Scalar>> nodes_;
+  tunable_tables<Scalar> tables_;
+  tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks, most_tunable_slip_parts,
+              most_tunable_slips, most_tunable_corners> law_;
+  Scalar last_position_ = 0, position_ = 0, change_ = 0, sampled_position_ = 0, sampled_change_ = 0;
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,183 @@
+#include "emit/cpp_tunable.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace dashpot::compiler {
+namespace {
+
+const char* name_of(tunable_kind kind) {
+  switch (kind) {
+    case tunable_kind::spring: return "spring";
+    case tunable_kind::damper: return "damper";
+    case tunable_kind::relaxation: return "relaxation";
+    case tunable_kind::fixed_relaxation: return "fixed_relaxation";
+    case tunable_kind::mesh: return "mesh";
+  }
+  return "";
+}
+
+const char* name_of(brake_rule rule) {
+  switch (rule) {
+    case brake_rule::constant: return "constant";
+    case brake_rule::observed: return "observed";
+    case brake_rule::zero_frequency: return "zero_frequency";
+    case brake_rule::half_zero_frequency: return "half_zero_frequency";
+    case brake_rule::feedthrough: return "feedthrough";
+    case brake_rule::within_viscosity: return "within_viscosity";
+  }
+  return "";
+}
+
+const char* name_of(slip_part kind) {
+  switch (kind) {
+    case slip_part::block: return "block";
+    case slip_part::slip: return "slip";
+    case slip_part::series: return "series";
+    case slip_part::parallel: return "parallel";
+  }
+  return "";
+}
+
+class TunablePrinter {
+ public:
+  explicit TunablePrinter(const UpdateLaw& law) : law_(law), tables_(*law.tunable) {}
+
+  CppProgram print() const {
+    CppProgram program;
+    program.headers = {"dashpot/command.hpp", "dashpot/tunable_law.hpp"};
+    program.parameters = parameters();
+    program.set = set();
+    program.constants = constants();
+    program.states = states();
+    program.reset = {"last_position_ = dashpot::all_finite(position, position, position) ? position : 0;",
+                     "sampled_position_change_ = 0;", "sampled_position_ = last_position_;",
+                     "law_.reset(tables, last_position_);"};
+    program.output = {"// Δu = u − u₋", "const scalar position_change = position - last_position_;", "// m = f − b u̇",
+                      "const scalar force = law_.force(tables, position_change) + law_.velocity_gain() * velocity;"};
+    program.keep = {"sampled_position_change_ = position_change;", "sampled_position_ = position;"};
+    program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);", "// u₋ = u",
+                      "last_position_ = sampled_position_;"};
+    program.energy = {"// V + T: in the springs, and what changes of parameters have set free", "const scalar stored = law_.stored_energy(tables);"};
+    program.safe_command = "{law_.damping(), 0}";
+    program.command = "{law_.damping(), force}";
+    return program;
+  }
+
+ private:
+  std::string number(double value) const { return cpp_literal(value, law_.scalar); }
+
+  std::vector<std::string> parameters() const {
+    std::vector<std::string> lines = {"struct parameters {"};
+    for (const Tunable& t : tables_.tunables)
+      lines.push_back(fmt::format("  scalar {} = {};  // {} to {} [{}]", t.name, number(t.range.value), t.range.min, t.range.max, t.unit));
+    lines.push_back("};");
+    return lines;
+  }
+
+  // What waits for update() belongs to the parameters before.
+  std::vector<std::string> set() const {
+    std::string wanted;
+    for (const Tunable& t : tables_.tunables) wanted += (wanted.empty() ? "" : ", ") + ("wanted." + t.name);
+    return {"// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was",
+            "// no number and is as it was.",
+            "unsigned set(const parameters& wanted) noexcept {",
+            "  update();",
+            fmt::format("  const scalar values[] = {{{}}};", wanted),
+            "  return law_.set(tables, values);",
+            "}"};
+  }
+
+  std::vector<std::string> constants() const {
+    std::vector<std::string> lines;
+    list(lines, "dashpot::tunable_range<scalar>", "tunables", tables_.tunables, [this](const Tunable& t, std::size_t) {
+      return fmt::format("{{{}, {}, {}}},  // {} [{}]", number(t.range.value), number(t.range.min), number(t.range.max), t.name, t.unit);
+    });
+    row(lines, "terms", tables_.terms);
+    list(lines, "dashpot::tunable_number<scalar>", "numbers", tables_.numbers, [this](const tunable_number<double>& n, std::size_t) {
+      return fmt::format("{{{}, {}, {}}},", number(n.base), n.first, n.count);
+    });
+    list(lines, "int", "springs", tables_.springs,
+         [this](int n, std::size_t i) { return fmt::format("{},  // {}", n, tables_.spring_names[i]); });
+    list(lines, "dashpot::tunable_part<scalar>", "parts", tables_.parts, [this](const tunable_part<double>& p, std::size_t) {
+      return fmt::format("{{dashpot::tunable_kind::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_of(p.kind), p.spring, p.damping,
+                         p.first_node, p.node_count, p.first_edge, p.edge_count, p.is_loose, number(p.share), number(p.loss));
+    });
+    list(lines, "dashpot::tunable_edge", "edges", tables_.edges,
+         [](const tunable_edge& e, std::size_t) { return fmt::format("{{{}, {}, {}, {}}},", e.from, e.to, e.spring, e.damping); });
+    list(lines, "dashpot::tunable_block", "blocks", tables_.blocks,
+         [](const tunable_block& b, std::size_t) { return fmt::format("{{{}, {}}},", b.first_part, b.part_count); });
+    row(lines, "cuts", tables_.cuts);
+    list(lines, "dashpot::tunable_yield", "yields", tables_.yields,
+         [](const tunable_yield& y, std::size_t) { return fmt::format("{{{}, {}}},", y.first_cut, y.cut_count); });
+    list(lines, "dashpot::tunable_coupling", "couplings", tables_.couplings, [](const tunable_coupling& c, std::size_t) {
+      return fmt::format("{{{}, {}, {}, {}, {}}},", c.first_node, c.node_count, c.first_block, c.first_slip, c.first_corner);
+    });
+    append_nodes(lines);
+    append_head(lines);
+    return lines;
+  }
+
+  void append_nodes(std::vector<std::string>& lines) const {
+    list(lines, "dashpot::slip_node<scalar>", "nodes", tables_.nodes, [](const slip_node<double>& n, std::size_t) {
+      return fmt::format("{{dashpot::slip_part::{}, {}, {}, {}, {}, {}, 0, 0, 0}},", name_of(n.kind), n.first_child, n.child_count,
+                         n.slips, n.place, n.first_corner);
+    });
+  }
+
+  void append_head(std::vector<std::string>& lines) const {
+    const tunable_tables<double>& h = tables_.head;
+    lines.push_back("static constexpr dashpot::tunable_tables<scalar> tables = {");
+    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", number(h.period), number(h.rate), h.is_exact, number(h.retention),
+                                number(h.threshold), number(h.least_share)));
+    lines.push_back(fmt::format("    dashpot::brake_rule::{}, {}, {}, {}, {},", name_of(h.rule), number(h.damping), h.observed,
+                                number(h.max_damping), h.static_spring));
+    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count,
+                                h.coupling_count));
+    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}}};", name_or_none("terms", tables_.terms),
+                                name_or_none("springs", tables_.springs), name_or_none("parts", tables_.parts),
+                                name_or_none("edges", tables_.edges), name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
+                                name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes)));
+  }
+
+  template <class Entry>
+  static std::string name_or_none(const char* name, const std::vector<Entry>& entries) {
+    return entries.empty() ? "nullptr" : name;
+  }
+
+  template <class Entry, class Text>
+  static void list(std::vector<std::string>& lines, const char* type, const char* name, const std::vector<Entry>& entries, Text text) {
+    if (entries.empty()) return;
+    lines.push_back(fmt::format("static constexpr {} {}[{}] = {{", type, name, entries.size()));
+    for (std::size_t i = 0; i < entries.size(); ++i) lines.push_back("    " + text(entries[i], i));
+    lines.push_back("};");
+  }
+
+  static void row(std::vector<std::string>& lines, const char* name, const std::vector<int>& entries) {
+    if (entries.empty()) return;
+    std::string text;
+    for (int entry : entries) text += (text.empty() ? "" : ", ") + std::to_string(entry);
+    lines.push_back(fmt::format("static constexpr int {}[{}] = {{{}}};", name, entries.size(), text));
+  }
+
+  std::vector<std::string> states() const {
+    const auto room = [](std::size_t count) { return std::max<std::size_t>(count, 1); };
+    return {"scalar last_position_ = 0;  // u of the sample before",
+            "scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample",
+            "scalar sampled_position_ = 0;  // port displacement u, at this sample",
+            fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};", tables_.tunables.size(),
+                        room(tables_.springs.size()), room(static_cast<std::size_t>(tables_.mesh_nodes)), tables_.blocks.size(),
+                        room(tables_.nodes.size()), tables_.yields.size(), room(static_cast<std::size_t>(tables_.corners)))};
+  }
+
+  const UpdateLaw& law_;
+  const TunableTables& tables_;
+};
+
+}  // namespace
+
+CppProgram tunable_program(const UpdateLaw& law) { return TunablePrinter(law).print(); }
+
+}  // namespace dashpot::compiler

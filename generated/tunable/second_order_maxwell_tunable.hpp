@@ -1,0 +1,140 @@
+// General viscoelastic solid, Fig. 2e, with two values that change while it runs
+//
+// source: Gosline & Hayward 2009, Fig. 5; the ranges are ours
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 11 N·s/m: in series B1 dissipates 100 % at low frequency and is observed;
+//   in series damper_3 dissipates 100 % at low frequency and is observed
+// states: position driven, so that a change of parameters injects no energy
+// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// device: ideal: exact brake, exact velocity, no delay
+// tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
+//   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
+//   b [N·s/m] follows B1 + damper_3
+// cost of output(): at most 5 additions, multiplications and divisions
+// cost of update(): at most 57 additions and multiplications; 3 states
+// cost of set(): at most 1225 additions, multiplications and divisions
+//
+// Written by dashpot 0.1.0 from a network with digest 727e181de6d8edb7. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+#include <dashpot/tunable_law.hpp>
+
+namespace dashpot::generated {
+
+class second_order_maxwell_tunable {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {
+    scalar K1 = 12.0;  // 0 to 100 [N/m]
+    scalar B2 = 6.0;  // 0.5 to 20 [N s/m]
+  };
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = last_position_;
+    law_.reset(tables, last_position_);
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = law_.force(tables, position_change) + law_.velocity_gain() * velocity;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {law_.damping(), 0};
+    sampled_ = true;
+    sampled_position_change_ = position_change;
+    sampled_position_ = position;
+    return {law_.damping(), force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    law_.update(tables, sampled_position_change_, sampled_position_);
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
+  // no number and is as it was.
+  unsigned set(const parameters& wanted) noexcept {
+    update();
+    const scalar values[] = {wanted.K1, wanted.B2};
+    return law_.set(tables, values);
+  }
+
+  // In the springs, and set free by changes of parameters, after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V + T: in the springs, and what changes of parameters have set free
+    const scalar stored = law_.stored_energy(tables);
+    return stored;
+  }
+
+ private:
+  static constexpr dashpot::tunable_range<scalar> tunables[2] = {
+      {12.0, 0.0, 100.0},  // K1 [N/m]
+      {6.0, 0.5, 20.0},  // B2 [N s/m]
+  };
+  static constexpr int terms[3] = {0, 1, 1};
+  static constexpr dashpot::tunable_number<scalar> numbers[6] = {
+      {5.0, 0, 0},
+      {0.0, 0, 1},
+      {5.0, 1, 0},
+      {10.0, 1, 0},
+      {0.0, 1, 1},
+      {5.0, 2, 1},
+  };
+  static constexpr int springs[3] = {
+      0,  // K3
+      1,  // B1_spring_2
+      3,  // damper_3_K2
+  };
+  static constexpr dashpot::tunable_part<scalar> parts[3] = {
+      {dashpot::tunable_kind::spring, 0, -1, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 1, 2, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 2, 4, 0, 0, 0, 0, false, 0.0, 0.0},
+  };
+  static constexpr dashpot::tunable_block blocks[1] = {
+      {0, 3},
+  };
+  static constexpr dashpot::tunable_tables<scalar> tables = {
+      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
+      dashpot::brake_rule::observed, 0.0, 5, 1.7976931348623157e+308, 0,
+      2, 3, 3, 1, 0, 0,
+      tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr};
+
+  scalar last_position_ = 0;  // u of the sample before
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
+  scalar sampled_position_ = 0;  // port displacement u, at this sample
+  dashpot::tunable_law<scalar, 2, 3, 1, 1, 1, 0, 1> law_{tables};
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

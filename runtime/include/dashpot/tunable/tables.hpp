@@ -1,0 +1,117 @@
+// A network whose parameters change while it runs, as tables: what tunable_law.hpp steps and sets. The tables are
+// constants; they hold no state.
+#pragma once
+
+#include <dashpot/slip_tree.hpp>
+
+namespace dashpot {
+
+template <class Scalar>
+struct tunable_range {
+  Scalar value;  // to begin with
+  Scalar min;
+  Scalar max;
+};
+
+// base + Σ of the tunables terms[first] … terms[first + count − 1]
+template <class Scalar>
+struct tunable_number {
+  Scalar base;
+  int first;
+  int count;
+};
+
+// What a part of a block is. Parts stand in parallel.
+enum class tunable_kind : unsigned char {
+  spring,            // p = k (z − r)
+  damper,            // p = B ż
+  relaxation,        // a spring and a damper in series, with k and B from numbers
+  fixed_relaxation,  // one that no tunable touches: a state of its own, constants worked out beforehand
+  mesh,              // springs and dampers between inner nodes
+};
+
+inline constexpr int no_index = -1;
+inline constexpr int mesh_port = -1;  // the ends of a mesh, in the place of a node
+inline constexpr int mesh_held = -2;
+
+template <class Scalar>
+struct tunable_part {
+  tunable_kind kind;
+  int spring;      // into springs; of a mesh none
+  int damping;     // number of a damper or relaxation [N·s/m]
+  int first_node;  // of a mesh, as are those below
+  int node_count;
+  int first_edge;
+  int edge_count;
+  bool is_loose;   // a spring in series with a slip, so that its rest length means nothing
+  Scalar share;    // of a fixed relaxation: what a displacement within a sample leaves in its spring [1]
+  Scalar loss;     // of a fixed relaxation: what is lost in a sample [1]
+};
+
+// A spring or a damper of a mesh between two of its nodes, counted from the mesh's first; `from` is the end at the port's side.
+struct tunable_edge {
+  int from;
+  int to;
+  int spring;   // into springs, or none
+  int damping;  // a number, or none
+};
+
+struct tunable_block {
+  int first_part;
+  int part_count;
+};
+
+// Yield force of a slip: the least of numbers[cuts[first]] …, one number for each way to cut it through.
+struct tunable_yield {
+  int first_cut;
+  int cut_count;
+};
+
+// Slips that are stepped together: nodes of the tree, blocks in the order of their places, slips likewise.
+struct tunable_coupling {
+  int first_node;
+  int node_count;
+  int first_block;
+  int first_slip;
+  int first_corner;
+};
+
+// What the brake's damping follows.
+enum class brake_rule : unsigned char {
+  constant,             // nothing
+  observed,             // a number: the dampers that the brake takes the place of
+  zero_frequency,       // Z(0), the network's viscosity at low frequency
+  half_zero_frequency,  // ½ Z(0), never below b∞
+  feedthrough,          // b∞
+  within_viscosity,     // the constant, never above Z(0)
+};
+
+// Block 0 is what joins tool and ground without a slip.
+template <class Scalar>
+struct tunable_tables {
+  Scalar period;        // h [s]
+  Scalar rate;          // 1/h [Hz]
+  bool is_exact;        // relaxations by the exact scheme, else backward Euler; meshes always by the latter
+  Scalar retention;     // what an offset keeps in a sample where the tank pays [1]
+  Scalar threshold;     // magnitudes of states below are zero
+  Scalar least_share;   // of its greatest value: behind a slip no part is softer, no slip yields sooner [1]
+  brake_rule rule;
+  Scalar damping;       // of brake_rule::constant and within_viscosity [N·s/m]
+  int observed;         // number, of brake_rule::observed
+  Scalar max_damping;   // what the brake can give [N·s/m]
+  int static_spring;    // the spring that joins tool and ground directly, or none
+  int tunable_count, spring_count, part_count, block_count, slip_count, coupling_count;
+  const tunable_range<Scalar>* tunables;
+  const int* terms;
+  const tunable_number<Scalar>* numbers;
+  const int* springs;   // number of each spring's stiffness
+  const tunable_part<Scalar>* parts;
+  const tunable_edge* edges;
+  const tunable_block* blocks;
+  const int* cuts;
+  const tunable_yield* yields;
+  const tunable_coupling* couplings;
+  const slip_node<Scalar>* nodes;  // without stiffness, compliance and yield force
+};
+
+}  // namespace dashpot

@@ -1,0 +1,88 @@
+// What an emitted header says that a step and a set() cost, counted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <type_traits>
+
+#include "support/shrink.hpp"
+#include "tunable_run.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+std::size_t operations = 0;
+
+// A number that counts what is done with it.
+struct Counted {
+  double value = 0;
+
+  constexpr Counted() = default;
+  constexpr Counted(double number) : value(number) {}
+  constexpr explicit operator int() const { return static_cast<int>(value); }
+
+  static constexpr Counted of(double number) {
+    if (!std::is_constant_evaluated()) ++operations;
+    return Counted(number);
+  }
+  friend constexpr Counted operator+(Counted a, Counted b) { return of(a.value + b.value); }
+  friend constexpr Counted operator-(Counted a, Counted b) { return of(a.value - b.value); }
+  friend constexpr Counted operator*(Counted a, Counted b) { return of(a.value * b.value); }
+  friend constexpr Counted operator/(Counted a, Counted b) { return of(a.value / b.value); }
+  constexpr Counted operator-() const { return Counted(-value); }
+  constexpr Counted& operator+=(Counted b) { return *this = *this + b; }
+  constexpr Counted& operator-=(Counted b) { return *this = *this - b; }
+  constexpr Counted& operator*=(Counted b) { return *this = *this * b; }
+  friend constexpr bool operator==(Counted a, Counted b) { return a.value == b.value; }
+  friend constexpr bool operator<(Counted a, Counted b) { return a.value < b.value; }
+  friend constexpr bool operator>(Counted a, Counted b) { return a.value > b.value; }
+  friend constexpr bool operator<=(Counted a, Counted b) { return a.value <= b.value; }
+  friend constexpr bool operator>=(Counted a, Counted b) { return a.value >= b.value; }
+};
+
+// The most that was counted, over what was said; and less than a tenth of it, where the bound says nothing.
+struct Share {
+  double set = 0, output = 0, update = 0;
+};
+
+Share share_of(std::uint64_t seed, Kind kind) {
+  const TunableLaw compiled(tunable_network(seed, kind));
+  const compiler::TunableCost cost = compiler::cost_of(*compiled.law().tunable);
+  compiler::TunableRun<Counted> run(*compiled.law().tunable);
+  Random random(seed);
+  std::vector<double> values = compiled.defaults();
+  Share most;
+  const auto count = [](double& share, std::size_t bound, const auto& call) {
+    operations = 0;
+    call();
+    share = std::max(share, double(operations) / double(bound));
+  };
+  for (double position : random_walk(random, 120)) {
+    values = next_values(compiled.tunables(), values, random);
+    const std::vector<Counted> given(values.begin(), values.end());
+    count(most.set, cost.set, [&] { run.set(given.data()); });
+    count(most.output, cost.output, [&] { run.force(position, 0.1); });
+    run.keep();
+    count(most.update, cost.update, [&] { run.update(); });
+  }
+  return most;
+}
+
+// A loop would miss its period by a law that takes longer than its header says.
+TEST(TunableCost, is_never_more_than_said_and_not_much_less) {
+  for (const Kind kind : {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips}) {
+    Share most;
+    for (std::uint64_t seed = 1; seed <= repetitions(60, 1000); ++seed) {
+      const Share share = share_of(seed, kind);
+      ASSERT_LE(share.set, 1) << "seed " << seed;
+      ASSERT_LE(share.output, 1) << "seed " << seed;
+      ASSERT_LE(share.update, 1) << "seed " << seed;
+      most = {std::max(most.set, share.set), std::max(most.output, share.output), std::max(most.update, share.update)};
+    }
+    EXPECT_GE(most.set, 0.25);
+    EXPECT_GE(most.output, 0.25);
+    EXPECT_GE(most.update, 0.25);
+  }
+}
+
+}  // namespace
+}  // namespace dashpot::testing

@@ -1,0 +1,225 @@
+// What a change of parameters may do to a law, and what not.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "support/shrink.hpp"
+#include "tunable_run.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using Law = compiler::Evaluation<double>;
+
+constexpr double period = 1e-3;  // [s]
+
+std::size_t networks() { return repetitions(300, 20000); }
+
+// V_k + T_k − V_{k−1} − T_{k−1} − f_k Δu_k at its worst, relative to the largest energy and work so far. The brake's part
+// is at the true velocity, so that f is the whole force.
+double worst_gain(const std::string& text, std::uint64_t seed) {
+  const TunableLaw compiled(text);
+  Random random(seed);
+  Law law(compiled.law());
+  std::vector<double> values = compiled.defaults();
+  double stored = 0, last = 0, scale = 0, worst = 0, stiffest = 0;
+  for (const tunable_number<double>& n : compiled.law().tunable->numbers) stiffest = std::max(stiffest, n.base);
+  for (const compiler::Tunable& t : compiled.tunables()) stiffest = std::max(stiffest, t.range.max);
+  for (double position : random_walk(random, 400)) {
+    if (random.chance(0.3)) {
+      values = next_values(compiled.tunables(), values, random);
+      law.set(values);
+      const double now = law.stored_energy();
+      worst = std::max(worst, scale > 0 ? (now - stored) / scale : 0);
+      stored = now;
+    }
+    const double change = position - last, velocity = change / period;
+    const command<double> answer = law.step(position, velocity);
+    const double work = (answer.damping * velocity + answer.force) * change, now = law.stored_energy();
+    // An elongation is off by some 2⁻⁵² of the position: what that stores is rounding too, where nothing else is stored.
+    scale = std::max(scale, stiffest * position * position * 0x1p-64);
+    scale = std::max({scale, std::abs(work), now, std::abs(answer.damping * velocity * change), std::abs(answer.force * change)});
+    worst = std::max(worst, (now - stored - work) / scale);
+    stored = now;
+    last = position;
+  }
+  return worst;
+}
+
+constexpr Kind all_kinds[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips};
+
+// A static spring, a Maxwell branch of 8 s, a Kelvin and a spring in series, all with a tunable.
+const char* const pressed_network = R"({ "dashpot": 1, "name": "pressed",
+  "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 },
+                  "K1": { "value": 12, "tunable": true, "min": 0, "max": 100 },
+                  "B2": { "value": 5, "tunable": true, "min": 0.5, "max": 50 } },
+  "network": { "parallel": [ { "spring": "K" },
+    { "series": [ { "spring": "K1" }, { "damper": 100 } ] },
+    { "series": [ { "spring": 200 }, { "parallel": [ { "spring": "K1" }, { "damper": "B2" } ] } ] } ] } })";
+
+compiler::Choices feedthrough() {
+  compiler::Choices choices;
+  choices.decomposition = "velocity-free";
+  return choices;
+}
+
+double whole_force(Law& law, double position, double last, double sample_period) {
+  const double velocity = (position - last) / sample_period;
+  const command<double> now = law.step(position, velocity);
+  return now.damping * velocity + now.force;
+}
+
+// Of a change of all values while the tool is held, against the same law without; negative where there is no force. All
+// have a spring between tool and ground.
+double relative_jump(std::uint64_t seed, double rate) {
+  compiler::Choices choices = feedthrough();
+  choices.rate = rate;
+  const TunableLaw compiled(tunable_network(seed, Kind::parallel_branches), choices);
+  if (compiled.law().tunable->head.static_spring == no_index) return -1;
+  Random random(seed);
+  Law law(compiled.law()), unchanged(compiled.law());
+  const auto walk = random_walk(random, 20);
+  double last = 0;
+  for (double position : walk)
+    for (int n = 0; n < int(rate / 1e3); ++n) {
+      law.step(position, 0);
+      unchanged.step(position, 0);
+      last = position;
+    }
+  // From somewhere in the range to somewhere else, twice: the tank is then as full as it is in use.
+  for (int change = 0; change < 2; ++change) law.set(next_values(compiled.tunables(), compiled.defaults(), random));
+  const double after = law.step(last, 0).force, before = unchanged.step(last, 0).force;
+  return before == 0 ? -1 : std::abs(after - before) / std::abs(before);
+}
+
+// Some thousands of roundings of a step, each relative to the largest energy that has been.
+constexpr double rounding = 1e-12;
+
+void expect_no_gain(Kind kind) {
+  for (std::uint64_t seed = 1; seed <= networks(); ++seed) {
+    const std::string text = tunable_network(seed, kind);
+    ASSERT_LE(worst_gain(text, seed), rounding) << "seed " << seed << ", " << text;
+  }
+}
+
+// A slider in a user's hand would drive the tool.
+TEST(Set, injects_no_energy_into_branches) { expect_no_gain(Kind::parallel_branches); }
+TEST(Set, injects_no_energy_into_trees) { expect_no_gain(Kind::tree); }
+TEST(Set, injects_no_energy_into_graphs) { expect_no_gain(Kind::graph); }
+TEST(Set, injects_no_energy_into_slips) { expect_no_gain(Kind::slips); }
+
+// A slider that is not moved would be felt.
+TEST(Set, changes_no_bit_where_nothing_changes) {
+  for (const Kind kind : all_kinds)
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+      const TunableLaw compiled(tunable_network(seed, kind));
+      Random random(seed);
+      Law law(compiled.law()), untouched(compiled.law());
+      double last = 0;
+      for (double position : random_walk(random, 200)) {
+        ASSERT_EQ(law.set(compiled.defaults()), 0u);
+        const auto here = law.step(position, (position - last) / period), there = untouched.step(position, (position - last) / period);
+        ASSERT_EQ(here.force, there.force) << "seed " << seed;
+        ASSERT_EQ(here.damping, there.damping) << "seed " << seed;
+        ASSERT_EQ(law.stored_energy(), untouched.stored_energy()) << "seed " << seed;
+        last = position;
+      }
+    }
+}
+
+// A value that is no number, or beyond what the author declared, would reach the coefficients, or the caller not hear of it.
+TEST(Set, clamps_and_says_which) {
+  const TunableLaw compiled(pressed_network);
+  const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  Law law(compiled.law()), same(compiled.law());
+  const auto expect_same_as = [&](std::vector<double> given, unsigned bits, std::vector<double> taken) {
+    EXPECT_EQ(law.set(given), bits);
+    EXPECT_EQ(same.set(taken), 0u);
+    law.reset(), same.reset();
+    for (double position : {1e-3, 5e-3, 4e-3}) EXPECT_EQ(law.step(position, 0.1).force, same.step(position, 0.1).force);
+    EXPECT_EQ(law.step(0.01, 0).damping, same.step(0.01, 0).damping);
+  };
+  expect_same_as({300, 12, 5}, 0, {300, 12, 5});
+  expect_same_as({nan, 13, 5}, 1, {300, 13, 5});
+  expect_same_as({infinity, 13, -infinity}, 5, {1000, 13, 0.5});
+  expect_same_as({-1, 1e6, 5}, 3, {0, 100, 5});
+  expect_same_as({nan, nan, nan}, 7, {0, 100, 5});
+}
+
+// A change would be felt as a knock. What is left is what relaxes within a sample, which goes with the period.
+TEST(Set, leaves_the_force_where_it_was) {
+  double last_median = 0;
+  for (const double rate : {1e3, 1e4, 1e5}) {
+    std::vector<double> jumps;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      const double jump = relative_jump(seed, rate);
+      if (jump >= 0) jumps.push_back(jump);
+    }
+    ASSERT_GE(jumps.size(), 100u);
+    std::nth_element(jumps.begin(), jumps.begin() + static_cast<std::ptrdiff_t>(jumps.size() / 2), jumps.end());
+    const double median = jumps[jumps.size() / 2];
+    EXPECT_LE(median, rate > 1e3 ? 0.15 * last_median + 1e-12 : 1) << rate;
+    last_median = median;
+  }
+  EXPECT_LE(last_median, 1e-4);
+}
+
+// A slider that trembles would let go of the tissue: displacements that shrink with every change lose all force in a second.
+TEST(Set, keeps_the_force_while_a_value_trembles) {
+  const TunableLaw compiled(pressed_network);
+  Law law(compiled.law()), still(compiled.law());
+  std::vector<double> values = compiled.defaults();
+  double last = 0;
+  for (int n = 0; n < 1500; ++n) {
+    const double position = std::min(5e-3, n * 1e-5);
+    if (n >= 500)
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = compiled.defaults()[i] * (n % 2 == 0 ? 0.99 : 1);
+    law.set(values);
+    const double here = whole_force(law, position, last, period), there = whole_force(still, position, last, period);
+    EXPECT_NEAR(here, there, 0.011 * there + 1e-12) << n;
+    last = position;
+  }
+}
+
+// Coefficients would depend on the way that led to them.
+TEST(Set, has_the_coefficients_of_the_law_compiled_at_its_values) {
+  for (const Kind kind : all_kinds)
+    for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+      const TunableLaw compiled(tunable_network(seed, kind), feedthrough());
+      Random random(seed);
+      Law law(compiled.law());
+      const std::vector<double> values = next_values(compiled.tunables(), compiled.defaults(), random);
+      compiler::UpdateLaw other = compiled.law();
+      for (std::size_t i = 0; i < values.size(); ++i) other.tunable->tunables[i].range.value = values[i];
+      Law born(other);
+      law.step(1e-3, 1);
+      law.set(values);
+      law.reset();
+      for (double position : random_walk(random, 100)) ASSERT_EQ(law.step(position, 1).force, born.step(position, 1).force) << seed;
+    }
+}
+
+// What a rise of stiffness owes would be owed for ever.
+TEST(Set, comes_home_when_the_tool_has_left) {
+  const TunableLaw compiled(pressed_network);
+  Law changed(compiled.law()), born(compiled.law());
+  const std::vector<double> values = {900, 100, 2};
+  born.set(values);
+  double last = 0;
+  bool was_owing = false;
+  for (int n = 0; n < 36000; ++n) {
+    const double position = n < 1000 ? 5e-3 : n < 2000 ? 0 : n < 34000 ? 1e-3 : 2e-3;
+    if (n == 500) changed.set(values);
+    const double here = whole_force(changed, position, last, period), there = whole_force(born, position, last, period);
+    was_owing = was_owing || (n > 500 && n < 1000 && here < 0.9 * there);
+    EXPECT_NEAR(here, there, n >= 34000 ? 1e-9 : 10) << n;
+    last = position;
+  }
+  EXPECT_TRUE(was_owing) << "the rise of stiffness was paid for by nobody";
+}
+
+}  // namespace
+}  // namespace dashpot::testing

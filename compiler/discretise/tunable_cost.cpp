@@ -69,7 +69,7 @@ std::size_t tuning(const TunableTables& tables) {
 TunableCost cost_of(const TunableTables& tables) {
   const std::size_t springs = tables.springs.size();
   const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
-  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables), 5 + slips(tables),
+  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables), 6 + slips(tables),
           advance(tables) + held(tables) + 9 * springs, springs};
 }
 

@@ -8,7 +8,7 @@
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): at most 46 additions, multiplications and divisions
+// cost of output(): at most 47 additions, multiplications and divisions
 // cost of update(): at most 29 additions and multiplications; 1 states
 // cost of set(): at most 460 additions, multiplications and divisions
 //

@@ -10,7 +10,7 @@
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1 + damper_3
-// cost of output(): at most 5 additions, multiplications and divisions
+// cost of output(): at most 6 additions, multiplications and divisions
 // cost of update(): at most 57 additions and multiplications; 3 states
 // cost of set(): at most 1225 additions, multiplications and divisions
 //

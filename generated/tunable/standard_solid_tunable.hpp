@@ -10,7 +10,7 @@
 //   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1
 //   by backward Euler, since their relaxations mix with a tunable: spring_1, B1, K2
-// cost of output(): at most 5 additions, multiplications and divisions
+// cost of output(): at most 6 additions, multiplications and divisions
 // cost of update(): at most 46 additions and multiplications; 2 states
 // cost of set(): at most 777 additions, multiplications and divisions
 //

@@ -58,7 +58,7 @@ class NeededDamping {
   Bounds with_lag(const RealArcModel& R, const ArcModel& Z, double radius) const;
 
   std::vector<Mode> modes_;
-  const EstimatorFactors& estimator_;
+  EstimatorFactors estimator_;
   bool follows_estimate_;
   unsigned delay_;
   std::vector<double> geometric_;

@@ -1,5 +1,6 @@
 #include "compile.hpp"
 
+#include "certify/settle.hpp"
 #include "decompose/slip_laws.hpp"
 #include "discretise/element_names.hpp"
 #include "discretise/representable.hpp"
@@ -8,6 +9,16 @@
 #include "syntax/parse_network.hpp"
 
 namespace dashpot::compiler {
+namespace {
+
+// Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law.
+void settle_choice(Compilation& c, const Choices& choices, const PortDevice& device) {
+  if (device.is_ideal()) return;
+  CandidateSettler(c.network, c.form, c.decomposition, choices, device, c.rate).settle(c.decomposition.candidates[c.decomposition.chosen]);
+  c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, device.is_ideal());
+}
+
+}  // namespace
 
 std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics) {
   const std::optional<NetworkDecl> decl = parse_network(source, diagnostics);
@@ -52,6 +63,9 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
                  : decompose(result.network, result.form, choices, on, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
+  const PortDevice port = device ? PortDevice::of(*device, result.network, diagnostics).value() : PortDevice::ideal();
+  if (!is_tunable) settle_choice(result, choices, port);
+  warn_about_choice(result.decomposition, result.form.linear, diagnostics);
   if (is_tunable) {
     result.decomposition.reason = "position driven, so that a change of parameters injects no energy";
     std::optional<UpdateLaw> law =
@@ -62,8 +76,17 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
     result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
+  result.certificate = certify(result.law, sampled_loop(port, 1 / result.rate));
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
+}
+
+void weigh_all_candidates(Compilation& c, const Choices& choices) {
+  Diagnostics settled;
+  const PortDevice port = c.device ? PortDevice::of(*c.device, c.network, settled).value() : PortDevice::ideal();
+  CandidateSettler settler(c.network, c.form, c.decomposition, choices, port, c.rate);
+  for (std::size_t i = 0; i < c.decomposition.candidates.size(); ++i)
+    if (i != c.decomposition.chosen || port.is_ideal()) settler.settle(c.decomposition.candidates[i]);
 }
 
 }  // namespace dashpot::compiler

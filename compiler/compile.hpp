@@ -14,6 +14,9 @@ namespace dashpot::compiler {
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics);
 
+// What the sampled loop needs of every candidate, not only of the chosen one: for those who look at them.
+void weigh_all_candidates(Compilation& compilation, const Choices& choices);
+
 // The front end alone: errors and warnings about the file.
 std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics);
 

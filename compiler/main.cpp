@@ -104,9 +104,12 @@ void describe(CLI::App& app, CommandLine& line) {
   compile->add_option("-o,--output", options.output, "Folder to write to, default the current one")->option_text("DIR");
   compile->add_option("--target", line.target, "Language to write")->check(CLI::IsMember({"cpp"}))->option_text("cpp");
   compile->add_flag("--with-test", options.emission.with_test, "Also write NAME_test.cpp against the closed forms");
+  compile->add_flag("--uncertified", options.uncertified, "Also write a law that lacks damping for passivity on its device");
   compile->add_option("--templates", options.emission.templates, "Folder of templates in place of the built-in ones")
       ->check(CLI::ExistingDirectory)
       ->option_text("DIR");
+  compile->add_option("--certificate", options.certificate, "Also write what is proved, with all that is needed to check it")
+      ->option_text("FILE.json");
   compile->add_option("--depfile", options.depfile, "Also write a makefile of what the output depends on")->option_text("FILE");
   compile->add_option("--print", options.print, "Print a stage and write nothing")
       ->check(CLI::IsMember({"network", "linear", "decomposition", "law", "certificate"}))
@@ -124,6 +127,10 @@ void describe(CLI::App& app, CommandLine& line) {
   add_networks(*report, line, false);
   add_choices(*report, line);
   report->add_option("-o,--output", options.output, "File to write to")->required()->option_text("FILE.html");
+
+  CLI::App* verify = add_command(app, line, "verify", "Check a header against its certificate, and that against its network");
+  verify->add_option("CERTIFICATE", options.certificate, "Written by compile --certificate")->required();
+  verify->add_option("HEADER", options.header, "Emitted with it")->required();
 
   CLI::App* device = add_command(app, line, "device", "Fill in a device file's brake from the geometry of its blade");
   BladeWords& blade = options.blade;
@@ -168,7 +175,7 @@ void take_over_words(CommandLine& line) {
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
   static const std::map<std::string, Command> commands = {
-      {"check", run_check}, {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate}, {"report", run_report}, {"device", run_device}, {"run", run_run}};
+      {"check", run_check}, {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate}, {"report", run_report}, {"device", run_device}, {"run", run_run}, {"verify", run_verify}};
   SourceFiles files;
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;

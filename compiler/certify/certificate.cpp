@@ -36,12 +36,25 @@ std::string not_proved_for(const SampledLoop& loop) {
   return fmt::format("nothing is proved for the estimator {} in the motor", name_of(loop.velocity.estimator));
 }
 
+double nearest(double value, ScalarType scalar) {
+  return scalar == ScalarType::float64 ? value : static_cast<double>(static_cast<float>(value));
+}
+
+// The least number of the scalar's type that is not below the sum.
+double sum_above(double x, double y, ScalarType scalar) {
+  const Rational exact = Rational(x) + Rational(y);
+  if (scalar == ScalarType::float64) return ceiling(exact);
+  float nearest = static_cast<float>(x + y);
+  while (Rational(nearest) < exact) nearest = std::nextafter(nearest, std::numeric_limits<float>::infinity());
+  return static_cast<double>(nearest);
+}
+
 }  // namespace
 
 PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop) {
   PassivityBound bound;
   if (!motor) {
-    bound.reason = "the law of a network with slips or contact is not linear";
+    bound.reason = "the law of a network with slips, contact or tunable parameters is not one linear law";
     return bound;
   }
   if (hindrance_to_hold(*motor, loop).empty()) {
@@ -68,18 +81,38 @@ double missing_damping(const PassivityBound& bound, const SampledLoop& loop, dou
   return share > 0 ? ceiling(lacking / share) : std::numeric_limits<double>::infinity();
 }
 
-Certificate certify(const UpdateLaw& law, const SampledLoop& loop, double added_damping) {
+std::string_view name_of(Proof proof) {
+  switch (proof) {
+    case Proof::none: return "none";
+    case Proof::hold: return "hold";
+    case Proof::sampled: return "sampled";
+  }
+  return "";
+}
+
+double brake_command(const PassivityBound& bound, const SampledLoop& loop, double damping, ScalarType scalar) {
+  const double alone = nearest(damping, scalar);
+  if (!loop.has_device || bound.proof == Proof::none) return alone;
+  const double missing = missing_damping(bound, loop, alone);
+  if (missing == 0 || !std::isfinite(missing)) return alone;
+  const double together = sum_above(alone, missing, scalar);
+  return together <= loop.max_damping ? together : alone;
+}
+
+Certificate certify(UpdateLaw& law, const SampledLoop& loop) {
   const std::optional<MotorConstants> motor = motor_constants(law);
   Certificate result;
   result.loop = loop;
   result.bound = passivity_bound(motor, loop);
-  result.added_damping = added_damping;
+  if (result.bound.proof != Proof::none) {
+    result.minimum_damping = missing_damping(result.bound, loop, law.damping);
+    const double alone = law.damping;
+    law.damping = law.largest_damping = brake_command(result.bound, loop, alone, law.scalar);
+    result.added_damping = nearest(law.damping - alone, law.scalar);
+  }
   const Rational assured = assured_damping(loop, law.damping);
   result.assured = assured.convert_to<double>();
-  if (result.bound.proof != Proof::none) {
-    result.certified = assured >= Rational(result.bound.needed);
-    result.minimum_damping = missing_damping(result.bound, loop, law.damping) + added_damping;
-  }
+  result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
   if (motor) result.energy = check_energy_lemma(*motor);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;

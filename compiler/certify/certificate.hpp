@@ -3,6 +3,8 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "certify/energy_lemma.hpp"
 #include "certify/sampled_bound.hpp"
@@ -14,6 +16,8 @@ enum class Proof {
   hold,     // theory 6a: any motion, any jitter up to the device's, any switching of the brake above its command
   sampled,  // theory 6b: any motion, periodic samples
 };
+
+std::string_view name_of(Proof proof);  // "none", "hold", "sampled"
 
 // How much physical damping the loop needs, whoever supplies it.
 struct PassivityBound {
@@ -40,8 +44,16 @@ PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const
 // x = ((S − b_device)/share − b)⁺: what the brake's command lacks, not below it; infinite where no command would do.
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake);
 
-// The whole certificate of a law whose brake command contains `added_damping`.
-Certificate certify(const UpdateLaw& law, const SampledLoop& loop, double added_damping);
+// What the brake is told where the decomposition says `damping`: that, and on a device what passivity lacks, as far as the
+// brake reaches; a number of the scalar's type.
+double brake_command(const PassivityBound& bound, const SampledLoop& loop, double damping, ScalarType scalar);
+
+// Out: the law's certificate. On a device, what passivity lacks is added to the law's brake command, uncompensated, as
+// far as the brake reaches: what is rendered is then D + x s. Without one it is reported only.
+Certificate certify(UpdateLaw& law, const SampledLoop& loop);
+
+// One or more lines on what is proved; `unit` of a damping.
+std::vector<std::string> passivity_lines(const Certificate& certificate, const std::string& unit);
 
 std::string to_text(const Certificate& certificate, motion port_motion);
 

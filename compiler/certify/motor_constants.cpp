@@ -29,7 +29,7 @@ bool has_slips(const UpdateLaw& law) {
   const auto chooses = [](const Expression& e) {
     return e.operation == Operation::clamp || e.operation == Operation::where;
   };
-  return !law.couplings.empty() || std::any_of(law.expressions.begin(), law.expressions.end(), chooses);
+  return law.brake_changes() || !law.couplings.empty() || std::any_of(law.expressions.begin(), law.expressions.end(), chooses);
 }
 
 }  // namespace
@@ -45,7 +45,7 @@ Rational exact_decay(const MotorConstants& motor, const MotorMode& mode) {
 }
 
 std::optional<MotorConstants> motor_constants(const UpdateLaw& law) {
-  if (has_slips(law)) return std::nullopt;
+  if (has_slips(law) || law.tunable) return std::nullopt;
   MotorConstants motor;
   motor.brake = law.damping;
   motor.static_stiffness = value_of(law, "static_stiffness");

@@ -40,7 +40,7 @@ struct MotorConstants {
 // a, exactly.
 Rational exact_decay(const MotorConstants& motor, const MotorMode& mode);
 
-// Empty for a law with slips: it is not linear.
+// Empty for a law with slips, which is not linear, and for one whose parameters change.
 std::optional<MotorConstants> motor_constants(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

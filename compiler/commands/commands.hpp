@@ -24,6 +24,7 @@ ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& 
 ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_verify(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 
 // Refuses, with a diagnostic, where standard output cannot take the text: a full disk must not pass for success.
@@ -35,6 +36,7 @@ bool spares_inputs(const Options& options, Diagnostics& diagnostics);
 // The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
 struct DeviceChoice {
   std::optional<Device> device;  // empty where none was asked for
+  std::optional<std::string> text = {};  // of its file
   ExitStatus status = ExitStatus::done;
 };
 DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);

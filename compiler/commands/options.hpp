@@ -33,7 +33,10 @@ struct Options {
   std::string input;                  // simulate: the motion
   std::optional<std::string> print;   // compile: the stage to show instead of writing
   std::optional<std::string> depfile;
+  std::optional<std::string> certificate;  // compile: to write; verify: to read
+  std::string header;             // verify
   EmissionOptions emission;
+  bool uncertified = false;       // compile: also what lacks damping on its device
   bool json = false;              // explain
   std::optional<double> duration;   // run [s]; without end where empty
   std::optional<std::string> port;  // run: the board's; empty: the simulated device

@@ -4,7 +4,9 @@
 #include "commands/commands.hpp"
 #include "compile.hpp"
 #include "emit/write_files.hpp"
+#include "insist.hpp"
 #include "network/tree.hpp"
+#include "verify/certificate_file.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -17,7 +19,7 @@ std::string stage_text(const Compilation& c, const std::string& stage) {
   if (stage == "linear") return to_text(c.form.linear, c.network);
   if (stage == "decomposition") return to_text(c.decomposition, c.network);
   if (stage == "law") return to_text(c.law, c.network);
-  return "certificate of " + c.network.name + ": not computed\n";
+  return "certificate of " + c.network.name + "\n" + to_text(c.certificate, c.network.port_motion);
 }
 
 // Spaces, colons and dollars mean something in a makefile.
@@ -64,7 +66,11 @@ ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& 
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   std::vector<OutputFile> outputs;
-  std::string shown;
+  std::string shown, certificate;
+  if (options.certificate && options.networks.size() > 1) {
+    diagnostics.report<DiagnosticCode::certificate_of_several>({}, options.networks.size());
+    return ExitStatus::command_line_wrong;
+  }
   for (const std::string& path : options.networks) {
     const SourceFile* file = files.open(path, diagnostics);
     const std::optional<Compilation> compilation =
@@ -72,14 +78,20 @@ ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& 
     if (!compilation) continue;
     if (options.print) {
       shown += stage_text(*compilation, *options.print);
+    } else if (!options.uncertified && !insist_on_certificate(*compilation, options.choices, diagnostics)) {
+      continue;
     } else if (const auto emitted = emit_cpp(*compilation, options.emission, diagnostics)) {
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
+      if (options.certificate)
+        certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);
     }
   }
   report_same_names(outputs, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.print) return write_standard_output(shown, diagnostics);
-  return write_files("", placed(std::move(outputs), options), diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+  std::vector<OutputFile> all = placed(std::move(outputs), options);
+  if (options.certificate) all.push_back({*options.certificate, certificate});
+  return write_files("", all, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }
 
 }  // namespace dashpot::compiler

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands/commands.hpp"
+#include "certify/notes.hpp"
 #include "compile.hpp"
 #include "decompose/slip_laws.hpp"
 
@@ -22,7 +23,10 @@ Json json_of(const Candidate& c) {
   for (const StateInputMerit& merit : c.state_inputs)
     inputs.push_back({{"state_input", name_of(merit.state_input)},
                       {"largest_error", merit.largest_error},
-                      {"extra_damping_any_delay", or_null(merit.extra_damping_any_delay)}});
+                      {"extra_damping_any_delay", or_null(merit.extra_damping_any_delay)},
+                      {"minimum_damping", or_null(merit.minimum_damping)},
+                      {"proof", merit.proof},
+                      {"binding_frequency", merit.binding_frequency}});
   return {{"name", c.name},
           {"damping", c.damping},
           {"wanted_damping", c.wanted_damping},
@@ -102,6 +106,18 @@ Json json_of(const TunableTables& tables) {
   return list;
 }
 
+Json json_of(const Certificate& c) {
+  return {{"proof", name_of(c.bound.proof)},
+          {"certified", c.certified},
+          {"needed_damping", c.bound.proof == Proof::none ? Json(nullptr) : Json(c.bound.needed)},
+          {"binding_frequency", c.bound.frequency},
+          {"assured_damping", c.assured},
+          {"minimum_damping", c.bound.proof == Proof::none ? Json(nullptr) : Json(c.minimum_damping)},
+          {"added_damping", c.added_damping},
+          {"reason", c.bound.reason},
+          {"quantisation_stiffness", c.quantisation_stiffness > 0 ? Json(c.quantisation_stiffness) : Json(nullptr)}};
+}
+
 Json json_of(const Compilation& c) {
   Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
   for (const Mode& mode : c.form.linear.modes)
@@ -128,6 +144,8 @@ Json json_of(const Compilation& c) {
           {"candidates", candidates},
           {"regimes", regimes_of(c)},
           {"slip_laws", slip_laws_of(c)},
+          {"certificate", json_of(c.certificate)},
+          {"notes", notes_on_choice(c.decomposition)},
           {"chosen", choice.name},
           {"state_input", name_of(choice.state_input)},
           {"reason", choice.reason + "; " + c.decomposition.reason}};
@@ -148,6 +166,12 @@ std::string pace_text(const Compilation& c) {
   if (c.form.linear.modes.empty()) return "";
   const double fastest = to_double(1 / c.form.linear.modes.back().relaxation_rate);
   return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", fastest, fastest * c.rate, c.rate);
+}
+
+std::string notes_text(const Compilation& c) {
+  std::string text;
+  for (const std::string& note : notes_on_choice(c.decomposition)) text += "note: " + note + "\n";
+  return text;
 }
 
 std::string cost_text(const Compilation& c) {
@@ -180,9 +204,10 @@ std::string text_of(const Compilation& c) {
   text += fmt::format("zero-frequency damping {:.10g}\n", to_double(zero_frequency_damping(c.form.linear)));
   text += pace_text(c) + kelvin_text(c) + "\n" + to_text(c.decomposition, c.network);
   text += to_text(c.decomposition.slips, c.network);
-  text += fmt::format("passivity             {:.6g} of extra damping for any delay of the estimate; sampled: not computed\n",
+  text += fmt::format("any delay             {:.6g} of extra damping keep an exact brake passive under any delay of the estimate\n",
                       choice.extra_damping_any_delay.value_or(0));
   if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";
+  text += to_text(c.certificate, c.network.port_motion) + notes_text(c);
   return text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c));
 }
 
@@ -193,8 +218,9 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = files.open(options.networks.front(), diagnostics);
   if (file == nullptr) return ExitStatus::input_refused;
-  const std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
+  std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  weigh_all_candidates(*compilation, options.choices);
   return write_standard_output(options.json ? json_of(*compilation).dump(2) + "\n" : text_of(*compilation), diagnostics);
 }
 

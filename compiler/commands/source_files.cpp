@@ -20,16 +20,16 @@ void SourceFiles::keep(std::vector<std::unique_ptr<SourceFile>> more) {
 DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   if (!options.device) return {};
   const SourceFile* file = files.open(*options.device, diagnostics);
-  if (file == nullptr) return {std::nullopt, ExitStatus::input_refused};
+  if (file == nullptr) return {std::nullopt, std::nullopt, ExitStatus::input_refused};
   const std::optional<DeviceDecl> decl = parse_device(*file, diagnostics);
   std::optional<Device> device = decl ? build_device(*decl, diagnostics) : std::nullopt;
-  if (!device) return {std::nullopt, ExitStatus::input_refused};
+  if (!device) return {std::nullopt, std::nullopt, ExitStatus::input_refused};
   const double period = device->description.loop.sample_period;
   if (options.choices.rate && std::abs(*options.choices.rate * period - 1) > 1e-9) {
     diagnostics.report<DiagnosticCode::device_rate_contradicts>({}, *options.choices.rate, device->name, 1 / period);
-    return {std::nullopt, ExitStatus::command_line_wrong};
+    return {std::nullopt, std::nullopt, ExitStatus::command_line_wrong};
   }
-  return {std::move(device), ExitStatus::done};
+  return {std::move(device), file->text(), ExitStatus::done};
 }
 
 bool spares_inputs(const Options& options, Diagnostics& diagnostics) {

@@ -159,7 +159,10 @@ void warn_about_share(const Candidate& chosen, const LinearForm& form, const Por
   diagnostics.note<DiagnosticCode::take_velocity_free>({});
 }
 
-void warn_about(const Candidate& chosen, const Decomposition& all, const LinearForm& form, Diagnostics& diagnostics) {
+}  // namespace
+
+void warn_about_choice(const Decomposition& all, const LinearForm& form, Diagnostics& diagnostics) {
+  const Candidate& chosen = all.choice();
   if (chosen.capped())
     diagnostics.report<DiagnosticCode::damping_capped>({}, chosen.name, chosen.wanted_damping, chosen.damping);
   const double viscosity = to_double(zero_frequency_damping(form));
@@ -172,17 +175,17 @@ void warn_about(const Candidate& chosen, const Decomposition& all, const LinearF
                                                                 100 * single_motor->largest_error);
 }
 
-std::string reason_for_input(const Candidate& chosen, const Choices& choices, const PortDevice& device) {
+std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal) {
   if (choices.state_input) return fmt::format("{} driven as asked", name_of(chosen.state_input));
   if (chosen.state_inputs.size() == 1) return fmt::format("{} driven by definition", name_of(chosen.state_input));
-  if (device.is_ideal()) return "position driven: on an ideal device nothing tells the inputs apart";
-  std::string text = fmt::format("{} driven; largest error in the band:", name_of(chosen.state_input));
+  if (device_is_ideal) return "position driven: on an ideal device nothing tells the inputs apart";
+  std::string text = fmt::format("{} driven; minimum damping and largest error in the band:", name_of(chosen.state_input));
   for (const StateInputMerit& merit : chosen.state_inputs)
-    text += fmt::format(" {} {:.4g} %", name_of(merit.state_input), 100 * merit.largest_error);
+    text += fmt::format("{} {} {}, {:.4g} %", &merit == &chosen.state_inputs.front() ? "" : ";", name_of(merit.state_input),
+                        merit.minimum_damping ? fmt::format("{:.4g}", *merit.minimum_damping) : "not proved",
+                        100 * merit.largest_error);
   return text;
 }
-
-}  // namespace
 
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics) {
   if (choices.state_input != StateInput::nodal || choices.scheme != Scheme::exact) return false;
@@ -209,21 +212,21 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
     return std::nullopt;
   }
   result.encoder_step = port->encoder_step();
-  result.reason = reason_for_input(result.choice(), choices, *port);
-  warn_about(result.choice(), result, form, diagnostics);
+  result.reason = reason_for_input(result.choice(), choices, port->is_ideal());
   warn_about_share(result.choice(), form, *port, diagnostics);
   return result;
 }
 
 std::string to_text(const Decomposition& decomposition, const Network& network) {
   const char* unit = network.port_motion == motion::rotation ? "N m s/rad" : "N s/m";
-  std::string text = fmt::format("{:<18}{:>14}  {:<9}{:>14}{:>16}{:>12}  reason\n", "candidate", unit, "states",
-                                 "velocity gain", "any-delay extra", "error");
+  const auto or_dash = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "-"; };
+  std::string text = fmt::format("{:<18}{:>14}  {:<9}{:>14}{:>16}{:>17}{:>12}{:>12}  reason\n", "candidate", unit, "states",
+                                 "velocity gain", "any-delay extra", "minimum damping", "noise", "error");
   for (const Candidate& c : decomposition.candidates)
-    text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>11.4g}%  {}{}\n", c.name, c.damping,
+    text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>17}{:>12}{:>11.4g}%  {}{}\n", c.name, c.damping,
                         name_of(c.state_input), c.velocity_gain, c.extra_damping_any_delay.value_or(0),
-                        100 * c.largest_error,
-                        c.capped() ? fmt::format("capped from {:.8g}: ", c.wanted_damping) : "", c.reason);
+                        or_dash(c.minimum_damping), or_dash(c.motor_noise), 100 * c.largest_error,
+                        c.capped() ? fmt::format("lowered from {:.8g}: ", c.wanted_damping) : "", c.reason);
   text += fmt::format("chosen             {}: {}\n", decomposition.choice().name, decomposition.reason);
   return text;
 }

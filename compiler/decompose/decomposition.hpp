@@ -18,6 +18,9 @@ struct StateInputMerit {
   StateInput state_input;
   double largest_error;                           // max |Z_rendered − Z|/|Z| over the device's band [1]
   std::optional<double> extra_damping_any_delay;  // [N·s/m]; empty: not computed
+  std::optional<double> minimum_damping = {};     // [N·s/m]; filled by certify/; empty: nothing is proved
+  std::string proof = "";                         // what the minimum damping rests on, "hold" or "sampled"
+  double binding_frequency = 0;                   // where the sampled loop needs most [Hz]
 };
 
 struct Candidate {
@@ -29,8 +32,8 @@ struct Candidate {
   double largest_error;   // of the chosen state input [1]
   std::optional<double> motor_noise;  // rms motor force from quantisation through the estimate [N]; empty: not linear
   std::optional<double> extra_damping_any_delay;  // [N·s/m]
-  std::optional<double> minimum_damping;          // [N·s/m]; needs a certificate
-  std::optional<bool> certified;
+  std::optional<double> minimum_damping;          // [N·s/m]; of the chosen state input
+  std::optional<bool> certified;                  // the brake can give both; without a device, nothing is to be added
   std::vector<StateInputMerit> state_inputs;      // the pairs that were compared
   std::string reason;
 
@@ -49,10 +52,16 @@ struct Decomposition {
 };
 
 // In: the network, its canonical form, the user's choices, the device if there is one. Ensures: every damping ≥ 0 and
-// within the brake's reach. Warns: capping, b > Z_d(0), more error than `virtual`. Refuses: nodal with exact, an unknown
+// within the brake's reach. Refuses: nodal with exact, an unknown
 // name, a negative damping, a device whose motion does not fit.
 std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& choices,
                                        const Device* device, Diagnostics& diagnostics);
+
+// Warns: capping, b > Z_d(0), more error than `virtual`.
+void warn_about_choice(const Decomposition& decomposition, const LinearForm& form, Diagnostics& diagnostics);
+
+// What decided between position, velocity and nodal.
+std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal);
 
 // True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "certify/certificate.hpp"
 #include "decompose/decomposition.hpp"
 #include "discretise/update_law.hpp"
 #include "linear/normal_form.hpp"
@@ -18,6 +19,7 @@ struct Compilation {
   NormalForm form;
   Decomposition decomposition;
   UpdateLaw law;
+  Certificate certificate;
   double rate = 0;  // [Hz]
   std::optional<Device> device;
 };

@@ -125,13 +125,14 @@ std::vector<std::string> banner(const Compilation& c) {
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
   const std::string capped =
-      choice.capped() ? fmt::format(", capped at what the brake can give from {}", choice.wanted_damping) : "";
+      choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
   facts.push_back(fmt::format("decomposition: {}, b = {} {}{}: {}", choice.name, choice.damping, unit, capped, choice.reason));
   for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) facts.push_back(brake_line(likes, unit));
   facts.push_back("states: " + c.decomposition.reason);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
-  facts.push_back(fmt::format("passivity: under any delay of the estimate {:.6g} {} of extra damping; sampled: not computed",
+  facts.push_back(fmt::format("any delay of the estimate: {:.6g} {} of extra damping keep an exact brake passive",
                               choice.extra_damping_any_delay.value_or(0), unit));
+  for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
   facts.push_back(fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
   if (c.law.tunable)
     describe_tunables(*c.law.tunable, unit, facts);
@@ -147,6 +148,7 @@ std::vector<std::string> banner(const Compilation& c) {
 
 void describe_device(const Compilation& c, Fields& fields) {
   fields["any_device"] = c.device ? "false" : "true";
+  fields["added_damping"] = cpp_literal(c.certificate.added_damping, c.law.scalar);
   fields["device"] = c.device ? string_text(c.device->name) : "ideal";
   fields["device_digest"] = c.device ? c.device->digest : "";
   fields["estimator"] = c.device ? name_of(c.device->description.velocity.estimator) : "exact";

@@ -33,7 +33,7 @@ constexpr std::string_view keywords[] = {
 // Members of the emitted class (architecture, section 5), names inside its functions, and the namespaces around it.
 constexpr std::string_view members[] = {
     "scalar",        "sample_period", "parameters",    "reset",     "output",    "update",     "step",
-    "set",           "stored_energy", "position",      "velocity",  "command",   "damping",    "force",
+    "set",           "stored_energy", "added_damping", "position",      "velocity",  "command",   "damping",    "force",
     "port_motion",   "motion",        "certified_for", "estimator", "device",    "loop_delay", "any_device",
     "device_digest", "now",           "stored",        "dashpot",   "generated", "std"};
 

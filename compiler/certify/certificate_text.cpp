@@ -1,0 +1,63 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "certify/certificate.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string covered(const Certificate& c) {
+  if (c.bound.proof == Proof::sampled)
+    return fmt::format("any motion, samples at {:.6g} Hz", 1 / c.loop.sample_period) +
+           (c.loop.jitter > 0 ? ", jitter not covered because " + c.bound.reason : std::string());
+  const std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";
+  return "any motion" + jitter + ", any switching of the brake above its command";
+}
+
+std::string requirement(const Certificate& c, const std::string& unit) {
+  if (c.bound.proof == Proof::hold)
+    return fmt::format("needs {:.6g} {} over the longest hold of {:.6g} s", c.bound.needed, unit, c.loop.longest_hold());
+  return fmt::format("needs {:.6g} {}, most at {:.6g} Hz", c.bound.needed, unit, c.bound.frequency);
+}
+
+std::string verdict(const Certificate& c, const std::string& unit) {
+  if (c.bound.proof == Proof::none) return "not certified: " + c.bound.reason;
+  const std::string numbers = fmt::format("{}, at least {:.6g} {} is there", requirement(c, unit), c.assured, unit);
+  if (c.certified) return fmt::format("certified for {}: {}", covered(c), numbers);
+  const double missing = c.minimum_damping - c.added_damping;
+  return fmt::format("not certified for {}: {}, {:.6g} {} more is missing in the brake's command", covered(c), numbers, missing, unit);
+}
+
+}  // namespace
+
+std::vector<std::string> passivity_lines(const Certificate& c, const std::string& unit) {
+  std::vector<std::string> lines = {"passivity: " + verdict(c, unit)};
+  if (!c.loop.has_device)
+    lines.push_back("  on an ideal device with the difference of two samples for a velocity; nothing is added for passivity");
+  if (c.added_damping > 0)
+    lines.push_back(fmt::format("  of the brake's command {:.6g} {} are for passivity and not compensated: what is rendered is D + {:.6g} s",
+                                c.added_damping, unit, c.added_damping));
+  if (!c.energy.applies) return lines;
+  std::string energy = "energy: ";
+  if (!c.energy.holds)
+    energy += fmt::format("the law may give {:.3g} N/m times Δu² a sample more than it stores", c.energy.shortfall);
+  else if (c.energy.storage == EnergyStorage::emitted)
+    energy += "the constants never give more work than stored_energy() falls";
+  else
+    energy += fmt::format("the constants never give more work than is stored, with the weight 1/(2 a d) in {} modes", c.energy.reweighted_modes);
+  lines.push_back(energy + fmt::format("; rounding adds at most {:.2g} of the sum of the force's terms", c.energy.rounding_share));
+  return lines;
+}
+
+std::string to_text(const Certificate& c, motion port_motion) {
+  const bool rotary = port_motion == motion::rotation;
+  std::string text;
+  for (const std::string& line : passivity_lines(c, rotary ? "N m s/rad" : "N s/m")) text += line + "\n";
+  if (c.quantisation_stiffness > 0)
+    text += fmt::format("quantisation: friction pays for stiffness up to {:.6g} {} (2 f_c/step); no brake does\n",
+                        c.quantisation_stiffness, rotary ? "N m/rad" : "N/m");
+  return text;
+}
+
+}  // namespace dashpot::compiler

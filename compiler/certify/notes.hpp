@@ -1,0 +1,14 @@
+// What another candidate would do better than the chosen one. The user's choice stands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "decompose/decomposition.hpp"
+
+namespace dashpot::compiler {
+
+// One clause each, at most one for the minimum damping and one for the motor's noise.
+std::vector<std::string> notes_on_choice(const Decomposition& decomposition);
+
+}  // namespace dashpot::compiler

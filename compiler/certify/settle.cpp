@@ -1,0 +1,140 @@
+#include "certify/settle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "decompose/spectrum.hpp"
+#include "discretise/law_writer.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// Beyond the precision of the bounds.
+bool is_noticeably_less(double x, double y) { return x < y * (1 - 1e-6); }
+
+bool is_better(const StateInputMerit& one, const StateInputMerit& other) {
+  const double needed = one.minimum_damping.value_or(0), others = other.minimum_damping.value_or(0);
+  if (is_noticeably_less(needed, others)) return true;
+  if (is_noticeably_less(others, needed)) return false;
+  return one.largest_error < other.largest_error * (1 - 1e-9);
+}
+
+// The least of a convex function on [low, high], by golden section; ends as soon as a value is not above zero.
+template <class Function>
+double least_place(Function f, double low, double high) {
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  double left = high - golden * (high - low), right = low + golden * (high - low);
+  double at_left = f(left), at_right = f(right);
+  for (int i = 0; i < 40 && at_left > 0 && at_right > 0; ++i) {
+    if (at_left < at_right) {
+      high = right, right = left, at_right = at_left;
+      left = high - golden * (high - low), at_left = f(left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = low + golden * (high - low), at_right = f(right);
+    }
+  }
+  return at_left < at_right ? left : right;
+}
+
+}  // namespace
+
+CandidateSettler::CandidateSettler(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                                   const Choices& choices, const PortDevice& device, double rate)
+    : network_(network),
+      form_(form),
+      decomposition_(decomposition),
+      choices_(choices),
+      device_(device),
+      rate_(rate),
+      loop_(sampled_loop(device, 1 / rate)) {}
+
+void CandidateSettler::settle(Candidate& candidate) {
+  for (StateInputMerit& merit : candidate.state_inputs) weigh(candidate, merit);
+  const auto current = std::find_if(candidate.state_inputs.begin(), candidate.state_inputs.end(),
+                                    [&](const auto& merit) { return merit.state_input == candidate.state_input; });
+  const StateInputMerit* best = &*current;
+  if (!device_.is_ideal()) {
+    best = &candidate.state_inputs.front();
+    for (const StateInputMerit& merit : candidate.state_inputs)
+      if (is_better(merit, *best)) best = &merit;
+  }
+  take(candidate, *best);
+  if (!device_.is_ideal()) make_room(candidate);
+}
+
+const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput input) {
+  if (const auto known = motors_.find(input); known != motors_.end()) return known->second;
+  Decomposition single = decomposition_;
+  single.candidates[single.chosen].damping = 0;
+  single.candidates[single.chosen].state_input = input;
+  Diagnostics unheard;  // what they say of the law is said of the chosen one
+  const UpdateLaw law = discretise(network_, form_, single, choices_, rate_, unheard);
+  return motors_.emplace(input, motor_constants(law)).first->second;
+}
+
+// Whatever b: it is only in the velocity gain, b∞ − b.
+PassivityBound CandidateSettler::bound(StateInput input, double damping) {
+  std::optional<MotorConstants> motor = without_brake(input);
+  if (motor) {
+    motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
+    motor->brake = damping;
+  }
+  return passivity_bound(motor, loop_);
+}
+
+void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
+  const PassivityBound needed = bound(merit.state_input, candidate.damping);
+  merit.proof = name_of(needed.proof);
+  merit.binding_frequency = needed.frequency;
+  merit.minimum_damping.reset();
+  if (needed.proof != Proof::none) merit.minimum_damping = missing_damping(needed, loop_, candidate.damping);
+}
+
+void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) {
+  candidate.state_input = merit.state_input;
+  candidate.largest_error = merit.largest_error;
+  candidate.extra_damping_any_delay = merit.extra_damping_any_delay;
+  candidate.minimum_damping = merit.minimum_damping;
+  candidate.certified.reset();
+  if (!merit.minimum_damping) return;
+  const double reach = device_.is_ideal() ? candidate.damping : loop_.max_damping;
+  candidate.certified = candidate.damping + *merit.minimum_damping <= reach;
+}
+
+void CandidateSettler::make_room(Candidate& candidate) {
+  if (!candidate.minimum_damping || candidate.certified == true) return;
+  const std::optional<double> fitting = largest_fitting(candidate.state_input, candidate.damping);
+  if (!fitting) return;
+  candidate.damping = *fitting;
+  candidate.velocity_gain = std::abs(to_double(form_.linear.feedthrough_damping) - candidate.damping);
+  if (const std::optional<double> noise = device_.velocity_noise()) candidate.motor_noise = candidate.velocity_gain * *noise;
+  for (StateInputMerit& merit : candidate.state_inputs) {
+    const LinearForm& form = merit.state_input == StateInput::nodal ? decomposition_.realisation : form_.linear;
+    merit.largest_error = largest_error(form, candidate.damping, merit.state_input, device_);
+    merit.extra_damping_any_delay = extra_damping_any_delay(form, candidate.damping, merit.state_input, device_.tolerance());
+    weigh(candidate, merit);
+    if (merit.state_input == candidate.state_input) take(candidate, merit);
+  }
+}
+
+double CandidateSettler::least_need(const Candidate& candidate) {
+  const StateInput input = candidate.state_input;
+  const auto need = [&](double damping) { return bound(input, damping).needed; };
+  return need(least_place(need, 0, candidate.damping));
+}
+
+// The need is a convex function of b: each frequency's is, and the largest of convex functions.
+std::optional<double> CandidateSettler::largest_fitting(StateInput input, double most) {
+  const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 1e-9);
+  const auto lack = [&](double damping) { return bound(input, damping).needed - available; };
+  double fits = least_place(lack, 0, most), fails = most;
+  if (lack(fits) > 0) return std::nullopt;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (fits + fails) / 2;
+    (lack(middle) <= 0 ? fits : fails) = middle;
+  }
+  return fits;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,159 @@
+#include "verify/certificate_file.hpp"
+
+#include <dashpot/estimators/estimator_names.hpp>
+#include <nlohmann/json.hpp>
+
+#include "verify/header_constants.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json digits(const Real& value) { return value.str(50, std::ios_base::scientific); }
+
+Json json_of(const Network& network) {
+  Json elements = Json::array();
+  for (const Element& e : network.elements) {
+    if (!e.has_effect) continue;
+    Json element = {{"name", e.name}, {"nodes", {network.nodes[e.a], network.nodes[e.b]}}};
+    if (const Spring* spring = std::get_if<Spring>(&e.law)) element["spring"] = spring->stiffness;
+    if (const Damper* damper = std::get_if<Damper>(&e.law)) element["damper"] = damper->damping;
+    if (const Slip* slip = std::get_if<Slip>(&e.law)) element["slip"] = slip->yield_force;
+    elements.push_back(std::move(element));
+  }
+  return elements;
+}
+
+Json json_of(const LinearForm& form) {
+  Json modes = Json::array();
+  for (const Mode& mode : form.modes)
+    modes.push_back({{"stiffness", digits(mode.stiffness)}, {"relaxation_rate", digits(mode.relaxation_rate)},
+                     {"spring_share", digits(mode.spring_share)}});
+  return {{"static_stiffness", digits(form.static_stiffness)},
+          {"feedthrough_damping", digits(form.feedthrough_damping)},
+          {"modes", modes}};
+}
+
+Json json_of(const SampledLoop& loop) {
+  const velocity_description& v = loop.velocity;
+  return {{"sample_period", loop.sample_period},
+          {"jitter", loop.jitter},
+          {"delay_samples", loop.delay_samples},
+          {"amplifier_lag", loop.amplifier_lag},
+          {"brake_tolerance", loop.tolerance},
+          {"largest_speed", loop.largest_speed},
+          {"critical_speed", loop.critical_speed},
+          {"max_damping", loop.max_damping},
+          {"residual_damping", loop.residual_damping},
+          {"device_damping", loop.device_damping},
+          {"coulomb_friction", loop.coulomb_friction},
+          {"encoder_step", loop.encoder_step},
+          {"estimator", loop.has_device ? name_of(v.estimator) : "difference of two samples"},
+          {"window", v.window},
+          {"order", v.order},
+          {"cutoff", v.cutoff},
+          {"acceleration", v.acceleration}};
+}
+
+Json json_of(const Certificate& c) {
+  return {{"proof", name_of(c.bound.proof)},
+          {"needed_damping", c.bound.needed},
+          {"binding_frequency", c.bound.frequency},
+          {"assured_damping", c.assured},
+          {"minimum_damping", c.minimum_damping},
+          {"certified", c.certified},
+          {"reason", c.bound.reason},
+          {"quantisation_stiffness", c.quantisation_stiffness}};
+}
+
+Json json_of(const EnergyLemma& lemma) {
+  return {{"applies", lemma.applies},
+          {"holds", lemma.holds},
+          {"storage", lemma.storage == EnergyStorage::emitted ? "stored_energy" : "weighted"},
+          {"reweighted_modes", lemma.reweighted_modes},
+          {"shortfall", lemma.shortfall},
+          {"rounding_share", lemma.rounding_share}};
+}
+
+Json json_of_choices(const Compilation& c, const Choices& choices) {
+  Json decomposition;
+  std::visit([&](const auto& value) { decomposition = value; }, choices.decomposition);
+  return {{"rate", c.rate},
+          {"scheme", name_of(c.law.scheme)},
+          {"scalar", name_of(c.law.scalar)},
+          {"state_input", name_of(c.decomposition.choice().state_input)},
+          {"decomposition", decomposition},
+          {"damping", c.decomposition.choice().damping},
+          {"brake_command", c.law.damping},
+          {"added_damping", c.certificate.added_damping}};
+}
+
+Choices choices_of(const Json& json) {
+  Choices choices;
+  choices.rate = json.at("rate").get<double>();
+  choices.scheme = json.at("scheme") == "exact" ? Scheme::exact : Scheme::backward_euler;
+  choices.scalar = json.at("scalar") == "float" ? ScalarType::float32 : ScalarType::float64;
+  const std::string input = json.at("state_input");
+  choices.state_input = input == "position"   ? StateInput::position
+                        : input == "velocity" ? StateInput::velocity
+                                              : StateInput::nodal;
+  const Json& decomposition = json.at("decomposition");
+  if (decomposition.is_number()) choices.decomposition = decomposition.get<double>();
+  else choices.decomposition = decomposition.get<std::string>();
+  return choices;
+}
+
+CertificateFile file_of(const Json& json) {
+  CertificateFile file;
+  if (json.at("dashpot_certificate") != 1) throw std::invalid_argument("format 1 is expected");
+  file.network_text = json.at("network_file").get<std::string>();
+  if (!json.at("device_file").is_null()) file.device_text = json.at("device_file").get<std::string>();
+  const Json& law = json.at("law");
+  file.choices = choices_of(law);
+  file.damping = law.at("damping").get<double>();
+  file.brake_command = law.at("brake_command").get<double>();
+  file.added_damping = law.at("added_damping").get<double>();
+  const Json& passivity = json.at("passivity");
+  file.proof = passivity.at("proof").get<std::string>();
+  file.needed_damping = passivity.at("needed_damping").get<double>();
+  file.assured_damping = passivity.at("assured_damping").get<double>();
+  file.certified = passivity.at("certified").get<bool>();
+  for (const auto& [name, values] : json.at("constants").items()) file.constants[name] = values.get<std::vector<double>>();
+  return file;
+}
+
+}  // namespace
+
+std::string certificate_text(const Compilation& c, const Choices& choices, const std::string& network_text,
+                             const std::optional<std::string>& device_text, const std::string& header) {
+  const bool nodal = c.decomposition.choice().state_input == StateInput::nodal;
+  Json constants = Json::object();
+  if (const auto found = header_constants(header))
+    for (const HeaderConstant& constant : found->all) constants[constant.name] = constant.values;
+  const Json all = {{"dashpot_certificate", 1},
+                    {"version", DASHPOT_VERSION},
+                    {"name", c.network.name},
+                    {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
+                    {"law", json_of_choices(c, choices)},
+                    {"elements", json_of(c.network)},
+                    {"canonical_form", json_of(nodal ? c.decomposition.realisation : c.form.linear)},
+                    {"constants", constants},
+                    {"loop", json_of(c.certificate.loop)},
+                    {"passivity", json_of(c.certificate)},
+                    {"energy", json_of(c.certificate.energy)},
+                    {"network_file", network_text},
+                    {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
+  return all.dump(2) + "\n";
+}
+
+std::optional<CertificateFile> read_certificate(const SourceFile& file, Diagnostics& diagnostics) {
+  try {
+    return file_of(Json::parse(file.text()));
+  } catch (const std::exception& fault) {
+    diagnostics.report<DiagnosticCode::no_certificate>({}, file.path(), fault.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,28 @@
+// What every constant of a linear law must be, recomputed in 100 digits from the network: theory, section 3, written down
+// once more, apart from discretise/.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "decompose/choices.hpp"
+#include "verify/reference_form.hpp"
+
+namespace dashpot::compiler {
+
+struct LawFacts {
+  double rate = 0;  // [Hz]
+  Scheme scheme = Scheme::exact;
+  ScalarType scalar = ScalarType::float64;
+  StateInput state_input = StateInput::position;
+  double damping = 0;  // b, as the decomposition has it [N·s/m]
+};
+
+// Each kind of constant, as emitted names end: one value, or one a mode by ascending relaxation rate. Constants that a
+// law of this kind does not have are absent.
+std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts);
+
+// Whether no number of the scalar's type is nearer; magnitudes that the law takes for zero must be zero.
+bool is_correctly_rounded(double value, const Reference& exact, ScalarType scalar);
+
+}  // namespace dashpot::compiler

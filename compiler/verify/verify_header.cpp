@@ -1,0 +1,166 @@
+#include "verify/verify_header.hpp"
+
+#include <algorithm>
+
+#include "decompose/observer.hpp"
+#include "verify/reference_constants.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr std::string_view kinds_of_modes[] = {"velocity_drive", "energy_weight", "decay", "gain", "loss"};
+
+using Groups = std::map<std::string, std::vector<double>>;
+
+// The constants of all modes under the name of their kind, in the order of the header; others under their own.
+std::string kind_of(const std::string& name) {
+  if (name == "velocity_gain") return name;
+  for (const std::string_view kind : kinds_of_modes)
+    if (name.size() > kind.size() && name.ends_with(kind) && name[name.size() - kind.size() - 1] == '_')
+      return std::string(kind);
+  return name;
+}
+
+Groups grouped(const HeaderConstants& header) {
+  Groups groups;
+  for (const HeaderConstant& constant : header.all) {
+    std::vector<double>& values = groups[kind_of(constant.name)];
+    values.insert(values.end(), constant.values.begin(), constant.values.end());
+  }
+  return groups;
+}
+
+double value_of(const Groups& groups, const std::string& kind) {
+  const auto found = groups.find(kind);
+  return found == groups.end() ? 0 : found->second.front();
+}
+
+MotorConstants motor_of(const Groups& groups) {
+  MotorConstants motor;
+  motor.brake = value_of(groups, "damping");
+  motor.static_stiffness = value_of(groups, "static_stiffness");
+  motor.half_static_stiffness = value_of(groups, "half_static_stiffness");
+  motor.step_stiffness = value_of(groups, "step_stiffness");
+  motor.velocity_gain = value_of(groups, "velocity_gain");
+  motor.loss_is_emitted = groups.count("loss") > 0;
+  const auto take = [&](const char* kind, double MotorMode::*member) {
+    const auto found = groups.find(kind);
+    if (found == groups.end()) return;
+    motor.modes.resize(std::max(motor.modes.size(), found->second.size()));
+    for (std::size_t i = 0; i < found->second.size(); ++i) motor.modes[i].*member = found->second[i];
+  };
+  take("decay", &MotorMode::decay);
+  take("loss", &MotorMode::loss);
+  take("gain", &MotorMode::position_drive);
+  take("velocity_drive", &MotorMode::velocity_drive);
+  take("energy_weight", &MotorMode::energy_weight);
+  for (MotorMode& mode : motor.modes)
+    if (motor.loss_is_emitted) mode.decay = 1 - mode.loss;
+    else mode.loss = 1 - mode.decay;
+  return motor;
+}
+
+// For nodal states, the network rewired so that the observed elements are next to the tool.
+Network realised(const Network& network, const CertificateFile& certificate, const PortDevice& device) {
+  const std::optional<Tree> tree = series_parallel_tree(network);
+  if (certificate.choices.state_input != StateInput::nodal || !tree) return network;
+  const auto* name = std::get_if<std::string>(&certificate.choices.decomposition);
+  const ObserverRule rule = name && *name == "largest-observer" ? ObserverRule::largest : ObserverRule::most_dissipative;
+  return observe(*tree, network, rule, device.reference_frequency()).realisation;
+}
+
+class Verification {
+ public:
+  Verification(const CertificateFile& certificate, const HeaderConstants& header, Diagnostics& diagnostics)
+      : certificate_(certificate), header_(header), groups_(grouped(header)), diagnostics_(diagnostics) {}
+
+  void compare_with_certificate() {
+    std::map<std::string, std::vector<double>> found;
+    for (const HeaderConstant& constant : header_.all) found[constant.name] = constant.values;
+    for (const auto& [name, values] : certificate_.constants)
+      if (found[name] != values)
+        diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "header", name);
+    for (const HeaderConstant& constant : header_.all)
+      if (certificate_.constants.count(constant.name) == 0)
+        diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  }
+
+  void recompute_constants(const Network& network) {
+    const LawFacts facts = {*certificate_.choices.rate, certificate_.choices.scheme, certificate_.choices.scalar,
+                            *certificate_.choices.state_input, certificate_.damping};
+    const auto expected = reference_constants(reference_form(network), facts);
+    for (const auto& [kind, values] : groups_) {
+      if (kind == "damping" || kind == "added_damping") continue;  // of the bounds
+      const auto exact = expected.find(kind);
+      if (exact == expected.end() || exact->second.size() != values.size()) {
+        diagnostics_.report<DiagnosticCode::unknown_constant>({}, kind);
+        continue;
+      }
+      for (std::size_t i = 0; i < values.size(); ++i) compare(kind, i, values[i], exact->second[i]);
+    }
+    for (const char* kind : {"static_stiffness", "step_stiffness", "velocity_gain"})
+      if (groups_.count(kind) == 0 && !is_correctly_rounded(0, expected.at(kind).front(), header_.scalar))
+        diagnostics_.report<DiagnosticCode::constant_missing>({}, kind);
+    if (expected.count("decay") > 0 && groups_.count("decay") + groups_.count("loss") == 0)
+      diagnostics_.report<DiagnosticCode::constant_missing>({}, "decay");
+  }
+
+  void recompute_bounds(const PortDevice& device) {
+    const SampledLoop loop = sampled_loop(device, 1 / *certificate_.choices.rate);
+    const PassivityBound bound = passivity_bound(motor_of(groups_), loop);
+    const double brake = value_of(groups_, "damping"), added = value_of(groups_, "added_damping");
+    const double expected = brake_command(bound, loop, certificate_.damping, header_.scalar);
+    expect("brake command", brake, expected);
+    const double alone = brake_command({}, loop, certificate_.damping, header_.scalar);
+    const double of_it = header_.scalar == ScalarType::float64 ? expected - alone : double(float(expected - alone));
+    expect("added damping", added, of_it);
+    const Rational assured = assured_damping(loop, brake);
+    expect("assured damping", certificate_.assured_damping, assured.convert_to<double>());
+    if (bound.proof != Proof::none) expect("needed damping", certificate_.needed_damping, bound.needed);
+    const bool certified = bound.proof != Proof::none && assured >= Rational(bound.needed);
+    if (certificate_.proof != name_of(bound.proof) || certificate_.certified != certified)
+      diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed bound", "proof");
+    expect("brake command", certificate_.brake_command, expected);
+    expect("added damping", certificate_.added_damping, of_it);
+  }
+
+  std::size_t constants() const {
+    std::size_t count = 0;
+    for (const auto& [kind, values] : groups_) count += values.size();
+    return count;
+  }
+
+ private:
+  void compare(const std::string& kind, std::size_t place, double value, const Reference& exact) {
+    if (is_correctly_rounded(value, exact, header_.scalar)) return;
+    diagnostics_.report<DiagnosticCode::constant_wrong>({}, kind, place + 1, value, exact.str(20));
+  }
+
+  void expect(const char* what, double stated, double found) {
+    if (stated != found) diagnostics_.report<DiagnosticCode::bound_wrong>({}, what, stated, found);
+  }
+
+  const CertificateFile& certificate_;
+  const HeaderConstants& header_;
+  Groups groups_;
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+std::optional<std::size_t> verify_constants(const CertificateFile& certificate, const Network& network,
+                                            const PortDevice& device, const HeaderConstants& header,
+                                            Diagnostics& diagnostics) {
+  const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
+  if (std::any_of(network.elements.begin(), network.elements.end(), is_slip) || network.contact) {
+    diagnostics.report<DiagnosticCode::verify_needs_linear>({}, network.name);
+    return std::nullopt;
+  }
+  Verification verification(certificate, header, diagnostics);
+  verification.compare_with_certificate();
+  verification.recompute_constants(realised(network, certificate, device));
+  verification.recompute_bounds(device);
+  return verification.constants();
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,95 @@
+#include "certified_loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <dashpot/simulated/simulated_device.hpp>
+
+#include "discretise/evaluate.hpp"
+#include "support/random_network.hpp"
+
+namespace dashpot::testing {
+
+compiler::Device random_device(Random& random) {
+  compiler::Device device;
+  device.name = "random";
+  device_description& d = device.description;
+  d.loop.sample_period = random.log_uniform(2e-4, 4e-3);
+  d.loop.delay_samples = random.chance(0.6) ? 0 : unsigned(random.between(1, 3));
+  d.loop.jitter = random.chance(0.5) ? 0 : random.uniform(0, 0.5) * d.loop.sample_period;
+  d.motor.amplifier_lag = random.chance(0.6) ? 0 : random.log_uniform(0.05, 2) * d.loop.sample_period;
+  const estimator_kind kinds[] = {estimator_kind::backward_difference, estimator_kind::least_squares,
+                                  estimator_kind::butterworth, estimator_kind::kalman, estimator_kind::foaw};
+  d.velocity.estimator = kinds[random.index(5)];
+  d.velocity.window = unsigned(random.between(1, 20));
+  d.velocity.order = random.chance(0.5) ? 2 : 4;
+  d.velocity.cutoff = random.uniform(0.02, 0.3) / d.loop.sample_period;
+  d.velocity.acceleration = random.log_uniform(0.1, 100);
+  d.encoder.step = 1e-6;
+  d.brake.kind = brake_kind::eddy_current;
+  d.brake.max_damping = random.log_uniform(1, 1e6);
+  d.brake.tolerance = random.chance(0.3) ? 0 : random.uniform(0, 0.2);
+  d.mechanics.inertia = random.log_uniform(0.02, 1);
+  d.mechanics.damping = random.chance(0.5) ? 0 : random.log_uniform(1e-3, 1);
+  return device;
+}
+
+CompiledCase random_case(std::uint64_t seed) {
+  Random random(seed);
+  CompiledCase one;
+  one.device = random_device(random);
+  NetworkRecipe recipe;
+  recipe.topology = random.chance(0.8) ? Topology::tree : Topology::graph;
+  recipe.most_nodes = 6;
+  recipe.smallest_value = 1e-1;
+  recipe.largest_value = 1e3;
+  one.source = std::make_unique<compiler::SourceFile>("random.json", json_text(random_network(seed, recipe)));
+  const char* names[] = {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "virtual"};
+  one.choices.decomposition = names[random.index(5)];
+  one.choices.scheme = random.chance(0.7) ? compiler::Scheme::exact : compiler::Scheme::backward_euler;
+  compiler::Diagnostics diagnostics;
+  one.compilation = compile(*one.source, one.choices, one.device, diagnostics);
+  return one;
+}
+
+simulated::hand random_hand(Random& random, double inertia, double frequency) {
+  const double omega = 2 * 3.14159265358979 * frequency;
+  switch (random.index(4)) {
+    case 0: return simulated::no_hand();
+    case 1: return simulated::mass_spring_damper(random.log_uniform(1e-3, 1e-1), 0, random.log_uniform(1, 100));
+    case 2: return simulated::mass_spring_damper(0, random.chance(0.5) ? 0 : random.log_uniform(0.1, 10), random.log_uniform(100, 1e5));
+    default: return simulated::mass_spring_damper(0, 0, inertia * omega * omega * random.uniform(0.8, 1.25));
+  }
+}
+
+RunOfLoop run_loop(const CompiledCase& one, Random& random, simulated::brake_gain gain, int samples, double brake_share) {
+  device_description description = one.device.description;
+  const bool any_jitter = one.compilation->certificate.bound.proof == compiler::Proof::hold;
+  if (!any_jitter) description.loop.jitter = 0;
+  any_estimator<double> estimator(description.velocity, description.loop.sample_period, description.encoder.step);
+  description.encoder.step = 0;
+  simulated::scenario scene;
+  scene.user = random_hand(random, description.mechanics.inertia, std::max(one.compilation->certificate.bound.frequency, 1.0));
+  scene.intended = simulated::sine(random.uniform(0, 0.02), random.log_uniform(0.5, 0.2 / description.loop.sample_period));
+  scene.initial_velocity = random.uniform(-0.2, 0.2);
+  scene.gain = gain;
+  scene.seed = random.index(1u << 30);
+  simulated_device device(description, scene);
+  compiler::Evaluation<double> law(one.compilation->law);
+  law.reset(0);
+  estimator.reset(0);
+  RunOfLoop run;
+  device_sample sample;
+  for (int k = 0; k < samples; ++k) {
+    device.read(sample);
+    const auto& ledger = device.ledger();
+    run.least_energy = std::min(run.least_energy, ledger.brake + ledger.damping - ledger.motor);
+    run.largest_exchange = std::max({run.largest_exchange, ledger.brake, std::abs(ledger.motor), std::abs(ledger.hand)});
+    if (run.largest_exchange > 1e12) return run;
+    const command<double> now = law.step(sample.position, estimator.update(sample));
+    device.write({-now.force, brake_share * now.damping});
+  }
+  return run;
+}
+
+}  // namespace dashpot::testing

@@ -1,0 +1,39 @@
+// Random networks on random devices, compiled, and run in closed loop on the simulated device with random passive hands.
+#pragma once
+
+#include <dashpot/simulated/scenario.hpp>
+
+#include <memory>
+#include <optional>
+
+#include "compile.hpp"
+#include "support/random.hpp"
+
+namespace dashpot::testing {
+
+// A law and what it was compiled from.
+struct CompiledCase {
+  std::unique_ptr<compiler::SourceFile> source;
+  compiler::Device device;
+  compiler::Choices choices;
+  std::optional<compiler::Compilation> compilation;
+};
+
+// Linear, with every estimator that something is proved for, delays and lags; the encoder and the coil are ideal.
+compiler::Device random_device(Random& random);
+CompiledCase random_case(std::uint64_t seed);
+
+// None, light, stiff, or resonant near `frequency` [Hz].
+simulated::hand random_hand(Random& random, double inertia, double frequency);
+
+struct RunOfLoop {
+  double least_energy = 0;      // that motor, brake and mechanics together have taken up, at its least [J]
+  double largest_exchange = 0;  // the largest of the amounts it is the sum of [J]
+};
+
+// The law on the device for `samples`, the brake at the `gain` end of its tolerance and commanded `brake_share` of what
+// the law commands.
+RunOfLoop run_loop(const CompiledCase& one, Random& random, simulated::brake_gain gain, int samples,
+                   double brake_share = 1);
+
+}  // namespace dashpot::testing

@@ -6,7 +6,12 @@
 // decomposition: most-dissipative, b = 20 N·s/m: in series (K4 | B4) dissipates 87.42 % at low frequency and is
 //   observed
 // states: position driven: on an ideal device nothing tells the inputs apart
-// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: certified for any motion, samples at 1000 Hz: needs 17.0889 N·s/m, most at 23.5191 Hz, at least 20
+//   N·s/m is there
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: the constants never give more work than stored_energy() falls; rounding adds at most 9.2e-14 of the sum
+//   of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
 // cost of update(): 5 additions, 6 multiplications, 3 guards against subnormals; 7 states
@@ -25,6 +30,9 @@ class generalised_kelvin_four {
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {

@@ -5,7 +5,9 @@
 // decomposition: most-dissipative, b = 5 N·s/m: dampers at the tool in parallel add
 // states: position driven by definition
 // contact: at 0 m; brake and motor 0 while the tool is free
-// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 6 additions, 4 multiplications, 1 guards against subnormals
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormals; 3 states
@@ -23,6 +25,9 @@ class virtual_wall {
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {

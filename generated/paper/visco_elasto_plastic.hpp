@@ -5,7 +5,9 @@
 // decomposition: most-dissipative, b = 2.5 N·s/m: dampers at the tool in parallel add
 // behind Y: gated, the gated law errs by 3.63 % in the band, no more than 5 %; b = 0 N·s/m stuck, 0.8 sliding
 // states: position driven: on an ideal device nothing tells the inputs apart
-// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 2 multiplications, 0 guards against subnormals
 // cost of update(): 0 additions, 0 multiplications, 1 guards against subnormals; 6 states
@@ -24,6 +26,9 @@ class visco_elasto_plastic {
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {

@@ -6,7 +6,9 @@
 // behind Y: compensated, the gated law errs by 70.1 % in the band; b = 1.6216216216216217 N·s/m stuck, 3.3
 //   sliding
 // states: position driven: on an ideal device nothing tells the inputs apart
-// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 15 additions, 14 multiplications, 0 guards against subnormals
 // cost of update(): 11 additions, 11 multiplications, 3 guards against subnormals; 12 states
@@ -25,6 +27,9 @@ class visco_elasto_plastic_organ {
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {

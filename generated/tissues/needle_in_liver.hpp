@@ -12,7 +12,9 @@
 // behind friction: by-motor, with the contact all slips are solved together; b = 0 N·s/m stuck, 0 sliding
 // states: position driven by definition
 // contact: at 0 m; brake and motor 0 while the tool is free
-// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 7 additions, 3 multiplications, 1 guards against subnormals
 //   and at most 61 additions, multiplications and divisions for the coupled slips
@@ -33,6 +35,9 @@ class needle_in_liver {
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {

@@ -3,7 +3,9 @@
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 12 N·s/m: dampers at the tool in parallel add
 // states: position driven, so that a change of parameters injects no energy
-// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // device: ideal: exact brake, exact velocity, no delay
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
@@ -26,6 +28,9 @@ class friction_tunable {
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {

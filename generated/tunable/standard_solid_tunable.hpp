@@ -4,7 +4,9 @@
 // decomposition: most-dissipative, b = 8 N·s/m: in series (spring_1 | B1) dissipates 100 % at low frequency and
 //   is observed
 // states: position driven, so that a change of parameters injects no energy
-// passivity: under any delay of the estimate 0 N·s/m of extra damping; sampled: not computed
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // device: ideal: exact brake, exact velocity, no delay
 // tunable: K1 (50 to 800 N/m)
 //   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
@@ -28,6 +30,9 @@ class standard_solid_tunable {
   using scalar = double;
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {

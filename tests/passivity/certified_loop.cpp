@@ -62,16 +62,22 @@ simulated::hand random_hand(Random& random, double inertia, double frequency) {
   }
 }
 
+// The certificate speaks of a brake that is on: with a delay the first command is late, and the tool waits for it.
+simulated::trajectory after(double begin, simulated::trajectory motion) {
+  return [=](double time) { return time < begin ? simulated::motion_point{} : motion(time - begin); };
+}
+
 RunOfLoop run_loop(const CompiledCase& one, Random& random, simulated::brake_gain gain, int samples, double brake_share) {
   device_description description = one.device.description;
   const bool any_jitter = one.compilation->certificate.bound.proof == compiler::Proof::hold;
   if (!any_jitter) description.loop.jitter = 0;
   any_estimator<double> estimator(description.velocity, description.loop.sample_period, description.encoder.step);
   description.encoder.step = 0;
+  const double brake_on = description.loop.delay_samples * (description.loop.sample_period + description.loop.jitter);
   simulated::scenario scene;
   scene.user = random_hand(random, description.mechanics.inertia, std::max(one.compilation->certificate.bound.frequency, 1.0));
-  scene.intended = simulated::sine(random.uniform(0, 0.02), random.log_uniform(0.5, 0.2 / description.loop.sample_period));
-  scene.initial_velocity = random.uniform(-0.2, 0.2);
+  scene.intended = after(brake_on, simulated::sine(random.uniform(0, 0.02), random.log_uniform(0.5, 0.2 / description.loop.sample_period)));
+  scene.initial_velocity = brake_on > 0 ? 0 : random.uniform(-0.2, 0.2);
   scene.gain = gain;
   scene.seed = random.index(1u << 30);
   simulated_device device(description, scene);

@@ -6,18 +6,16 @@
 #include <filesystem>
 #include <fstream>
 
+#include "support/temporary_folder.hpp"
+
 namespace {
 
 using namespace dashpot::paper;
 
-std::string scratch(const char* name) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::remove(path);
-  return path.string();
-}
-
 const ZWidth& thinned_map() {
-  static const ZWidth map = measure_z_width(map_places(true), scratch("z_width.csv"), [](std::size_t, std::size_t) {});
+  static const dashpot::testing::TemporaryFolder folder;
+  static const ZWidth map =
+      measure_z_width(map_places(true), folder.path() / "z_width.csv", [](std::size_t, std::size_t) {});
   return map;
 }
 
@@ -60,7 +58,8 @@ TEST(ZWidth, is_wider_by_the_dual_channel) {
 
 // Fails if an interrupted map is begun anew, or a line that was cut off is believed.
 TEST(ZWidth, goes_on_where_it_was_interrupted) {
-  const std::string file = scratch("z_width_interrupted.csv");
+  const dashpot::testing::TemporaryFolder folder;
+  const std::string file = folder.path() / "z_width.csv";
   std::vector<MapPlace> places = map_places(true);
   places.resize(3);
   measure_z_width(places, file, [](std::size_t, std::size_t) {});
@@ -77,7 +76,8 @@ TEST(ZWidth, goes_on_where_it_was_interrupted) {
 
 // Fails if a finished map is taken for an interrupted one, or one of other places is believed.
 TEST(ZWidth, begins_anew_after_a_finished_map) {
-  const std::string file = scratch("z_width_finished.csv");
+  const dashpot::testing::TemporaryFolder folder;
+  const std::string file = folder.path() / "z_width.csv";
   std::vector<MapPlace> places = map_places(true);
   places.resize(1);
   std::ofstream(file) << "settings,of another map\n" << places[0].key() << ",123,45,0,7,end\n";

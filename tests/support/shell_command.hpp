@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "support/temporary_folder.hpp"
+
 namespace dashpot::testing {
 
 struct Finished {
@@ -40,26 +42,5 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
   stream << text;
   if (!stream.flush()) throw std::runtime_error("cannot write " + path.string());
 }
-
-// A folder of its own that vanishes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string shape = (std::filesystem::temp_directory_path() / "dashpot-test-XXXXXX").string();
-    if (::mkdtemp(shape.data()) == nullptr) throw std::runtime_error("cannot make a folder like " + shape);
-    path_ = shape;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace dashpot::testing

@@ -113,7 +113,7 @@ TEST(Firmware, runs_the_model_bit_for_bit_like_the_host) {
   twin host;
   const bool finished = talk.listen([&](const frame& one) {
     if (one.type == message_type::sample) host.expect_same(one.sequence, decode<sample_message>(one));
-    return host.steps() >= 4000 || testing::Test::HasFailure();
+    return host.steps() >= 4000 || ::testing::Test::HasFailure();
   });
   EXPECT_TRUE(finished);
   EXPECT_FALSE(HasFailure()) << "in step " << host.steps();

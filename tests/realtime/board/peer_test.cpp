@@ -33,7 +33,7 @@ board_options patient(sampling when, std::uint16_t watchdog_periods) {
 // The peer on a Unix socket, and a device on it.
 struct peer_session {
   explicit peer_session(sampling when, std::uint16_t watchdog_periods = 5000)
-      : device(connect_to(folder.path() + "/s", peer), described_board(), patient(when, watchdog_periods)) {}
+      : device(connect_to(folder.path() / "s", peer), described_board(), patient(when, watchdog_periods)) {}
 
   // The next sample, whatever the board says of itself.
   device_status next() {
@@ -45,8 +45,8 @@ struct peer_session {
     return status;
   }
 
-  temporary_folder folder;
-  child_process peer{{PYTHON, PEER, "--unix", folder.path() + "/s"}};
+  testing::TemporaryFolder folder;
+  child_process peer{{PYTHON, PEER, "--unix", folder.path() / "s"}};
   board_device device;
   device_sample sample;
 };

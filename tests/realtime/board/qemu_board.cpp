@@ -2,18 +2,11 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <thread>
 
 namespace dashpot::board {
-
-temporary_folder::temporary_folder() : path_((std::filesystem::temp_directory_path() / "dashpot-XXXXXX").string()) {
-  if (::mkdtemp(path_.data()) == nullptr) throw std::runtime_error("no temporary folder");
-}
-
-temporary_folder::~temporary_folder() { std::filesystem::remove_all(path_); }
 
 transport connect_to(const std::string& path, child_process& server) {
   std::string error;

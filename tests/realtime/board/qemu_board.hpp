@@ -8,20 +8,9 @@
 #include <dashpot/board/transport.hpp>
 
 #include "child_process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace dashpot::board {
-
-class temporary_folder {
- public:
-  temporary_folder();
-  ~temporary_folder();
-  temporary_folder(const temporary_folder&) = delete;
-  temporary_folder& operator=(const temporary_folder&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 // A stream to the Unix socket that `server` is about to open. Throws when it ends before.
 transport connect_to(const std::string& path, child_process& server);
@@ -35,10 +24,10 @@ class qemu_board {
   transport connect() { return connect_to(socket(), process_); }
 
  private:
-  std::string socket() const { return folder_.path() + "/uart"; }
+  std::string socket() const { return folder_.path() / "uart"; }
   std::vector<std::string> command(const std::vector<std::string>& more_options) const;
 
-  temporary_folder folder_;
+  testing::TemporaryFolder folder_;
   child_process process_;
 };
 

@@ -1,7 +1,6 @@
 #include <dashpot/board/transport.hpp>
 
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "stream_pair.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace dashpot::board {
 namespace {
@@ -52,19 +52,6 @@ void expect_transparent(transport& near, transport& far) {
   EXPECT_FALSE(near.closed());
 }
 
-class temporary_folder {
- public:
-  temporary_folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "dashpot-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
-  }
-  ~temporary_folder() { std::filesystem::remove_all(path_); }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
 // Serial ports and pseudo-terminals go through the same line discipline.
 TEST(Transport, serial_and_pty_are_transparent) {
   transport near = opened("pty:");
@@ -77,8 +64,8 @@ TEST(Transport, serial_and_pty_are_transparent) {
 
 // The path that QEMU and the second peer are reached on.
 TEST(Transport, unix_socket_is_transparent) {
-  const temporary_folder folder;
-  const std::string path = folder.path() + "/s";
+  const testing::TemporaryFolder folder;
+  const std::string path = folder.path() / "s";
   const int listening = ::socket(AF_UNIX, SOCK_STREAM, 0);
   sockaddr_un address = {};
   address.sun_family = AF_UNIX;

@@ -8,6 +8,7 @@
 #include "source/digest.hpp"
 #include "source/render.hpp"
 #include "source/utf8.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -51,10 +52,7 @@ TEST(SourceFile, MayBeEmpty) {
 
 class SourceFiles : public ::testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
   std::string said_about(const std::string& name) const {
     Diagnostics diagnostics;
@@ -62,7 +60,7 @@ class SourceFiles : public ::testing::Test {
     return render_text(diagnostics);
   }
 
-  fs::path folder_ = fs::path(::testing::TempDir()) / "dashpot_source_files";
+  testing::TemporaryFolder folder_;
 };
 
 // If this fails, bytes are lost or changed between the disk and the parser.

@@ -1,0 +1,48 @@
+#include "emit/cpp_lines.hpp"
+
+#include <algorithm>
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr std::size_t line_width = 112;
+
+std::size_t indentation(const std::string& text) { return std::min(text.find_first_not_of(' '), text.size()); }
+
+// The blank, not beyond `limit` and outside of [], that a line is best broken at: behind a plus, else behind a comma; 0
+// where there is none.
+std::size_t break_place(const std::string& text, std::size_t limit) {
+  std::size_t plus = 0, comma = 0;
+  int depth = 0;
+  for (std::size_t i = 1; i <= limit && i < text.size(); ++i) {
+    depth += (text[i] == '[') - (text[i] == ']');
+    if (text[i] != ' ' || depth > 0) continue;
+    if (text[i - 1] == '+') plus = i;
+    if (text[i - 1] == ',') comma = i;
+  }
+  return plus > limit / 4 ? plus : comma;
+}
+
+std::vector<std::string> wrapped(std::string text) {
+  std::vector<std::string> lines;
+  const std::string further(indentation(text) + 4, ' ');
+  while (text.size() > line_width) {
+    const std::size_t place = break_place(text, line_width);
+    if (place <= further.size()) break;
+    lines.push_back(text.substr(0, place));
+    text = further + text.substr(place + 1);
+  }
+  lines.push_back(std::move(text));
+  return lines;
+}
+
+}  // namespace
+
+void append(std::vector<std::string>& lines, const std::string& text, const std::string& remark) {
+  const bool fits = text.size() + remark.size() + 4 <= line_width;
+  if (!remark.empty() && !fits) lines.push_back(std::string(indentation(text), ' ') + "// " + remark);
+  for (std::string& line : wrapped(text)) lines.push_back(std::move(line));
+  if (!remark.empty() && fits) lines.back() += "  // " + remark;
+}
+
+}  // namespace dashpot::compiler

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <dashpot/estimators/estimator_names.hpp>
 #include <limits>
 
 #include "certify/hold_bound.hpp"
+#include "certify/quantisation.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -99,6 +101,11 @@ double brake_command(const PassivityBound& bound, const SampledLoop& loop, doubl
   return together <= loop.max_damping ? together : alone;
 }
 
+double unpaid_force(const Certificate& certificate) {
+  const double most = certificate.quantisation_gain.value_or(0) * certificate.loop.encoder_step / 2;
+  return std::max(most - certificate.loop.coulomb_friction, 0.0);
+}
+
 Certificate certify(UpdateLaw& law, const SampledLoop& loop) {
   const std::optional<MotorConstants> motor = motor_constants(law);
   Certificate result;
@@ -114,6 +121,7 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop) {
   result.assured = assured.convert_to<double>();
   result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
   if (motor) result.energy = check_energy_lemma(*motor);
+  if (motor) result.quantisation_gain = quantisation_gain(*motor, loop);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;
 }

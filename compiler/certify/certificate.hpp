@@ -35,8 +35,12 @@ struct Certificate {
   double added_damping = 0;    // what has been added [N·s/m]
   bool certified = false;      // assured ≥ needed, compared exactly
   EnergyLemma energy;
-  double quantisation_stiffness = 0;  // K ≤ 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
+  double quantisation_stiffness = 0;  // 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
+  std::optional<double> quantisation_gain;  // K, which friction pays for up to 2 f_c/Δ [N/m]; empty: not bounded
 };
+
+// (K Δ/2 − f_c)⁺: the energy that the encoder's step may bring in, beyond friction, for each metre of travel [N].
+double unpaid_force(const Certificate& certificate);
 
 // In: a law's constants, the loop around it. Out: the strongest statement that covers them.
 PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop);

@@ -29,6 +29,21 @@ std::string verdict(const Certificate& c, const std::string& unit) {
   return fmt::format("not certified for {}: {}, {:.6g} {} more is missing in the brake's command", covered(c), numbers, missing, unit);
 }
 
+// K against 2 f_c/Δ, and what friction leaves.
+std::string quantisation_text(const Certificate& c, bool rotary) {
+  const char* stiffness = rotary ? "N m/rad" : "N/m";
+  std::string text = "quantisation: ";
+  if (c.quantisation_gain)
+    text += fmt::format("an error of the encoder reaches the motor with at most {:.6g} {}; ", *c.quantisation_gain, stiffness);
+  if (c.quantisation_stiffness > 0)
+    text += fmt::format("friction pays for up to {:.6g} {} (2 f_c/step), no brake does", c.quantisation_stiffness, stiffness);
+  else
+    text += "no friction is stated that would pay for it, and no brake does";
+  if (unpaid_force(c) > 0)
+    text += fmt::format("; up to {:.3g} J a {} of travel are unpaid", unpaid_force(c), rotary ? "radian" : "metre");
+  return text + "\n";
+}
+
 }  // namespace
 
 std::vector<std::string> passivity_lines(const Certificate& c, const std::string& unit) {
@@ -54,10 +69,7 @@ std::string to_text(const Certificate& c, motion port_motion) {
   const bool rotary = port_motion == motion::rotation;
   std::string text;
   for (const std::string& line : passivity_lines(c, rotary ? "N m s/rad" : "N s/m")) text += line + "\n";
-  if (c.quantisation_stiffness > 0)
-    text += fmt::format("quantisation: friction pays for stiffness up to {:.6g} {} (2 f_c/step); no brake does\n",
-                        c.quantisation_stiffness, rotary ? "N m/rad" : "N/m");
-  return text;
+  return c.loop.encoder_step > 0 ? text + quantisation_text(c, rotary) : text;
 }
 
 }  // namespace dashpot::compiler

@@ -115,7 +115,9 @@ Json json_of(const Certificate& c) {
           {"minimum_damping", c.bound.proof == Proof::none ? Json(nullptr) : Json(c.minimum_damping)},
           {"added_damping", c.added_damping},
           {"reason", c.bound.reason},
-          {"quantisation_stiffness", c.quantisation_stiffness > 0 ? Json(c.quantisation_stiffness) : Json(nullptr)}};
+          {"quantisation_stiffness", c.quantisation_stiffness > 0 ? Json(c.quantisation_stiffness) : Json(nullptr)},
+          {"quantisation_gain", or_null(c.quantisation_gain)},
+          {"unpaid_force", c.loop.encoder_step > 0 && c.quantisation_gain ? Json(unpaid_force(c)) : Json(nullptr)}};
 }
 
 Json json_of(const Compilation& c) {

@@ -64,7 +64,8 @@ Json json_of(const Certificate& c) {
           {"minimum_damping", c.minimum_damping},
           {"certified", c.certified},
           {"reason", c.bound.reason},
-          {"quantisation_stiffness", c.quantisation_stiffness}};
+          {"quantisation_stiffness", c.quantisation_stiffness},
+          {"quantisation_gain", c.quantisation_gain ? Json(*c.quantisation_gain) : Json(nullptr)}};
 }
 
 Json json_of(const EnergyLemma& lemma) {

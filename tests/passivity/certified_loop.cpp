@@ -67,33 +67,55 @@ simulated::trajectory after(double begin, simulated::trajectory motion) {
   return [=](double time) { return time < begin ? simulated::motion_point{} : motion(time - begin); };
 }
 
-RunOfLoop run_loop(const CompiledCase& one, Random& random, simulated::brake_gain gain, int samples, double brake_share) {
-  device_description description = one.device.description;
-  const bool any_jitter = one.compilation->certificate.bound.proof == compiler::Proof::hold;
-  if (!any_jitter) description.loop.jitter = 0;
-  any_estimator<double> estimator(description.velocity, description.loop.sample_period, description.encoder.step);
-  description.encoder.step = 0;
-  const double brake_on = description.loop.delay_samples * (description.loop.sample_period + description.loop.jitter);
+namespace {
+
+// The device as it is described, apart from what the conditions say.
+device_description simulated_description(const CompiledCase& one, const Conditions& conditions) {
+  device_description d = one.device.description;
+  if (one.compilation->certificate.bound.proof != compiler::Proof::hold) d.loop.jitter = 0;
+  if (!conditions.encoder_steps) d.encoder.step = 0;
+  d.encoder.rounding = conditions.rounding;
+  d.mechanics.coulomb_friction = conditions.friction;
+  return d;
+}
+
+simulated::scenario random_scenario(const CompiledCase& one, Random& random, const Conditions& conditions,
+                                    const device_description& d) {
+  const double brake_on = d.loop.delay_samples * (d.loop.sample_period + d.loop.jitter);
   simulated::scenario scene;
-  scene.user = random_hand(random, description.mechanics.inertia, std::max(one.compilation->certificate.bound.frequency, 1.0));
-  scene.intended = after(brake_on, simulated::sine(random.uniform(0, 0.02), random.log_uniform(0.5, 0.2 / description.loop.sample_period)));
-  scene.initial_velocity = brake_on > 0 ? 0 : random.uniform(-0.2, 0.2);
-  scene.gain = gain;
+  scene.user = random_hand(random, d.mechanics.inertia, std::max(one.compilation->certificate.bound.frequency, 1.0));
+  const double depth = conditions.size * random.uniform(0, 0.02), frequency = random.log_uniform(0.5, 0.2 / d.loop.sample_period);
+  scene.intended = after(brake_on, simulated::sine(depth, frequency));
+  scene.initial_velocity = brake_on > 0 ? 0 : conditions.size * random.uniform(-0.2, 0.2);
+  scene.gain = conditions.gain;
   scene.seed = random.index(1u << 30);
-  simulated_device device(description, scene);
+  return scene;
+}
+
+void look_at(const simulated::energy_ledger& ledger, const Conditions& conditions, RunOfLoop& run) {
+  const double energy = ledger.brake + ledger.damping + ledger.friction - ledger.motor;
+  const double travel = conditions.friction > 0 ? ledger.friction / conditions.friction : 0;
+  run.least_energy = std::min(run.least_energy, energy);
+  run.least_margin = std::min(run.least_margin, energy + conditions.unpaid_force * travel);
+  run.largest_exchange = std::max({run.largest_exchange, ledger.brake, std::abs(ledger.motor), std::abs(ledger.hand)});
+}
+
+}  // namespace
+
+RunOfLoop run_loop(const CompiledCase& one, Random& random, const Conditions& conditions, int samples) {
+  const device_description description = simulated_description(one, conditions);
+  any_estimator<double> estimator(description.velocity, description.loop.sample_period, one.device.description.encoder.step);
+  simulated_device device(description, random_scenario(one, random, conditions, description));
   compiler::Evaluation<double> law(one.compilation->law);
   law.reset(0);
   estimator.reset(0);
   RunOfLoop run;
   device_sample sample;
-  for (int k = 0; k < samples; ++k) {
+  for (int k = 0; k < samples && run.largest_exchange < 1e12; ++k) {
     device.read(sample);
-    const auto& ledger = device.ledger();
-    run.least_energy = std::min(run.least_energy, ledger.brake + ledger.damping - ledger.motor);
-    run.largest_exchange = std::max({run.largest_exchange, ledger.brake, std::abs(ledger.motor), std::abs(ledger.hand)});
-    if (run.largest_exchange > 1e12) return run;
+    look_at(device.ledger(), conditions, run);
     const command<double> now = law.step(sample.position, estimator.update(sample));
-    device.write({-now.force, brake_share * now.damping});
+    device.write({-now.force, now.damping});
   }
   return run;
 }

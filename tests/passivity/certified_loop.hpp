@@ -26,14 +26,23 @@ CompiledCase random_case(std::uint64_t seed);
 // None, light, stiff, or resonant near `frequency` [Hz].
 simulated::hand random_hand(Random& random, double inertia, double frequency);
 
+// What the certificate leaves open about a loop.
+struct Conditions {
+  simulated::brake_gain gain = simulated::brake_gain::nominal;  // the end of the brake's tolerance
+  bool encoder_steps = false;                                   // else the encoder is ideal
+  quantiser rounding = quantiser::floor;
+  double friction = 0;      // Coulomb's [N]
+  double unpaid_force = 0;  // that the encoder's step may bring in beyond friction [N]
+  double size = 1;          // of all motions
+};
+
 struct RunOfLoop {
   double least_energy = 0;      // that motor, brake and mechanics together have taken up, at its least [J]
+  double least_margin = 0;      // the same and `unpaid_force` times the travel until then [J]
   double largest_exchange = 0;  // the largest of the amounts it is the sum of [J]
 };
 
-// The law on the device for `samples`, the brake at the `gain` end of its tolerance and commanded `brake_share` of what
-// the law commands.
-RunOfLoop run_loop(const CompiledCase& one, Random& random, simulated::brake_gain gain, int samples,
-                   double brake_share = 1);
+// The law on the device for `samples`, in the hands of a random user.
+RunOfLoop run_loop(const CompiledCase& one, Random& random, const Conditions& conditions, int samples);
 
 }  // namespace dashpot::testing

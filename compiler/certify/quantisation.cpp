@@ -1,0 +1,108 @@
+#include "certify/quantisation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dashpot::compiler {
+namespace {
+
+using Complex = std::complex<double>;
+
+// Ĝ's answer r_j to a unit pulse: the estimate of velocity is (r_j − r_{j−1})/T.
+class AveragedPulse {
+ public:
+  explicit AveragedPulse(const EstimatorFactors& estimator)
+      : estimator_(estimator), states_(estimator.poles.size()) {}
+
+  double next() {
+    Complex value = place_ < estimator_.taps.size() ? estimator_.taps[place_] : 0;
+    ++place_;
+    for (std::size_t i = 0; i < states_.size(); ++i) value = states_[i] = estimator_.poles[i].pole * states_[i] + value;
+    return value.real();
+  }
+
+  // Not below Σ|r_j| over all that is to come once the taps are over: 1/(1 − |p|) of each pole's state and input.
+  double rest() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const double size = std::abs(estimator_.poles[i].pole);
+      const Complex loss = estimator_.poles[i].loss;
+      sum = (size * std::abs(states_[i]) + sum) * (1 + size) / (2 * loss.real() - std::norm(loss));
+    }
+    return sum;
+  }
+
+  bool is_over() const { return place_ > estimator_.taps.size() && rest() < 1e-15; }  // of r's sum, which is 1
+
+ private:
+  const EstimatorFactors& estimator_;
+  std::vector<Complex> states_;
+  std::size_t place_ = 0;
+};
+
+// The motor under q_0 = 1, then 0. A mode is G_{j+1} = x_j − α P_j with x = d q + (e/T) r, P_{j+1} = a P_j + x_j: the
+// differences that drive it, summed by parts, so that nothing cancels however slow it is.
+class MotorPulse {
+ public:
+  MotorPulse(const MotorConstants& motor, double sample_period)
+      : motor_(motor), period_(sample_period), sums_(motor.modes.size()) {}
+
+  // h_j
+  double next(double q, double r) {
+    const double pulse = motor_.static_stiffness * q + motor_.step_stiffness * (q - last_q_) +
+                         motor_.velocity_gain * (r - last_r_) / period_ + mode_force_;
+    mode_force_ = 0;
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      const MotorMode& mode = motor_.modes[i];
+      const double drive = mode.position_drive * q + mode.velocity_drive / period_ * r;
+      mode_force_ += drive - mode.loss * sums_[i];
+      sums_[i] = mode.decay * sums_[i] + drive;
+    }
+    last_q_ = q;
+    last_r_ = r;
+    return pulse;
+  }
+
+  // Not below Σ|h_j| over all that is to come, q being 0 and Σ|r| at most `rest`. What a mode still makes, −α P, −α a P, …,
+  // sums to −P; modes that agree in sign keep it.
+  double to_come(double rest) const {
+    double of_sums = 0, of_rest = std::abs(motor_.velocity_gain);
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+      of_sums += std::abs(sums_[i]);
+      of_rest += std::abs(motor_.modes[i].velocity_drive);
+    }
+    const double of_next = std::abs(mode_force_) + std::abs(motor_.velocity_gain * last_r_) / period_;
+    return std::abs(motor_.step_stiffness * last_q_) + of_next + of_sums + 2 * of_rest * rest / period_;
+  }
+
+ private:
+  const MotorConstants& motor_;
+  double period_;
+  std::vector<double> sums_;
+  double mode_force_ = 0, last_q_ = 0, last_r_ = 0;
+};
+
+constexpr std::size_t longest_pulse = 100'000;  // samples; what is left is bounded
+
+double sum_of_pulse(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator) {
+  MotorPulse pulse(motor, loop.sample_period);
+  AveragedPulse averaged(estimator);
+  const bool follows = motor.follows_estimate();
+  double sum = std::abs(pulse.next(1, follows ? averaged.next() : 0));
+  sum += std::abs(pulse.next(0, follows ? averaged.next() : 0));
+  for (std::size_t j = 0; follows && !averaged.is_over() && j < longest_pulse; ++j) sum += std::abs(pulse.next(0, averaged.next()));
+  return sum + pulse.to_come(follows ? averaged.rest() : 0);
+}
+
+}  // namespace
+
+std::optional<double> quantisation_gain(const MotorConstants& motor, const SampledLoop& loop) {
+  if (!motor.follows_estimate()) return sum_of_pulse(motor, loop, {});
+  if (const auto linear = estimator_factors(loop)) return sum_of_pulse(motor, loop, *linear);
+  if (!adaptive_window_gain(loop) || motor.estimate_drives_modes()) return std::nullopt;
+  MotorConstants position_driven = motor;
+  position_driven.velocity_gain = 0;
+  return sum_of_pulse(position_driven, loop, {}) + 2 * std::abs(motor.velocity_gain) / loop.sample_period;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,68 @@
+// What the encoder's step can stir up in the motor, where it is known in closed form.
+#include <gtest/gtest.h>
+
+#include "certify/quantisation.hpp"
+#include "motors.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double T = 0.001;  // [s]
+
+double gain_of(const MotorConstants& motor, const SampledLoop& loop) { return quantisation_gain(motor, loop).value(); }
+
+// A spring would not pass on an error of the encoder as itself, however late it acts.
+TEST(Quantisation, OfASpringIsTheSpring) {
+  SampledLoop loop = plain_loop(T);
+  EXPECT_EQ(gain_of(spring_motor(800), loop), 800);
+  loop.delay_samples = 3;
+  loop.amplifier_lag = 0.002;
+  EXPECT_EQ(gain_of(spring_motor(800), loop), 800);
+}
+
+// Maxwell elements would not pass on twice what they answer within a sample, however slow they are: an error that jumps
+// after a long rest is felt whole.
+TEST(Quantisation, OfMaxwellElementsIsTwiceTheirStep) {
+  for (const double rate : {3e-9, 0.2, 700.0}) {
+    MotorConstants motor = spring_motor(100);
+    add_maxwell(motor, 500, rate, T, true);
+    add_maxwell(motor, 40, 20 * rate, T, true);
+    EXPECT_NEAR(gain_of(motor, plain_loop(T)) / (100 + 2 * motor.step_stiffness), 1, 1e-12) << rate;
+  }
+}
+
+// A damper through a difference over N samples would not pass on 2 B/(N T); through a least-squares slope the sum of its
+// weights' sizes.
+TEST(Quantisation, OfADamperFollowsTheEstimator) {
+  for (const unsigned window : {1u, 4u, 15u}) EXPECT_NEAR(gain_of(damper_motor(-3), differencing_loop(T, window)), 6 / (window * T), 1e-9);
+  SampledLoop loop = differencing_loop(T, 4);
+  loop.velocity.estimator = estimator_kind::least_squares;
+  EXPECT_NEAR(gain_of(damper_motor(1), loop), 6 * (4 + 2 + 0 + 2 + 4) / (T * 4 * 5 * 6), 1e-9);
+}
+
+// FOAW would be taken for its longest window, though it may choose the shortest at every edge; and nothing is known of an
+// estimator that is neither linear nor that.
+TEST(Quantisation, OfOtherEstimators) {
+  SampledLoop loop = differencing_loop(T, 20);
+  loop.velocity.estimator = estimator_kind::foaw;
+  MotorConstants motor = spring_motor(50);
+  motor.velocity_gain = -0.3;
+  EXPECT_NEAR(gain_of(motor, loop), 50 + 0.6 / T, 1e-9);
+  loop.velocity.estimator = estimator_kind::super_twisting;
+  EXPECT_FALSE(quantisation_gain(motor, loop));
+}
+
+// What friction leaves unpaid would not be K Δ/2 − f_c, nor nothing where it pays for all.
+TEST(Quantisation, FrictionPays) {
+  Certificate certificate;
+  certificate.quantisation_gain = 4000;
+  certificate.loop.encoder_step = 1e-5;
+  EXPECT_DOUBLE_EQ(unpaid_force(certificate), 0.02);
+  certificate.loop.coulomb_friction = 0.015;
+  EXPECT_NEAR(unpaid_force(certificate), 0.005, 1e-15);
+  certificate.loop.coulomb_friction = 0.02;
+  EXPECT_EQ(unpaid_force(certificate), 0);
+}
+
+}  // namespace
+}  // namespace dashpot::compiler

@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Plants seeded faults in compiler/ and runtime/, one at a time, and reports which of them the tests miss.
+
+  tests/mutation/plant_faults.py --work FOLDER [--count 200] [--seed 1] [--jobs 2] [--record FILE]
+
+Works on a clone of the last commit in FOLDER, never on this tree. A fault that does not compile, or that leaves the machine code
+as it was, is no fault: the next one takes its place. Tests of the room next to the fault come first, then all others; the
+first red one ends the search. What is found out is appended to the record, a JSON object a line, and a run that is
+started again goes on behind it."""
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+from faults import drawn
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FOLDERS = ["compiler", "runtime"]
+# The first tests to look at a file: programs of unit/, by the beginning of its path. The longest that fits counts.
+NEAREST = {
+    "compiler/source": ["front_end_test", "diagnostics_test"],
+    "compiler/syntax": ["front_end_test", "diagnostics_test"],
+    "compiler/network": ["front_end_test", "diagnostics_test"],
+    "compiler/linear": ["linear_test"],
+    "compiler/decompose": ["decompose_test", "slips_test", "contact_test"],
+    "compiler/discretise": ["discretise_test", "slips_test", "contact_test", "tunables_test"],
+    "compiler/certify": ["certify_test", "passivity_test"],
+    "compiler/verify": ["certify_test"],
+    "compiler/emit": ["emit_test", "generated_test"],
+    "compiler/report": ["report_unit_test"],
+    "compiler": ["generated_test"],
+    "runtime/include/dashpot/slip": ["slips_test", "contact_test"],
+    "runtime/include/dashpot/tunable": ["tunables_test"],
+    "runtime/include/dashpot/exponential": ["tunables_test"],
+    "runtime/include/dashpot/estimators": ["estimators_test"],
+    "runtime/include/dashpot/energy": ["energy_test"],
+    "runtime/include/dashpot/servo": ["servo_test"],
+    "runtime/include/dashpot": ["energy_test", "servo_test"],
+    "runtime/servo": ["servo_test"],
+    "runtime/devices/simulated": ["simulated_test"],
+    "runtime/devices/board": ["board_test", "board_realtime_test"],
+}
+SECONDS = 900  # no test program takes a third of it: a fault that makes one hang is found
+
+
+class Copy:
+    """A clone with a build of its own."""
+
+    def __init__(self, folder, jobs):
+        self.folder, self.jobs = pathlib.Path(folder).resolve(), jobs
+        self.build = self.folder / "build" / "release"
+        if not self.folder.exists():
+            subprocess.run(["git", "clone", "--quiet", "--local", str(ROOT), str(self.folder)], check=True)
+        subprocess.run(["git", "checkout", "--quiet", "--", "."], cwd=self.folder, check=True)
+        # -O1 and a precompiled header: what is built two hundred times had better be built quickly. No result depends on it.
+        self.must("cmake", "--preset", "release", "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG", "-DDASHPOT_BUILD_BENCHMARKS=OFF",
+                  "-DDASHPOT_PRECOMPILE=ON", "-DDASHPOT_WARNINGS_AS_ERRORS=OFF")
+        self.must("ninja", "-C", str(self.build), f"-j{jobs}")
+
+    def must(self, *command):
+        if not self.succeeds(*command, seconds=None):
+            sys.exit(f"without any fault this fails: {' '.join(command)}")
+
+    def succeeds(self, *command, seconds=SECONDS):
+        """Whether it ends well in time; everything that it started ends with it."""
+        self.output = self.folder / "build" / "last_output"
+        self.output.parent.mkdir(exist_ok=True)
+        with open(self.output, "w") as output:
+            process = subprocess.Popen(command, cwd=self.folder, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)
+            try:
+                return process.wait(seconds) == 0
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+                return False
+
+    def program(self, name):
+        found = [path for path in self.build.rglob(name) if path.is_file()]
+        return found[0] if found else None
+
+    def machine_code(self, file):
+        """A digest of what `file` is compiled to; None for a header, which is part of many."""
+        objects = list(self.build.glob(f"{file.split('/')[0]}/**/{file.split('/', 1)[1]}.o"))
+        return hashlib.sha256(objects[0].read_bytes()).hexdigest() if len(objects) == 1 else None
+
+
+def nearest(file):
+    fitting = [prefix for prefix in NEAREST if file.startswith(prefix)]
+    return NEAREST[max(fitting, key=len)] if fitting else []
+
+
+def first_failure(output):
+    lines = [line for line in output.read_text(errors="replace").splitlines() if "[  FAILED  ]" in line or "***" in line]
+    return lines[0].strip() if lines else "ended early or late"
+
+
+def judged(copy, fault):
+    """'found', 'missed' or why it is no fault; and by what it was found."""
+    path = copy.folder / fault.file
+    sound = path.read_text()
+    before = copy.machine_code(fault.file)
+    path.write_text(fault.planted_in(sound))
+    try:
+        near = nearest(fault.file)
+        if near and not copy.succeeds("ninja", "-C", str(copy.build), f"-j{copy.jobs}", near[0]):
+            return "does not compile", ""
+        if before is not None and copy.machine_code(fault.file) == before:
+            return "same machine code", ""
+        for name in near:
+            if not copy.succeeds("ninja", "-C", str(copy.build), f"-j{copy.jobs}", name):
+                return "found", f"the build of {name}"
+            if not copy.succeeds(str(copy.program(name)), "--gtest_brief=1", "--gtest_fail_fast"):
+                return "found", f"{name}: {first_failure(copy.output)}"
+        if not copy.succeeds("ninja", "-C", str(copy.build), f"-j{copy.jobs}"):
+            return "found", "the build of all tests"
+        if not copy.succeeds("ctest", "--test-dir", str(copy.build), "--parallel", str(copy.jobs), "--stop-on-failure",
+                             "--exclude-regex", "RealClock", seconds=4 * SECONDS):
+            return "found", first_failure(copy.output)
+        return "missed", ""
+    finally:
+        path.write_text(sound)
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("--work", required=True, help="folder of the clone; made where it is not there")
+    options.add_argument("--count", type=int, default=200)
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--jobs", type=int, default=2)
+    options.add_argument("--record", type=pathlib.Path, default=pathlib.Path("faults.jsonl"))
+    given = options.parse_args()
+
+    known = [json.loads(line) for line in given.record.read_text().splitlines()] if given.record.exists() else []
+    told = {(entry["file"], entry["line"], entry["column"], entry["after"]) for entry in known}
+    verdicts = [entry["verdict"] for entry in known]
+    copy = Copy(given.work, given.jobs)
+    for fault in drawn(copy.folder, FOLDERS, given.seed):
+        if sum(verdict in ("found", "missed") for verdict in verdicts) >= given.count:
+            break
+        if (fault.file, fault.line, fault.column, fault.after) in told:
+            continue
+        start = time.monotonic()
+        verdict, by = judged(copy, fault)
+        verdicts.append(verdict)
+        entry = {**fault.__dict__, "verdict": verdict, "by": by, "seconds": round(time.monotonic() - start)}
+        with open(given.record, "a") as record:
+            record.write(json.dumps(entry) + "\n")
+        print(f"{fault.file}:{fault.line}:{fault.column}: '{fault.before}' -> '{fault.after}': {verdict} {by}", flush=True)
+    found, missed = verdicts.count("found"), verdicts.count("missed")
+    print(f"{found} of {found + missed} found, {missed} missed; {len(verdicts) - found - missed} were no faults")
+
+
+if __name__ == "__main__":
+    main()

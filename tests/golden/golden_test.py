@@ -1,30 +1,36 @@
-"""What dashpot says about the paper's networks, compared with what it said when somebody last looked.
+"""What dashpot says about the networks in networks/, compared with what it said when somebody last looked.
 
     python3 golden_test.py --dashpot build/compiler/dashpot [--update]
 
-Each file of transcripts/ holds command lines and their output. A difference is shown as a diff and fails; --update writes
-the transcripts anew, for review in the version control's own diff.
+Each file of transcripts/ holds command lines and their output: what `explain` says, the stages of the paper's networks, and
+of every certificate the claims; the numbers that they rest on are in generated/. A difference is shown as a diff and
+fails; --update writes the transcripts anew, for review in the version control's own diff.
 """
-import argparse
-import difflib
+import json
 import pathlib
 import subprocess
 import sys
+import tempfile
+
+import recorded
 
 TRANSCRIPTS = pathlib.Path(__file__).parent / "transcripts"
 SOURCE = TRANSCRIPTS.parents[2]
 STAGES = ["network", "linear", "decomposition", "law"]
+CERTIFICATE = "certificate.json"
+CLAIMS = ["law", "passivity", "energy"]
 PANTOGRAPH = "runtime/devices/pantograph_brake_2009.json"
 
 
 def of_network(path):
-    """The command lines about one network: every stage, and the text for people."""
-    return [["explain", path], *(["compile", path, "--print", stage] for stage in STAGES)]
+    """The command lines about one network: the text for people, the certificate, and of the paper's every stage."""
+    stages = STAGES if path.parent.name == "paper" else []
+    return [["explain", path], ["compile", path, "--certificate", CERTIFICATE], *(["compile", path, "--print", stage] for stage in stages)]
 
 
 def transcripts_wanted():
     """From the name of each transcript to its command lines."""
-    wanted = {path.stem: of_network(path.relative_to(SOURCE)) for path in sorted(SOURCE.glob("networks/paper/*.json"))}
+    wanted = {path.stem: of_network(path.relative_to(SOURCE)) for path in sorted(SOURCE.glob("networks/*/*.json"))}
     fig_5 = "networks/paper/second_order_maxwell.json"
     wanted["with_a_device"] = [["explain", fig_5, "--device", PANTOGRAPH],
                                ["explain", "networks/paper/kelvin.json", "--device", PANTOGRAPH],
@@ -37,47 +43,25 @@ def transcripts_wanted():
     return wanted
 
 
+def claims(path):
+    """What a certificate says, without what it says it of."""
+    certificate = json.loads(path.read_text())
+    return json.dumps({key: certificate[key] for key in CLAIMS}, indent=2, ensure_ascii=False) + "\n"
+
+
 def said(dashpot, arguments):
+    if arguments[-1] == CERTIFICATE:
+        with tempfile.TemporaryDirectory() as folder:
+            written = pathlib.Path(folder) / CERTIFICATE
+            return said(dashpot, [*arguments[:-1], written, "-o", folder]).replace(folder, "FOLDER") + claims(written) + "\n"
     done = subprocess.run([dashpot, *map(str, arguments)], cwd=SOURCE, capture_output=True, text=True, timeout=60)
     status = f"exit status {done.returncode}\n" if done.returncode != 0 else ""
     return f"$ dashpot {' '.join(map(str, arguments))}\n{done.stdout}{done.stderr}{status}\n"
 
 
-def differs(name, text):
-    path = TRANSCRIPTS / f"{name}.txt"
-    recorded = path.read_text() if path.exists() else ""
-    diff = difflib.unified_diff(recorded.splitlines(True), text.splitlines(True), f"recorded/{path.name}", f"now/{path.name}")
-    sys.stdout.writelines(diff)
-    return text != recorded
-
-
-def record(texts):
-    TRANSCRIPTS.mkdir(exist_ok=True)
-    for path in TRANSCRIPTS.glob("*.txt"):
-        if path.stem not in texts:
-            path.unlink()
-    for name, text in texts.items():
-        (TRANSCRIPTS / f"{name}.txt").write_text(text)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dashpot", type=pathlib.Path, required=True)
-    parser.add_argument("--update", action="store_true")
-    options = parser.parse_args()
-    dashpot = options.dashpot.resolve()
-    texts = {name: "".join(said(dashpot, line) for line in lines) for name, lines in transcripts_wanted().items()}
-    if options.update:
-        record(texts)
-        return 0
-    left_over = sorted({path.stem for path in TRANSCRIPTS.glob("*.txt")} - set(texts))
-    for name in left_over:
-        print(f"transcripts/{name}.txt belongs to nothing")
-    changed = [name for name, text in texts.items() if differs(name, text)]
-    if changed or left_over:
-        print("if this is meant, run golden_test.py again with --update and review the change")
-    return 1 if changed or left_over else 0
+def texts_of(dashpot):
+    return {name: "".join(said(dashpot, line) for line in lines) for name, lines in transcripts_wanted().items()}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(recorded.main(__doc__, TRANSCRIPTS, texts_of))

@@ -5,8 +5,6 @@
 Each file of texts/ is the page of one network without its style, scripts and live part: a line for each block of the page,
 labels of drawings and plots included, curves not. A difference is shown as a diff and fails; --update writes them anew.
 """
-import argparse
-import difflib
 import html.parser
 import os
 import pathlib
@@ -17,6 +15,9 @@ import tempfile
 
 TEXTS = pathlib.Path(__file__).parent / "texts"
 SOURCE = TEXTS.parents[2]
+sys.path.insert(0, str(SOURCE / "tests/golden"))
+import recorded
+
 PANTOGRAPH = "runtime/devices/pantograph_brake_2009.json"
 BLOCKS = {"p", "h1", "h2", "h3", "h4", "tr", "li", "dt", "figcaption", "svg", "section", "header", "option"}
 BETWEEN = {"td", "th", "dd", "text"}
@@ -59,7 +60,7 @@ def text_of(page):
 
 def wanted():
     """From the name of each text to the arguments behind `dashpot report`."""
-    networks = sorted([*SOURCE.glob("networks/paper/*.json"), *SOURCE.glob("networks/tissues/*.json")])
+    networks = sorted(SOURCE.glob("networks/*/*.json"))
     arguments = {path.stem: [path.relative_to(SOURCE)] for path in networks}
     return {**arguments, "with_a_device": ["networks/paper/second_order_maxwell.json", "--device", PANTOGRAPH]}
 
@@ -73,40 +74,9 @@ def page_of(dashpot, arguments):
         return page.read_text()
 
 
-def differs(name, text):
-    path = TEXTS / f"{name}.txt"
-    recorded = path.read_text() if path.exists() else ""
-    diff = difflib.unified_diff(recorded.splitlines(True), text.splitlines(True), f"recorded/{path.name}", f"now/{path.name}")
-    sys.stdout.writelines(diff)
-    return text != recorded
-
-
-def record(texts):
-    TEXTS.mkdir(exist_ok=True)
-    for path in TEXTS.glob("*.txt"):
-        path.unlink()
-    for name, text in texts.items():
-        (TEXTS / f"{name}.txt").write_text(text)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--dashpot", type=pathlib.Path, required=True)
-    parser.add_argument("--update", action="store_true")
-    options = parser.parse_args()
-    dashpot = options.dashpot.resolve()
-    texts = {name: text_of(page_of(dashpot, arguments)) for name, arguments in wanted().items()}
-    if options.update:
-        record(texts)
-        return 0
-    left_over = sorted({path.stem for path in TEXTS.glob("*.txt")} - set(texts))
-    for name in left_over:
-        print(f"texts/{name}.txt belongs to nothing")
-    changed = [name for name, text in texts.items() if differs(name, text)]
-    if changed or left_over:
-        print("if this is meant, run text_test.py again with --update and review the change")
-    return 1 if changed or left_over else 0
+def texts_of(dashpot):
+    return {name: text_of(page_of(dashpot, arguments)) for name, arguments in wanted().items()}
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(recorded.main(__doc__, TEXTS, texts_of))

@@ -11,8 +11,9 @@ ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& d
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = files.open(options.networks.front(), diagnostics);
   if (file == nullptr) return ExitStatus::input_refused;
-  const std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
+  std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  weigh_all_candidates(*compilation, options.choices);
   const std::optional<std::string> page = report(*compilation, web_module(*compilation, diagnostics), diagnostics);
   if (!page || diagnostics.has_errors()) return ExitStatus::input_refused;
   return write_files("", {{*options.output, *page}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;

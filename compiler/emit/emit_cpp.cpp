@@ -220,6 +220,17 @@ CodeModel test_model(const Compilation& c) {
   return model;
 }
 
+CodeModel live_model(const Compilation& c) {
+  CodeModel model;
+  model.fields["name"] = c.network.name;
+  model.lists["settable"];
+  model.lists["tunables"];
+  if (!c.law.tunable) return model;
+  model.lists["settable"].push_back({});
+  for (const Tunable& t : c.law.tunable->tunables) model.lists["tunables"].push_back({{"tunable", t.name}});
+  return model;
+}
+
 bool append(const std::string& template_name, const std::string& file, const CodeModel& model,
             const EmissionOptions& options, std::vector<OutputFile>& files, Diagnostics& diagnostics) {
   const SourceFile* shape = find_template(template_name, options.templates, diagnostics);
@@ -241,7 +252,7 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
   if (options.with_library)
     ok &= append("model_library.cpp.in", name + "_library.cpp", {{{"name", name}}, {}}, options, files, diagnostics);
   if (options.with_live)
-    ok &= append("live.cpp.in", name + "_live.cpp", {{{"name", name}}, {}}, options, files, diagnostics);
+    ok &= append("live.cpp.in", name + "_live.cpp", live_model(compilation), options, files, diagnostics);
   if (!ok) return std::nullopt;
   return files;
 }

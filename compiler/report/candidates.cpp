@@ -24,11 +24,12 @@ struct FigureOfMerit {
 // In the order of the plot's menus.
 std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
   const PortUnits units = port_units(c.network.port_motion);
+  const auto known = [](const std::optional<double>& figure) { return figure.value_or(not_computed); };
   std::vector<FigureOfMerit> all = {
-      {"motor noise", units.force, [](const Candidate& k) { return k.motor_noise.value_or(not_computed); }},
+      {"motor noise", units.force, [=](const Candidate& k) { return known(k.motor_noise); }},
       {"velocity gain of the motor", units.damping, [](const Candidate& k) { return k.velocity_gain; }},
-      {"minimum damping", units.damping, [](const Candidate& k) { return k.minimum_damping.value_or(not_computed); }},
-      {"extra damping under any delay", units.damping, [](const Candidate& k) { return k.extra_damping_any_delay.value_or(not_computed); }},
+      {"minimum damping", units.damping, [=](const Candidate& k) { return known(k.minimum_damping); }},
+      {"extra damping under any delay", units.damping, [=](const Candidate& k) { return known(k.extra_damping_any_delay); }},
       {"largest error in the band", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
       {"damping asked of the brake", units.damping, [](const Candidate& k) { return k.damping; }}};
   const auto is_known = [&](const FigureOfMerit& figure) {
@@ -36,43 +37,52 @@ std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
                        [&](const Candidate& k) { return figure.value(k) == figure.value(k); });
   };
   std::erase_if(all, [&](const FigureOfMerit& figure) { return !is_known(figure); });
-  const bool is_ideal = !c.device;  // which has neither noise nor error
-  std::erase_if(all, [&](const FigureOfMerit& figure) { return is_ideal && (figure.unit == "%" || figure.label == "motor noise"); });
+  if (c.device) return all;
+  // The ideal one has neither noise nor error.
+  std::erase_if(all, [](const FigureOfMerit& figure) { return figure.unit == "%" || figure.label == "motor noise"; });
   return all;
 }
 
 std::string cell(double value) { return "<td>" + (value == value ? number_text(value) : std::string("–")) + "</td>"; }
 
-std::string row(const Candidate& candidate, bool chosen, const std::vector<FigureOfMerit>& figures) {
-  std::string html = fmt::format("<tr{}><th scope=\"row\">{}</th><td class=\"word\">{}</td>", chosen ? " class=\"chosen\"" : "",
-                                 escaped(candidate.name), name_of(candidate.state_input));
+std::string reason(const Candidate& candidate) {
+  if (!candidate.capped()) return candidate.reason;
+  return fmt::format("{} (capped from {} at what the brake can give)", candidate.reason, number_text(candidate.wanted_damping));
+}
+
+// The figures, and under them why this damping.
+std::string rows(const Candidate& candidate, bool chosen, const std::vector<FigureOfMerit>& figures) {
+  std::string html = fmt::format("<tbody{}>\n<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td>",
+                                 chosen ? " class=\"chosen\"" : "", escaped(candidate.name), name_of(candidate.state_input));
   for (const FigureOfMerit& figure : figures) html += cell(figure.value(candidate));
-  const std::string capped = candidate.capped() ? " (capped from " + number_text(candidate.wanted_damping) + " at what the brake can give)" : "";
-  return html + "<td class=\"reason\">" + escaped(candidate.reason + capped) + "</td></tr>\n";
+  return html + fmt::format("</tr>\n<tr class=\"why\"><td colspan=\"{}\">{}</td></tr>\n</tbody>\n", figures.size() + 2,
+                            escaped(reason(candidate)));
 }
 
 }  // namespace
 
 std::string candidates_table_html(const Compilation& c) {
   const std::vector<FigureOfMerit> figures = figures_of_merit(c);
-  std::string html = "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>candidate</th><th class=\"word\">states driven by</th>";
+  std::string html =
+      "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>candidate</th><th class=\"word\">states driven by</th>";
   for (const FigureOfMerit& figure : figures) html += fmt::format("<th>{} [{}]</th>", figure.label, figure.unit);
-  html += "<th class=\"reason\">why this damping</th></tr></thead><tbody>\n";
+  html += "</tr></thead>\n";
   for (const Candidate& candidate : c.decomposition.candidates)
-    html += row(candidate, &candidate == &c.decomposition.choice(), figures);
-  return html + "</tbody></table></div>\n";
+    html += rows(candidate, &candidate == &c.decomposition.choice(), figures);
+  return html + "</table></div>\n";
 }
 
 std::string candidates_json(const Compilation& c) {
   const std::vector<FigureOfMerit> figures = figures_of_merit(c);
   std::string labels, candidates;
   for (const FigureOfMerit& figure : figures)
-    labels += fmt::format("{}{{\"label\":{},\"unit\":{}}}", labels.empty() ? "" : ",", json_literal(figure.label), json_literal(figure.unit));
+    labels += fmt::format("{}{{\"label\":{},\"unit\":{}}}", labels.empty() ? "" : ",", json_literal(figure.label),
+                          json_literal(figure.unit));
   for (const Candidate& candidate : c.decomposition.candidates) {
     std::string values;
     for (const FigureOfMerit& figure : figures) values += (values.empty() ? "" : ",") + json_literal(figure.value(candidate));
-    candidates += fmt::format("{}{{\"name\":{},\"chosen\":{},\"values\":[{}]}}", candidates.empty() ? "" : ",", json_literal(candidate.name),
-                              &candidate == &c.decomposition.choice(), values);
+    candidates += fmt::format("{}{{\"name\":{},\"chosen\":{},\"values\":[{}]}}", candidates.empty() ? "" : ",",
+                              json_literal(candidate.name), &candidate == &c.decomposition.choice(), values);
   }
   return "{\"figures\":[" + labels + "],\"candidates\":[" + candidates + "]}";
 }

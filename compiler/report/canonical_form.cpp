@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t most_written_modes = 4;  // more stand in the table alone
 
 std::string display(const std::string& inner) {
-  return "<math display=\"block\"><mrow><mi>D</mi><mo stretchy=\"false\">(</mo><mi>s</mi><mo stretchy=\"false\">)</mo><mo>=</mo>" + inner + "</mrow></math>\n";
+  return "<math display=\"block\"><mrow><mi>D</mi><mo stretchy=\"false\">(</mo><mi>s</mi><mo stretchy=\"false\">)</mo>"
+         "<mo>=</mo>" + inner + "</mrow></math>\n";
 }
 
 std::string in_letters() {
@@ -63,7 +64,8 @@ std::string canonical_form_html(const Compilation& c) {
   std::string html = in_letters() + in_numbers(form) + "<table class=\"facts\"><tbody>\n";
   html += row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness), 6), units.stiffness);
   html += row("feedthrough damping <i>b</i><sub>∞</sub>", number_text(to_double(form.feedthrough_damping), 6), units.damping);
-  html += row("viscosity at low frequency <i>b</i><sub>∞</sub> + ∑<i>k</i>/<i>λ</i>", number_text(to_double(zero_frequency_damping(form)), 6), units.damping);
+  html += row("viscosity at low frequency <i>b</i><sub>∞</sub> + ∑<i>k</i>/<i>λ</i>",
+              number_text(to_double(zero_frequency_damping(form)), 6), units.damping);
   html += "</tbody></table>\n";
   return form.modes.empty() ? html : html + modes_table(c, units);
 }

@@ -34,10 +34,11 @@ Curve margin(const Compilation& c, const Candidate& candidate, const std::string
 std::string delay_margin_html(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
   const PortUnits units = port_units(c.network.port_motion);
-  Plot plot{"Damping left under any delay of the estimate", {"frequency", "Hz"}, {"margin", units.damping}, AxisScale::logarithmic,
-            AxisScale::linear, {margin(c, choice, choice.name, false)}, true};
+  Plot plot{"Damping left under any delay of the estimate", {"frequency", "Hz"}, {"margin", units.damping},
+            AxisScale::logarithmic, AxisScale::linear, {margin(c, choice, choice.name, false)}, true};
   for (const Candidate& candidate : c.decomposition.candidates)
-    if (candidate.name == "virtual" && choice.name != "virtual") plot.curves.push_back(margin(c, candidate, "virtual (no brake)", true));
+    if (candidate.name == "virtual" && choice.name != "virtual")
+      plot.curves.push_back(margin(c, candidate, "virtual (no brake)", true));
   plot.note = "Below zero some delay, or some averaging of the velocity, makes the viscous part of the motor active.";
   return plot_figure(plot);
 }

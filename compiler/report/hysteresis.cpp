@@ -39,7 +39,8 @@ LawRun run(const Compilation& c, const Oscillation& motion, std::size_t cycle_co
 
 // The last cycle, closed.
 template <class ValueAt>
-Curve loop(const std::string& name, Channel channel, const Oscillation& motion, const LawRun& run, std::size_t points, ValueAt value) {
+Curve loop(const std::string& name, Channel channel, const Oscillation& motion, const LawRun& run, std::size_t points,
+           ValueAt value) {
   Curve curve{name, channel, {}, {}};
   const std::size_t first = (cycles - 1) * motion.samples;
   for (std::size_t i = 0; i <= points; ++i) {
@@ -53,7 +54,8 @@ Curve loop(const std::string& name, Channel channel, const Oscillation& motion, 
 // u = A sin ωt around 0, from rest: k0 u + b∞ u̇ + Σ k_i A ω (λ cos ωt + ω sin ωt − λ e^{−λt})/(λ² + ω²)
 double closed_form(const LinearForm& form, double added_damping, const Oscillation& motion, double t) {
   const double w = motion.angular();
-  double force = to_double(form.static_stiffness) * motion.position(t) + (to_double(form.feedthrough_damping) + added_damping) * motion.velocity(t);
+  const double damping = to_double(form.feedthrough_damping) + added_damping;
+  double force = to_double(form.static_stiffness) * motion.position(t) + damping * motion.velocity(t);
   for (const Mode& mode : form.modes) {
     const double rate = to_double(mode.relaxation_rate), ratio = w / rate;
     force += to_double(mode.stiffness) * motion.amplitude * ratio *
@@ -63,12 +65,23 @@ double closed_form(const LinearForm& form, double added_damping, const Oscillati
 }
 
 double default_amplitude(const Network& network) {
-  if (network.valid.displacement) return std::max(std::abs(network.valid.displacement->low), std::abs(network.valid.displacement->high));
+  if (const auto& range = network.valid.displacement) return std::max(std::abs(range->low), std::abs(range->high));
   return network.port_motion == motion::rotation ? 0.1 : 0.001;
 }
 
 Plot empty_plot(const std::string& title, const PortUnits& units) {
   return {title, {"displacement", units.position}, {"force", units.force}, AxisScale::linear, AxisScale::linear, {}, true};
+}
+
+void add_shares(const Oscillation& motion, const LawRun& all, Plot& plot) {
+  const auto brake = [&](std::size_t k) { return all.brake[k]; };
+  const auto motor = [&](std::size_t k) { return all.motor[k]; };
+  plot.curves.push_back(loop("brake b·v̂", Channel::brake, motion, all, drawn_points, brake));
+  plot.curves.push_back(loop("motor m", Channel::motor, motion, all, drawn_points, motor));
+}
+
+Curve total(const std::string& name, const Oscillation& motion, const LawRun& all, std::size_t points) {
+  return loop(name, Channel::total, motion, all, points, [&](std::size_t k) { return all.force(k); });
 }
 
 // In the geometric middle of what the network does, but slow enough for the loop.
@@ -78,11 +91,11 @@ std::string linear_loop(const Compilation& c) {
   const LawRun all = run(c, motion);
   const PortUnits units = port_units(c.network.port_motion);
   Plot plot = empty_plot("Hysteresis at " + number_text(motion.frequency, 3) + " Hz", units);
-  plot.curves.push_back(loop("closed form", Channel::closed_form, motion, all, drawn_points,
-                             [&](std::size_t k) { return closed_form(c.form.linear, uncompensated_damping(c), motion, all.time[k]); }));
-  plot.curves.push_back(loop("brake b·v̂", Channel::brake, motion, all, drawn_points, [&](std::size_t k) { return all.brake[k]; }));
-  plot.curves.push_back(loop("motor m", Channel::motor, motion, all, drawn_points, [&](std::size_t k) { return all.motor[k]; }));
-  plot.curves.push_back(loop("emitted code", Channel::total, motion, all, drawn_dots, [&](std::size_t k) { return all.force(k); }));
+  const double added = c.certificate.added_damping;
+  const auto closed = [&](std::size_t k) { return closed_form(c.form.linear, added, motion, all.time[k]); };
+  plot.curves.push_back(loop("closed form", Channel::closed_form, motion, all, drawn_points, closed));
+  add_shares(motion, all, plot);
+  plot.curves.push_back(total("emitted code", motion, all, drawn_dots));
   plot.curves.back().dots = true;
   return plot_figure(plot);
 }
@@ -118,11 +131,8 @@ std::string three_loops(const Compilation& c) {
     const LawRun all = run(c, motion);
     plot.title = "Hysteresis at " + number_text(motion.frequency, 3) + " Hz, three amplitudes";
     const bool largest = size > 1;
-    if (largest) {
-      plot.curves.push_back(loop("brake b·v̂", Channel::brake, motion, all, drawn_points, [&](std::size_t k) { return all.brake[k]; }));
-      plot.curves.push_back(loop("motor m", Channel::motor, motion, all, drawn_points, [&](std::size_t k) { return all.motor[k]; }));
-    }
-    plot.curves.push_back(loop(largest ? "force" : "", Channel::total, motion, all, drawn_points, [&](std::size_t k) { return all.force(k); }));
+    if (largest) add_shares(motion, all, plot);
+    plot.curves.push_back(total(largest ? "force" : "", motion, all, drawn_points));
   }
   plot.note = "Shares of brake and motor in the largest loop.";
   return plot_figure(plot);
@@ -130,6 +140,8 @@ std::string three_loops(const Compilation& c) {
 
 }  // namespace
 
-std::string hysteresis_html(const Compilation& c) { return c.form.components.empty() && !c.network.contact ? linear_loop(c) : three_loops(c); }
+std::string hysteresis_html(const Compilation& c) {
+  return c.form.components.empty() && !c.network.contact ? linear_loop(c) : three_loops(c);
+}
 
 }  // namespace dashpot::compiler

@@ -24,15 +24,7 @@ LawRun run(const UpdateLaw& law, std::size_t count, const std::function<double(d
   return result;
 }
 
-// That a float is not its double is no addition.
-constexpr double rounding = 1e-6;
-
 }  // namespace
-
-double uncompensated_damping(const Compilation& c) {
-  const double chosen = c.decomposition.choice().damping, added = c.law.damping - chosen;
-  return added <= rounding * chosen ? 0 : added;
-}
 
 LawRun run_law(const UpdateLaw& law, std::size_t count, const std::function<double(double)>& position,
                const std::function<double(double)>& velocity) {

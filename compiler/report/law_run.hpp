@@ -19,7 +19,4 @@ struct LawRun {
 LawRun run_law(const UpdateLaw& law, std::size_t count, const std::function<double(double)>& position,
                const std::function<double(double)>& velocity);
 
-// What the brake is told beyond the chosen candidate's damping, for passivity: it is felt, and not compensated [N·s/m].
-double uncompensated_damping(const Compilation& compilation);
-
 }  // namespace dashpot::compiler

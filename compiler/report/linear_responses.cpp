@@ -1,5 +1,7 @@
 #include "report/linear_responses.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "report/number_text.hpp"
@@ -42,7 +44,8 @@ Plot relaxation(const LinearForm& form, const PortUnits& units) {
             AxisScale::logarithmic, AxisScale::linear,
             {curve("", logarithmic(times_around(rates, frequencies_of_interest(form))), modulus)}, true};
   if (form.feedthrough_damping > 0)
-    plot.note = "An impulse of " + number_text(to_double(form.feedthrough_damping)) + " " + units.damping + " at t = 0 is not drawn.";
+    plot.note = fmt::format("An impulse of {} {} at t = 0 is not drawn.", number_text(to_double(form.feedthrough_damping)),
+                            units.damping);
   return plot;
 }
 
@@ -61,7 +64,7 @@ Plot creep(const LinearForm& form, const PortUnits& units) {
             AxisScale::logarithmic, AxisScale::linear,
             {curve("", logarithmic(times_around(rates, frequencies_of_interest(form))), compliance)}, true};
   if (kelvin.fluidity > 0)
-    plot.note = "It flows on at " + number_text(to_double(kelvin.fluidity)) + " " + units.velocity + " for each " + units.force + ".";
+    plot.note = fmt::format("It flows on at {} {} for each {}.", number_text(to_double(kelvin.fluidity)), units.velocity, units.force);
   return plot;
 }
 

@@ -105,7 +105,8 @@ class Drawing {
 
   std::string axis_labels() const {
     const double middle = (top + bottom) / 2;
-    return fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\">{}</text>", (left + right) / 2, height - 10, escaped(text_of(plot_.x_title, x_))) +
+    return fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\">{}</text>", (left + right) / 2, height - 10,
+                       escaped(text_of(plot_.x_title, x_))) +
            fmt::format("<text class=\"label\" x=\"12\" y=\"{0}\" transform=\"rotate(-90 12 {0})\">{1}</text>\n", middle,
                        escaped(text_of(plot_.y_title, y_)));
   }

@@ -28,8 +28,9 @@ std::string row(const ComponentSplit& split, std::size_t i, const Network& netwo
 std::string table(const ComponentSplit& split, const Network& network) {
   const PortUnits units = port_units(network.port_motion);
   std::string html = fmt::format(
-      "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>sliding</th><th class=\"word\">stuck</th><th>brake <i>b</i> [{0}]</th>"
-      "<th>feedthrough <i>b</i><sub>∞</sub> [{0}]</th><th>compensated at most [{0}]</th><th>static stiffness [{1}]</th></tr></thead><tbody>\n",
+      "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>sliding</th><th class=\"word\">stuck</th>"
+      "<th>brake <i>b</i> [{0}]</th><th>feedthrough <i>b</i><sub>∞</sub> [{0}]</th><th>compensated at most [{0}]</th>"
+      "<th>static stiffness [{1}]</th></tr></thead><tbody>\n",
       units.damping, units.stiffness);
   for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) html += row(split, i, network);
   return html + "</tbody></table></div>\n";
@@ -38,6 +39,9 @@ std::string table(const ComponentSplit& split, const Network& network) {
 }  // namespace
 
 std::string regimes_html(const Compilation& c) {
+  if (c.law.tunable)
+    return fmt::format("<p>Chosen: <b>{}</b>; {}. What is behind slips is left to the motor, since their yields may change.</p>\n",
+                       escaped(c.decomposition.choice().name), escaped(c.decomposition.choice().reason));
   std::string html;
   for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) {
     html += "<p>" + escaped(to_text(likes)) + "</p>\n";

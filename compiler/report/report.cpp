@@ -9,6 +9,7 @@
 #include "report/agreement.hpp"
 #include "report/base64.hpp"
 #include "report/candidates.hpp"
+#include "report/certificate_table.hpp"
 #include "report/delay_margin.hpp"
 #include "report/equations.hpp"
 #include "report/hysteresis.hpp"
@@ -40,7 +41,8 @@ std::vector<Fields> facts(const Compilation& c) {
     list.push_back(fact("motor, velocity gain", number_text(c.decomposition.choice().velocity_gain), units.damping, "motor"));
     list.push_back(fact("static stiffness", number_text(to_double(c.form.linear.static_stiffness)), units.stiffness));
     list.push_back(fact("modes", std::to_string(c.form.linear.modes.size()), ""));
-    list.push_back(fact("viscosity at low frequency", number_text(to_double(zero_frequency_damping(c.form.linear))), units.damping));
+    const double viscosity = to_double(zero_frequency_damping(c.form.linear));
+    list.push_back(fact("viscosity at low frequency", number_text(viscosity), units.damping));
   }
   return list;
 }
@@ -55,8 +57,12 @@ void add_linear_parts(const Compilation& c, CodeModel& model) {
   if (!c.network.contact) model.lists["agreement"].push_back({{"body", agreement_html(c)}});
   model.lists["candidates"].push_back({{"choice", escaped(c.decomposition.choice().name)},
                                        {"reason", escaped(c.decomposition.reason)},
-                                       {"table", candidates_table_html(c)},
-                                       {"margin", sampled_margin_html(c) + delay_margin_html(c)}});
+                                       {"table", candidates_table_html(c)}});
+}
+
+void add_passivity(const Compilation& c, CodeModel& model) {
+  model.fields["passivity"] = certificate_html(c);
+  model.fields["margin"] = sampled_margin_html(c) + (is_linear(c) ? delay_margin_html(c) : "");
 }
 
 // Two digits of ten times the slowest relaxation, within what a reader waits for.
@@ -67,25 +73,40 @@ double live_duration(const Compilation& c) {
 
 void add_live_part(const Compilation& c, bool there, CodeModel& model) {
   const PortUnits units = port_units(c.network.port_motion);
-  model.lists["live"];
-  model.lists["still"];
-  if (there)
-    model.lists["live"].push_back({{"depth", c.network.port_motion == motion::rotation ? "0.1" : "0.001"},
-                                   {"duration", fmt::format("{:g}", live_duration(c))},
-                                   {"position_unit", units.position}});
-  else
-    model.lists["still"].push_back({{"why", "Left out: when this page was written there was no clang with lld to compile the emitted code to "
-                                            "WebAssembly."}});
+  for (const char* list : {"live", "live_end", "still", "sliders"}) model.lists[list];
+  if (!there) {
+    model.lists["still"].push_back({{"why", "Left out: when this page was written there was no clang with lld to compile the "
+                                            "emitted code to WebAssembly."}});
+    return;
+  }
+  model.lists["live"].push_back({{"depth", c.network.port_motion == motion::rotation ? "0.1" : "0.001"},
+                                 {"duration", fmt::format("{:g}", live_duration(c))},
+                                 {"position_unit", units.position}});
+  model.lists["live_end"].push_back({});
+  if (c.law.tunable) model.lists["sliders"].push_back({{"middle", fmt::format("{:g}", live_duration(c) / 2)}});
+}
+
+std::string tunables_json(const UpdateLaw& law) {
+  std::string json;
+  for (const Tunable& t : law.tunable ? law.tunable->tunables : std::vector<Tunable>())
+    json += fmt::format("{}{{\"name\":{},\"unit\":{},\"value\":{},\"min\":{},\"max\":{}}}", json.empty() ? "" : ",",
+                        json_literal(t.name), json_literal(t.unit), json_literal(t.range.value), json_literal(t.range.min),
+                        json_literal(t.range.max));
+  return "[" + json + "]";
+}
+
+std::string live_json(const Compilation& c, const std::string& module) {
+  const PortUnits units = port_units(c.network.port_motion);
+  return fmt::format("{{\"period\":{},\"rate\":{},\"scalar\":\"{}\",\"position_unit\":{},\"force_unit\":{},\"tunables\":{},"
+                     "\"module\":\"{}\"}}",
+                     c.law.sample_period, c.rate, name_of(c.law.scalar), json_literal(units.position), json_literal(units.force),
+                     tunables_json(c.law), base64(module));
 }
 
 std::string data_json(const Compilation& c, const std::optional<std::string>& module) {
-  const PortUnits units = port_units(c.network.port_motion);
   std::string json = "{\"name\":" + json_literal(c.network.name);
   if (is_linear(c)) json += ",\"pareto\":" + candidates_json(c);
-  if (module)
-    json += fmt::format(",\"live\":{{\"period\":{},\"rate\":{},\"scalar\":\"{}\",\"position_unit\":{},\"force_unit\":{},\"module\":\"{}\"}}",
-                        c.law.sample_period, c.rate, name_of(c.law.scalar), json_literal(units.position), json_literal(units.force),
-                        base64(*module));
+  if (module) json += ",\"live\":" + live_json(c, *module);
   return json + "}";
 }
 
@@ -101,24 +122,27 @@ void add_page(CodeModel& model, Diagnostics& diagnostics) {
   fields["uplot_style"] = built_in("uPlot.min.css", diagnostics);
   fields["uplot"] = built_in("uPlot.iife.min.js", diagnostics);
   fields["uplot_licence"] = escaped_lines(built_in("uPlot-LICENSE", diagnostics));
-  for (const char* part : {"page.js", "pareto.js", "motion.js", "live.js", "start.js"}) fields["script"] += built_in(part, diagnostics);
+  for (const char* part : {"page.js", "pareto.js", "motion.js", "pad.js", "forces.js", "tunables.js", "live.js", "start.js"})
+    fields["script"] += built_in(part, diagnostics);
 }
 
 std::string drawing(const Network& network) {
-  const auto drawn = std::count_if(network.elements.begin(), network.elements.end(), [](const Element& e) { return e.has_effect; });
+  const auto has_effect = [](const Element& e) { return e.has_effect; };
+  const auto drawn = std::count_if(network.elements.begin(), network.elements.end(), has_effect);
   if (static_cast<std::size_t>(drawn) <= most_drawn_elements) return schematic(network);
   return fmt::format("<p class=\"note\">{} elements are too many to draw.</p>", drawn);
 }
 
 }  // namespace
 
-std::optional<std::string> report(const Compilation& c, const std::optional<std::string>& module, Diagnostics& diagnostics) {
+std::optional<std::string> report(const Compilation& c, const std::optional<std::string>& module,
+                                  Diagnostics& diagnostics) {
   CodeModel model;
   Fields& fields = model.fields;
   fields["title"] = escaped(c.network.title.empty() ? c.network.name : c.network.title);
   fields["name"] = escaped(c.network.name);
-  fields["choices"] = escaped(fmt::format("{} at {} Hz, {}, {}", name_of(c.law.scheme), number_text(c.rate, 6), name_of(c.law.scalar),
-                                          c.device ? "for " + c.device->name : "for an ideal device"));
+  fields["choices"] = escaped(fmt::format("{} at {} Hz, {}, for {}", name_of(c.law.scheme), number_text(c.rate, 6),
+                                          name_of(c.law.scalar), c.device ? c.device->name : "an ideal device"));
   fields["source"] = escaped(c.network.source);
   fields["version"] = DASHPOT_VERSION;
   fields["digest"] = c.network.digest;
@@ -127,6 +151,7 @@ std::optional<std::string> report(const Compilation& c, const std::optional<std:
   fields["law"] = update_law_html(c);
   fields["responses"] = (is_linear(c) ? linear_responses_html(c) : "") + hysteresis_html(c);
   add_linear_parts(c, model);
+  add_passivity(c, model);
   add_live_part(c, module.has_value(), model);
   fields["data"] = data_json(c, module);
   add_page(model, diagnostics);

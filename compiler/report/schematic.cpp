@@ -19,7 +19,8 @@ std::string framed(const Inside& inside, const Network& network) {
   const double above = std::max(0.0, 42 - inside.tool_height), below = std::max(0.0, inside.tool_height + 34 - inside.height);
   const double width = first + inside.length + 26 + margin, height = inside.height + above + below + 2 * margin;
   const double top = margin + above;
-  std::string svg = fmt::format("<svg class=\"schematic\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" role=\"img\" "
+  std::string svg = fmt::format("<svg class=\"schematic\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+                                "role=\"img\" "
                                 "aria-label=\"Drawing of {2}\">\n", width, height, escaped(network.name));
   svg += tool_symbol({margin + tool_length, top + inside.tool_height});
   if (network.contact) svg += contact_symbol({margin + tool_length, top + inside.tool_height});

@@ -52,8 +52,8 @@ std::string element_symbol(const Element& element, motion port_motion, Place sta
   std::string svg = wire(start, {first, start.y});
   svg += std::visit([&](const auto& law) { return strokes(law, {first, start.y}); }, element.law);
   svg += wire({first + symbol_length, start.y}, {start.x + length, start.y});
-  svg += fmt::format("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", middle, start.y - 27, escaped(element.name));
-  return svg + fmt::format("<text class=\"value\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", middle, start.y - 14.5,
+  svg += fmt::format("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", middle, start.y - 30, escaped(element.name));
+  return svg + fmt::format("<text class=\"value\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", middle, start.y - 17,
                            value_text(element, port_motion));
 }
 
@@ -62,7 +62,9 @@ std::string wire(Place from, Place to) {
   return stroke(fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", from.x, from.y, to.x, to.y));
 }
 
-std::string junction(Place at) { return fmt::format("<circle class=\"joint\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\"/>\n", at.x, at.y); }
+std::string junction(Place at) {
+  return fmt::format("<circle class=\"joint\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.6\"/>\n", at.x, at.y);
+}
 
 std::string tool_symbol(Place at) {
   const double x = at.x - tool_length;

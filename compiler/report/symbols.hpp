@@ -12,7 +12,7 @@ struct Place {
 };
 
 inline constexpr double symbol_length = 76;  // from end to end, leads included [px]
-inline constexpr double label_rise = 37;     // from the axis to the top of the name above it [px]
+inline constexpr double label_rise = 40;     // from the axis to the top of the name above it [px]
 inline constexpr double symbol_drop = 19;    // from the axis to the lowest stroke [px]
 
 // Room that the element with its name and value takes along the axis [px].

@@ -96,7 +96,8 @@ std::string drawn(const Part& part, Place start, double length, const Network& n
 Inside tree_layout(const Tree& tree, const Network& network) {
   const Part all = measured(tree, network);
   const Extent& size = all.extent;
-  const std::string svg = drawn(all, {0, size.above}, size.length, network) + wire({size.length, size.above}, {size.length + 12, size.above});
+  const std::string svg = drawn(all, {0, size.above}, size.length, network) +
+                          wire({size.length, size.above}, {size.length + 12, size.above});
   return {svg, size.length, size.above + size.below, size.above, size.above - 26, size.above + 26};
 }
 

@@ -25,8 +25,9 @@ bool only_copies(const UpdateLaw& law, const Statement& statement) {
 std::string coupled(const UpdateLaw& law, const Statement& statement) {
   const Coupling& coupling = law.couplings[statement.coupling];
   return line(variable_mathml(law.variables[statement.target]), "=",
-              "<mi>slips</mi><mo>(</mo>" + expression_mathml(law, statement.value) + "<mo>)</mo>",
-              fmt::format("{} coupled slips, at most {} operations", coupling.slips.size(), coupling.operations()));
+              "<mi>slips</mi><mo stretchy=\"false\">(</mo>" + expression_mathml(law, statement.value) + "<mo stretchy=\"false\">)</mo>",
+              fmt::format("{} slip{} at most {} operations", coupling.slips.size(),
+                          coupling.slips.size() == 1 ? "," : "s together,", coupling.operations()));
 }
 
 std::string program(const UpdateLaw& law, const std::vector<Statement>& statements) {
@@ -90,6 +91,7 @@ std::string update_law_html(const Compilation& c) {
   std::string html = fmt::format("<p>At each sample, with the position <i>u</i> and an estimate <i>v̂</i> of the velocity: "
                                  "<b class=\"brake\">brake</b> <i>b</i>{} {}, <b class=\"motor\">motor</b> <i>m</i> [{}].</p>\n",
                                  (c.law.brake_changes() ? " from " : " = ") + brake_text(c.law), units.damping, units.force);
+  if (c.law.tunable) return html + tunable_law_html(c);
   html += "<h4>Before the command leaves</h4>\n" + program(c.law, c.law.output);
   const std::string after = program(c.law, c.law.update);
   if (after.find("<li>") != after.npos) html += "<h4>After it has left</h4>\n" + after;

@@ -76,9 +76,18 @@ class Browser:
 
     def drag(self, selector, places):
         """The pointer pressed at the first place, moved through the others and lifted; in pixels from the element's middle."""
+        first, *others = self._moves(selector, places)
+        self._point([first, {"type": "pointerDown", "button": 0}, *others, {"type": "pointerUp", "button": 0}])
+
+    def move(self, selector, places):
+        """The same without a button."""
+        self._point(self._moves(selector, places))
+
+    def _moves(self, selector, places):
         origin = {ELEMENT: self.find(selector)}
-        moves = [{"type": "pointerMove", "duration": 5, "origin": origin, "x": x, "y": y} for x, y in places]
-        steps = [moves[0], {"type": "pointerDown", "button": 0}, *moves[1:], {"type": "pointerUp", "button": 0}]
+        return [{"type": "pointerMove", "duration": 1, "origin": origin, "x": x, "y": y} for x, y in places]
+
+    def _point(self, steps):
         self._request("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"},
                                                         "actions": steps}]})
 

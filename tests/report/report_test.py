@@ -16,7 +16,8 @@ from browser import Browser
 
 DASHPOT = os.environ["DASHPOT"]
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
-NETWORKS = sorted([*SOURCE.glob("networks/paper/*.json"), *SOURCE.glob("networks/tissues/*.json")])
+NETWORKS = sorted(SOURCE.glob("networks/*/*.json"))
+TUNABLE = sorted(SOURCE.glob("networks/tunable/*.json"))
 FIG_5 = SOURCE / "networks/paper/second_order_maxwell.json"
 PANTOGRAPH = SOURCE / "runtime/devices/pantograph_brake_2009.json"
 MOST_BYTES = 300_000
@@ -44,6 +45,8 @@ DOWNLOADED = """
   document.getElementById('download').click();
   URL.createObjectURL = create;
   return blob.text();"""
+# Keys, as the protocol names them.
+TAB, END = "\ue004", "\ue010"
 # The page has shown a response, or says what is wrong.
 SETTLED = "return document.getElementById('status').textContent"
 
@@ -103,6 +106,11 @@ class Pages(unittest.TestCase):
         self.assertEqual(self.browser.log("browser"), [])
         self.assertEqual(self.browser.requested(), [])
 
+    def tunables(self):
+        """Name, default, least and most of each slider."""
+        return self.browser.run("return JSON.parse(document.getElementById('data').textContent).live.tunables"
+                                ".map((t) => [t.name, t.value, t.min, t.max])")
+
     def upload(self, text):
         path = self.write("motion.csv", text)
         self.browser.type("#upload", str(path))
@@ -116,17 +124,76 @@ class Pages(unittest.TestCase):
             for i in range(self.browser.run(f"return document.getElementById('{menu}').options.length")):
                 self.browser.click(f"#{menu} option:nth-child({i + 1})")
                 self.assertEqual(self.browser.run("return document.querySelectorAll('#pareto canvas').length"), 1)
+        for control, value in [("depth", "0.002"), ("duration", "0.7")]:
+            self.enter(control, value)
+            self.assertIn("largest force", self.browser.run(SETTLED))
+        self.assertAlmostEqual(max(float(row[1]) for row in self.response()), 0.002)
         self.browser.drag("#pad", [(-300, 0), (-100, -40), (50, 30), (200, 10)])
         self.assertIn("largest force", self.browser.run(SETTLED))
+        self.hover("#pareto .u-over", "#pareto .tip")
+        self.hover("#forces .u-over", "#forces .u-legend")
+        self.click_through_tunables()
         self.browser.click("summary")
+        self.assertTrue(self.browser.run("return document.querySelector('details').open"))
+        self.assert_all_used()
 
+    def click_through_tunables(self):
+        """The keys of every slider change the force from the instant that is asked for, and Defaults undoes it."""
+        if not self.tunables():
+            return
+        self.browser.click("[data-motion=sine]")
+        untouched = self.response()
+        for name, *_ in self.tunables():
+            self.enter("change-at", "0.35")
+            self.browser.type(f"#tunable-{name}", END)
+            changed = self.response()
+            self.assertEqual(changed[:350], untouched[:350], name)
+            self.assertNotEqual([row[3] for row in changed], [row[3] for row in untouched], name)
+            self.browser.click("#defaults")
+            self.assertEqual(self.response(), untouched, name)
+
+    def enter(self, control, value):
+        """In place of what a field holds."""
+        self.browser.run(f"document.getElementById('{control}').select()")
+        self.browser.type(f"#{control}", value + TAB)
+
+    def handed_out(self):
+        """What `dashpot simulate` would write: the page's response without the parameters that it puts behind."""
+        text, behind = self.browser.run(DOWNLOADED), len(self.tunables())
+        return "".join(",".join(line.split(",")[:-behind or None]) + "\n" for line in text.splitlines())
+
+    def response(self):
+        """Its rows."""
+        return list(csv.reader(io.StringIO(self.handed_out())))[1:]
+
+    def hover(self, chart, says):
+        """Moves the pointer all over a chart, which says numbers; a page without it has nothing to hover over."""
+        box = self.browser.run(f"const part = document.querySelector('{chart}'), box = part?.getBoundingClientRect();"
+                               "part?.scrollIntoView({ block: 'center' });"
+                               "return box ? [box.width / 2, box.height / 2] : null")
+        if box is None:
+            return
+        self.browser.run(f"const part = document.querySelector('{says}'); window.said = '';"
+                         "new MutationObserver(() => { said += part.textContent; })"
+                         ".observe(part, { attributes: true, childList: true, subtree: true, characterData: true })")
+        self.browser.move(chart, [(int(box[0] * i / 8), int(box[1] * j / 4)) for j in range(-3, 4) for i in range(-7, 8)])
+        self.assertRegex(self.browser.run("return said"), "[0-9]", chart)
+
+    def assert_all_used(self):
+        """No control is left that nothing above has used."""
+        found = self.browser.run(
+            "return [...document.querySelectorAll('button, input, select, summary, canvas#pad')]"
+            ".map((e) => e.dataset.motion ?? (e.id || e.tagName))")
+        known = {"press", "sine", "triangle", "steps", "upload", "download", "depth", "duration", "pad", "pareto-x", "pareto-y",
+                 "change-at", "defaults", "SUMMARY"} | {f"tunable-{name}" for name, *_ in self.tunables()}
+        self.assertEqual(set(found) - known, set())
     def assert_simulates(self, network, *choices, rate=1000, scalar="double"):
         for with_velocity in [False, True]:
             motion = self.upload(wiggle(rate, with_velocity))
             self.wait_for("700 samples")
             done = subprocess.run([DASHPOT, "simulate", str(network), *map(str, choices), "--input", str(motion)], capture_output=True,
                                   text=True, timeout=60, check=True)
-            self.assertEqual(columns(self.browser.run(DOWNLOADED), scalar), columns(done.stdout, scalar), network)
+            self.assertEqual(columns(self.handed_out(), scalar), columns(done.stdout, scalar), network)
 
     def test_every_network(self):
         """Fails if a page of a network in networks/ is too large, says anything on the console, asks for anything beyond
@@ -160,10 +227,38 @@ class Pages(unittest.TestCase):
                 self.open(network)
                 self.assertIn("three amplitudes", self.browser.run("return document.body.textContent"))
                 self.assertIn("brake b", self.browser.run("return document.getElementById('regimes').textContent"))
-                for left_out in ["candidates", "agreement", "passivity"]:
+                self.assertIn("ertified", self.browser.run("return document.getElementById('passivity').textContent"))
+                for left_out in ["candidates", "agreement"]:
                     self.assertIsNone(self.browser.run(f"return document.getElementById('{left_out}')"))
                 self.assert_simulates(network)
                 self.assert_quiet()
+
+    def test_tunables(self):
+        """Fails if a slider's set() is not that of the law: what the page hands out, with the parameters' values beside the
+        motion, is simulated anew by `dashpot simulate`, at rest, under load and with values that change at every sample."""
+        for network in TUNABLE:
+            with self.subTest(network=network.name):
+                self.open(network)
+                for i, (name, value, least, most) in enumerate(self.tunables()):
+                    self.enter("change-at", ["0", "0.1234", "0.3"][i % 3])
+                    self.browser.run(f"const slider = document.getElementById('tunable-{name}');"
+                                     f"slider.value = {least + 0.83 * (most - least)!r};"
+                                     "slider.dispatchEvent(new Event('input'))")
+                    self.assert_simulates_again(network)
+                rows = [line.split(",") for line in wiggle(1000, True).splitlines()]
+                names = [name for name, *_ in self.tunables()]
+                values = [[repr(least + (most - least) * (k % 97) / 90) for _, _, least, most in self.tunables()]
+                          for k in range(len(rows) - 1)]
+                self.upload("\n".join(",".join(a + b) for a, b in zip(rows, [names, *values])) + "\n")
+                self.wait_for("700 samples")
+                self.assert_simulates_again(network)
+                self.assert_quiet()
+
+    def assert_simulates_again(self, network):
+        motion = self.write("handed_out.csv", self.browser.run(DOWNLOADED))
+        done = subprocess.run([DASHPOT, "simulate", str(network), "--input", str(motion)], capture_output=True, text=True, timeout=60,
+                              check=True)
+        self.assertEqual(columns(self.handed_out(), "double"), columns(done.stdout, "double"))
 
     def test_least_networks(self):
         """Fails if a lone element, which has no mode and perhaps no stiffness, breaks a page."""

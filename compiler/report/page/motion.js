@@ -1,22 +1,32 @@
-// Motions: {position: Float64Array, velocity: Float64Array or null, time: Float64Array or null}. Without velocities they
-// are the slope since the sample before; without times those are counted from 0.
+// Motions: {position: Float64Array, velocity: Float64Array or null, time: Float64Array or null, values: for each sample those
+// of the tunables, or null}. Without velocities they are the slope since the sample before; without times those are counted
+// from 0.
 
 // A recorded motion as `dashpot simulate` reads it. Throws what is wrong with it.
-function motion_of_csv(text, period) {
+function motion_of_csv(text, period, tunables) {
   const rows = text.replace(/^\uFEFF/, '').split('\n').map((line) => line.trim()).filter((line) => line !== '')
     .map((line) => line.split(',').map((cell) => cell.replace(/^[\s"]+|[\s"]+$/g, '')));
   if (rows.length < 2) throw new Error('no rows; a header and at least one row are expected');
   const column = (name) => {
-    if (rows[0].filter((title) => title === name).length > 1) throw new Error(`column '${name}' is there twice`);
+    const places = rows[0].filter((title) => title === name);
+    if (places.length > 1) throw new Error(`column '${name}' is there twice`);
     return rows[0].indexOf(name);
   };
   const places = { time: column('time'), position: column('position'), velocity: column('velocity') };
   for (const name of ['time', 'position'])
     if (places[name] < 0) throw new Error(`no column '${name}'; 'time' and 'position' are expected`);
   const values = (name) => Float64Array.from(rows.slice(1), (row, i) => number(row, places[name], rows[0].length, name, i + 2));
-  const motion = { time: values('time'), position: values('position'), velocity: places.velocity < 0 ? null : values('velocity') };
-  check_period(motion.time, period);
-  return motion;
+  const time = values('time'), position = values('position'), velocity = places.velocity < 0 ? null : values('velocity');
+  check_period(time, period);
+  return { time, position, velocity, values: recorded_values(rows, column, tunables) };
+}
+
+// Of columns that are called like tunables; one that has none keeps its default.
+function recorded_values(rows, column, tunables) {
+  const places = tunables.map((tunable) => column(tunable.name));
+  if (places.every((place) => place < 0)) return null;
+  return rows.slice(1).map((row, i) => tunables.map((tunable, j) =>
+    places[j] < 0 ? tunable.value : number(row, places[j], rows[0].length, tunable.name, i + 2)));
 }
 
 function number(row, place, count, name, line) {
@@ -36,7 +46,8 @@ function check_period(time, period) {
       throw new Error(`row ${i + 3} follows after ${step} s; a uniform period of ${median} s is expected`);
   });
   if (!(Math.abs(median / period - 1) <= 1e-6))
-    throw new Error(`rows come at ${rounded(1 / median)} Hz, the law of this page runs at ${rounded(1 / period)} Hz; write the report with --rate ${rounded(1 / median)}`);
+    throw new Error(`rows come at ${rounded(1 / median)} Hz, the law of this page runs at ${rounded(1 / period)} Hz; ` +
+                    `write the report with --rate ${rounded(1 / median)}`);
 }
 
 // Of depth 1, over times from 0 to 1.
@@ -49,5 +60,6 @@ const shapes = {
 
 function motion_of_shape(shape, depth, duration, period) {
   const count = Math.round(duration / period);
-  return { time: null, velocity: null, position: Float64Array.from({ length: count + 1 }, (_, k) => depth * shape(k / count)) };
+  const position = Float64Array.from({ length: count + 1 }, (_, k) => depth * shape(k / count));
+  return { time: null, position, velocity: null, values: null };
 }

@@ -12,7 +12,8 @@ const rounded = (value) => (value === 0 ? '0' : Number(value.toPrecision(4)).toS
 // scheme, and for paper, which is always light.
 const drawings = [];
 const draw_all = () => drawings.forEach((draw) => draw());
-const width_of = (holder) => Math.max(240, Math.min(holder.clientWidth, document.documentElement.classList.contains('printing') ? 640 : 4000));
+const widest = () => (document.documentElement.classList.contains('printing') ? 640 : 4000);
+const width_of = (holder) => Math.max(240, Math.min(holder.clientWidth, widest()));
 
 function set_up_redrawing() {
   let waiting = 0;

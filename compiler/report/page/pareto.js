@@ -70,27 +70,45 @@ function set_up_pareto(figures, candidates) {
     ctx.stroke();
     ctx.setLineDash([]);
     ctx.font = `${11.5 * scale}px ${sans()}`;
-    for (const p of points) paint_point(u, ctx, p, place(p), scale);
+    for (const p of points) paint_point(ctx, p, place(p), scale);
+    paint_names(u, ctx, points.map((p) => [p, place(p)]), scale);
     ctx.restore();
   }
 
-  function paint_point(u, ctx, p, [px, py], scale) {
+  function paint_point(ctx, p, [px, py], scale) {
     ctx.beginPath();
     ctx.arc(px, py, (p.chosen ? 6 : 4.5) * scale, 0, 2 * Math.PI);
     ctx.fillStyle = p.chosen ? colour('--brake') : colour('--paper');
     ctx.strokeStyle = p.chosen ? colour('--brake') : colour(p.beaten ? '--muted' : '--ink');
     ctx.fill();
     ctx.stroke();
-    const name = p.names.length > 2 ? `${p.names[0]} and ${p.names.length - 1} more` : p.names.join(', ');
-    const goes_left = px + ctx.measureText(name).width + 14 * scale > u.bbox.left + u.bbox.width;
-    ctx.textAlign = goes_left ? 'right' : 'left';
-    ctx.fillStyle = colour(p.beaten && !p.chosen ? '--muted' : '--ink');
-    ctx.fillText(name, px + (goes_left ? -10 : 10) * scale, py - 7 * scale);
+  }
+
+  // Beside its point, where no other name is: the chosen one first.
+  function paint_names(u, ctx, placed, scale) {
+    const reach = 5 * scale;
+    const taken = placed.map(([, [px, py]]) => ({ left: px - reach, right: px + reach, top: py - reach, bottom: py + reach }));
+    ctx.textAlign = 'left';
+    const is_free = (box) => box.left > 0 && box.right < u.bbox.left + u.bbox.width + 12 * scale && box.top > 0 &&
+      taken.every((t) => box.right < t.left || box.left > t.right || box.bottom < t.top || box.top > t.bottom);
+    for (const [p, [px, py]] of placed.slice().sort((a, b) => b[0].chosen - a[0].chosen)) {
+      const name = p.names.length > 2 ? `${p.names[0]} and ${p.names.length - 1} more` : p.names.join(', ');
+      const width = ctx.measureText(name).width, height = 12 * scale;
+      const boxes = [];
+      for (const down of [-7, 15, -22, 30, -37, 45])
+        for (const left of [px + 9 * scale, px - width - 9 * scale])
+          boxes.push({ left, right: left + width, top: py + down * scale - height, bottom: py + down * scale });
+      const box = boxes.find(is_free) ?? boxes[0];
+      taken.push(box);
+      ctx.fillStyle = colour(p.beaten && !p.chosen ? '--muted' : '--ink');
+      ctx.fillText(name, box.left, box.bottom - 2 * scale);
+    }
   }
 
   function show_nearest(event, points, titles, tip) {
     const box = chart.over.getBoundingClientRect(), outer = holder.getBoundingClientRect();
-    const from = (p) => Math.hypot(chart.valToPos(p.x, 'x') - event.clientX + box.left, chart.valToPos(p.y, 'y') - event.clientY + box.top);
+    const across = event.clientX - box.left, down = event.clientY - box.top;
+    const from = (p) => Math.hypot(chart.valToPos(p.x, 'x') - across, chart.valToPos(p.y, 'y') - down);
     const nearest = points.reduce((best, p) => (best && from(best) <= from(p) ? best : p), null);
     tip.hidden = !nearest || from(nearest) > 40;
     if (tip.hidden) return;

@@ -1,0 +1,59 @@
+#include "report/certificate_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/markup.hpp"
+#include "report/number_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string fact(const std::string& name, const std::string& value, const std::string& unit) {
+  return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n", name, value, unit);
+}
+
+// A line of the certificate as a sentence below the heading.
+std::string sentence(std::string line) {
+  constexpr std::string_view heading = "passivity: ";
+  if (line.compare(0, heading.size(), heading) == 0) line.erase(0, heading.size());
+  line.erase(0, line.find_first_not_of(' '));
+  if (!line.empty() && line[0] >= 'a' && line[0] <= 'z') line[0] = char(line[0] - 'a' + 'A');
+  return "<p>" + escaped(line) + ".</p>\n";
+}
+
+std::string damping_facts(const Certificate& c, const PortUnits& units) {
+  std::string html = fact("damping needed at most", number_text(c.bound.needed, 6), units.damping);
+  if (c.bound.frequency > 0) html += fact("where it binds", number_text(c.bound.frequency), "Hz");
+  html += fact("damping assured", number_text(c.assured, 6), units.damping);
+  if (c.added_damping > 0) html += fact("of it added for passivity", number_text(c.added_damping, 6), units.damping);
+  if (c.certified) return html;
+  const double missing = c.minimum_damping - c.added_damping;
+  const std::string lacking = std::isfinite(missing) ? number_text(missing, 6) : "no command would do";
+  return html + fact("lacking in the brake's command", lacking, units.damping);
+}
+
+std::string encoder_facts(const Certificate& c, const PortUnits& units) {
+  if (c.loop.encoder_step == 0) return "";
+  std::string html;
+  if (c.quantisation_gain)
+    html += fact("an error of the encoder reaches the motor with", number_text(*c.quantisation_gain), units.stiffness);
+  html += fact("friction pays for up to 2<i>f</i><sub>c</sub>/Δ =", number_text(c.quantisation_stiffness), units.stiffness);
+  if (unpaid_force(c) > 0)
+    html += fact("of the energy that it brings in are unpaid", number_text(unpaid_force(c)), "J/" + units.position);
+  return html;
+}
+
+}  // namespace
+
+std::string certificate_html(const Compilation& compilation) {
+  const Certificate& c = compilation.certificate;
+  const PortUnits units = port_units(compilation.network.port_motion);
+  std::string html;
+  for (const std::string& line : passivity_lines(c, units.damping)) html += sentence(line);
+  const std::string facts = (c.bound.proof == Proof::none ? "" : damping_facts(c, units)) + encoder_facts(c, units);
+  return facts.empty() ? html : html + "<table class=\"facts\"><tbody>\n" + facts + "</tbody></table>\n";
+}
+
+}  // namespace dashpot::compiler

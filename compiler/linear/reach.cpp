@@ -23,14 +23,14 @@ bool are_near(const Network& network, std::string_view kinds, Diagnostics& diagn
   return false;
 }
 
-bool are_small(const Network& network, Diagnostics& diagnostics) {
+bool are_small(const Network& network, std::size_t most_nodes, Diagnostics& diagnostics) {
   std::vector<std::size_t> elements;
   for (std::size_t i = 0; i < network.elements.size(); ++i)
     if (network.elements[i].has_effect) elements.push_back(i);
   for (const Part& part : independent_parts(network, elements, tool, ground)) {
-    if (part.internal.size() <= most_inner_nodes) continue;
+    if (part.internal.size() <= most_nodes) continue;
     const Element& first = network.elements[part.elements.front()];
-    diagnostics.report<DiagnosticCode::part_too_large>(first.span, first.name, part.internal.size(), most_inner_nodes);
+    diagnostics.report<DiagnosticCode::part_too_large>(first.span, first.name, part.internal.size(), most_nodes);
     return false;
   }
   return true;
@@ -38,10 +38,10 @@ bool are_small(const Network& network, Diagnostics& diagnostics) {
 
 }  // namespace
 
-bool is_within_reach(const Network& network, Diagnostics& diagnostics) {
+bool is_within_reach(const Network& network, Diagnostics& diagnostics, std::size_t most_nodes) {
   const bool springs = are_near<Spring>(network, "springs", diagnostics);
   const bool dampers = are_near<Damper>(network, "dampers", diagnostics);
-  return springs && dampers && are_small(network, diagnostics);
+  return springs && dampers && are_small(network, most_nodes, diagnostics);
 }
 
 }  // namespace dashpot::compiler

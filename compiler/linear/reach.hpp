@@ -12,6 +12,6 @@ inline constexpr double widest_spread = 1e24;
 inline constexpr std::size_t most_inner_nodes = 400;
 
 // Refuses, with the elements, values further apart, and parts of more nodes.
-bool is_within_reach(const Network& network, Diagnostics& diagnostics);
+bool is_within_reach(const Network& network, Diagnostics& diagnostics, std::size_t most_nodes = most_inner_nodes);
 
 }  // namespace dashpot::compiler

@@ -3,6 +3,8 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <nlohmann/json.hpp>
 
+#include <limits>
+
 #include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
@@ -90,18 +92,32 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
           {"added_damping", c.certificate.added_damping}};
 }
 
+// The value that is called so.
+template <class Value, std::size_t count>
+Value named(const Json& json, const char* key, const Value (&values)[count]) {
+  const std::string name = json.at(key);
+  for (const Value value : values)
+    if (name_of(value) == name) return value;
+  throw std::invalid_argument(key);
+}
+
+// A damping, or the rate, in its range.
+double number_within(const Json& json, const char* key, double low, double high) {
+  const double value = json.at(key).get<double>();
+  if (!(value >= low && value <= high)) throw std::invalid_argument(key);
+  return value;
+}
+
+constexpr double largest = std::numeric_limits<double>::max();
+
 Choices choices_of(const Json& json) {
   Choices choices;
-  choices.rate = json.at("rate").get<double>();
-  choices.scheme = json.at("scheme") == "exact" ? Scheme::exact : Scheme::backward_euler;
-  choices.scalar = json.at("scalar") == "float" ? ScalarType::float32 : ScalarType::float64;
-  const std::string input = json.at("state_input");
-  choices.state_input = input == "position"   ? StateInput::position
-                        : input == "velocity" ? StateInput::velocity
-                                              : StateInput::nodal;
-  const Json& decomposition = json.at("decomposition");
-  if (decomposition.is_number()) choices.decomposition = decomposition.get<double>();
-  else choices.decomposition = decomposition.get<std::string>();
+  choices.rate = number_within(json, "rate", lowest_rate, highest_rate);
+  choices.scheme = named(json, "scheme", {Scheme::exact, Scheme::backward_euler});
+  choices.scalar = named(json, "scalar", {ScalarType::float64, ScalarType::float32});
+  choices.state_input = named(json, "state_input", {StateInput::position, StateInput::velocity, StateInput::nodal});
+  if (json.at("decomposition").is_number()) choices.decomposition = number_within(json, "decomposition", 0, largest);
+  else choices.decomposition = json.at("decomposition").get<std::string>();
   return choices;
 }
 
@@ -112,9 +128,9 @@ CertificateFile file_of(const Json& json) {
   if (!json.at("device_file").is_null()) file.device_text = json.at("device_file").get<std::string>();
   const Json& law = json.at("law");
   file.choices = choices_of(law);
-  file.damping = law.at("damping").get<double>();
-  file.brake_command = law.at("brake_command").get<double>();
-  file.added_damping = law.at("added_damping").get<double>();
+  file.damping = number_within(law, "damping", 0, largest);
+  file.brake_command = number_within(law, "brake_command", 0, largest);
+  file.added_damping = number_within(law, "added_damping", 0, largest);
   const Json& passivity = json.at("passivity");
   file.proof = passivity.at("proof").get<std::string>();
   file.needed_damping = passivity.at("needed_damping").get<double>();

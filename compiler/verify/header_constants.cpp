@@ -1,6 +1,7 @@
 #include "verify/header_constants.hpp"
 
 #include <charconv>
+#include <cmath>
 
 namespace dashpot::compiler {
 namespace {
@@ -16,8 +17,9 @@ std::optional<double> number(std::string_view text, ScalarType scalar) {
   double wide = 0;
   float narrow = 0;
   const auto [stop, error] = single ? std::from_chars(text.data(), end, narrow) : std::from_chars(text.data(), end, wide);
-  if (error != std::errc() || stop != end) return std::nullopt;
-  return single ? static_cast<double>(narrow) : wide;
+  const double value = single ? static_cast<double>(narrow) : wide;
+  if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 // "{1.0, 2.0}" or "1.0"

@@ -20,7 +20,7 @@ struct HeaderConstants {
   std::vector<HeaderConstant> all;  // in the order of the text
 };
 
-// Empty where a constant's value is no number, or the scalar is neither double nor float.
+// Empty where a constant's value is no finite number, or the scalar is neither double nor float.
 std::optional<HeaderConstants> header_constants(std::string_view header);
 
 // The header without what is not code: the banner before "#pragma once", and the digests.

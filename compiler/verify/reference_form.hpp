@@ -1,5 +1,5 @@
 // The canonical form of a linear network once more, by code that shares nothing with linear/: dense matrices of 100
-// digits and Jacobi's rotations, for checking what the compiler emitted.
+// digits, Householder's reduction and the QL method, for checking what the compiler emitted.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

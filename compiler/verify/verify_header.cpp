@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "decompose/observer.hpp"
+#include "linear/reach.hpp"
 #include "verify/reference_constants.hpp"
 
 namespace dashpot::compiler {
@@ -156,11 +157,16 @@ std::optional<std::size_t> verify_constants(const CertificateFile& certificate, 
     diagnostics.report<DiagnosticCode::verify_needs_linear>({}, network.name);
     return std::nullopt;
   }
+  if (!is_within_reach(network, diagnostics, most_verified_nodes)) return std::nullopt;
   Verification verification(certificate, header, diagnostics);
   verification.compare_with_certificate();
   verification.recompute_constants(realised(network, certificate, device));
-  verification.recompute_bounds(device);
   return verification.constants();
+}
+
+void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
+                   Diagnostics& diagnostics) {
+  Verification(certificate, header, diagnostics).recompute_bounds(device);
 }
 
 }  // namespace dashpot::compiler

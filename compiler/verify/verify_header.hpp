@@ -6,12 +6,20 @@
 
 namespace dashpot::compiler {
 
-// In: a certificate, the network and device in it, and the text of a header. Recomputes every constant from the network
-// in 100 digits by code of its own and requires the nearest number; recomputes the bounds from the header's constants.
-// Reports every disagreement. Out: how many constants were checked; empty where a header has none or the law is not
-// linear. The code around the constants is compared by its callers, who can compile the network again.
+// Inner nodes of a part, at most: 100 digits take minutes for more.
+inline constexpr std::size_t most_verified_nodes = 200;
+
+// In: a certificate, the network in it, the device in it, and the text of a header. Recomputes every constant from the
+// network in 100 digits by code of its own and requires the nearest number. Reports every disagreement. Out: how many
+// constants were checked; empty where a header has none or the law is not linear, or is too large. The code around the
+// constants is compared by its callers, who can compile the network again.
 std::optional<std::size_t> verify_constants(const CertificateFile& certificate, const Network& network,
                                             const PortDevice& device, const HeaderConstants& header,
                                             Diagnostics& diagnostics);
+
+// The bounds in the certificate, recomputed from the header's constants. Those must have been found right, and so must
+// the code around them: there are no bounds of any numbers whatever.
+void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
+                   Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

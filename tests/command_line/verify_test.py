@@ -114,6 +114,28 @@ class Verify(CommandTest):
         self.write("more.json", json.dumps(told))
         self.refused("verify", "more.json", "header.hpp", code="bound-wrong")
 
+    def test_numbers_of_which_nothing_follows(self):
+        """Fails if a header or certificate of absurd numbers ends `verify` by itself, in place of a refusal."""
+        header, certificate = self.emitted([FIG_5, "--device", PANTOGRAPH], "law")
+        for number, code in [("1e308", "constant-wrong"), ("inf", "no-emitted-header"), ("nan", "no-emitted-header")]:
+            absurd = re.sub(r"(scalar step_stiffness = )[^;]*", rf"\g<1>{number}", header)
+            self.assertIn(code, self.verify(absurd, certificate, "absurd", INPUT_REFUSED).stderr)
+        for key, value in [("rate", 0), ("rate", 1e300), ("damping", -1), ("scheme", "other"), ("decomposition", -1)]:
+            told = json.loads(certificate)
+            told["law"][key] = value
+            self.assertIn("no-certificate", self.verify(header, json.dumps(told), "told", INPUT_REFUSED).stderr)
+
+    def test_parts_that_are_too_large(self):
+        """Fails if a certificate can ask for minutes of work, or for more memory than there is."""
+        header, certificate = self.emitted([FIG_5], "law")
+        told = json.loads(certificate)
+        ends = ["tool"] + [f"n{i}" for i in range(201)]
+        rungs = [{"spring": 1, "nodes": [a, b]} for a, b in zip(ends, ends[1:])]
+        rungs += [{"damper": 1, "nodes": [end, "ground"]} for end in ends[1:]]
+        told["network_file"] = json.dumps({"dashpot": 1, "name": "second_order_maxwell", "elements": rungs})
+        refusal = self.verify(header, json.dumps(told), "large", INPUT_REFUSED).stderr
+        self.assertIn("has 201 inner nodes; at most 200 are eliminated together [part-too-large]", refusal)
+
     def test_slips_are_refused(self):
         """Fails if a law with slips is said to be verified."""
         slip = network('{ "parallel": [ { "spring": 5 }, { "series": [ { "slip": 1 }, { "spring": 100 } ] } ] }', "slip")

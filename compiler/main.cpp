@@ -24,6 +24,7 @@ struct CommandLine {
   std::string scheme = "exact";
   std::string scalar = "double";
   std::string state_input = "auto";
+  std::string vector = "sse2";
   std::string decomposition = "most-dissipative";
   std::string diagnostics = "text";
   std::string target = "cpp";
@@ -72,6 +73,9 @@ void add_choices(CLI::App& command, CommandLine& line) {
   command.add_option("--scalar", line.scalar, "Type of the emitted numbers, default double")
       ->check(CLI::IsMember({"double", "float"}))
       ->option_text("double|float");
+  command.add_option("--vector", line.vector, "Registers that loops over many states are for, default sse2")
+      ->check(CLI::IsMember({"none", "sse2", "avx2", "avx512", "neon"}))
+      ->option_text("none|sse2|avx2|avx512|neon");
 }
 
 CLI::App* add_command(CLI::App& app, CommandLine& line, const char* name, const char* what) {
@@ -103,6 +107,8 @@ void describe(CLI::App& app, CommandLine& line) {
   add_choices(*compile, line);
   compile->add_option("-o,--output", options.output, "Folder to write to, default the current one")->option_text("DIR");
   compile->add_option("--target", line.target, "Language to write")->check(CLI::IsMember({"cpp"}))->option_text("cpp");
+  compile->add_flag("--constant-time", options.emission.constant_time, "No jump, division or call in a step depends on its values");
+  compile->add_flag("--batch", options.emission.batch, "Also write NAME_batch.hpp, a class for many points of the network");
   compile->add_flag("--with-test", options.emission.with_test, "Also write NAME_test.cpp against the closed forms");
   compile->add_flag("--uncertified", options.uncertified, "Also write a law that lacks damping for passivity on its device");
   compile->add_option("--templates", options.emission.templates, "Folder of templates in place of the built-in ones")
@@ -164,6 +170,8 @@ void take_over_words(CommandLine& line) {
   Choices& choices = line.options.choices;
   if (line.scheme == "backward-euler") choices.scheme = Scheme::backward_euler;
   if (line.scalar == "float") choices.scalar = ScalarType::float32;
+  for (VectorRegisters registers : {VectorRegisters::none, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon})
+    if (line.vector == name_of(registers)) choices.registers = registers;
   if (line.state_input == "position") choices.state_input = StateInput::position;
   if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
   if (line.state_input == "nodal") choices.state_input = StateInput::nodal;

@@ -33,6 +33,12 @@ std::string escaped(const std::string& path) {
   return text;
 }
 
+std::vector<std::string> templates_of(const EmissionOptions& options) {
+  std::vector<std::string> names = {"network.hpp.in", "network_test.cpp.in"};
+  if (options.batch) names.push_back("batch.hpp.in");
+  return names;
+}
+
 // A makefile with one rule.
 std::string dependencies(const Options& options, const std::vector<OutputFile>& files) {
   std::string text;
@@ -41,7 +47,7 @@ std::string dependencies(const Options& options, const std::vector<OutputFile>& 
   for (const std::string& network : options.networks) text += " \\\n  " + escaped(network);
   if (options.device) text += " \\\n  " + escaped(*options.device);
   if (options.emission.templates)
-    for (const char* name : {"network.hpp.in", "network_test.cpp.in"})
+    for (const std::string& name : templates_of(options.emission))
       text += " \\\n  " + escaped((std::filesystem::path(*options.emission.templates) / name).string());
   return text + "\n";
 }

@@ -15,4 +15,26 @@ std::string_view name_of(StateInput input) {
 
 std::string_view name_of(ScalarType scalar) { return scalar == ScalarType::float64 ? "double" : "float"; }
 
+std::string_view name_of(VectorRegisters registers) {
+  switch (registers) {
+    case VectorRegisters::none: return "none";
+    case VectorRegisters::sse2: return "sse2";
+    case VectorRegisters::avx2: return "avx2";
+    case VectorRegisters::avx512: return "avx512";
+    case VectorRegisters::neon: return "neon";
+  }
+  return "";
+}
+
+std::size_t bytes_of(VectorRegisters registers) {
+  switch (registers) {
+    case VectorRegisters::none: return 0;
+    case VectorRegisters::sse2:
+    case VectorRegisters::neon: return 16;
+    case VectorRegisters::avx2: return 32;
+    case VectorRegisters::avx512: return 64;
+  }
+  return 0;
+}
+
 }  // namespace dashpot::compiler

@@ -178,20 +178,19 @@ Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
   return Scalar(0);
 }
 
-// Partial sums in turn, then those in order; one lane is the plain sum from the first to the last.
 template <class Scalar>
 Scalar Evaluation<Scalar>::sum(ExpressionId id) const {
   const std::vector<Scalar>& vector = variables_[law_.expressions[id].left];
-  if (law_.lanes == 1) {
+  if (!law_.is_rolled(vector.size())) {
     Scalar total = vector[0];
     for (std::size_t i = 1; i < vector.size(); ++i) total += vector[i];
     return total;
   }
   std::vector<Scalar> lanes(law_.lanes, Scalar(0));
   for (std::size_t i = 0; i < vector.size(); ++i) lanes[i % law_.lanes] += vector[i];
-  Scalar total = lanes[0];
-  for (std::size_t i = 1; i < lanes.size(); ++i) total += lanes[i];
-  return total;
+  for (std::size_t half = law_.lanes / 2; half > 0; half /= 2)
+    for (std::size_t i = 0; i < half; ++i) lanes[i] += lanes[i + half];
+  return lanes[0];
 }
 
 template class Evaluation<float>;

@@ -27,7 +27,9 @@ class Printer {
       case Operation::multiply: return binary(e, " * ");
       case Operation::flush: return spelling_.flush(text(e.left));
       case Operation::clamp: return spelling_.clamp(text(e.left), text(e.right));
-      case Operation::where: return grouped(e.condition, 1) + " > 0 ? " + grouped(e.left, 1) + " : " + grouped(e.right, 1);
+      case Operation::where:
+        if (spelling_.where) return spelling_.where(text(e.condition), text(e.left), text(e.right));
+        return grouped(e.condition, 1) + " > 0 ? " + grouped(e.left, 1) + " : " + grouped(e.right, 1);
       case Operation::sum: return spelling_.sum(law_.variables[law_.expressions[e.left].left]);
     }
     return "";
@@ -36,13 +38,18 @@ class Printer {
  private:
   // Operators associate to the left: a right operand of equal precedence needs its parentheses.
   std::string binary(const Expression& e, const char* sign) const {
-    const int own = precedence(e.operation);
+    const int own = own_precedence(e.operation);
     return grouped(e.left, own) + sign + grouped(e.right, own + 1);
   }
 
   std::string grouped(ExpressionId id, int least_precedence) const {
     const std::string inner = text(id);
-    return precedence(law_.expressions[id].operation) < least_precedence ? "(" + inner + ")" : inner;
+    return own_precedence(law_.expressions[id].operation) < least_precedence ? "(" + inner + ")" : inner;
+  }
+
+  // A call needs no parentheses.
+  int own_precedence(Operation operation) const {
+    return operation == Operation::where && spelling_.where ? precedence(Operation::read) : precedence(operation);
   }
 
   const UpdateLaw& law_;

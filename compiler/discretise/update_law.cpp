@@ -112,6 +112,8 @@ std::string tunable_text(const TunableTables& tables) {
   return text;
 }
 
+}  // namespace
+
 std::string_view name_of(ModeForm form) {
   switch (form) {
     case ModeForm::product: return "product";
@@ -120,8 +122,6 @@ std::string_view name_of(ModeForm form) {
   }
   return "";
 }
-
-}  // namespace
 
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
   Cost cost;
@@ -143,6 +143,7 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
                                  name_of(law.scheme), name_of(law.state_input), name_of(law.scalar), law.sample_period,
                                  damping, name_of(law.mode_form));
   if (law.tunable) return text + tunable_text(*law.tunable);
+  if (law.lanes > 1) text += fmt::format("  vectors of {} places and more are summed in {} partial sums\n", law.rolled_from, law.lanes);
   for (const Coefficient& coefficient : law.coefficients) {
     text += fmt::format("  {} [{}]", coefficient.name, coefficient.unit);
     for (double value : coefficient.values) text += fmt::format(" {}", value);

@@ -62,7 +62,8 @@ enum class Operation : std::uint8_t {
   flush,  // zero below the law's threshold, so that no state becomes subnormal
   clamp,  // left within ± right
   where,  // left where `condition` is above zero, else right
-  sum,    // of a vector: `lanes` partial sums in turn, then those from the first to the last
+  sum,    // of a vector: from the first place to the last; where it is rolled, in `lanes` partial sums in turn, of which
+          // the second half is added to the first until one is left
 };
 
 struct Expression {
@@ -125,6 +126,8 @@ enum class ModeForm {
   compensated,  // delta, with the rounding error of the sum carried along (Kahan)
 };
 
+std::string_view name_of(ModeForm form);  // "product", "delta", "compensated"
+
 struct UpdateLaw {
   ScalarType scalar = ScalarType::float64;
   Scheme scheme = Scheme::exact;
@@ -135,7 +138,9 @@ struct UpdateLaw {
   double flush_threshold = 0;   // [N]: magnitudes below become zero
   ModeForm mode_form = ModeForm::product;
   double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
-  std::size_t lanes = 1;        // partial sums of a `sum`
+  std::size_t lanes = 1;        // partial sums of a rolled vector's `sum`, a power of two; 1 where nothing is rolled
+  std::size_t rolled_from = 0;  // places of the smallest vector that is rolled
+  std::size_t register_bytes = 0;  // of the machine that loops are laid out for; 0 where it has no vectors
 
   std::vector<Variable> variables;
   std::vector<Coefficient> coefficients;
@@ -158,6 +163,7 @@ struct UpdateLaw {
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
   VariableId stored = 0;    // [J]
 
+  bool is_rolled(std::size_t size) const { return lanes > 1 && size > 1 && size >= rolled_from; }
   bool brake_changes() const { return brake != no_variable; }
 };
 

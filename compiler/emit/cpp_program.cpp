@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_slips.hpp"
 #include "emit/cpp_statements.hpp"
@@ -12,21 +14,18 @@ namespace {
 
 class CppPrinter {
  public:
-  CppPrinter(const UpdateLaw& law, const Network& network) : law_(law), statements_(law, network) {}
+  CppPrinter(const UpdateLaw& law, const Network& network, Timing timing) : law_(law), timing_(timing), statements_(law, network, timing) {}
 
   CppProgram print() {
     CppProgram program;
-    program.headers = {"dashpot/command.hpp"};
-    if (!law_.networks.empty()) program.headers.push_back("dashpot/slip_network.hpp");
-    if (!law_.couplings.empty()) program.headers.push_back("dashpot/slip_tree.hpp");
+    program.headers = headers();
     program.output = statements_.lines_of(law_.output);
-    program.command = law_.brake_changes() ? fmt::format("{{{}, {}}}", CppStatements::scalar_name(law_.variables[law_.brake]),
-                                                         CppStatements::scalar_name(law_.variables[law_.force]))
-                                           : "{damping, force}";
-    program.safe_command = law_.brake_changes() ? fmt::format("{{{}, 0}}", CppStatements::scalar_name(law_.variables[law_.last_brake])) : "{damping, 0}";
-    program.keep = statements_.lines_of(law_.keep);
-    program.update = statements_.lines_of(law_.update);
+    program.keep = statements_.kept_lines_of(law_.keep);
+    program.update = statements_.kept_lines_of(law_.update);
+    timing_ == Timing::constant ? check_by_masks(program) : check_and_return(program);
     program.energy = statements_.lines_of(law_.energy);
+    for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
+    put_alias_before(program.output, program.keep);
     program.parameters = {"struct parameters {};"};
     program.set = {"// No parameter of this network can be set while it runs.", "unsigned set(const parameters&) noexcept { return 0; }"};
     program.reset = reset();
@@ -37,6 +36,40 @@ class CppPrinter {
   }
 
  private:
+  std::vector<std::string> headers() const {
+    std::vector<std::string> headers;
+    if (timing_ == Timing::constant) headers.push_back("dashpot/branch_free.hpp");
+    headers.push_back("dashpot/command.hpp");
+    if (!law_.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
+    if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
+    if (law_.lanes > 1) headers.push_back("dashpot/vector.hpp");
+    return headers;
+  }
+
+  std::string name_of(VariableId id) const { return CppStatements::scalar_name(law_.variables[id]); }
+
+  void check_and_return(CppProgram& program) const {
+    program.command = law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
+    check_by_jumps(program, law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}");
+  }
+
+  // What is kept of a sample that is no number is what was there before.
+  void check_by_masks(CppProgram& program) const {
+    program.check = {"sampled_ = dashpot::all_finite(position, velocity, force);",
+                     "const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);"};
+    program.command = fmt::format("{{{}, dashpot::branch_free::chosen(sampled, force, scalar(0))}}",
+                                  law_.brake_changes() ? name_of(law_.last_brake) : "damping");
+    if (!program.update.empty()) program.wait.push_back("const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);");
+    program.wait.push_back("sampled_ = false;");
+  }
+
+  // Where lines of one function have loops.
+  void put_alias_before(std::vector<std::string>& lines, const std::vector<std::string>& more = {}) const {
+    const auto uses_vectors = [](const std::string& line) { return line.find("vector::") != line.npos; };
+    if (std::any_of(lines.begin(), lines.end(), uses_vectors) || std::any_of(more.begin(), more.end(), uses_vectors))
+      lines.insert(lines.begin(), fmt::format("using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, {}>>;", law_.lanes));
+  }
+
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
     if (!law_.brake_changes())
@@ -53,19 +86,12 @@ class CppPrinter {
 
   void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {
     const std::string note = fmt::format("  // {} [{}]", coefficient.meaning, coefficient.unit);
-    if (coefficient.element_names.empty()) {
-      lines.push_back(fmt::format("static constexpr scalar {} = {};{}", coefficient.name, literal(coefficient.values[0]), note));
-    } else if (!statements_.is_rolled(coefficient)) {
-      for (std::size_t place = 0; place < coefficient.values.size(); ++place)
-        lines.push_back(fmt::format("static constexpr scalar {} = {};{}", coefficient.element_names[place],
-                                    literal(coefficient.values[place]), note));
-    } else {
-      std::string table = fmt::format("static constexpr scalar {}[{}] = {{", coefficient.name, statements_.padded(coefficient.values.size()));
-      for (std::size_t place = 0; place < coefficient.values.size(); ++place)
-        table += (place == 0 ? "" : ", ") + literal(coefficient.values[place]);
-      lines.push_back("//" + note.substr(4));
-      append(lines, table + "};");
-    }
+    if (!statements_.is_rolled(coefficient)) return append_constant_of_each(coefficient, law_.scalar, lines);
+    std::string table = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment(), coefficient.name, statements_.padded(coefficient.values.size()));
+    for (std::size_t place = 0; place < coefficient.values.size(); ++place)
+      table += (place == 0 ? "" : ", ") + literal(coefficient.values[place]);
+    lines.push_back("//" + note.substr(4));
+    append(lines, table + "};");
   }
 
   std::vector<std::string> reset() {
@@ -78,7 +104,7 @@ class CppPrinter {
         lines.push_back(fmt::format("{} = dashpot::all_finite(position, position, position) ? {} : 0;", CppStatements::scalar_name(variable), rest_position()));
       else if (variable.size == 1)
         lines.push_back(fmt::format("{} = {};", CppStatements::scalar_name(variable), rest_value(variable)));
-      else if (statements_.is_rolled())
+      else if (statements_.is_rolled(variable))
         lines.push_back(clearing(variable));
       else
         for (const std::string& name : variable.element_names)
@@ -103,8 +129,8 @@ class CppPrinter {
       const std::string note = fmt::format("  // {} [{}]", variable.meaning, variable.unit);
       if (variable.size == 1)
         lines.push_back(fmt::format("scalar {} = {};{}", CppStatements::scalar_name(variable), rest_value(variable), note));
-      else if (statements_.is_rolled())
-        lines.push_back(fmt::format("scalar {}_[{}] = {{}};{}", variable.name, statements_.padded(variable.size), note));
+      else if (statements_.is_rolled(variable))
+        lines.push_back(fmt::format("{}scalar {}_[{}] = {{}};{}", alignment(), variable.name, statements_.padded(variable.size), note));
       else
         for (const std::string& name : variable.element_names)
           lines.push_back(fmt::format("scalar {}_ = {};{}", name, rest_value(variable), note));
@@ -114,13 +140,6 @@ class CppPrinter {
 
   std::vector<std::string> functions() const {
     std::vector<std::string> lines;
-    if (statements_.uses_total())
-      lines = {fmt::format("static scalar total(const scalar (&lane)[{}]) noexcept {{", law_.lanes),
-               "  scalar sum = lane[0];",
-               fmt::format("  for (int j = 1; j < {}; ++j) sum += lane[j];", law_.lanes),
-               "  return sum;",
-               "}",
-               ""};
     if (uses_clear_)
       for (const char* line : {"// Through volatile: compilers turn a plain loop into a call of memset, which may not be there.",
                                "template <int size>", "static void clear(volatile scalar (&states)[size]) noexcept {",
@@ -129,11 +148,15 @@ class CppPrinter {
     return lines;
   }
 
+  // A register that straddles two lines of the cache takes two reads.
+  std::string alignment() const { return law_.register_bytes > 0 ? fmt::format("alignas({}) ", law_.register_bytes) : ""; }
+
   std::string rest_value(const Variable& state) const { return state.rest_value == 0 ? "0" : literal(state.rest_value); }
 
   std::string literal(double value) const { return cpp_literal(value, law_.scalar); }
 
   const UpdateLaw& law_;
+  Timing timing_;
   CppStatements statements_;
   bool uses_clear_ = false;
 };
@@ -144,8 +167,22 @@ std::string cpp_literal(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? fmt::format("{:#}", value) : fmt::format("{:#}f", static_cast<float>(value));
 }
 
-CppProgram cpp_program(const UpdateLaw& law, const Network& network) {
-  return law.tunable ? tunable_program(law) : CppPrinter(law, network).print();
+CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing) {
+  return law.tunable ? tunable_program(law) : CppPrinter(law, network, timing).print();
+}
+
+void check_by_jumps(CppProgram& program, const std::string& safe_command) {
+  program.check = {"sampled_ = false;",
+                   fmt::format("if (!dashpot::all_finite(position, velocity, force)) return {};", safe_command), "sampled_ = true;"};
+  program.wait = {"if (!sampled_) return;", "sampled_ = false;"};
+}
+
+void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines) {
+  const std::vector<std::string> lone = {coefficient.name};
+  const std::vector<std::string>& names = coefficient.element_names.empty() ? lone : coefficient.element_names;
+  for (std::size_t place = 0; place < coefficient.values.size(); ++place)
+    lines.push_back(fmt::format("static constexpr scalar {} = {};  // {} [{}]", names[place], cpp_literal(coefficient.values[place], scalar),
+                                coefficient.meaning, coefficient.unit));
 }
 
 }  // namespace dashpot::compiler

@@ -18,14 +18,25 @@ struct CppProgram {
   std::vector<std::string> set;        // the function of that name, with its contract
   std::vector<std::string> reset;
   std::vector<std::string> output;
-  std::string command;                 // what output() returns
-  std::string safe_command;            // and after an input that is no number
+  std::vector<std::string> check;      // whether the sample is one that can be kept
   std::vector<std::string> keep;
+  std::string command;                 // what output() returns
+  std::vector<std::string> wait;       // what begins update(): nothing happens without such a sample
   std::vector<std::string> update;
   std::vector<std::string> energy;
 };
 
-CppProgram cpp_program(const UpdateLaw& law, const Network& network);
+// Whether steps may decide by jumps, which are free where they are predicted, or take the same time for all values.
+enum class Timing { any, constant };
+
+// In constant time: laws without couplings, networks and tunables.
+CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing = Timing::any);
+
+// `check` and `wait` by jumps; `safe_command` is what output() returns after an input that is no number.
+void check_by_jumps(CppProgram& program, const std::string& safe_command);
+
+// A line for each place of the coefficient.
+void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines);
 
 // A double or float literal that reads back as the same number.
 std::string cpp_literal(double value, ScalarType scalar);

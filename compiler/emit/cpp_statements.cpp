@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "discretise/expression_text.hpp"
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_slips.hpp"
@@ -18,8 +20,8 @@ std::string origin_names(const std::vector<std::size_t>& elements, const Network
 
 }  // namespace
 
-CppStatements::CppStatements(const UpdateLaw& law, const Network& network) : law_(law), network_(network), rolled_(law.lanes > 1) {
-  if (!rolled_) return;
+CppStatements::CppStatements(const UpdateLaw& law, const Network& network, Timing timing)
+    : law_(law), network_(network), branch_free_(timing == Timing::constant) {
   for (const Statement& statement : law.keep) find_vectors(statement.value);
 }
 
@@ -27,16 +29,23 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& p
   std::vector<std::string> lines;
   summed_.clear();
   for (const Statement& statement : program)
-    if (law_.variables[statement.target].size == 1) find_sums(statement.value);
+    if (target(statement).size == 1) find_sums(statement.value);
   for (std::size_t i = 0; i < program.size();) {
-    if (law_.variables[program[i].target].size == 1 || !rolled_) {
+    if (!is_rolled(target(program[i]))) {
       print_unrolled(program[i++], lines);
       continue;
     }
-    const std::size_t first = i, size = law_.variables[program[i].target].size;
-    while (i < program.size() && law_.variables[program[i].target].size == size) ++i;
+    const std::size_t first = i, size = target(program[i]).size;
+    while (i < program.size() && target(program[i]).size == size) ++i;
     print_loop(program, first, i, lines);
   }
+  return lines;
+}
+
+std::vector<std::string> CppStatements::kept_lines_of(const std::vector<Statement>& program) {
+  masks_states_ = branch_free_;
+  std::vector<std::string> lines = lines_of(program);
+  masks_states_ = false;
   return lines;
 }
 
@@ -45,8 +54,11 @@ void CppStatements::print_unrolled(const Statement& statement, std::vector<std::
   if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
   if (statement.coupling != no_coupling) return append_step(law_, statement, law_.couplings[statement.coupling], *this, lines);
   if (statement.network != no_coupling) return append_step(law_, statement, law_.networks[statement.network], *this, lines);
+  const bool is_masked = masks_states_ && target.role == Role::state;
   for (std::size_t place = 0; place < target.size; ++place) {
-    const std::string line = assignment(target, place) + expression(statement.value, place) + ";";
+    std::string value = expression(statement.value, place);
+    if (is_masked) value = fmt::format("dashpot::branch_free::chosen(sampled, {}, {})", value, place_name(target, place));
+    const std::string line = assignment(target, place) + value + ";";
     const bool has_origin = target.size > 1 && place < statement.origins.size();
     append(lines, line, has_origin ? origin_names(statement.origins[place], network_) : "");
   }
@@ -55,27 +67,28 @@ void CppStatements::print_unrolled(const Statement& statement, std::vector<std::
 // Elementwise statements in one loop, with the partial sums of those vectors that are added up later.
 void CppStatements::print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last,
                                std::vector<std::string>& lines) {
-  for (std::size_t i = first; i < last; ++i) {
-    const Variable& target = law_.variables[program[i].target];
-    if (outlives_loop(target)) lines.push_back(fmt::format("scalar {}[{}];", target.name, padded(target.size)));
-    if (summed_.count(program[i].target) != 0) clear_lane(target, lines);
+  const std::vector<Statement> body(program.begin() + static_cast<std::ptrdiff_t>(first), program.begin() + static_cast<std::ptrdiff_t>(last));
+  for (const Statement& statement : body) {
+    const Variable& vector = target(statement);
+    if (outlives_loop(vector)) lines.push_back(fmt::format("scalar {}[{}];", vector.name, padded(vector.size)));
+    if (summed_.count(statement.target) != 0)
+      lines.push_back(fmt::format("dashpot::partial_sums<scalar, {}> {};", law_.lanes, lane(vector)));
   }
-  lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", padded_size(program[first]), law_.lanes));
-  lines.push_back(fmt::format("  for (int j = 0; j < {}; ++j) {{", law_.lanes));
-  for (std::size_t i = first; i < last; ++i) {
-    const Variable& target = law_.variables[program[i].target];
-    append(lines, "    " + assignment(target, 0) + expression(program[i].value, 0) + ";", program[i].purpose);
+  lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", padded(target(body.front()).size), law_.lanes));
+  lines.push_back("  DASHPOT_UNROLL");
+  lines.push_back(fmt::format("  for (int j = i; j < i + {}; j += vector::width) {{", law_.lanes));
+  for (const Statement& statement : body) {
+    const Variable& vector = target(statement);
+    std::string value = rolled_expression(statement.value);
+    if (masks_states_ && vector.role == Role::state)
+      value = fmt::format("vector::chosen(sampled, {}, {})", value, vector_name(vector, 0));
+    append(lines, is_array(vector) ? fmt::format("    vector::put({}, j, {});", array_name(vector), value)
+                                   : fmt::format("    const vector {} = {};", vector.name, value), statement.purpose);
   }
-  for (std::size_t i = first; i < last; ++i)
-    if (const Variable& target = law_.variables[program[i].target]; summed_.count(program[i].target) != 0)
-      lines.push_back(fmt::format("    {}[j] += {};", lane(target), vector_name(target, 0)));
+  for (const Statement& statement : body)
+    if (summed_.count(statement.target) != 0)
+      lines.push_back(fmt::format("    {}.add(j - i, {});", lane(target(statement)), vector_name(target(statement), 0)));
   lines.push_back("  }");
-}
-
-// One by one: from an empty initialiser a compiler may make a call of memset.
-void CppStatements::clear_lane(const Variable& vector, std::vector<std::string>& lines) const {
-  lines.push_back(fmt::format("scalar {}[{}];", lane(vector), law_.lanes));
-  lines.push_back(fmt::format("for (int j = 0; j < {}; ++j) {}[j] = 0;", law_.lanes, lane(vector)));
 }
 
 // Partial sums; called after their vector where a function has several.
@@ -91,9 +104,11 @@ void CppStatements::find_sums(ExpressionId id) {
 }
 
 std::string CppStatements::assignment(const Variable& target, std::size_t place) const {
-  const std::string name = target.size == 1 ? scalar_name(target) : vector_name(target, place);
-  const bool is_declared = target.role != Role::local || outlives_loop(target);
-  return (is_declared ? "" : "const scalar ") + name + " = ";
+  return (target.role == Role::local ? "const scalar " : "") + place_name(target, place) + " = ";
+}
+
+std::string CppStatements::place_name(const Variable& variable, std::size_t place) const {
+  return variable.size == 1 ? scalar_name(variable) : vector_name(variable, place);
 }
 
 void CppStatements::find_vectors(ExpressionId id) {
@@ -110,37 +125,57 @@ bool CppStatements::outlives_loop(const Variable& variable) const {
   return variable.role == Role::local && outliving_.count(&variable) != 0;
 }
 
+bool CppStatements::is_array(const Variable& vector) const { return vector.role != Role::local || outlives_loop(vector); }
+
 std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   Spelling spelling;
-  spelling.variable = [&](const Variable& variable) {
-    return variable.size == 1 ? scalar_name(variable) : vector_name(variable, place);
-  };
+  const std::string decisions = branch_free_ ? "dashpot::branch_free" : "dashpot";
+  spelling.variable = [&](const Variable& variable) { return place_name(variable, place); };
   spelling.coefficient = [&](const Coefficient& coefficient) {
     used_coefficients_.insert(&coefficient);
-    if (coefficient.element_names.empty()) return coefficient.name;
-    return is_rolled(coefficient) ? coefficient.name + "[i + j]" : coefficient.element_names[place];
+    return coefficient.element_names.empty() ? coefficient.name : coefficient.element_names[place];
   };
   spelling.flush = [&](const std::string& value) {
     uses_flush_ = true;
-    return fmt::format("dashpot::flush_below(threshold, {})", value);
+    return fmt::format("{}::flush_below(threshold, {})", decisions, value);
   };
   // A sum is one operand: inside a longer expression its terms keep together.
   const bool is_whole = law_.expressions[id].operation == Operation::sum;
-  spelling.clamp = [](const std::string& value, const std::string& limit) {
-    return fmt::format("dashpot::clamp_to({}, {})", limit, value);
+  spelling.clamp = [&](const std::string& value, const std::string& limit) {
+    return fmt::format("{}::clamp_to({}, {})", decisions, limit, value);
   };
+  if (branch_free_)
+    spelling.where = [&](const std::string& condition, const std::string& yes, const std::string& no) {
+      return fmt::format("{}::where({}, {}, {})", decisions, condition, yes, no);
+    };
   spelling.sum = [&](const Variable& vector) {
     const std::string terms = sum_text(vector);
-    return is_whole || rolled_ || vector.size == 1 ? terms : "(" + terms + ")";
+    return is_whole || is_rolled(vector) || vector.size == 1 ? terms : "(" + terms + ")";
+  };
+  return expression_text(law_, id, spelling);
+}
+
+std::string CppStatements::rolled_expression(ExpressionId id) {
+  Spelling spelling;
+  spelling.variable = [this](const Variable& variable) { return place_name(variable, 0); };
+  spelling.coefficient = [this](const Coefficient& coefficient) {
+    used_coefficients_.insert(&coefficient);
+    return coefficient.element_names.empty() ? coefficient.name : fmt::format("vector::at({}, j)", coefficient.name);
+  };
+  spelling.flush = [this](const std::string& value) {
+    uses_flush_ = true;
+    return fmt::format("vector::flush_below(threshold, {})", value);
+  };
+  spelling.clamp = [](const std::string& value, const std::string& limit) { return fmt::format("vector::clamp_to({}, {})", limit, value); };
+  spelling.sum = [this](const Variable& vector) { return sum_text(vector); };
+  spelling.where = [](const std::string& condition, const std::string& yes, const std::string& no) {
+    return fmt::format("vector::where({}, {}, {})", condition, yes, no);
   };
   return expression_text(law_, id, spelling);
 }
 
 std::string CppStatements::sum_text(const Variable& vector) {
-  if (rolled_) {
-    uses_total_ = true;
-    return fmt::format("total({})", lane(vector));
-  }
+  if (is_rolled(vector)) return lane(vector) + ".total()";
   std::string text;
   for (std::size_t place = 0; place < vector.size; ++place)
     text += (place == 0 ? "" : " + ") + vector_name(vector, place);
@@ -152,9 +187,12 @@ std::string CppStatements::scalar_name(const Variable& variable) {
   return variable.role == Role::state ? name + "_" : name;
 }
 
+std::string CppStatements::array_name(const Variable& variable) const {
+  return variable.role == Role::state ? variable.name + "_" : variable.name;
+}
+
 std::string CppStatements::vector_name(const Variable& variable, std::size_t place) const {
-  if (rolled_ && outlives_loop(variable)) return variable.name + "[i + j]";
-  if (rolled_) return variable.role == Role::state ? variable.name + "_[i + j]" : variable.name;
+  if (is_rolled(variable)) return is_array(variable) ? fmt::format("vector::at({}, j)", array_name(variable)) : variable.name;
   return variable.role == Role::state ? variable.element_names[place] + "_" : variable.element_names[place];
 }
 

@@ -7,46 +7,52 @@
 #include <vector>
 
 #include "discretise/update_law.hpp"
+#include "emit/cpp_program.hpp"
 
 namespace dashpot::compiler {
 
 class CppStatements {
  public:
   // Both outlive this.
-  CppStatements(const UpdateLaw& law, const Network& network);
+  CppStatements(const UpdateLaw& law, const Network& network, Timing timing);
 
   std::vector<std::string> lines_of(const std::vector<Statement>& program);
+  // The same of a program that assigns to states: in constant time only where the mask `sampled` is set.
+  std::vector<std::string> kept_lines_of(const std::vector<Statement>& program);
 
   // What begins an assignment to a place of `target`: its declaration where it is a local.
   std::string assignment(const Variable& target, std::size_t place) const;
-  std::string expression(ExpressionId id, std::size_t place);
+  std::string expression(ExpressionId id, std::size_t place);         // straight-line
+  std::string rolled_expression(ExpressionId id);  // in a loop, of the places from j on
   static std::string scalar_name(const Variable& variable);
 
-  bool is_rolled() const { return rolled_; }
-  bool is_rolled(const Coefficient& coefficient) const { return rolled_ && coefficient.values.size() > 1; }
+  bool is_rolled(const Variable& variable) const { return law_.is_rolled(variable.size); }
+  bool is_rolled(const Coefficient& coefficient) const { return law_.is_rolled(coefficient.values.size()); }
   std::size_t padded(std::size_t size) const { return (size + law_.lanes - 1) / law_.lanes * law_.lanes; }
 
   // What the lines so far refer to.
   bool uses(const Coefficient& coefficient) const { return used_coefficients_.count(&coefficient) != 0; }
   bool uses_flush() const { return uses_flush_; }
-  bool uses_total() const { return uses_total_; }
 
  private:
   void print_unrolled(const Statement& statement, std::vector<std::string>& lines);
   void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last, std::vector<std::string>& lines);
-  void clear_lane(const Variable& vector, std::vector<std::string>& lines) const;
   std::string lane(const Variable& vector) const;
   void find_sums(ExpressionId id);
   void find_vectors(ExpressionId id);
   bool outlives_loop(const Variable& variable) const;
+  bool is_array(const Variable& vector) const;
   std::string sum_text(const Variable& vector);
   std::string vector_name(const Variable& variable, std::size_t place) const;
-  std::size_t padded_size(const Statement& statement) const { return padded(law_.variables[statement.target].size); }
+  std::string place_name(const Variable& variable, std::size_t place) const;
+  std::string array_name(const Variable& variable) const;
+  const Variable& target(const Statement& statement) const { return law_.variables[statement.target]; }
 
   const UpdateLaw& law_;
   const Network& network_;
-  bool rolled_;
-  bool uses_flush_ = false, uses_total_ = false;
+  bool branch_free_;
+  bool masks_states_ = false;  // of the program at hand
+  bool uses_flush_ = false;
   std::set<const Coefficient*> used_coefficients_;
   std::set<VariableId> summed_;  // of the program at hand
   std::set<const Variable*> outliving_;

@@ -61,7 +61,7 @@ class TunablePrinter {
     program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);", "// u₋ = u",
                       "last_position_ = sampled_position_;"};
     program.energy = {"// V + T: in the springs, and what changes of parameters have set free", "const scalar stored = law_.stored_energy(tables);"};
-    program.safe_command = "{law_.damping(), 0}";
+    check_by_jumps(program, "{law_.damping(), 0}");
     program.command = "{law_.damping(), force}";
     return program;
   }

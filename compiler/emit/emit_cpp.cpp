@@ -6,7 +6,9 @@
 
 #include "decompose/slip_laws.hpp"
 #include "emit/cpp_program.hpp"
+#include "emit/cpp_batch.hpp"
 #include "emit/emission.hpp"
+#include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
 
 namespace dashpot::compiler {
@@ -117,7 +119,15 @@ void describe_cost(const Compilation& c, std::vector<std::string>& facts) {
   facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
 }
 
-std::vector<std::string> banner(const Compilation& c) {
+std::string form_text(ModeForm form) { return form == ModeForm::product ? "" : fmt::format("in {} form ", name_of(form)); }
+
+std::string loops_line(const UpdateLaw& law) {
+  const std::string room = law.register_bytes > 0 ? fmt::format("registers of {} bytes", law.register_bytes) : "a machine without vectors";
+  const char* flag = law.register_bytes == 64 ? ", -mavx512f" : law.register_bytes == 32 ? ", -mavx2" : "";
+  return fmt::format("loops: laid out for {}{}; sums in {} parts, the same bits on every machine", room, flag, law.lanes);
+}
+
+std::vector<std::string> banner(const Compilation& c, Timing timing) {
   const Candidate& choice = c.decomposition.choice();
   const std::string unit = damping_unit(c.network);
   std::vector<std::string> facts;
@@ -138,8 +148,10 @@ std::vector<std::string> banner(const Compilation& c) {
     describe_tunables(*c.law.tunable, unit, facts);
   else
     describe_cost(c, facts);
+  if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
+  if (c.law.lanes > 1) facts.push_back(loops_line(c.law));
   if (c.law.relative_error_bound > 0)
-    facts.push_back(fmt::format("rounding: a mode's force is off by at most {:.2g} of its peak", c.law.relative_error_bound));
+    facts.push_back(fmt::format("rounding: {}a mode's force is off by at most {:.2g} of its peak", form_text(c.law.mode_form), c.law.relative_error_bound));
   std::vector<std::string> lines;
   for (const std::string& fact : facts)
     for (const std::string& line : split_lines(fact, 112)) lines.push_back(comment_text(line));
@@ -155,10 +167,7 @@ void describe_device(const Compilation& c, Fields& fields) {
   fields["loop_delay"] = std::to_string(c.device ? c.device->description.loop.delay_samples : 0u);
 }
 
-CodeModel header_model(const Compilation& c) {
-  const CppProgram program = cpp_program(c.law, c.network);
-  CodeModel model;
-  Fields& fields = model.fields;
+void describe_file(const Compilation& c, Fields& fields) {
   fields["title"] = comment_text(c.network.title.empty() ? c.network.name : c.network.title);
   fields["version"] = DASHPOT_VERSION;
   fields["digest"] = c.network.digest;
@@ -168,23 +177,64 @@ CodeModel header_model(const Compilation& c) {
   fields["motion"] = c.network.port_motion == motion::rotation ? "rotation" : "translation";
   fields["position_unit"] = length_unit(c.network);
   fields["velocity_unit"] = velocity_unit(c.network);
+}
+
+CodeModel header_model(const Compilation& c, Timing timing) {
+  const CppProgram program = cpp_program(c.law, c.network, timing);
+  CodeModel model;
+  Fields& fields = model.fields;
+  describe_file(c, fields);
   describe_device(c, fields);
   fields["command"] = program.command;
-  fields["safe_command"] = program.safe_command;
   for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
-  model.lists["banner"] = as_list(banner(c));
+  model.lists["banner"] = as_list(banner(c, timing));
   fields["energy_contract"] = c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
                                             : "In the springs after the last update() [J].";
   model.lists["parameters"] = as_list(program.parameters);
   model.lists["set"] = as_list(program.set);
   model.lists["reset"] = as_list(program.reset);
   model.lists["output"] = as_list(program.output);
+  model.lists["check"] = as_list(program.check);
   model.lists["keep"] = as_list(program.keep);
+  model.lists["wait"] = as_list(program.wait);
   model.lists["update"] = as_list(program.update);
   model.lists["energy"] = as_list(program.energy);
   model.lists["functions"] = as_list(program.functions);
   model.lists["constants"] = as_list(program.constants);
   model.lists["states"] = as_list(program.states);
+  return model;
+}
+
+void describe_outputs(const UpdateLaw& law, CodeModel& model) {
+  const bool brake = law.brake_changes();
+  Fields& fields = model.fields;
+  fields["outputs"] = brake ? "scalar* dampings, scalar* forces" : "scalar* forces";
+  fields["outputs_passed"] = brake ? "dampings, forces" : "forces";
+  fields["no_outputs"] = brake ? "nullptr, nullptr" : "nullptr";
+  fields["dampings_comment"] = brake ? " and dampings" : "";
+  model.lists["damping"];
+  if (!brake) model.lists["damping"].push_back({{"line", fmt::format("static constexpr scalar damping = {};  // b, the brake's part, of every point", cpp_literal(law.damping, law.scalar))}});
+}
+
+CodeModel batch_model(const Compilation& c) {
+  const CppBatch batch = cpp_batch(c.law);
+  CodeModel model;
+  describe_file(c, model.fields);
+  describe_outputs(c.law, model);
+  model.fields["states"] = std::to_string(batch.states);
+  model.fields["reads"] = std::to_string(batch.states + 2);
+  model.fields["writes"] = std::to_string(batch.states + (c.law.brake_changes() ? 2 : 1));
+  model.fields["energy_contract"] = "In the springs of the point [J].";
+  model.lists["banner"] = as_list(banner(c, Timing::any));
+  model.lists["constants"] = as_list(batch.constants);
+  model.lists["reset"] = as_list(batch.reset);
+  model.lists["loads"] = as_list(batch.loads);
+  model.lists["output"] = as_list(batch.output);
+  model.lists["commands"] = as_list(batch.commands);
+  model.lists["update"] = as_list(batch.update);
+  model.lists["stores"] = as_list(batch.stores);
+  model.lists["energy_loads"] = as_list(batch.energy_loads);
+  model.lists["energy"] = as_list(batch.energy);
   return model;
 }
 
@@ -246,7 +296,10 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
                                                 Diagnostics& diagnostics) {
   const std::string& name = compilation.network.name;
   std::vector<OutputFile> files;
-  bool ok = append("network.hpp.in", name + ".hpp", header_model(compilation), options, files, diagnostics);
+  if (!can_be_emitted(compilation, options, diagnostics)) return std::nullopt;
+  const Timing timing = options.constant_time ? Timing::constant : Timing::any;
+  bool ok = append("network.hpp.in", name + ".hpp", header_model(compilation, timing), options, files, diagnostics);
+  if (options.batch) ok &= append("batch.hpp.in", name + "_batch.hpp", batch_model(compilation), options, files, diagnostics);
   if (options.with_test)
     ok &= append("network_test.cpp.in", name + "_test.cpp", test_model(compilation), options, files, diagnostics);
   if (options.with_library)

@@ -105,10 +105,15 @@ class visco_elasto_plastic_organ {
     if (!sampled_) return;
     sampled_ = false;
     // δ of the block
-    const scalar K3_B3_K4_B4_elongation = Y_K3_B3_K4_B4_elongation_by_change * sampled_position_change_ - Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_relaxed_force_) + Y_K3_B3_K4_B4_elongation_by_K * K_spring_force_ - Y_K3_B3_K4_B4_elongation_by_excess * sampled_Y_excess_;
+    const scalar K3_B3_K4_B4_elongation = Y_K3_B3_K4_B4_elongation_by_change *
+        sampled_position_change_ - Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ +
+        K3_B3_K4_B4_relaxed_force_) +
+        Y_K3_B3_K4_B4_elongation_by_K * K_spring_force_ - Y_K3_B3_K4_B4_elongation_by_excess * sampled_Y_excess_;
     // F ← F + k δ
     const scalar K3_B3_K4_B4_spring_force_next = dashpot::flush_below(threshold, K3_B3_K4_B4_spring_force_ +
-        (Y_K3_B3_K4_B4_spring_by_change * sampled_position_change_ - Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_relaxed_force_) + Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * sampled_Y_excess_));
+        (Y_K3_B3_K4_B4_spring_by_change * sampled_position_change_ - Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 *
+        (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_relaxed_force_) +
+        Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * sampled_Y_excess_));
     // F ← F + k δ
     const scalar K_spring_force_next = dashpot::flush_below(threshold,
         sampled_Y_trial_ - Y_K_spring_by_excess * sampled_Y_excess_);
@@ -136,9 +141,11 @@ class visco_elasto_plastic_organ {
   // In the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
-    const scalar K3_B3_K4_B4_spring_energy = K3_B3_K4_B4_compliance * K3_B3_K4_B4_spring_force_ * K3_B3_K4_B4_spring_force_;
+    const scalar K3_B3_K4_B4_spring_energy = K3_B3_K4_B4_compliance * K3_B3_K4_B4_spring_force_ *
+        K3_B3_K4_B4_spring_force_;
     // F²/(2k)
-    const scalar K3_B3_K4_B4_mode_energy = K3_B3_K4_B4_mode_energy_weight * K3_B3_K4_B4_mode_force_ * K3_B3_K4_B4_mode_force_;
+    const scalar K3_B3_K4_B4_mode_energy = K3_B3_K4_B4_mode_energy_weight * K3_B3_K4_B4_mode_force_ *
+        K3_B3_K4_B4_mode_force_;
     // F²/(2k)
     const scalar K_spring_energy = K_compliance * K_spring_force_ * K_spring_force_;
     // V = ½ k0 u² + Σ F_i²/(2 k_i)

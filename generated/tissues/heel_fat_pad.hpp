@@ -17,7 +17,7 @@
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
 // cost of update(): 17 additions, 6 multiplications, 6 guards against subnormals; 10 states
-// rounding: a mode's force is off by at most 6.7e-16 of its peak
+// rounding: in compensated form a mode's force is off by at most 6.7e-16 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest 168f6ac17ba43ef4. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.

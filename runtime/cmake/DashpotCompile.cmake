@@ -1,18 +1,20 @@
 # dashpot_compile(TARGET NETWORK FILE [DEVICE FILE] [RATE HZ] [SCHEME NAME] [STATE_INPUT NAME] [DECOMPOSITION NAME|DAMPING]
-#                 [SCALAR double|float] [TEMPLATES FOLDER] [WITH_TEST])
+#                 [SCALAR double|float] [VECTOR none|sse2|avx2|avx512|neon] [TEMPLATES FOLDER] [CONSTANT_TIME] [BATCH] [WITH_TEST])
 #
 # Makes TARGET, an INTERFACE library: what links it includes <NAME.hpp>, the update law of the network called NAME in FILE,
 # and is built after it. The law is compiled again when the network, the device, the compiler or a template changes, and
 # only then. The options mean what they mean on the command line of dashpot; an option not given has the default of that
 # command. A refused network stops the build with the compiler's own message.
 #
+# BATCH also makes <NAME_batch.hpp>, a class for many points of the network.
+#
 # WITH_TEST also makes TARGET_test, GoogleTest cases of the law against closed forms, and registers them with CTest.
 #
 # Relative paths start from the current source folder. One folder of output for each target: two targets may hold laws of
 # one network, but one program can link only one of them, because both are the same class.
 function(dashpot_compile target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_TEST"
-    "NETWORK;DEVICE;RATE;SCHEME;STATE_INPUT;DECOMPOSITION;SCALAR;TEMPLATES" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_TEST;CONSTANT_TIME;BATCH"
+    "NETWORK;DEVICE;RATE;SCHEME;STATE_INPUT;DECOMPOSITION;SCALAR;VECTOR;TEMPLATES" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES OR NOT arg_NETWORK)
     message(FATAL_ERROR "dashpot_compile(${target}): NETWORK FILE is needed, and each of its options has one value; not "
                         "understood: '${arg_UNPARSED_ARGUMENTS}' '${arg_KEYWORDS_MISSING_VALUES}'")
@@ -27,13 +29,20 @@ function(dashpot_compile target)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/${target})
   set(outputs ${folder}/${name}.hpp)
   set(options)
-  foreach(option IN ITEMS DEVICE RATE SCHEME STATE_INPUT DECOMPOSITION SCALAR TEMPLATES)
+  foreach(option IN ITEMS DEVICE RATE SCHEME STATE_INPUT DECOMPOSITION SCALAR VECTOR TEMPLATES)
     if(DEFINED arg_${option})
       string(TOLOWER --${option} flag)
       string(REPLACE _ - flag ${flag})
       list(APPEND options ${flag} ${arg_${option}})
     endif()
   endforeach()
+  if(arg_CONSTANT_TIME)
+    list(APPEND options --constant-time)
+  endif()
+  if(arg_BATCH)
+    list(APPEND outputs ${folder}/${name}_batch.hpp)
+    list(APPEND options --batch)
+  endif()
   if(arg_WITH_TEST)
     list(APPEND outputs ${folder}/${name}_test.cpp)
     list(APPEND options --with-test)

@@ -98,7 +98,7 @@ class Batch {
   void emit() const {
     std::map<std::string, std::string> lines;
     for (const Case& c : cases_) {
-      const std::string line = command_line("compile", c.choice);
+      const std::string line = command_line("compile", c.choice) + c.choice.emission;
       std::string& whole = lines.try_emplace(line, line + fmt::format(" -o '{}'", folder_.string())).first->second;
       whole += fmt::format(" '{}'", network_file(c).string());
     }
@@ -116,7 +116,9 @@ class Batch {
     }
     const fs::path program = folder_ / fmt::format("driver_{}", first);
     write_text(program.string() + ".cpp", includes + "int main() {\n" + calls + "}\n");
-    run_or_throw(fmt::format("'{}' -std=c++17 -O2 -ffp-contract=off -I'{}' -I'{}' -I'{}' '{}.cpp' -o '{}' && '{}'", DASHPOT_CXX,
+    // Half of the programs in the widest registers that this machine has.
+    const char* machine = first / cases_a_program % 2 == 0 ? "-O2" : "-O3 -march=native";
+    run_or_throw(fmt::format("'{}' -std=c++17 {} -ffp-contract=off -I'{}' -I'{}' -I'{}' '{}.cpp' -o '{}' && '{}'", DASHPOT_CXX, machine,
                              DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder_.string(), program.string(), program.string(),
                              program.string()));
   }
@@ -171,14 +173,16 @@ std::vector<Choice> all_choices() {
                                      "--scheme backward-euler --state-input nodal"};
   static const char* const decompositions[] = {"most-dissipative", "zero-frequency",   "quietest-passive", "velocity-free",
                                                "largest-observer", "virtual",          "0.375"};
+  static const char* const registers[] = {"sse2", "avx512", "none", "avx2", "neon"};
   static const double rates[] = {1000, 100, 10000, 333.25, 5};
   std::vector<Choice> choices;
   for (std::size_t law = 0; law < std::size(laws); ++law)
     for (std::size_t shift : {0u, 2u, 5u}) {
       const std::size_t i = choices.size();
       choices.push_back({rates[i % std::size(rates)],
-                         fmt::format("{} --decomposition {}", laws[law], decompositions[(law + shift) % std::size(decompositions)]),
-                         i % 2 == 0});
+                         fmt::format("{} --decomposition {} --vector {}", laws[law], decompositions[(law + shift) % std::size(decompositions)],
+                                     registers[i % std::size(registers)]),
+                         i % 2 == 0, i % 4 < 2 ? "" : " --constant-time"});
     }
   return choices;
 }

@@ -14,6 +14,7 @@ struct Choice {
   double rate;          // [Hz]
   std::string options;  // without --rate and --scalar
   bool gives_velocity;  // the motion has a velocity of its own; else `simulate` takes the slope
+  std::string emission = "";  // options of `compile` alone: they change no bit
 };
 
 // Every scheme, state input, decomposition and rate, in changing company.

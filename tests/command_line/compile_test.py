@@ -3,7 +3,12 @@ import os
 import subprocess
 import unittest
 
-from dashpot_command import (BROKEN, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest)
+from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE,
+                             CommandTest, network)
+
+# Two slips that meet at an inner node with the spring between them.
+COUPLED = """{ "series": [ { "parallel": [ { "slip": 1 }, { "spring": 50 } ] }, { "parallel": [ { "slip": 2 }, { "spring": 70 } ] },
+             { "spring": 90 } ] }"""
 
 
 class Files(CommandTest):
@@ -36,6 +41,38 @@ class Files(CommandTest):
         for scalar in ["double", "float"]:
             self.dashpot("compile", "kelvin.json", "--scalar", scalar)
             self.assertIn(f"using scalar = {scalar};", (self.folder / "kelvin.hpp").read_text())
+
+    def test_the_registers(self):
+        """Fails if --vector does not reach the code of a loop, or an unknown machine passes."""
+        branches = ", ".join(f'{{ "series": [ {{ "spring": {i} }}, {{ "damper": 1 }} ] }}' for i in range(1, 13))
+        self.write("many.json", network(f'{{ "parallel": [ {branches} ] }}', "many"))
+        for registers, layout in [("none", "sums in 4 parts"), ("sse2", "16 bytes; sums in 8"), ("neon", "16 bytes; sums in 8"),
+                                  ("avx2", "32 bytes, -mavx2; sums in 16"), ("avx512", "64 bytes, -mavx512f; sums in 32")]:
+            self.dashpot("compile", "many.json", "--vector", registers)
+            self.assertIn(layout, (self.folder / "many.hpp").read_text())
+        self.dashpot("compile", "many.json", "--vector", "mmx", status=COMMAND_LINE_WRONG)
+
+    def test_constant_time(self):
+        """Fails if --constant-time does not reach the code, or laws whose steps have loops of their own pass."""
+        self.dashpot("compile", "kelvin.json", "--constant-time")
+        self.assertIn("branch_free", (self.folder / "kelvin.hpp").read_text())
+        self.write("coupled.json", network(COUPLED, "coupled"))
+        refused = self.refused("compile", "coupled.json", "--constant-time", code="step-of-coupled-slips")
+        self.assertRegex(refused.stderr, "without --constant-time a step takes at most [1-9][0-9]* operations")
+        tunable = SOURCE / "networks/tunable/standard_solid_tunable.json"
+        refused = self.refused("compile", tunable, "--constant-time", code="step-of-tunables")
+        self.assertRegex(refused.stderr, "without --constant-time a step takes at most [1-9][0-9]* operations")
+
+    def test_batch(self):
+        """Fails if --batch does not write its class beside the single one, or laws that have none pass."""
+        self.dashpot("compile", "kelvin.json", "--batch", "-o", "out")
+        self.assertEqual(self.files("out"), ["kelvin.hpp", "kelvin_batch.hpp"])
+        self.assertIn("class kelvin_batch {", (self.folder / "out/kelvin_batch.hpp").read_text())
+        self.write("coupled.json", network(COUPLED, "coupled"))
+        for file, code in [("coupled.json", "step-of-coupled-slips"),
+                           (SOURCE / "networks/tunable/standard_solid_tunable.json", "step-of-tunables")]:
+            refused = self.refused("compile", file, "--batch", code=code)
+            self.assertIn("without --batch one object of the class for each point", refused.stderr)
 
     def test_the_rate(self):
         """Fails if the period in the code is not that of --rate, or of the device."""
@@ -89,11 +126,12 @@ class Files(CommandTest):
 
     def test_own_templates(self):
         """Fails if --templates is ignored, or a folder without templates passes."""
-        for template in ["network.hpp.in", "network_test.cpp.in"]:
+        for template in ["network.hpp.in", "network_test.cpp.in", "batch.hpp.in"]:
             text = (SOURCE / "templates" / template).read_text()
             self.write(f"own/{template}", text.replace("#pragma once", "#pragma once  // ours"))
-        self.dashpot("compile", "kelvin.json", "--templates", "own")
-        self.assertIn("#pragma once  // ours", (self.folder / "kelvin.hpp").read_text())
+        self.dashpot("compile", "kelvin.json", "--templates", "own", "--batch")
+        for header in ["kelvin.hpp", "kelvin_batch.hpp"]:
+            self.assertIn("#pragma once  // ours", (self.folder / header).read_text())
         (self.folder / "empty").mkdir()
         self.refused("compile", "kelvin.json", "--templates", "empty", code="cannot-read-file")
 

@@ -47,6 +47,9 @@ std::vector<Recording> recordings() {
       {"forms/float_delta", "--scalar float", {paper / "second_order_maxwell.json"}},
       {"forms/float_compensated", "--scalar float --rate 100000", {paper / "second_order_maxwell.json"}},
       {"forms/rolled", "", {source / "tests/responses/networks/twenty_branches.json"}},
+      {"forms/rolled_avx512", "--vector avx512", {source / "tests/responses/networks/twenty_branches.json"}},
+      {"forms/constant_time", "--constant-time", {paper / "visco_elasto_plastic.json"}},
+      {"forms/batch", "--batch", {paper / "second_order_maxwell.json"}},
   };
 }
 

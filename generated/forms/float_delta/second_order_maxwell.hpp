@@ -14,7 +14,7 @@
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
 // cost of update(): 5 additions, 4 multiplications, 2 guards against subnormals; 6 states
-// rounding: a mode's force is off by at most 3.6e-05 of its peak
+// rounding: in delta form a mode's force is off by at most 3.6e-05 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.

@@ -61,7 +61,8 @@ TEST(Evaluate, flush) {
   EXPECT_EQ(force_of(h, -0.75, 0), -0.75);
 }
 
-// 1, 2⁻⁵³, −1, 2⁻⁵³ in double: from the first to the last 2⁻⁵³, in two lanes 2⁻⁵².
+// 1, 2⁻⁵³, −1, 2⁻⁵³ in double: from the first to the last 2⁻⁵³, in two lanes 2⁻⁵², and so in four, of which the second half is
+// added to the first.
 double sum_in(std::size_t lanes) {
   HandWritten h;
   h.law.lanes = lanes;
@@ -75,6 +76,7 @@ double sum_in(std::size_t lanes) {
 TEST(Evaluate, order_of_sums) {
   EXPECT_EQ(sum_in(1), 0x1p-53);
   EXPECT_EQ(sum_in(2), 0x1p-52);
+  EXPECT_EQ(sum_in(4), 0x1p-52);
 }
 
 // Fails if a scalar is not the same for every place of a vector.

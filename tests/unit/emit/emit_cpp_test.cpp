@@ -65,6 +65,17 @@ TEST(EmitCpp, returns_a_brake_that_changes) {
   EXPECT_FALSE(contains(text, "constexpr scalar damping")) << text;
 }
 
+// Fails if the banner keeps back in what form modes are advanced in single precision, or how far that may be off.
+TEST(EmitCpp, states_form_and_error_bound_of_float) {
+  const std::string network = R"({ "dashpot": 1, "name": "pad", "network": { "series": [ { "spring": 50 }, { "damper": 5 } ] } })";
+  Choices choices;
+  choices.scalar = ScalarType::float32;
+  // u/α + 4u with u = 2⁻²⁴ and α = 1 − e^(−10 h)
+  EXPECT_TRUE(contains(header_of(network, choices), "in delta form a mode's force is off by at most 6.2e-06 of its peak"));
+  choices.rate = 1e6;
+  EXPECT_TRUE(contains(header_of(network, choices), "in compensated form a mode's force is off by at most 3.6e-07 of its peak"));
+}
+
 // Fails if the emitted code does not read like the author's model.
 TEST(EmitCpp, takes_its_names_from_the_author) {
   const std::string text = header_of(R"({ "dashpot": 1, "name": "pad", "source": "a paper", "title": "A pad",

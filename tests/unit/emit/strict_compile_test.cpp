@@ -24,13 +24,29 @@ struct Choice {
   const char* options;
 };
 const Choice choices[] = {
-    {"exact", ""},
+    {"exact", "--batch"},
+    {"constant_time", "--constant-time --vector none"},
     {"velocity", "--state-input velocity"},
     {"nodal", "--scheme backward-euler --state-input nodal"},
     {"compensated", "--rate 1000000"},
     {"float_delta", "--scalar float"},
     {"float_compensated", "--scalar float --scheme backward-euler --state-input nodal --rate 1000000"},
 };
+
+std::vector<std::string> with_batches(std::vector<std::string> names) {
+  for (std::size_t i = names.size(); i-- > 0;) names.push_back(names[i] + "_batch");
+  return names;
+}
+
+// Calls everything that a batch of a constant brake offers.
+std::string caller_of_batch(const std::string& name) {
+  return fmt::format("#include \"{0}_batch.hpp\"\n"
+                     "using batch = dashpot::generated::{0}_batch;\n"
+                     "dashpot::generated::{0}_points<19> own;\n"
+                     "void run(batch& points, batch::scalar* p, batch::scalar* v, batch::scalar* f) {{\n"
+                     "  points.reset(*p); points.step(p, v, f); points.output(p, v, f); points.update(p, v); *f = points.stored_energy(3);\n"
+                     "}}\n", name);
+}
 
 class StrictCompile : public ::testing::Test {
  protected:
@@ -52,7 +68,7 @@ class StrictCompile : public ::testing::Test {
 // Fails if a header needs another one before it, or a compiler has anything to say about it.
 TEST_F(StrictCompile, takes_every_header_alone) {
   for (const Compiler& compiler : compilers)
-    for (const std::string& name : emitted_.front().classes) {
+    for (const std::string& name : with_batches(emitted_.front().classes)) {
       const std::string line =
           fmt::format("echo '#include \"{}.hpp\"' | '{}' {} -fsyntax-only {} -I'{}' -x c++ -", name, compiler.path, strict,
                       runtime_include(), emitted_.front().path.string());
@@ -79,6 +95,21 @@ TEST_F(StrictCompile, leaves_no_symbol_undefined) {
         EXPECT_EQ(undefined.output, "") << compiler.name << " " << level << ", " << choices[i].name;
         const Finished initialisers = run_command(fmt::format("nm -C '{}' | grep -c GLOBAL__sub_I", object.string()));
         EXPECT_EQ(initialisers.output, "0\n") << "an object of static storage is initialised at run time";
+      }
+  }
+}
+
+// Fails likewise for a batch, but that storage of its own is put to rest before a program begins.
+TEST_F(StrictCompile, leaves_no_symbol_of_a_batch_undefined) {
+  const std::filesystem::path caller = folder_->path() / "caller.cpp", object = folder_->path() / "caller.o";
+  for (const char* name : {"second_order_maxwell", "twenty_branches"}) {
+    write_text(caller, caller_of_batch(name));
+    for (const Compiler& compiler : compilers)
+      for (const char* level : {"-O0", "-O2", "-O3"}) {
+        const Finished built = run_command(fmt::format("'{}' {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict, level, caller.string(),
+                                                       object.string(), runtime_include(), emitted_.front().path.string()));
+        EXPECT_TRUE(built.status == 0 && built.output.empty()) << compiler.name << level << ":\n" << built.output.substr(0, 4000);
+        EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "") << compiler.name << " " << level << ", " << name;
       }
   }
 }

@@ -1,0 +1,192 @@
+#include "emit/cpp_batch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "discretise/expression_text.hpp"
+#include "emit/cpp_lines.hpp"
+#include "emit/cpp_program.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+class BatchPrinter {
+ public:
+  explicit BatchPrinter(const UpdateLaw& law) : law_(law) { find_states(); }
+
+  CppBatch print() {
+    CppBatch batch;
+    batch.output = lines_of(law_.output);
+    batch.update = lines_of(read_later(law_.keep));
+    for (std::string& line : lines_of(law_.update)) batch.update.push_back(std::move(line));
+    batch.energy = lines_of(law_.energy);
+    batch.loads = loads();
+    for (const Statement* sum : derived_) append(batch.loads, fmt::format("const vector {} = {};", name(sum->target, 0), expression(sum->value, 0)), sum->purpose);
+    batch.energy_loads = energy_loads();
+    batch.commands = commands();
+    each_state([&](VariableId id, const std::string& state, std::size_t number) {
+      batch.states = number + 1;
+      batch.reset.push_back(fmt::format("put(state, {}, {});", number, rest_value(law_.variables[id])));
+      batch.stores.push_back(fmt::format("vector::put(state, {0} * block, vector::where(sampled, {1}, vector::at(state, {0} * block)));", number, state));
+    });
+    batch.constants = constants();
+    return batch;
+  }
+
+ private:
+  // A state is what is read before it is assigned, or for the energy. What update() makes of other states alone, a sum of them, is as quickly
+  // added up again as it is fetched from memory.
+  void find_states() {
+    std::set<VariableId> assigned;
+    for (const auto* program : {&law_.output, &law_.keep, &law_.update})
+      for (const Statement& statement : *program) {
+        find_reads(statement.value, assigned, kept_);
+        assigned.insert(statement.target);
+      }
+    for (const Statement& statement : law_.energy) find_reads(statement.value, {}, kept_);
+    if (law_.last_brake != no_variable) kept_.insert(law_.last_brake);
+    for (const Statement& statement : law_.update)
+      if (law_.expressions[statement.value].operation == Operation::sum && kept_.erase(statement.target) != 0) derived_.push_back(&statement);
+  }
+
+  // States that the expression reads, but for those that are `assigned`.
+  void find_reads(ExpressionId id, const std::set<VariableId>& assigned, std::set<VariableId>& found) const {
+    const Expression& e = law_.expressions[id];
+    if (e.operation == Operation::constant) return;
+    if (e.operation == Operation::read) {
+      if (law_.variables[e.left].role == Role::state && assigned.count(e.left) == 0) found.insert(e.left);
+      return;
+    }
+    find_reads(e.left, assigned, found);
+    if (e.operation == Operation::where) find_reads(e.condition, assigned, found);
+    if (e.operation != Operation::flush && e.operation != Operation::sum) find_reads(e.right, assigned, found);
+  }
+
+  // Of what is kept of a sample, what update() or the next sample reads.
+  std::vector<Statement> read_later(const std::vector<Statement>& program) const {
+    std::set<VariableId> read = kept_;
+    for (const Statement& statement : law_.update) find_reads(statement.value, {}, read);
+    std::vector<Statement> later;
+    for (const Statement& statement : program)
+      if (read.count(statement.target) != 0) later.push_back(statement);
+    return later;
+  }
+
+  bool is_derived(const Statement& statement) const { return std::find(derived_.begin(), derived_.end(), &statement) != derived_.end(); }
+
+  // With the number of each in the storage.
+  template <class Visit>
+  void each_state(Visit visit) const {
+    std::size_t number = 0;
+    for (VariableId id : kept_)
+      for (std::size_t place = 0; place < law_.variables[id].size; ++place) visit(id, name(id, place), number++);
+  }
+
+  std::vector<std::string> loads() const {
+    std::vector<std::string> lines;
+    each_state([&](VariableId id, const std::string& state, std::size_t number) {
+      const Variable& variable = law_.variables[id];
+      lines.push_back(fmt::format("vector {} = vector::at(state, {} * block);  // {} [{}]", state, number, variable.meaning, variable.unit));
+    });
+    return lines;
+  }
+
+  std::vector<std::string> energy_loads() const {
+    std::set<VariableId> read;
+    for (const Statement& statement : law_.energy) find_reads(statement.value, {}, read);
+    std::vector<std::string> lines;
+    each_state([&](VariableId id, const std::string& state, std::size_t number) {
+      if (read.count(id) != 0) lines.push_back(fmt::format("const vector {} = vector::at(state, {} * block);", state, number));
+    });
+    return lines;
+  }
+
+  std::vector<std::string> lines_of(const std::vector<Statement>& program) {
+    std::vector<std::string> lines;
+    for (const Statement& statement : program) {
+      if (is_derived(statement)) continue;
+      const Variable& target = law_.variables[statement.target];
+      if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
+      const char* declared = kept_.count(statement.target) != 0 ? "" : "const vector ";
+      for (std::size_t place = 0; place < target.size; ++place)
+        append(lines, fmt::format("{}{} = {};", declared, name(statement.target, place), expression(statement.value, place)));
+    }
+    return lines;
+  }
+
+  std::vector<std::string> commands() const {
+    std::vector<std::string> lines;
+    if (law_.brake_changes())
+      lines.push_back(fmt::format("vector::put(dampings, point, vector::where(sampled, {}, {}));", name(law_.brake, 0), name(law_.last_brake, 0)));
+    lines.push_back("vector::put(forces, point, vector::where(sampled, force, scalar(0)));");
+    return lines;
+  }
+
+  std::string name(VariableId id, std::size_t place) const {
+    const Variable& variable = law_.variables[id];
+    return (variable.element_names.empty() ? variable.name : variable.element_names[place]) + (variable.role == Role::state ? "_" : "");
+  }
+
+  std::string expression(ExpressionId id, std::size_t place) {
+    Spelling spelling;
+    spelling.variable = [&](const Variable& variable) { return name_of(variable, variable.size == 1 ? 0 : place); };
+    spelling.coefficient = [&](const Coefficient& coefficient) {
+      used_.insert(&coefficient);
+      return coefficient.element_names.empty() ? coefficient.name : coefficient.element_names[place];
+    };
+    spelling.flush = [this](const std::string& value) {
+      uses_flush_ = true;
+      return fmt::format("vector::flush_below(threshold, {})", value);
+    };
+    spelling.clamp = [](const std::string& value, const std::string& limit) { return fmt::format("vector::clamp_to({}, {})", limit, value); };
+    spelling.sum = [this](const Variable& vector) { return "(" + sum_text(vector) + ")"; };
+    spelling.where = [](const std::string& condition, const std::string& yes, const std::string& no) {
+      return fmt::format("vector::where({}, {}, {})", condition, yes, no);
+    };
+    return expression_text(law_, id, spelling);
+  }
+
+  std::string name_of(const Variable& variable, std::size_t place) const { return name(static_cast<VariableId>(&variable - law_.variables.data()), place); }
+
+  // In the order of the single class, whose rolled loops begin every lane at 0.
+  std::string sum_text(const Variable& vector) const {
+    const std::size_t lanes = law_.is_rolled(vector.size) ? law_.lanes : 1;
+    std::vector<std::string> parts(lanes, lanes > 1 ? "vector(0)" : "");
+    for (std::size_t place = 0; place < vector.size; ++place) {
+      std::string& part = parts[place % lanes];
+      part += (part.empty() ? "" : " + ") + name_of(vector, place);
+    }
+    for (std::size_t half = lanes / 2; half > 0; half /= 2)
+      for (std::size_t i = 0; i < half; ++i) parts[i] = "(" + parts[i] + ") + (" + parts[i + half] + ")";
+    return parts.front();
+  }
+
+  std::string rest_value(const Variable& variable) const {
+    if (law_.rest_position != no_variable && &variable == &law_.variables[law_.rest_position])
+      return law_.surface_at ? fmt::format("dashpot::pushed_in({}, position)", cpp_literal(*law_.surface_at, law_.scalar)) : "position";
+    return cpp_literal(variable.rest_value, law_.scalar);
+  }
+
+  std::vector<std::string> constants() const {
+    std::vector<std::string> lines;
+    if (uses_flush_)
+      lines.push_back(fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state", cpp_literal(law_.flush_threshold, law_.scalar)));
+    for (const Coefficient& coefficient : law_.coefficients)
+      if (used_.count(&coefficient) != 0) append_constant_of_each(coefficient, law_.scalar, lines);
+    return lines;
+  }
+
+  const UpdateLaw& law_;
+  std::set<VariableId> kept_;
+  std::vector<const Statement*> derived_;
+  std::set<const Coefficient*> used_;
+  bool uses_flush_ = false;
+};
+
+}  // namespace
+
+CppBatch cpp_batch(const UpdateLaw& law) { return BatchPrinter(law).print(); }
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,40 @@
+#include "emit/step_shape.hpp"
+
+#include <algorithm>
+
+namespace dashpot::compiler {
+namespace {
+
+std::size_t operations_of(const UpdateLaw& law) {
+  if (law.tunable) return cost_of(*law.tunable).output + cost_of(*law.tunable).update;
+  std::size_t operations = 0;
+  for (const auto* program : {&law.output, &law.update}) {
+    const Cost cost = cost_of(law, *program);
+    operations += cost.additions + cost.multiplications + cost.selections + cost.guards + cost.coupled;
+  }
+  return operations;
+}
+
+// True, with an error, where the law's step is no list of statements.
+bool refuses(const Compilation& c, const char* option, Diagnostics& diagnostics) {
+  if (c.law.tunable) {
+    const auto tunable = std::find_if(c.network.parameters.begin(), c.network.parameters.end(), [](const Parameter& p) { return p.tunable; });
+    diagnostics.report<DiagnosticCode::step_of_tunables>(tunable->span, tunable->name, option);
+    return true;
+  }
+  if (c.law.couplings.empty() && c.law.networks.empty()) return false;
+  diagnostics.report<DiagnosticCode::step_of_coupled_slips>(c.network.name_span, c.network.name, option);
+  return true;
+}
+
+}  // namespace
+
+bool can_be_emitted(const Compilation& c, const EmissionOptions& options, Diagnostics& diagnostics) {
+  const bool untimed = options.constant_time && refuses(c, "--constant-time", diagnostics);
+  if (untimed) diagnostics.note<DiagnosticCode::bounded_step_remedy>({}, "--constant-time", operations_of(c.law));
+  const bool single = options.batch && refuses(c, "--batch", diagnostics);
+  if (single) diagnostics.note<DiagnosticCode::object_each_remedy>({}, "--batch");
+  return !untimed && !single;
+}
+
+}  // namespace dashpot::compiler

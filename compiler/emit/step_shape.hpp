@@ -1,0 +1,12 @@
+// Whether a law's step is a list of statements without loops of its own: what constant time and many points need.
+#pragma once
+
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// True where nothing asked for stands against the law. Refuses: --constant-time and --batch for coupled slips and tunables,
+// whose steps take as long as their values have it.
+bool can_be_emitted(const Compilation& compilation, const EmissionOptions& options, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,133 @@
+// General viscoelastic solid, Fig. 2e
+//
+// source: Gosline & Hayward 2009, Fig. 5
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 11 N·s/m: in series B1 dissipates 100 % at low frequency and is observed;
+//   in series B2 dissipates 100 % at low frequency and is observed
+// states: position driven: on an ideal device nothing tells the inputs apart
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
+//   N·s/m is there
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-13 of the sum of
+//   the force's terms
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
+// cost of update(): 3 additions, 4 multiplications, 2 guards against subnormals; 6 states
+// rounding: a mode's force is off by at most 2e-13 of its peak
+//
+// Written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class second_order_maxwell {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    relaxed_force_ = 0;
+    B2_K2_force_ = 0;
+    B1_K1_force_ = 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
+        relaxed_force_;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    sampled_ = true;
+    sampled_position_change_ = position_change;
+    sampled_position_ = position;
+    return {damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // F ← a (F + c Δu)
+    // B2, K2
+    B2_K2_force_ = dashpot::flush_below(threshold, B2_K2_decay * B2_K2_force_ +
+        B2_K2_gain * sampled_position_change_);
+    // B1, K1
+    B1_K1_force_ = dashpot::flush_below(threshold, B1_K1_decay * B1_K1_force_ +
+        B1_K1_gain * sampled_position_change_);
+    // S = Σ a_i F_i
+    relaxed_force_ = B2_K2_force_ + B1_K1_force_;
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // F²/(2k)
+    const scalar B2_K2_energy = B2_K2_energy_weight * B2_K2_force_ * B2_K2_force_;  // B2, K2
+    const scalar B1_K1_energy = B1_K1_energy_weight * B1_K1_force_ * B1_K1_force_;  // B1, K1
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = half_static_stiffness * last_position_ * last_position_ + (B2_K2_energy + B1_K1_energy);
+    return stored;
+  }
+
+ private:
+  static constexpr scalar damping = 11.0;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar static_stiffness = 5.0;  // k0 [N/m]
+  static constexpr scalar step_stiffness = 21.977282807459243;  // Σ c_i, answer of all modes within a sample [N/m]
+  static constexpr scalar velocity_gain = -11.0;  // b∞ − b [N·s/m]
+  static constexpr scalar B2_K2_gain = 9.975032378492145;  // a c [N/m]
+  static constexpr scalar B1_K1_gain = 11.956880536422767;  // a c [N/m]
+  static constexpr scalar B2_K2_decay = 0.9983347214509387;  // a = e^{−λh} [1]
+  static constexpr scalar B1_K1_decay = 0.9976028776973818;  // a = e^{−λh} [1]
+  static constexpr scalar half_static_stiffness = 2.5;  // ½ k0 [N/m]
+  static constexpr scalar B2_K2_energy_weight = 0.050166944753343795;  // 1/(2 k a²) [m/N]
+  static constexpr scalar B1_K1_energy_weight = 0.041867147435589155;  // 1/(2 k a²) [m/N]
+
+  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
+  scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar B1_K1_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

@@ -1,0 +1,130 @@
+// A needle that sticks and slides, Fig. 10
+//
+// source: Gosline & Hayward 2009, Fig. 10 and (21); the paper prints no values, these are chosen here
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 2.5 N·s/m: dampers at the tool in parallel add
+// behind Y: gated, the gated law errs by 3.63 % in the band, no more than 5 %; b = 0 N·s/m stuck, 0.8 sliding
+// states: position driven: on an ideal device nothing tells the inputs apart
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 4 additions, 2 multiplications, 0 guards against subnormals
+// cost of update(): 0 additions, 0 multiplications, 1 guards against subnormals; 6 states
+// constant time: output() and update() decide by masks, not by jumps
+// rounding: a mode's force is off by at most 5.6e-16 of its peak
+//
+// Written by dashpot 0.1.0 from a network with digest ac88426b23200b24. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/branch_free.hpp>
+#include <dashpot/command.hpp>
+
+namespace dashpot::generated {
+
+class visco_elasto_plastic {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    K_spring_force_ = 0;
+    last_damping_ = 2.5;
+    sampled_position_change_ = 0;
+    sampled_Y_slip_ = 0;
+    sampled_position_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // t = stuck trial
+    const scalar Y_trial = Y_trial_by_change * position_change + K_spring_force_;
+    // s = clamp(t, ±Y)
+    const scalar Y_slip = dashpot::branch_free::clamp_to(Y_yield, Y_trial);
+    // r = t − s
+    const scalar Y_excess = Y_trial - Y_slip;
+    // b of the regime
+    const scalar Y_damping = dashpot::branch_free::where(Y_excess * Y_slip, Y_sliding_damping, Y_stuck_damping);
+    // b of the regime
+    const scalar damping = Y_damping + steady_damping;
+    // m = f − b u̇
+    const scalar force = Y_slip;
+    sampled_ = dashpot::all_finite(position, velocity, force);
+    const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);
+    last_damping_ = dashpot::branch_free::chosen(sampled, damping, last_damping_);
+    sampled_position_change_ = dashpot::branch_free::chosen(sampled, position_change, sampled_position_change_);
+    sampled_Y_slip_ = dashpot::branch_free::chosen(sampled, Y_slip, sampled_Y_slip_);
+    sampled_position_ = dashpot::branch_free::chosen(sampled, position, sampled_position_);
+    return {last_damping_, dashpot::branch_free::chosen(sampled, force, scalar(0))};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);
+    sampled_ = false;
+    // F ← F + k δ
+    K_spring_force_ = dashpot::branch_free::chosen(sampled, dashpot::branch_free::flush_below(threshold,
+        sampled_Y_slip_), K_spring_force_);
+    // u₋ = u
+    last_position_ = dashpot::branch_free::chosen(sampled, sampled_position_, last_position_);
+  }
+
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // F²/(2k)
+    const scalar K_spring_energy = K_compliance * K_spring_force_ * K_spring_force_;
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar stored = K_spring_energy;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar Y_trial_by_change = 1000.0;  // for a change of position [N/m]
+  static constexpr scalar Y_yield = 0.5;  // Y [N]
+  static constexpr scalar Y_stuck_damping = 0.0;  // b while the slip holds [N·s/m]
+  static constexpr scalar Y_sliding_damping = 0.8;  // b while it slides [N·s/m]
+  static constexpr scalar steady_damping = 2.5;  // of what no slip changes [N·s/m]
+  static constexpr scalar K_compliance = 0.0005;  // 1/(2 k) [m/N]
+
+  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar K_spring_force_ = 0;  // force of the spring [N]
+  scalar last_damping_ = 2.5;  // b of the sample before [N·s/m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_Y_slip_ = 0;  // the slip's force, at this sample [N]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

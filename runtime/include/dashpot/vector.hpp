@@ -1,0 +1,165 @@
+// Several scalars at once, for the rolled loops of emitted laws: as many as a register of the machine holds that the code is
+// compiled for, one where the compiler has no vectors. How many makes no difference to any bit: a law states in how many
+// partial sums it adds up, and the same operations are done in the same order in registers of any width.
+#pragma once
+
+#include <dashpot/branch_free.hpp>
+
+// Before a loop over the registers of one round: they are few, and each has its own partial sum.
+#if defined(__clang__)
+#define DASHPOT_UNROLL _Pragma("clang loop unroll(full)")
+#elif defined(__GNUC__)
+#define DASHPOT_UNROLL _Pragma("GCC unroll 64")
+#else
+#define DASHPOT_UNROLL
+#endif
+
+namespace dashpot {
+
+#if defined(__GNUC__) && defined(__AVX512F__)
+inline constexpr int register_bytes = 64;
+#elif defined(__GNUC__) && defined(__AVX__)
+inline constexpr int register_bytes = 32;
+#elif defined(__GNUC__) && (defined(__SSE2__) || defined(__aarch64__))
+inline constexpr int register_bytes = 16;
+#else
+inline constexpr int register_bytes = 0;
+#endif
+
+// Scalars in a register, in a law of `lanes` partial sums: two registers of them at least, so that one addition does not
+// wait for the other.
+template <class Scalar, int lanes>
+inline constexpr int vector_width = register_bytes / static_cast<int>(sizeof(Scalar)) > lanes / 2
+                                        ? (lanes > 1 ? lanes / 2 : 1)
+                                        : (register_bytes > 0 ? register_bytes / static_cast<int>(sizeof(Scalar)) : 1);
+
+#if defined(__GNUC__)
+template <class Scalar, int count>
+struct packed {
+  typedef Scalar type __attribute__((vector_size(sizeof(Scalar) * static_cast<unsigned>(count))));
+  typedef Scalar in_memory
+      __attribute__((vector_size(sizeof(Scalar) * static_cast<unsigned>(count)), aligned(alignof(Scalar)), may_alias));
+};
+#else
+template <class Scalar, int count>
+struct packed;
+#endif
+
+template <class Scalar>
+struct packed<Scalar, 1> {
+  using type = Scalar;
+  using in_memory = Scalar;
+};
+
+template <class Scalar, int count>
+class vector {
+ public:
+  using packed_type = typename packed<Scalar, count>::type;
+  static constexpr int width = count;
+
+  vector() noexcept : value_{} {}
+  vector(Scalar all) noexcept : value_(all - packed_type{}) {}  // all − 0 is `all`, also for −0
+
+  // The `width` values from place i on.
+  template <class Index>
+  static vector at(const Scalar* values, Index i) noexcept {
+    return vector(packed_tag(), *reinterpret_cast<const typename packed<Scalar, count>::in_memory*>(values + i));
+  }
+  template <class Index>
+  static void put(Scalar* values, Index i, vector v) noexcept {
+    *reinterpret_cast<typename packed<Scalar, count>::in_memory*>(values + i) = v.value_;
+  }
+
+  friend vector operator+(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ + b.value_); }
+  friend vector operator-(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ - b.value_); }
+  friend vector operator*(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ * b.value_); }
+
+  // `yes` where `condition` is above zero, else `no`.
+  static vector where(vector condition, vector yes, vector no) noexcept {
+    return vector(packed_tag(), condition.value_ > packed_type{} ? yes.value_ : no.value_);
+  }
+
+  // `yes` where the mask is ones, else `no`.
+  static vector chosen(branch_free::mask<Scalar> which, vector yes, vector no) noexcept {
+    if constexpr (count > 1) {
+      using bits = decltype(yes.value_ > yes.value_);
+      const bits all = static_cast<decltype(all_bits())>(which) - bits{};
+      return vector(packed_tag(), reinterpret_cast<packed_type>((reinterpret_cast<bits>(yes.value_) & all) |
+                                                                (reinterpret_cast<bits>(no.value_) & ~all)));
+    } else {
+      return branch_free::chosen(which, yes.value_, no.value_);
+    }
+  }
+
+  // 1 where all three are finite, else 0.
+  static vector all_finite(vector a, vector b, vector c) noexcept {
+    const packed_type nothing = (a.value_ - a.value_) + (b.value_ - b.value_) + (c.value_ - c.value_);
+    return vector(packed_tag(), nothing == packed_type{} ? vector(Scalar(1)).value_ : packed_type{});
+  }
+
+  // As the functions of these names in command.hpp.
+  static vector flush_below(vector threshold, vector v) noexcept {
+    return vector(packed_tag(), magnitude(v.value_) > threshold.value_ ? v.value_ : packed_type{});
+  }
+  static vector clamp_to(vector limit, vector v) noexcept {
+    const packed_type below = v.value_ < limit.value_ ? v.value_ : limit.value_;
+    return vector(packed_tag(), below > -limit.value_ ? below : -limit.value_);
+  }
+
+  Scalar operator[](int i) const noexcept {
+    if constexpr (count > 1) return value_[i];
+    else return value_;
+  }
+
+ private:
+  struct packed_tag {};
+  vector(packed_tag, packed_type value) noexcept : value_(value) {}
+
+  static auto all_bits() noexcept {
+    using bits = decltype(packed_type{} > packed_type{});
+    return bits{}[0];
+  }
+
+  // One comparison for either sign: where several are computed at once nothing is predicted.
+  static packed_type magnitude(packed_type value) noexcept {
+    if constexpr (count > 1) {
+      using bits = decltype(value > value);
+      return reinterpret_cast<packed_type>(reinterpret_cast<bits>(value) & ~reinterpret_cast<bits>(-packed_type{}));
+    } else {
+      return value < 0 ? -value : value;
+    }
+  }
+
+  packed_type value_;
+};
+
+// A sum in `lanes` partial ones: place i goes to lane i mod `lanes`; at last the second half of the lanes is added to the
+// first until one is left.
+template <class Scalar, int lanes>
+class partial_sums {
+ public:
+  using part = vector<Scalar, vector_width<Scalar, lanes>>;
+
+  // The lanes from `first` on.
+  void add(int first, part values) noexcept { parts_[first / part::width] = parts_[first / part::width] + values; }
+
+  Scalar total() noexcept {
+    DASHPOT_UNROLL
+    for (int half = lanes / part::width / 2; half > 0; half /= 2)
+      DASHPOT_UNROLL
+      for (int i = 0; i < half; ++i) parts_[i] = parts_[i] + parts_[i + half];
+    Scalar last[part::width];
+    DASHPOT_UNROLL
+    for (int i = 0; i < part::width; ++i) last[i] = parts_[0][i];
+    DASHPOT_UNROLL
+    for (int half = part::width / 2; half > 0; half /= 2)
+      DASHPOT_UNROLL
+      for (int i = 0; i < half; ++i) last[i] = last[i] + last[i + half];
+    return last[0];
+  }
+
+ private:
+  part parts_[lanes / part::width];
+};
+
+}  // namespace dashpot

@@ -1,0 +1,128 @@
+// Runs one network in three ways over samples that are not all finite, and says where they differ in a bit. Compiled at the
+// time of the test, with the headers that it is to run.
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+namespace points {
+
+constexpr int samples = 300;
+
+template <class Scalar>
+bool same(Scalar a, Scalar b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+// Moves of all sizes, rests and returns, another one at each point; now and then something that is no number.
+template <class Scalar>
+Scalar position_of(int point, int n) {
+  if ((n + 7 * point) % 41 == 40) return std::numeric_limits<Scalar>::quiet_NaN();
+  const double phase = 0.05 * (n < 200 ? n : 200) * (1 + 0.1 * point);
+  return static_cast<Scalar>(0.02 * std::sin(phase) + 1e-7 * point);
+}
+
+template <class Scalar>
+Scalar velocity_of(int point, int n) {
+  if ((n + 3 * point) % 53 == 52) return std::numeric_limits<Scalar>::infinity();
+  if ((n + point) % 61 == 60) return std::numeric_limits<Scalar>::max();  // overflows the force
+  return static_cast<Scalar>(0.3 * std::cos(0.05 * n * (1 + 0.1 * point)));
+}
+
+template <class Batch>
+auto dampings_of(const Batch&, typename Batch::scalar* dampings, long long points) -> decltype(Batch::damping + 0) {
+  for (long long i = 0; i < points; ++i) dampings[i] = Batch::damping;
+  return 0;
+}
+inline void dampings_of(...) {}
+
+template <class Batch, class Scalar>
+auto step(Batch& batch, const Scalar* p, const Scalar* v, Scalar*, Scalar* f) -> decltype(batch.step(p, v, f)) { batch.step(p, v, f); }
+template <class Batch, class Scalar>
+auto step(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f) -> decltype(batch.step(p, v, d, f)) { batch.step(p, v, d, f); }
+template <class Batch, class Scalar>
+auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar*, Scalar* f) -> decltype(batch.output(p, v, f)) { batch.output(p, v, f); }
+template <class Batch, class Scalar>
+auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f) -> decltype(batch.output(p, v, d, f)) { batch.output(p, v, d, f); }
+
+template <class Law, class Timed, class Batch>
+struct Run {
+  using scalar = typename Law::scalar;
+
+  explicit Run(int points)
+      : laws(static_cast<std::size_t>(points)), timed(laws.size()), storage(static_cast<std::size_t>(Batch::storage_size(points))),
+        split_storage(storage.size()), batch(storage.data(), points), split(split_storage.data(), points), p(laws.size()), v(laws.size()),
+        f(laws.size()), d(laws.size()), split_f(laws.size()), split_d(laws.size()) {
+    const scalar start = static_cast<scalar>(0.001);
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+      laws[i].reset(start);
+      timed[i].reset(start);
+    }
+    batch.reset(start);
+    split.reset(start);
+    dampings_of(batch, d.data(), points);
+    split_d = d;
+  }
+
+  bool differs_at(int n) {
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+      p[i] = position_of<scalar>(static_cast<int>(i), n);
+      v[i] = velocity_of<scalar>(static_cast<int>(i), n);
+    }
+    step(batch, p.data(), v.data(), d.data(), f.data());
+    output(split, p.data(), v.data(), split_d.data(), split_f.data());
+    split.update(p.data(), v.data());
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+      const auto expected = laws[i].step(p[i], v[i]), found = timed[i].step(p[i], v[i]);
+      if (!same(expected.force, found.force) || !same(expected.damping, found.damping)) return says("constant time", n, i, expected.force, found.force);
+      if (!same(expected.force, f[i]) || !same(expected.damping, d[i])) return says("batch", n, i, expected.force, f[i]);
+      if (!same(expected.force, split_f[i]) || !same(expected.damping, split_d[i])) return says("batch in two phases", n, i, expected.force, split_f[i]);
+      const scalar energy = laws[i].stored_energy(), others = batch.stored_energy(static_cast<long long>(i));
+      if (!same(energy, others) || !same(energy, timed[i].stored_energy())) return says("energy", n, i, energy, others);
+    }
+    return false;
+  }
+
+  static bool says(const char* what, int n, std::size_t point, scalar expected, scalar found) {
+    std::printf("%s, sample %d, point %zu: %.17g, single %.17g\n", what, n, point, static_cast<double>(found), static_cast<double>(expected));
+    return true;
+  }
+
+  std::vector<Law> laws;
+  std::vector<Timed> timed;
+  std::vector<scalar> storage, split_storage;
+  Batch batch, split;
+  std::vector<scalar> p, v, f, d, split_f, split_d;
+};
+
+template <class Law, class Timed, class Batch>
+bool differ(const char* name) {
+  for (int points : {1, 3, 16, 37}) {
+    Run<Law, Timed, Batch> run(points);
+    for (int n = 0; n < samples; ++n)
+      if (run.differs_at(n)) {
+        std::printf("  in %s with %d points\n", name, points);
+        return true;
+      }
+  }
+  return false;
+}
+
+// A batch with storage of its own.
+template <class Law, class Points>
+bool own_storage_differs(const char* name) {
+  using scalar = typename Law::scalar;
+  static Points points;
+  std::vector<Law> laws(static_cast<std::size_t>(points.points()));
+  std::vector<scalar> p(laws.size()), v(laws.size()), f(laws.size());
+  for (int n = 0; n < samples; ++n) {
+    for (std::size_t i = 0; i < laws.size(); ++i) p[i] = position_of<scalar>(static_cast<int>(i), n);
+    points.step(p.data(), v.data(), f.data());
+    for (std::size_t i = 0; i < laws.size(); ++i)
+      if (!same(laws[i].step(p[i], v[i]).force, f[i])) return std::printf("%s, sample %d, point %zu\n", name, n, i) > 0;
+  }
+  return false;
+}
+
+}  // namespace points

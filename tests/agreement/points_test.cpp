@@ -1,0 +1,93 @@
+// A batch's points are single networks: every one of them gives the bits that the single class gives, which are the same
+// with and without jumps.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "support/random.hpp"
+#include "support/random_network.hpp"
+#include "support/shell_command.hpp"
+#include "support/written_network.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t random_networks = 12;
+
+struct Machine {
+  const char* compiler;
+  const char* flags;
+};
+const Machine machines[] = {{DASHPOT_GXX, "-O2"}, {DASHPOT_CLANGXX, "-O3 -march=native"}};
+
+void run_or_throw(const std::string& line) {
+  const Finished finished = run_command(line);
+  if (finished.status != 0) throw std::runtime_error(line.substr(0, 400) + "\n" + finished.output.substr(0, 4000));
+}
+
+// Linear ones, closed-form slips with a brake that changes and without, a contact, and loops.
+std::vector<std::string> networks(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const char* name : {"twenty_branches", "lone_spring", "lone_damper"}) files.push_back(fmt::format(DASHPOT_CORNER_CASES "/{}.json", name));
+  for (const char* name : {"second_order_maxwell", "generalised_kelvin_four", "visco_elasto_plastic", "visco_elasto_plastic_organ",
+                           "maxwell_slip_ten", "virtual_wall"})
+    files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
+  for (std::uint64_t seed = 1; seed <= random_networks; ++seed) {
+    NetworkRecipe recipe;
+    recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;
+    recipe.most_slips = seed % 2 == 0 ? 1 : 0;
+    files.push_back((folder / fmt::format("random_{}.json", seed)).string());
+    write_text(files.back(), json_text(random_network(seed, recipe)));
+  }
+  return files;
+}
+
+std::string class_of(const std::string& file) { return fs::path(file).stem().string(); }
+
+// The class in constant time stands in a namespace of another name.
+std::string program_of(const std::vector<std::string>& files) {
+  std::string headers, timed, calls;
+  for (const std::string& file : files) {
+    const std::string name = class_of(file);
+    headers += fmt::format("#include \"plain/{0}.hpp\"\n#include \"plain/{0}_batch.hpp\"\n", name);
+    timed += fmt::format("#include \"timed/{}.hpp\"\n", name);
+    calls += fmt::format("  failed |= points::differ<dashpot::generated::{0}, dashpot::timed::{0}, dashpot::generated::{0}_batch>(\"{0}\");\n", name);
+    if (name == "second_order_maxwell")
+      calls += fmt::format("  failed |= points::own_storage_differs<dashpot::generated::{0}, dashpot::generated::{0}_points<19>>(\"{0}_points\");\n", name);
+  }
+  return headers + "#define generated timed\n" + timed + "#undef generated\n#include \"points_driver.hpp\"\nint main() {\n  bool failed = false;\n" + calls +
+         "  return failed;\n}\n";
+}
+
+void expect_agreement(const std::string& choices) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> files = networks(folder.path());
+  std::string all;
+  for (const std::string& file : files) all += fmt::format(" '{}'", file);
+  const std::string compile = fmt::format("'{}' compile {}{} -o '{}/", DASHPOT_EXECUTABLE, choices, all, folder.path().string());
+  run_or_throw(compile + "plain' --batch");
+  run_or_throw(compile + "timed' --constant-time");
+  write_text(folder.path() / "points.cpp", program_of(files));
+  for (const Machine& machine : machines) {
+    const std::string program = (folder.path() / "points").string();
+    run_or_throw(fmt::format("'{0}' -std=c++17 {1} -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror "
+                             "-I'{2}' -I'{3}' -I'{4}' '{5}.cpp' -o '{5}'",
+                             machine.compiler, machine.flags, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder.path().string(), program));
+    const Finished finished = run_command("'" + program + "'");
+    EXPECT_TRUE(finished.status == 0 && finished.output.empty()) << machine.compiler << " " << machine.flags << " " << choices << "\n" << finished.output;
+  }
+}
+
+// Fails if a point's force, damping or energy differs in any bit from the single class's, at any sample, finite or not, in the
+// fused step or in two phases, or if masks give other bits than jumps.
+TEST(Points, are_single_networks_in_double) { expect_agreement("--scheme exact"); }
+
+// Fails likewise in float, where modes are in delta form and registers hold twice as many.
+TEST(Points, are_single_networks_in_float) { expect_agreement("--scalar float --scheme backward-euler"); }
+
+// Fails likewise where rounding is carried along.
+TEST(Points, are_single_networks_with_compensation) { expect_agreement("--scalar float --rate 100000"); }
+
+}  // namespace
+}  // namespace dashpot::testing

@@ -165,6 +165,11 @@ double largest_trial(const DifferentialCase& one) {
 
 }  // namespace
 
+std::string name_of(Family family) {
+  static const char* const names[] = {"LinearExact", "LinearBackwardEuler", "Slips", "Contact"};
+  return names[static_cast<int>(family)];
+}
+
 DifferentialCase differential_case(Family family, std::uint64_t seed) {
   Random random(4 * seed + static_cast<std::uint64_t>(family));
   const NetworkRecipe recipe = recipe_of(family, random);
@@ -179,7 +184,7 @@ DifferentialCase differential_case(Family family, std::uint64_t seed) {
   const std::string text = text_of(network);
   one.compilation = compiled_text(text, choices, device);
   const compiler::UpdateLaw& law = one.compilation.law;
-  one.description = fmt::format("seed {} of family {}: {}, {}, {}, {} Hz{}\n{}", seed, static_cast<int>(family), name_of(law.scheme),
+  one.description = fmt::format("seed {} of {}: {}, {}, {}, {} Hz{}\n{}", seed, name_of(family), name_of(law.scheme),
                                 name_of(law.scalar), one.compilation.decomposition.choice().name, one.compilation.rate,
                                 device ? ", on a device" : "", text);
   const std::size_t samples = family == Family::linear_exact ? exact_samples : stepped_samples;

@@ -9,6 +9,7 @@
 namespace dashpot::testing {
 
 enum class Family { linear_exact, linear_backward_euler, slips, contact };
+std::string name_of(Family family);
 
 struct Sample {
   double position;  // [m]

@@ -9,6 +9,9 @@
 #include "support/shrink.hpp"
 
 namespace dashpot::testing {
+
+void PrintTo(Family family, std::ostream* out) { *out << name_of(family); }
+
 namespace {
 
 constexpr std::size_t cases_a_program = 40;  // as many classes as a compiler takes at once without much memory
@@ -44,13 +47,8 @@ TEST_P(Differential, EmittedCodeIsTheNetwork) {
   EXPECT_GE(3 * against_reference_, networks());
 }
 
-std::string name_of_family(const ::testing::TestParamInfo<Family>& info) {
-  static const char* const names[] = {"LinearExact", "LinearBackwardEuler", "Slips", "Contact"};
-  return names[static_cast<int>(info.param)];
-}
-
 INSTANTIATE_TEST_SUITE_P(Of, Differential, ::testing::Values(Family::linear_exact, Family::linear_backward_euler, Family::slips, Family::contact),
-                         name_of_family);
+                         [](const ::testing::TestParamInfo<Family>& one) { return name_of(one.param); });
 
 }  // namespace
 }  // namespace dashpot::testing

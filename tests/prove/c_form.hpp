@@ -1,0 +1,22 @@
+// The step of a law in C, for tools that read no C++: the same constants, the same order of the same operations.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "state_box.hpp"
+
+namespace dashpot::testing {
+
+// What the main program of the proof starts from: each state within ± its bound, in so many slices one after the other.
+struct ProvenBox {
+  InputRange range;
+  std::map<std::string, double> states;
+  std::map<std::string, int> slices;  // of states that need a distinction of cases
+};
+
+// Under Frama-C, `main` takes any state in the box and any input in the range, makes one step, and asserts that the command
+// is finite and the state in the box again. Elsewhere it reads positions and velocities and prints commands.
+std::string c_form(const compiler::UpdateLaw& law, const ProvenBox& box);
+
+}  // namespace dashpot::testing

@@ -1,0 +1,162 @@
+#include "gappa_script.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <regex>
+#include <set>
+
+#include "discretise/rounding.hpp"
+#include "scalar_program.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using compiler::ExpressionId;
+using compiler::Operation;
+using compiler::Role;
+using compiler::Statement;
+using compiler::UpdateLaw;
+
+// m·2^e, as Gappa writes a number exactly.
+std::string exact(double value) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return fmt::format("{}b{}", static_cast<long long>(std::ldexp(mantissa, 53)), exponent - 53);
+}
+
+double half_ulp(double value, compiler::ScalarType scalar) {
+  const double next = scalar == compiler::ScalarType::float64 ? std::nextafter(value, INFINITY) : double(std::nextafter(float(value), INFINITY));
+  return (next - value) / 2;
+}
+
+// Each of `names` as a whole word, with `ending` behind it.
+std::string with_ending(std::string text, const std::set<std::string>& names, const std::string& ending) {
+  static const std::regex word("[A-Za-z_][A-Za-z0-9_]*");
+  std::string result;
+  std::size_t done = 0;
+  for (std::sregex_iterator match(text.begin(), text.end(), word), end; match != end; ++match) {
+    const auto at = static_cast<std::size_t>(match->position());
+    result += text.substr(done, at - done) + match->str() + (names.count(match->str()) > 0 ? ending : "");
+    done = at + static_cast<std::size_t>(match->length());
+  }
+  return result + text.substr(done);
+}
+
+class Script {
+ public:
+  Script(const compiler::Compilation& compilation, const InputRange& range, const std::map<std::string, double>& box)
+      : c_(compilation), law_(compilation.law), range_(range), box_(box) {}
+
+  std::string text() {
+    define(law_.output, outputs_);
+    define(law_.update, nexts_);
+    assume_inputs();
+    bound_force();
+    bound_states();
+    std::string all = fmt::format("@rnd = float<{}, ne>;\n", law_.scalar == compiler::ScalarType::float64 ? "ieee_64" : "ieee_32");
+    for (const std::string& name : floats_) all += fmt::format("{0} = rnd({0}_any);\n", name);
+    for (const auto& [name, value] : constants_) all += fmt::format("{} = {};\n", name, exact(value));
+    return all + definitions_ + "{ " + joined(assumptions_, " /\\\n  ") + " ->\n  " + joined(goals_, " /\\\n  ") + " }\n";
+  }
+
+ private:
+  static std::string joined(const std::vector<std::string>& all, const char* between) {
+    std::string text;
+    for (const std::string& one : all) text += (text.empty() ? "" : between) + one;
+    return text;
+  }
+
+  // name = what is computed; name_real = the same without rounding, and with constants that were not rounded either.
+  void define(const std::vector<Statement>& program, std::set<std::string>& defined) {
+    const ScalarSpelling spelling = {[](const std::string& value) { return "(" + value + ")"; },
+                                     [](const std::string&, const std::string&) { return std::string("linear laws have no slips"); }};
+    const bool is_update = &program == &law_.update;
+    for (const ScalarAssignment& a : scalar_program(law_, program, spelling)) {
+      const std::string rounded = with_ending(a.value, defined, is_update ? "next" : "");
+      const std::string name = is_update ? a.target + "next" : a.target;
+      std::set<std::string> real = is_update ? all_constants() : std::set<std::string>();
+      definitions_ += fmt::format("{} rnd= {};\n", name, rounded);
+      if (!is_update) real = defined;
+      definitions_ += fmt::format("{}_real = {};\n", name, is_update ? with_ending(with_ending(a.value, defined, "next"), real, "_real")
+                                                                     : with_ending(a.value, real, "_real"));
+      defined.insert(a.target);
+    }
+  }
+
+  std::set<std::string> all_constants() {
+    std::set<std::string> names;
+    for (const compiler::Coefficient& c : law_.coefficients)
+      for (std::size_t place = 0; place < c.values.size(); ++place) names.insert(scalar_name(c, place));
+    return names;
+  }
+
+  bool appears(const std::string& name) const { return std::regex_search(definitions_, std::regex("\\b" + name + "\\b")); }
+
+  void assume_inputs() {
+    const auto assume = [&](const std::string& name, double bound) {
+      if (!appears(name)) return;
+      floats_.push_back(name);
+      assumptions_.push_back(fmt::format("|{}| <= {}", name, exact(bound)));
+    };
+    assume(scalar_name(law_.variables[law_.position], 0), range_.position);
+    assume(scalar_name(law_.variables[law_.velocity], 0), range_.velocity);
+    for (const auto& [state, bound] : box_) assume(state, bound);
+    for (const compiler::Coefficient& c : law_.coefficients)
+      for (std::size_t place = 0; place < c.values.size(); ++place) {
+        const std::string name = scalar_name(c, place);
+        if (appears(name)) constants_[name] = c.values[place];
+        if (appears(name + "_real"))
+          assumptions_.push_back(fmt::format("|{0}_real - {0}| <= {1}", name, exact(half_ulp(c.values[place], law_.scalar))));
+      }
+  }
+
+  void bound_force() {
+    const double share = 8 * compiler::unit_roundoff(law_.scalar);  // of the certificate's, which has one more for every mode
+    const std::string force = scalar_name(law_.variables[law_.force], 0);
+    goals_.push_back(fmt::format("|{0} - {0}_real| <= {1}", force, exact(share * sum_of_terms(law_, range_, box_))));
+  }
+
+  // An error decays at the rate α: what a step may add is α of what the banner states for all of them.
+  void bound_states() {
+    for (const Statement& statement : law_.update)
+      for (std::size_t place = 0; place < law_.variables[statement.target].size; ++place) {
+        const std::string state = scalar_name(law_.variables[statement.target], place);
+        const double largest = box_.at(state);
+        goals_.push_back(fmt::format("|{}next| <= {}", state, exact(largest)));
+        if (const std::optional<double> loss = loss_of(statement.value, place))
+          goals_.push_back(fmt::format("|{0}next - {0}next_real| <= {1}", state, exact(law_.relative_error_bound * *loss * largest / (1 + 1e-5))));
+      }
+  }
+
+  // α of the mode that the expression advances; empty where it advances none.
+  std::optional<double> loss_of(ExpressionId id, std::size_t place) const {
+    const compiler::Expression& e = law_.expressions[id];
+    if (e.operation == Operation::read || e.operation == Operation::sum) return std::nullopt;
+    if (e.operation == Operation::constant) {
+      const compiler::Coefficient& c = law_.coefficients[e.left];
+      const double value = c.values[c.values.size() == 1 ? 0 : place];
+      return c.name.ends_with("decay") ? std::optional(1 - value) : std::nullopt;
+    }
+    const std::optional<double> left = loss_of(e.left, place);
+    return left || e.operation == Operation::flush ? left : loss_of(e.right, place);
+  }
+
+  const compiler::Compilation& c_;
+  const UpdateLaw& law_;
+  const InputRange& range_;
+  const std::map<std::string, double>& box_;
+  std::set<std::string> outputs_, nexts_;
+  std::vector<std::string> floats_, assumptions_, goals_;
+  std::map<std::string, double> constants_;
+  std::string definitions_;
+};
+
+}  // namespace
+
+std::string gappa_script(const compiler::Compilation& compilation, const InputRange& range, const std::map<std::string, double>& box) {
+  return Script(compilation, range, box).text();
+}
+
+}  // namespace dashpot::testing

@@ -1,0 +1,34 @@
+// A law's programs as assignments of scalars, one after the other: every place of every vector by itself, sums written out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "discretise/expression_text.hpp"
+#include "discretise/update_law.hpp"
+
+namespace dashpot::testing {
+
+struct ScalarAssignment {
+  std::string target;
+  bool is_local;
+  std::string value;
+};
+
+// Names as emitted, states with an underscore behind.
+std::string scalar_name(const compiler::Variable& variable, std::size_t place);
+std::string scalar_name(const compiler::Coefficient& coefficient, std::size_t place);
+
+// Spelling of what differs among languages: flush and clamp.
+struct ScalarSpelling {
+  std::function<std::string(const std::string& value)> flush;
+  std::function<std::string(const std::string& value, const std::string& limit)> clamp;
+};
+
+// Of a law without coupled slips or tunables.
+std::vector<ScalarAssignment> scalar_program(const compiler::UpdateLaw& law, const std::vector<compiler::Statement>& program,
+                                             const ScalarSpelling& spelling);
+
+bool is_straight(const compiler::UpdateLaw& law);  // neither coupled slips nor tunables: the law is all in its programs
+
+}  // namespace dashpot::testing

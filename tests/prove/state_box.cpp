@@ -1,0 +1,188 @@
+#include "state_box.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "discretise/rounding.hpp"
+#include "scalar_program.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using compiler::ExpressionId;
+using compiler::Operation;
+using compiler::Role;
+using compiler::Statement;
+using compiler::UpdateLaw;
+
+// Σ c_i x_i over the states and inputs at the beginning of a step, and a rest of which the magnitude alone is known:
+// roundings, and what a slip or a contact decides.
+struct Affine {
+  std::map<std::size_t, double> shares;
+  double rest = 0;
+};
+
+// What every variable is in terms of the step's beginning, and how large that can be.
+class Magnitudes {
+ public:
+  Magnitudes(const UpdateLaw& law, const InputRange& range) : law_(law), roundoff_(compiler::unit_roundoff(law.scalar)) {
+    for (const compiler::Variable& v : law.variables) {
+      first_.push_back(bounds_.size());
+      for (std::size_t place = 0; place < v.size; ++place) bounds_.push_back(v.role == Role::state ? std::abs(v.rest_value) : 0.0);
+    }
+    bounds_[first_[law.position]] = range.position;
+    bounds_[first_[law.velocity]] = range.velocity;
+  }
+
+  void step() {
+    begin();
+    for (const std::vector<Statement>* program : {&law_.output, &law_.keep, &law_.update}) run(*program);
+    std::vector<double> then = bounds_;
+    for (std::size_t i = 0; i < law_.variables.size(); ++i)
+      for (std::size_t place = 0; law_.variables[i].role == Role::state && place < law_.variables[i].size; ++place)
+        then[first_[i] + place] = magnitude(values_[first_[i] + place]);
+    bounds_ = then;
+  }
+
+  double force() {
+    begin();
+    run(law_.output);
+    return magnitude(values_[first_[law_.force]]);
+  }
+
+  std::vector<double> states() const {
+    std::vector<double> flat;
+    for_each_state([&](std::size_t at) { flat.push_back(bounds_[at]); });
+    return flat;
+  }
+
+  void set_states(const std::vector<double>& flat) {
+    auto next = flat.begin();
+    for_each_state([&](std::size_t at) { bounds_[at] = *next++; });
+  }
+
+ private:
+  template <class Action>
+  void for_each_state(Action action) const {
+    for (std::size_t i = 0; i < law_.variables.size(); ++i)
+      for (std::size_t place = 0; law_.variables[i].role == Role::state && place < law_.variables[i].size; ++place) action(first_[i] + place);
+  }
+
+  void begin() {
+    values_.assign(bounds_.size(), {});
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i].shares[i] = 1;
+  }
+
+  void run(const std::vector<Statement>& program) {
+    for (const Statement& s : program)
+      for (std::size_t place = 0; place < law_.variables[s.target].size; ++place) values_[first_[s.target] + place] = of(s.value, place);
+  }
+
+  double magnitude(const Affine& value) const {
+    double sum = value.rest;
+    for (const auto& [at, share] : value.shares) sum += std::abs(share) * bounds_[at];
+    return sum;
+  }
+
+  Affine sum(const Affine& a, const Affine& b, double sign) const {
+    Affine all = a;
+    for (const auto& [at, share] : b.shares) all.shares[at] += sign * share;
+    all.rest += b.rest;
+    all.rest += roundoff_ * magnitude(all);
+    return all;
+  }
+
+  Affine scaled(const Affine& a, double factor) const {
+    Affine all = a;
+    for (auto& [at, share] : all.shares) share *= factor;
+    all.rest *= std::abs(factor);
+    all.rest += roundoff_ * magnitude(all);
+    return all;
+  }
+
+  Affine product(const compiler::Expression& e, std::size_t place) const {
+    const compiler::Expression& left = law_.expressions[e.left];
+    if (left.operation != Operation::constant) return {{}, magnitude(of(e.left, place)) * magnitude(of(e.right, place))};
+    const std::vector<double>& values = law_.coefficients[left.left].values;
+    return scaled(of(e.right, place), values[values.size() == 1 ? 0 : place]);
+  }
+
+  Affine of(ExpressionId id, std::size_t place) const {
+    const compiler::Expression& e = law_.expressions[id];
+    const auto size = [&](ExpressionId part) { return magnitude(of(part, place)); };
+    switch (e.operation) {
+      case Operation::read: return values_[first_[e.left] + (law_.variables[e.left].size == 1 ? 0 : place)];
+      case Operation::constant: return {{}, std::abs(law_.coefficients[e.left].values[law_.coefficients[e.left].values.size() == 1 ? 0 : place])};
+      case Operation::add: return sum(of(e.left, place), of(e.right, place), 1);
+      case Operation::subtract: return sum(of(e.left, place), of(e.right, place), -1);
+      case Operation::multiply: return product(e, place);
+      case Operation::flush: return of(e.left, place);
+      case Operation::clamp: return {{}, std::min(size(e.left), size(e.right))};
+      case Operation::where: return {{}, std::max(size(e.left), size(e.right))};
+      case Operation::sum: break;
+    }
+    Affine all;
+    const std::uint32_t vector = law_.expressions[e.left].left;
+    for (std::size_t i = 0; i < law_.variables[vector].size; ++i) all = sum(all, values_[first_[vector] + i], 1);
+    return all;
+  }
+
+  const UpdateLaw& law_;
+  double roundoff_;
+  std::vector<std::size_t> first_;  // place of each variable in the lists below
+  std::vector<double> bounds_;
+  std::vector<Affine> values_;
+};
+
+std::vector<double> after_steps(Magnitudes& run, const std::vector<double>& states, int steps) {
+  run.set_states(states);
+  for (int i = 0; i < steps; ++i) run.step();
+  return run.states();
+}
+
+// Magnitudes grow by a geometric series towards the fixed point, each state at the pace of the slowest that feeds it.
+std::vector<double> extrapolated(const std::vector<double>& x0, const std::vector<double>& x1, const std::vector<double>& x2) {
+  std::vector<double> limit = x2;
+  for (std::size_t i = 0; i < limit.size(); ++i) {
+    const double first = x1[i] - x0[i], second = x2[i] - x1[i];
+    if (second > 0 && first > second) limit[i] = x0[i] + first / (1 - second / first);
+  }
+  return limit;
+}
+
+}  // namespace
+
+std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, const InputRange& range) {
+  constexpr double room = 1 + 1e-6;  // of which a step of the slowest mode takes less than its loss, 1e-6 at least
+  Magnitudes run(law, range);
+  std::vector<double> states = run.states();
+  for (int round = 0; round < 60; ++round) {
+    states = after_steps(run, states, 4);
+    const std::vector<double> next = after_steps(run, states, 1);
+    states = extrapolated(states, next, after_steps(run, next, 1));
+    std::vector<double> wide = states;
+    for (double& value : wide) value *= room;
+    wide = after_steps(run, wide, 2);  // what follows others in the same step follows them
+    for (double& value : wide) value *= room;
+    const std::vector<double> then = after_steps(run, wide, 1);
+    if (!std::equal(then.begin(), then.end(), wide.begin(), [](double a, double b) { return a <= b; })) continue;
+    std::map<std::string, double> box;
+    auto value = wide.begin();
+    for (const compiler::Variable& v : law.variables)
+      for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place) box[scalar_name(v, place)] = *value++;
+    return box;
+  }
+  return std::nullopt;
+}
+
+double sum_of_terms(const UpdateLaw& law, const InputRange& range, const std::map<std::string, double>& box) {
+  Magnitudes run(law, range);
+  std::vector<double> states;
+  for (const compiler::Variable& v : law.variables)
+    for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place) states.push_back(box.at(scalar_name(v, place)));
+  run.set_states(states);
+  return run.force();
+}
+
+}  // namespace dashpot::testing

@@ -22,7 +22,7 @@ typename Evaluation<Scalar>::Solver Evaluation<Scalar>::solver_of(const Coupling
                             static_cast<Scalar>(node.yield)});
   solver.parts.resize(coupling.nodes.size());
   solver.corners.resize(static_cast<std::size_t>(coupling.corners()));
-  solver.merged.resize(2 * coupling.slips.size());
+  solver.merged.resize(static_cast<std::size_t>(slip_curve_room(static_cast<int>(coupling.slips.size()))));
   solver.held.resize(coupling.held.size());
   solver.elongation.resize(coupling.elongation.size());
   solver.sign.resize(coupling.slips.size());

@@ -77,7 +77,7 @@ SlipTable slip_table(const NormalTree& component, const std::vector<Real>& stiff
                            is_block ? next_block++ : is_slip ? next_slip++ : 0, is_block ? 0 : next_corner,
                            rounded(g, scalar), g > 0 ? rounded(1 / g, scalar) : 0.0, rounded(Real(part->yield_force), scalar)});
     next_child += children;
-    if (!is_block) next_corner += 2 * slips;
+    if (!is_block) next_corner += slip_curve_room(slips);
   }
   return table;
 }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <dashpot/command.hpp>
+#include <dashpot/slip_curve.hpp>
 
 namespace dashpot {
 
@@ -24,7 +25,7 @@ struct slip_node {
   int child_count;
   int slips;          // in this part
   int place;          // of a block or slip: where it stands in the inputs and outputs of a step
-  int first_corner;   // where the curve begins in the scratch space, room for 2·slips; of all but blocks
+  int first_corner;   // where the curve begins in the scratch space, room for slip_curve_room(slips); of all but blocks
   Scalar stiffness;   // g of a block; of the others dp/dδ at both ends of the curve, 0 where flat [N/m]
   Scalar compliance;  // its inverse, 0 where flat [m/N]
   Scalar yield;       // Y of a slip [N]
@@ -60,20 +61,18 @@ constexpr int slip_tree_push_operations(const slip_node<Scalar>* nodes, int coun
   return slip_tree_operations(nodes, count) + 9;
 }
 
+// Corners that the curve of a part needs room for: two a slip, and of each of the curves that are added up in it, and of a
+// block, the point where that part rests.
+constexpr int slip_curve_room(int slips) noexcept { return 3 * slips + 1; }
+
 // Corners that the curves of a tree need room for.
 template <class Scalar>
 constexpr int slip_tree_corners(const slip_node<Scalar>* nodes, int count) noexcept {
   int corners = 0;
   for (int k = 0; k < count; ++k)
-    if (nodes[k].kind != slip_part::block) corners += 2 * nodes[k].slips;
+    if (nodes[k].kind != slip_part::block) corners += slip_curve_room(nodes[k].slips);
   return corners;
 }
-
-template <class Scalar>
-struct slip_corner {
-  Scalar elongation;  // δ [m]
-  Scalar force;       // p [N]
-};
 
 enum class slip_hold : unsigned char { rigid, constant, affine };
 
@@ -95,7 +94,7 @@ template <class Scalar, int Nodes, int Slips, int Corners>
 struct slip_tree_scratch {
   slip_part_state<Scalar> parts[Nodes];
   slip_corner<Scalar> corners[Corners];  // slip_tree_corners()
-  slip_corner<Scalar> merged[2 * Slips];
+  slip_corner<Scalar> merged[slip_curve_room(Slips)];
 };
 
 template <class Scalar>
@@ -142,21 +141,18 @@ class slip_tree {
   using Corner = slip_corner<Scalar>;
   using State = slip_part_state<Scalar>;
 
-  // The two ways to read a curve: what is shared by the children, and what adds up over them.
-  struct Parallel {
-    static constexpr Scalar at(const Corner& corner) noexcept { return corner.elongation; }
-    static constexpr Scalar value(const Corner& corner) noexcept { return corner.force; }
-    static constexpr Corner corner(Scalar at, Scalar value) noexcept { return {at, value}; }
+  using Range = slip_range<Scalar>;
+  using Curve = slip_curve<Scalar>;
+
+  // How a block and the ends of a curve answer, read in either way.
+  struct Parallel : by_elongation<Scalar> {
     static constexpr Scalar end_slope(const Node& node) noexcept { return node.stiffness; }
     static constexpr Scalar of_block(const Node& block, Scalar held, Scalar elongation) noexcept {
       return block.stiffness * elongation + held;
     }
     static constexpr bool is_open(const Node&) noexcept { return false; }
   };
-  struct Series {
-    static constexpr Scalar at(const Corner& corner) noexcept { return corner.force; }
-    static constexpr Scalar value(const Corner& corner) noexcept { return corner.elongation; }
-    static constexpr Corner corner(Scalar at, Scalar value) noexcept { return {value, at}; }
+  struct Series : by_force<Scalar> {
     static constexpr Scalar end_slope(const Node& node) noexcept { return node.compliance; }
     static constexpr Scalar of_block(const Node& block, Scalar held, Scalar force) noexcept {
       return (force - held) * block.compliance;
@@ -164,73 +160,9 @@ class slip_tree {
     static constexpr bool is_open(const Node& node) noexcept { return node.stiffness == Scalar(0); }
   };
 
-  struct Curve {
-    const Corner* corners;
-    int count;
-    Scalar end_slope;  // of the value, at both ends
-    bool is_open;      // flat ends, read by force: no value beyond them, any value at them
-  };
-
-  // All values of a curve at one place: more than one on a step.
-  struct Range {
-    Scalar low, high;
-    bool open_low, open_high;  // reaches to infinity
-    bool exists;               // false beyond open ends
-  };
-
   template <class Way>
   constexpr Curve curve(int k) const noexcept {
     return {corners_ + nodes_[k].first_corner, parts_[k].corners, Way::end_slope(nodes_[k]), Way::is_open(nodes_[k])};
-  }
-
-  // Reads a curve at places that never fall.
-  template <class Way>
-  class Reader {
-   public:
-    explicit constexpr Reader(const Curve& curve) noexcept : curve_(curve) {}
-    constexpr bool at_end() const noexcept { return next_ == curve_.count; }
-    constexpr Scalar next() const noexcept { return Way::at(curve_.corners[next_]); }
-    constexpr void skip() noexcept { ++next_; }
-
-    constexpr Range read(Scalar at) noexcept {
-      const int first = next_;
-      while (!at_end() && next() == at) ++next_;
-      if (first == next_) return beside(at);
-      return {Way::value(curve_.corners[first]), Way::value(curve_.corners[next_ - 1]), curve_.is_open && first == 0,
-              curve_.is_open && at_end(), true};
-    }
-
-   private:
-    constexpr Range beside(Scalar at) const noexcept {
-      const bool is_end = next_ == 0 || at_end();
-      const Scalar value = is_end ? beyond(curve_.corners[next_ == 0 ? 0 : next_ - 1], at)
-                                  : between(curve_.corners[next_ - 1], curve_.corners[next_], at);
-      const bool is_open = is_end && curve_.is_open;
-      return {value, value, is_open && next_ == 0, is_open && next_ != 0, !is_open};
-    }
-
-    constexpr Scalar beyond(const Corner& end, Scalar at) const noexcept {
-      if (curve_.end_slope == Scalar(0)) return Way::value(end);
-      return Way::value(end) + curve_.end_slope * (at - Way::at(end));
-    }
-
-    // From the nearer corner, never beyond either.
-    static constexpr Scalar between(const Corner& a, const Corner& b, Scalar at) noexcept {
-      if (Way::value(a) == Way::value(b)) return Way::value(a);
-      const Scalar before = at - Way::at(a), after = Way::at(b) - at;
-      const Scalar rise = (Way::value(b) - Way::value(a)) / (before + after);
-      return before < after ? Way::value(a) + before * rise : Way::value(b) - after * rise;
-    }
-
-    Curve curve_;
-    int next_ = 0;
-  };
-
-  template <class Way>
-  static constexpr Range range_at(const Curve& curve, Scalar at) noexcept {
-    Reader<Way> reader(curve);
-    while (!reader.at_end() && reader.next() < at) reader.skip();
-    return reader.read(at);
   }
 
   constexpr Scalar force_at(Scalar change) const noexcept {
@@ -240,7 +172,7 @@ class slip_tree {
 
   // Where the root's curve crosses 0, to within what a reading of it loses.
   constexpr Scalar free_elongation() const noexcept {
-    const Range range = range_at<Series>(curve<Series>(0), Scalar(0));
+    const Range range = slip_curve_at<Series>(curve<Series>(0), Scalar(0));
     return range.open_low ? range.high : range.low;
   }
 
@@ -253,58 +185,43 @@ class slip_tree {
   }
 
   constexpr void draw_slip(int k) noexcept {
-    corners_[nodes_[k].first_corner] = {Scalar(0), -nodes_[k].yield};
-    corners_[nodes_[k].first_corner + 1] = {Scalar(0), nodes_[k].yield};
+    corners_[nodes_[k].first_corner] = {Scalar(0), -nodes_[k].yield, true};
+    corners_[nodes_[k].first_corner + 1] = {Scalar(0), nodes_[k].yield, true};
     parts_[k].corners = 2;
   }
 
   template <class Way>
   constexpr void draw(int k, const Scalar* held) noexcept {
     const Node& node = nodes_[k];
-    Curve sum{corners_ + node.first_corner, 0, Scalar(0), false};
+    Corner* const corners = corners_ + node.first_corner;
+    Curve sum{corners, 0, Scalar(0), false};
     for (int i = node.first_child; i < node.first_child + node.child_count; ++i)
-      if (nodes_[i].kind != slip_part::block) sum = with<Way>(sum, curve<Way>(i), corners_ + node.first_corner);
+      if (nodes_[i].kind != slip_part::block) sum = with<Way>(sum, curve<Way>(i), corners);
     for (int i = node.first_child; i < node.first_child + node.child_count; ++i)
-      if (nodes_[i].kind == slip_part::block) bend<Way>(nodes_[i], held[nodes_[i].place], node, sum.count);
+      if (nodes_[i].kind == slip_part::block) sum = with_block<Way>(sum, nodes_[i], held[nodes_[i].place], node.kind, corners);
     parts_[k].corners = sum.count;
+    if (node.kind == slip_part::series) parts_[k].corners = mark_rest(curve<Parallel>(k), corners);
   }
 
+  // In series the point where the block rests is one of the curve too.
   template <class Way>
-  constexpr void bend(const Node& block, Scalar held, const Node& node, int count) noexcept {
-    for (int i = node.first_corner; i < node.first_corner + count; ++i)
-      corners_[i] = Way::corner(Way::at(corners_[i]), Way::value(corners_[i]) + Way::of_block(block, held, Way::at(corners_[i])));
+  static constexpr Curve with_block(Curve sum, const Node& block, Scalar held, slip_part kind, Corner* corners) noexcept {
+    if (kind == slip_part::series) {
+      const Range rest = slip_curve_at<Way>(sum, held);
+      if (rest.exists && !rest.is_kink) sum.count = insert_corner<Way>(corners, sum.count, Way::corner(held, rest.low, false));
+    }
+    for (int i = 0; i < sum.count; ++i)
+      corners[i] = Way::corner(Way::at(corners[i]), Way::value(corners[i]) + Way::of_block(block, held, Way::at(corners[i])), corners[i].is_kink);
+    return {corners, sum.count, sum.end_slope + (kind == slip_part::series ? block.compliance : block.stiffness), sum.is_open};
   }
 
   // The sum of two curves, `to` being where the first one lies and the sum shall.
   template <class Way>
   constexpr Curve with(const Curve& sum, const Curve& other, Corner* to) noexcept {
     const Corner* from = sum.count == 0 ? other.corners : merged_;
-    const int count = sum.count == 0 ? other.count : merge<Way>(sum, other);
+    const int count = sum.count == 0 ? other.count : merge_curves<Way>(sum, other, merged_);
     for (int i = 0; i < count; ++i) to[i] = from[i];
     return {to, count, sum.end_slope + other.end_slope, sum.is_open || other.is_open};
-  }
-
-  template <class Way>
-  constexpr int merge(const Curve& first, const Curve& second) noexcept {
-    Reader<Way> a(first), b(second);
-    const int room = first.count + second.count;
-    int count = 0;
-    for (int i = 0; i < room && !(a.at_end() && b.at_end()); ++i) {
-      const Scalar at = a.at_end() || (!b.at_end() && b.next() < a.next()) ? b.next() : a.next();
-      const Range in_a = a.read(at), in_b = b.read(at);
-      if (!in_a.exists || !in_b.exists) continue;
-      count = append<Way>(count, at, in_a.low + in_b.low);
-      if (count < room && (in_a.low < in_a.high || in_b.low < in_b.high)) count = append<Way>(count, at, in_a.high + in_b.high);
-    }
-    return count;
-  }
-
-  // Rounding must not bend a curve back.
-  template <class Way>
-  constexpr int append(int count, Scalar at, Scalar value) noexcept {
-    const bool falls = count > 0 && value < Way::value(merged_[count - 1]);
-    merged_[count] = Way::corner(at, falls ? Way::value(merged_[count - 1]) : value);
-    return count + 1;
   }
 
   constexpr void find_signs(Scalar change, const Scalar* held, int* sign) noexcept {
@@ -326,7 +243,7 @@ class slip_tree {
   }
 
   constexpr void find_signs_in_series(int k, const Scalar* held) noexcept {
-    const Range forces = range_at<Parallel>(curve<Parallel>(k), parts_[k].elongation);
+    const Range forces = slip_curve_at<Parallel>(curve<Parallel>(k), parts_[k].elongation);
     const Scalar force = forces.low < forces.high ? forces.low + (forces.high - forces.low) / Scalar(2) : forces.low;
     Scalar rest = parts_[k].elongation;
     for (int i = nodes_[k].first_child; i < nodes_[k].first_child + nodes_[k].child_count; ++i) {
@@ -340,9 +257,9 @@ class slip_tree {
   }
 
   constexpr Range elongations(int i, Scalar force, const Scalar* held) const noexcept {
-    if (nodes_[i].kind != slip_part::block) return range_at<Series>(curve<Series>(i), force);
+    if (nodes_[i].kind != slip_part::block) return slip_curve_at<Series>(curve<Series>(i), force);
     const Scalar elongation = Series::of_block(nodes_[i], held[nodes_[i].place], force);
-    return {elongation, elongation, false, false, true};
+    return {elongation, elongation, false, false, true, false};
   }
 
   // What is left over goes to those that may give way at this force, in turn; all but the last as far as they can.
@@ -352,7 +269,7 @@ class slip_tree {
       if (!parts_[i].takes_rest) continue;
       parts_[i].takes_rest = false;
       if (is_placed) continue;
-      const Range range = range_at<Series>(curve<Series>(i), force);
+      const Range range = slip_curve_at<Series>(curve<Series>(i), force);
       const Scalar room = range.high - range.low;
       is_placed = range.open_low || range.open_high || rest < room;
       parts_[i].takes_rest = is_placed;

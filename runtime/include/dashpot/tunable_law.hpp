@@ -392,7 +392,7 @@ class tunable_law {
   tunable_mesh<Scalar, Nodes> mesh_;
   spring_change<Scalar> changes_[Springs] = {};
   slip_part_state<Scalar> slip_parts_[SlipParts] = {};
-  slip_corner<Scalar> corners_[Corners] = {}, merged_[2 * slip_room] = {};
+  slip_corner<Scalar> corners_[Corners] = {}, merged_[slip_curve_room(slip_room)] = {};
   int sign_[slip_room] = {};
 };
 

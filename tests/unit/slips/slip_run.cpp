@@ -49,6 +49,15 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
   return result;
 }
 
+double stiffest(const compiler::Network& network) {
+  double most = 0;
+  for (const compiler::Element& element : network.elements) {
+    if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) most = std::max(most, spring->stiffness);
+    if (const auto* damper = std::get_if<compiler::Damper>(&element.law)) most = std::max(most, damper->damping / slip_period);
+  }
+  return most;
+}
+
 std::vector<double> random_motion(const compiler::Network& network, std::uint64_t seed, std::size_t samples) {
   Random random(seed);
   std::vector<double> motion;

@@ -25,6 +25,9 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
 // was before.
 std::vector<double> random_motion(const compiler::Network& network, std::uint64_t seed, std::size_t samples);
 
+// The stiffest element in a sample, springs, and dampers as backward Euler sees them [N/m].
+double stiffest(const compiler::Network& network);
+
 // The law with the brake's part at the true velocity: the whole force that the network opposes [N].
 class WholeForce {
  public:

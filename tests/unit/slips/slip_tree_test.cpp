@@ -45,7 +45,7 @@ class Steps {
       nodes.push_back({n.kind, n.first_child, n.child_count, n.slips, n.place, n.first_corner, Scalar(n.stiffness), Scalar(n.compliance), Scalar(n.yield)});
     parts.resize(nodes.size());
     corners.resize(static_cast<std::size_t>(slip_tree_corners(nodes.data(), count())));
-    merged.resize(2 * table.slips.size());
+    merged.resize(static_cast<std::size_t>(slip_curve_room(static_cast<int>(table.slips.size()))));
     held.resize(stiffness.size());
     elongation.resize(stiffness.size());
     sign.resize(table.slips.size());

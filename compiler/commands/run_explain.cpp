@@ -73,17 +73,44 @@ Json json_of(const ComponentSplit& split, std::size_t i, const Network& network)
           {"reason", regime.reason}};
 }
 
+// The keys of a candidate for what reaches ground without a slip, while the tool touches, and for a tool that is free.
+Json json_of_contact(const Compilation& c, bool touches) {
+  const Candidate& choice = c.decomposition.choice();
+  const LinearForm& form = c.form.linear;
+  const auto in_touch = [=](double value) { return touches ? value : 0.0; };
+  return {{"component", "contact"},
+          {"stuck", Json::array()},
+          {"sliding", Json::array()},
+          {"name", touches ? "touching" : "free"},
+          {"damping", in_touch(choice.damping)},
+          {"wanted_damping", in_touch(choice.wanted_damping)},
+          {"feedthrough_damping", in_touch(to_double(form.feedthrough_damping))},
+          {"zero_frequency_damping", in_touch(to_double(zero_frequency_damping(form)))},
+          {"static_stiffness", in_touch(to_double(form.static_stiffness))},
+          {"state_input", name_of(StateInput::position)},
+          {"velocity_gain", in_touch(choice.velocity_gain)},
+          {"motor_noise", touches ? or_null(choice.motor_noise) : Json(0.0)},
+          {"largest_error", in_touch(choice.largest_error)},
+          {"extra_damping_any_delay", touches ? or_null(choice.extra_damping_any_delay) : Json(0.0)},
+          {"minimum_damping", nullptr},
+          {"certified", nullptr},
+          {"reason", touches ? choice.reason : "a surface cannot pull the tool"}};
+}
+
 Json regimes_of(const Compilation& c) {
   Json regimes = Json::array();
-  for (const ComponentSplit& split : c.decomposition.slips.components)
-    for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) regimes.push_back(json_of(split, i, c.network));
+  for (const ComponentSplit* split : c.decomposition.slips.all())
+    for (std::size_t i = 0; i < split->regimes.regimes.size(); ++i) regimes.push_back(json_of(*split, i, c.network));
+  if (c.network.contact)
+    for (const bool touches : {true, false}) regimes.push_back(json_of_contact(c, touches));
   return regimes;
 }
 
 // What each law would cost a component, and which is taken.
 Json slip_laws_of(const Compilation& c) {
   Json components = Json::array();
-  for (const ComponentSplit& split : c.decomposition.slips.components) {
+  for (const ComponentSplit* each : c.decomposition.slips.all()) {
+    const ComponentSplit& split = *each;
     Json laws = Json::array();
     for (const SlipLawMerit& merit : split.merits)
       laws.push_back({{"name", name_of(merit.law)},

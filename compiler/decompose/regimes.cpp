@@ -96,6 +96,10 @@ RegimeList regimes_of(const Network& network, const std::vector<std::size_t>& el
   return list;
 }
 
+RegimeList regimes_of(const Network& network, const std::vector<std::size_t>& elements, double reference_frequency) {
+  return regimes_of(network, elements, slips_together(network, elements), reference_frequency);
+}
+
 RegimeList regimes_of(const Network& network, const NormalTree& component, double reference_frequency) {
   std::vector<SlipElements> slips;
   for (const NormalTree* slip : slips_of(component)) slips.push_back(slip->elements);

@@ -40,6 +40,9 @@ RegimeList regimes_of(const Network& network, const std::vector<std::size_t>& el
 // The same for a component of the normal form. Slips come in the order of slips_of().
 RegimeList regimes_of(const Network& network, const NormalTree& component, double reference_frequency);
 
+// The same for a part that is no tree. Slips come in the order of slips_between().
+RegimeList regimes_of(const Network& network, const std::vector<std::size_t>& elements, double reference_frequency);
+
 // The linear network of one pattern.
 Network network_in_regime(const Network& network, const std::vector<std::size_t>& elements,
                           const std::vector<SlipElements>& slips, const std::vector<bool>& slides);

@@ -1,11 +1,9 @@
 #include "decompose/slip_laws.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "decompose/spectrum.hpp"
 
@@ -49,15 +47,24 @@ std::complex<double> impedance(const LinearForm& form, double w) {
   return viscous_impedance(form, w) + to_double(form.static_stiffness) / std::complex(0.0, w);
 }
 
+BrakeShare velocity_free_share(const Real& feedthrough) { return {to_double(feedthrough), feedthrough, 0}; }
+
+std::vector<BrakeShare> velocity_free_shares(const RegimeList& list) {
+  std::vector<BrakeShare> shares;
+  for (const Regime& regime : list.regimes) shares.push_back(velocity_free_share(regime.feedthrough()));
+  return shares;
+}
+
 class ComponentDecomposer {
  public:
   ComponentDecomposer(const Network& network, const NormalTree& component, const LinearForm& beside, const PortDevice& device)
       : component_(component), without_dampers_(component), beside_(beside), device_(device),
         behind_contact_(network.contact.has_value()),
+        is_tunable_(std::any_of(network.parameters.begin(), network.parameters.end(), [](const Parameter& p) { return p.tunable; })),
         regimes_(regimes_of(network, component, device.reference_frequency())) {
     can_be_gated_ = drop_dampers_beside_slips(without_dampers_);
-    if (!has_one_slip()) return;
     sliding_ = sliding_form(component_);
+    if (!has_one_slip()) return;
     gated_sliding_ = sliding_form(without_dampers_);
   }
 
@@ -82,16 +89,21 @@ class ComponentDecomposer {
     const auto* name = std::get_if<std::string>(&decomposition);
     if (name == nullptr || *name == "virtual") {
       split.reason = "the brake's damping does not change";
-    } else if (behind_contact_) {
-      split.reason = "with the contact all slips are solved together";
-    } else if (!has_one_slip()) {
-      split.reason = fmt::format("{} slips are coupled", regimes_.slips.size());
+    } else if (!hindrance_to_choice().empty()) {
+      take(SlipLaw::velocity_free, hindrance_to_choice(), split);
     } else if (*name == "most-dissipative") {
       choose_most_dissipative(split);
     } else {
       take(*name == name_of(SlipLaw::gated) ? SlipLaw::gated : *name == name_of(SlipLaw::compensated) ? SlipLaw::compensated : SlipLaw::velocity_free,
            "asked for", split);
     }
+  }
+
+  // Why there is but one law; empty where there are several.
+  std::string hindrance_to_choice() const {
+    if (behind_contact_) return "slips are behind a contact";
+    if (is_tunable_) return "parameters change while it runs; b is that of their default values";
+    return has_one_slip() ? "" : fmt::format("{} slips are coupled", regimes_.slips.size());
   }
 
   void choose_most_dissipative(ComponentSplit& split) const {
@@ -120,9 +132,8 @@ class ComponentDecomposer {
   }
 
   std::string refusal_of(SlipLaw law) const {
-    if (behind_contact_) return "slips are behind a contact";
-    if (!has_one_slip()) return "slips are coupled";
     if (law == SlipLaw::velocity_free) return "";
+    if (!hindrance_to_choice().empty()) return hindrance_to_choice();
     if (excess_brake() <= 0) return "what slides has no damping but at the tool";
     if (law == SlipLaw::gated) return can_be_gated_ ? "" : "no damper lies beside the slip";
     if (!device_.estimate_memory()) return fmt::format("the estimator '{}' never forgets or is not linear", device_.estimator_name());
@@ -139,12 +150,10 @@ class ComponentDecomposer {
   }
 
   std::vector<BrakeShare> shares(SlipLaw law) const {
-    std::vector<BrakeShare> shares(regimes_.regimes.size());
-    if (law == SlipLaw::by_motor) return shares;
-    for (std::size_t i = 0; i < shares.size(); ++i) {
-      shares[i].feedthrough = regimes_.regimes[i].feedthrough();
-      shares[i].damping = to_double(shares[i].feedthrough);
-    }
+    if (law == SlipLaw::by_motor) return std::vector<BrakeShare>(std::max<std::size_t>(regimes_.regimes.size(), 1));
+    // b∞ of the regimes that are not listed is no less than that with all slips sliding.
+    if (regimes_.regimes.empty()) return {velocity_free_share(sliding_.feedthrough_damping)};
+    std::vector<BrakeShare> shares = velocity_free_shares(regimes_);
     if (law == SlipLaw::velocity_free) return shares;
     shares.back().damping = brake();
     if (law == SlipLaw::gated) shares.back().feedthrough = gated_sliding_.feedthrough_damping;
@@ -156,11 +165,37 @@ class ComponentDecomposer {
   NormalTree without_dampers_;
   const LinearForm& beside_;
   const PortDevice& device_;
-  bool behind_contact_;
+  bool behind_contact_, is_tunable_;
   RegimeList regimes_;
   bool can_be_gated_ = false;
   LinearForm sliding_, gated_sliding_;
 };
+
+// Slips that meet in no tree: what holds in every regime is b∞, so that one law is left.
+ComponentSplit split_of_network(const Network& network, const std::vector<std::size_t>& elements,
+                                const std::variant<std::string, double>& decomposition, const PortDevice& device) {
+  ComponentSplit split{{}, regimes_of(network, elements, device.reference_frequency()), {}, {}, SlipLaw::by_motor,
+                       "the brake's damping does not change"};
+  const std::string others = fmt::format("{} slips in no tree", split.regimes.slips.size());
+  split.merits = {{SlipLaw::velocity_free, 0, 0.0, ""}, {SlipLaw::gated, 0, 0.0, others}, {SlipLaw::compensated, 0, 0.0, others}};
+  const auto* name = std::get_if<std::string>(&decomposition);
+  split.shares.resize(std::max<std::size_t>(split.regimes.regimes.size(), 1));
+  if (name == nullptr || *name == "virtual") return split;
+  split.law = SlipLaw::velocity_free;
+  split.reason = others;
+  if (!split.regimes.regimes.empty()) split.shares = velocity_free_shares(split.regimes);
+  return split;
+}
+
+// With a contact and a part that is no tree, all slips are solved together.
+std::vector<std::vector<std::size_t>> network_parts(const Network& network, const NormalForm& form) {
+  if (!network.contact || form.networks.empty()) return form.networks;
+  std::vector<std::size_t> elements;
+  for (const NormalTree& component : form.components)
+    for (std::size_t element : elements_of(component)) elements.push_back(element);
+  for (const std::vector<std::size_t>& part : form.networks) elements.insert(elements.end(), part.begin(), part.end());
+  return {elements};
+}
 
 double largest_damping(const ComponentSplit& split) {
   double largest = 0;
@@ -168,9 +203,10 @@ double largest_damping(const ComponentSplit& split) {
   return largest;
 }
 
-// What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f.
-void cap(std::vector<ComponentSplit>& components, double reach) {
-  for (ComponentSplit& split : components) {
+// What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f. Returns what is
+// left of the brake.
+double cap(std::vector<ComponentSplit>& splits, double reach) {
+  for (ComponentSplit& split : splits) {
     for (BrakeShare& share : split.shares) {
       if (share.damping <= reach) continue;
       share.damping = reach;
@@ -179,6 +215,7 @@ void cap(std::vector<ComponentSplit>& components, double reach) {
     }
     reach -= largest_damping(split);
   }
+  return reach;
 }
 
 // √b approaches its demand as 1 − e^{−t/lag}, no faster than the slew; the slower of both is assumed all the way.
@@ -189,72 +226,29 @@ double coil_share(const PortDevice& device, double root_span) {
 
 // Of the damping that no slip changes, what is certain and does not cover a compensation yet. With a constant bound any
 // estimator will do that does not make the velocity larger, ‖v̂‖₂ ≤ ‖u̇‖₂.
+double assured_share(const PortDevice& device) { return device.largest_estimator_gain() <= 1 ? 1 - device.tolerance() : 0; }
+
 double make_up(const Candidate& linear_part, const PortDevice& device) {
-  if (!(device.largest_estimator_gain() <= 1)) return 0;
-  return std::max(0.0, (1 - device.tolerance()) * linear_part.damping - linear_part.velocity_gain);
-}
-
-bool offers_choice(const ComponentSplit& split) {
-  return std::count_if(split.merits.begin(), split.merits.end(), [](const SlipLawMerit& merit) { return merit.refusal.empty(); }) > 1;
-}
-
-bool is_like(const ComponentSplit& first, const ComponentSplit& second) {
-  const auto same = [](const BrakeShare& x, const BrakeShare& y) {
-    return x.damping == y.damping && x.feedthrough == y.feedthrough && x.compensation == y.compensation;
-  };
-  return first.law == second.law && first.reason == second.reason &&
-         std::equal(first.shares.begin(), first.shares.end(), second.shares.begin(), second.shares.end(), same);
-}
-
-bool asks_the_brake(const ComponentSplit& split) {
-  return std::any_of(split.regimes.regimes.begin(), split.regimes.regimes.end(), [](const Regime& regime) { return regime.damping > 0; });
-}
-
-std::string regimes_text(const ComponentSplit& split, const Network& network) {
-  std::string text = fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}  observer\n", "stuck", "b", "its observer's", "b∞", "compensation");
-  for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) {
-    const Regime& regime = split.regimes.regimes[i];
-    const std::vector<std::string> stuck = slip_names(split.regimes, regime, false, network);
-    text += fmt::format("  {:<24}{:>14.8g}{:>16.8g}{:>14.8g}{:>14.8g}  {}\n", stuck.empty() ? "-" : fmt::format("{}", fmt::join(stuck, ", ")),
-                        split.shares[i].damping, to_double(regime.damping), to_double(regime.feedthrough()),
-                        split.shares[i].compensation, regime.reason);
-  }
-  return text;
-}
-
-std::string laws_text(const ComponentSplit& split) {
-  std::string text = fmt::format("  {:<16}{:>12}{:>14}\n", "law", "error", "motor noise");
-  for (const SlipLawMerit& merit : split.merits)
-    if (merit.refusal.empty())
-      text += fmt::format("  {:<16}{:>11.4g}%{:>14}\n", name_of(merit.law), 100 * merit.largest_error,
-                          merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
-    else
-      text += fmt::format("  {:<16}  not to be had: {}\n", name_of(merit.law), merit.refusal);
-  return text;
+  return std::max(0.0, assured_share(device) * linear_part.damping - linear_part.velocity_gain);
 }
 
 }  // namespace
 
-std::string_view name_of(SlipLaw law) {
-  switch (law) {
-    case SlipLaw::by_motor: return "by-motor";
-    case SlipLaw::velocity_free: return "velocity-free";
-    case SlipLaw::gated: return "gated";
-    case SlipLaw::compensated: return "compensated";
-  }
-  return "";
-}
-
 SlipDecomposition decompose_slips(const Network& network, const NormalForm& form, const Candidate& linear_part,
                                   const Choices& choices, const PortDevice& device) {
   SlipDecomposition slips;
-  for (const NormalTree& component : form.components)
-    slips.components.push_back(ComponentDecomposer(network, component, form.linear, device).split(choices.decomposition));
-  if (const std::optional<double> most = device.max_damping()) cap(slips.components, std::max(0.0, *most - linear_part.damping));
+  if (!network.contact || form.networks.empty())
+    for (const NormalTree& component : form.components)
+      slips.components.push_back(ComponentDecomposer(network, component, form.linear, device).split(choices.decomposition));
+  for (const std::vector<std::size_t>& part : network_parts(network, form))
+    slips.networks.push_back(split_of_network(network, part, choices.decomposition, device));
+  if (const std::optional<double> most = device.max_damping())
+    cap(slips.networks, cap(slips.components, std::max(0.0, *most - linear_part.damping)));
   double span = 0;
-  for (const ComponentSplit& split : slips.components) span += largest_damping(split);
+  for (const ComponentSplit* split : slips.all()) span += largest_damping(*split);
   slips.hysteresis = hysteresis_steps * device.encoder_step();
   slips.coil_share = coil_share(device, std::sqrt(span));
+  slips.assured_share = assured_share(device);
   slips.make_up = make_up(linear_part, device);
   slips.hold_samples = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
   return slips;
@@ -263,56 +257,10 @@ SlipDecomposition decompose_slips(const Network& network, const NormalForm& form
 std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& choices,
                                        const Device* device, Diagnostics& diagnostics) {
   std::optional<Decomposition> result = decompose(linear_part(network, form), form.linear, choices, device, diagnostics);
-  if (!result || form.components.empty()) return result;
+  if (!result || !form.has_slips()) return result;
   const std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
   if (port) result->slips = decompose_slips(network, form, result->choice(), choices, *port);
   return result;
-}
-
-std::vector<std::string> slip_names(const RegimeList& list, const Regime& regime, bool sliding, const Network& network) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < list.slips.size(); ++i)
-    if (regime.slides[i] == sliding)
-      for (std::size_t element : list.slips[i]) names.push_back(network.elements[element].name);
-  return names;
-}
-
-std::string name_of(const ComponentSplit& split, const Network& network) {
-  std::string names;
-  for (std::size_t i = 0; i < split.regimes.slips.size(); ++i)
-    names += (i == 0 ? "" : ", ") + network.elements[split.regimes.slips[i].front()].name;
-  return names;
-}
-
-std::vector<SlipLikes> likes_of(const SlipDecomposition& slips, const Network& network) {
-  std::vector<SlipLikes> all;
-  for (const ComponentSplit& split : slips.components) {
-    const auto like = std::find_if(all.begin(), all.end(), [&](const SlipLikes& other) { return is_like(*other.first, split); });
-    if (like == all.end())
-      all.push_back({&split, {name_of(split, network)}});
-    else
-      like->names.push_back(name_of(split, network));
-  }
-  return all;
-}
-
-std::string to_text(const SlipLikes& likes) {
-  const std::size_t shown = std::min<std::size_t>(likes.names.size(), 4);
-  std::string names;
-  for (std::size_t i = 0; i < shown; ++i) names += (i == 0 ? "" : "; ") + likes.names[i];
-  if (shown < likes.names.size()) names += fmt::format(" and {} more", likes.names.size() - shown);
-  return fmt::format("behind {}: {}, {}", names, name_of(likes.first->law), likes.first->reason);
-}
-
-std::string to_text(const SlipDecomposition& slips, const Network& network) {
-  std::string text;
-  for (const SlipLikes& likes : likes_of(slips, network)) {
-    text += fmt::format("{}\n", to_text(likes));
-    text += fmt::format("  {} regimes{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "");
-    if (asks_the_brake(*likes.first)) text += regimes_text(*likes.first, network);
-    if (offers_choice(*likes.first)) text += laws_text(*likes.first);
-  }
-  return text;
 }
 
 }  // namespace dashpot::compiler

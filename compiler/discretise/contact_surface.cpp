@@ -46,7 +46,7 @@ void ContactSurface::write_surface() {
   writer_.assign(output, now_, writer_.where(writer_.read(gap_), moved, writer_.read(depth_)), "s = s₋ + Δs");
 }
 
-void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_damping) {
+void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_damping, const BrakeBehindSlips& slips) {
   UpdateLaw& law = writer_.law();
   const double damping = law.damping;
   const Real left_to_motor = rounded(feedthrough_damping, law.scalar) == damping ? Real(0) : Real(feedthrough_damping - damping);
@@ -59,14 +59,20 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
     const ExpressionId gain = writer_.constant("velocity_gain", writer_.damping(), "b∞ − b", left_to_motor);
     motor = writer_.add(motor, writer_.multiply(gain, writer_.read(law.velocity)));
   }
+  if (slips.steady > 0)
+    felt = writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(), "b∞ behind slips", slips.steady), writer_.read(law.velocity)));
+  if (slips.changing != nothing) felt = writer_.add(felt, writer_.multiply(slips.changing, writer_.read(law.velocity)));
   const VariableId released = writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
   const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
   const ExpressionId release = release_of(opposing, felt, none);
   writer_.assign(law.output, released, release, "above 0 where the tool is free");
-  if (damping > 0) {
+  if (damping > 0 || slips.largest > 0) {
     law.brake = writer_.scalar("brake", writer_.damping(), "b", Role::local);
     law.damping = 0;
-    const ExpressionId held = writer_.constant("contact_damping", writer_.damping(), "b while the tool touches", Real(damping));
+    law.largest_damping = rounded(Real(damping) + slips.largest, law.scalar);
+    const Real steady = Real(damping) + slips.steady;
+    ExpressionId held = slips.changing;
+    if (steady > 0) held = writer_.plus(held, writer_.constant("contact_damping", writer_.damping(), "b while the tool touches", steady));
     writer_.assign(law.output, law.brake, writer_.where(writer_.read(released), none, held), "b = 0 of a free tool");
     law.last_brake = writer_.kept(law.brake);
   }

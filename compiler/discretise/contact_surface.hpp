@@ -9,6 +9,13 @@
 
 namespace dashpot::compiler {
 
+// The brake's b of what is behind slips.
+struct BrakeBehindSlips {
+  ExpressionId changing = nothing;  // nothing where it does not change
+  Real steady = 0;                  // of what does not [N·s/m]
+  Real largest = 0;                 // of both together [N·s/m]
+};
+
 class ContactSurface {
  public:
   // `encoder_step`: how far the gap may open before the command lets go [m].
@@ -26,8 +33,9 @@ class ContactSurface {
   void write_change(const Real& stiffness, VariableId held);
   // Where it is, its change being known.
   void write_surface();
-  // The brake's b and the motor's part while the tool touches; both 0 when it is free. `opposing` is f′ = f − b∞ Δs/h.
-  void write_command(VariableId opposing, const Real& feedthrough_damping);
+  // The brake's b and the motor's part while the tool touches; both 0 when it is free. `opposing` is f′ = f − b∞ Δs/h, also
+  // without what slips leave to the brake.
+  void write_command(VariableId opposing, const Real& feedthrough_damping, const BrakeBehindSlips& slips);
 
  private:
   ExpressionId release_of(VariableId opposing, ExpressionId felt, ExpressionId none);

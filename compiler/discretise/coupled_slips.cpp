@@ -66,14 +66,18 @@ void CoupledSlips::declare() {
     if (block.has_spring() || block.modes)
       block.elongation = writer_.scalar(joined(block.name, "elongation"), writer_.length(), "δ of the block", Role::local);
   }
+  if (!has_signs_) return;
+  for (const NormalTree* slip : table_.slips)
+    signs_.push_back(writer_.scalar(joined(writer_.unique(name_of(slip->elements, network_)), "sign"), "1", "side to which the slip gives way", Role::local));
 }
 
 ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_change) {
   UpdateLaw& law = writer_.law();
-  Coupling coupling{name_, table_.nodes, {}, {}, {}};
+  Coupling coupling{name_, table_.nodes, {}, {}, {}, {}};
   for (const Block& block : blocks_) coupling.held.push_back(write_held(block));
   for (const Block& block : blocks_) coupling.elongation.push_back(block.elongation);
   for (const NormalTree* slip : table_.slips) coupling.slips.push_back(slip->elements);
+  coupling.sign = signs_;
   coupling.surface_change = surface_change;
   const VariableId force = writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
   writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers", origins());
@@ -120,6 +124,11 @@ ExpressionId CoupledSlips::energy() {
 ExpressionId CoupledSlips::spring_energy(const Block& block) {
   const ExpressionId weight = writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)", 1 / (2 * block.form().static_stiffness));
   return writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)), writer_.read(block.spring_force));
+}
+
+VariableId CoupledSlips::sign_of(const std::vector<std::size_t>& elements) const {
+  const auto slip = std::find_if(table_.slips.begin(), table_.slips.end(), [&](const NormalTree* part) { return part->elements == elements; });
+  return signs_[static_cast<std::size_t>(slip - table_.slips.begin())];
 }
 
 std::vector<std::vector<std::size_t>> CoupledSlips::origins() const {

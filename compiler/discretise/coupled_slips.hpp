@@ -22,6 +22,9 @@ class CoupledSlips {
   void keep_elsewhere(const NormalTree& block);
   void set_held_elsewhere(VariableId held) { held_elsewhere_ = held; }
 
+  // Which slips give way is then known to the rest of the law.
+  void follow_signs() { has_signs_ = true; }
+
   double smallest_loss() const;  // min (1 − a) over all modes; 1 without
   void declare();                // to be called when the law's mode form is settled
 
@@ -30,6 +33,9 @@ class CoupledSlips {
   ExpressionId write_output(VariableId change, VariableId surface_change = nothing);
   void write_update();
   ExpressionId energy();  // nothing without springs
+
+  // Of a slip by its elements, after declare(): 0 where it holds. Only with follow_signs().
+  VariableId sign_of(const std::vector<std::size_t>& slip) const;
 
  private:
   struct Block {
@@ -56,6 +62,8 @@ class CoupledSlips {
   std::string name_;
   std::vector<Block> blocks_;
   VariableId held_elsewhere_ = no_variable;
+  bool has_signs_ = false;
+  std::vector<VariableId> signs_;  // in the order of the table
 };
 
 }  // namespace dashpot::compiler

@@ -7,8 +7,10 @@
 #include "discretise/element_names.hpp"
 #include "discretise/mode_bank.hpp"
 #include "discretise/networked_slips.hpp"
+#include "discretise/regime_brake.hpp"
 #include "discretise/rounding.hpp"
 #include "discretise/slip_group.hpp"
+#include "discretise/unread_locals.hpp"
 #include "discretise/update_law.hpp"
 
 namespace dashpot::compiler {
@@ -55,38 +57,6 @@ UpdateLaw blank_law(const Candidate& choice, const Choices& choices, const Real&
   return law;
 }
 
-void mark_read(const UpdateLaw& law, ExpressionId id, std::vector<bool>& read) {
-  const Expression& e = law.expressions[id];
-  if (e.operation == Operation::read) read[e.left] = true;
-  if (e.operation == Operation::read || e.operation == Operation::constant) return;
-  mark_read(law, e.left, read);
-  if (e.operation == Operation::flush || e.operation == Operation::sum) return;
-  mark_read(law, e.right, read);
-  if (e.operation == Operation::where) mark_read(law, e.condition, read);
-}
-
-// Not every shape of component needs all of its locals.
-void drop_unread_locals(UpdateLaw& law) {
-  std::vector<bool> read(law.variables.size(), false);
-  read[law.force] = read[law.stored] = true;
-  if (law.brake_changes()) read[law.brake] = true;
-  for (const auto* program : {&law.output, &law.keep, &law.update, &law.energy})
-    for (const Statement& statement : *program) mark_read(law, statement.value, read);
-  for (const Coupling& coupling : law.couplings)
-    for (VariableId held : coupling.held)
-      if (held != no_variable) read[held] = true;
-  for (const SlipNetwork& network : law.networks)
-    for (VariableId held : network.held)
-      if (held != no_variable) read[held] = true;
-  for (SlipNetwork& network : law.networks)
-    for (VariableId& moved : network.moved)
-      if (!read[moved]) moved = no_variable;
-  for (auto* program : {&law.output, &law.update, &law.energy})
-    std::erase_if(*program, [&](const Statement& statement) {
-      return law.variables[statement.target].role == Role::local && !read[statement.target];
-    });
-}
-
 class LawBuilder {
  public:
   LawBuilder(const Network& network, const NormalForm& form, const Decomposition& decomposition, const Choices& choices,
@@ -104,15 +74,17 @@ class LawBuilder {
     if (network.contact) contact_.emplace(writer_, network.contact->at, decomposition.encoder_step);
     if (contact_ && form.has_slips()) {
       add_behind_contact(form);
+      for (const ComponentSplit* split : settings_.all()) add_brake(*split, coupled_.empty() ? nullptr : coupled_.front().get());
       return;
     }
-    const std::vector<ComponentSplit>& splits = decomposition.slips.components;
-    for (std::size_t i = 0; i < form.components.size(); ++i)
-      if (i < splits.size())
-        add(splits[i].rendered, brake_pair(splits[i]), sample_period);
-      else
-        add(form.components[i], {}, sample_period);
-    for (const std::vector<std::size_t>& elements : form.networks) add(elements, false);
+    for (std::size_t i = 0; i < form.components.size(); ++i) {
+      const ComponentSplit* split = i < settings_.components.size() ? &settings_.components[i] : nullptr;
+      add(split ? split->rendered : form.components[i], split, sample_period);
+    }
+    for (std::size_t i = 0; i < form.networks.size(); ++i) {
+      add(form.networks[i], false);
+      if (i < settings_.networks.size()) add_brake(settings_.networks[i], nullptr);
+    }
   }
 
   UpdateLaw build() {
@@ -122,6 +94,7 @@ class LawBuilder {
     for (const auto& group : slips_) group->declare();
     for (const auto& component : coupled_) component->declare();
     for (const auto& network : networks_) network->declare();
+    for (BrakedPart& part : brakes_) declare(part);
     contact_ ? write_contact_output() : write_output();
     write_update();
     write_energy();
@@ -131,11 +104,37 @@ class LawBuilder {
   }
 
  private:
-  void add(const NormalTree& component, const BrakePair& pair, const Real& sample_period) {
+  // Slips that are solved together and what they ask of the brake. Of the two that know the signs one is there.
+  struct BrakedPart {
+    std::unique_ptr<RegimeBrake> brake;
+    CoupledSlips* tree;
+    NetworkedSlips* network;
+    std::vector<VariableId> signs;
+  };
+
+  void add_brake(const ComponentSplit& split, CoupledSlips* tree) {
+    auto brake = std::make_unique<RegimeBrake>(writer_, split, settings_);
+    if (!brake->takes_part()) return;
+    if (tree != nullptr && brake->changes()) tree->follow_signs();
+    brakes_.push_back({std::move(brake), tree, tree == nullptr ? networks_.back().get() : nullptr, {}});
+  }
+
+  void declare(BrakedPart& part) {
+    Names names;
+    for (const SlipElements& slip : part.brake->slips()) {
+      names.push_back(writer_.unique(joined(name_of(slip, network_), "brake")));
+      if (part.brake->changes()) part.signs.push_back(part.tree ? part.tree->sign_of(slip) : part.network->sign_of(slip));
+    }
+    part.brake->declare(names.front(), names);
+  }
+
+  void add(const NormalTree& component, const ComponentSplit* split, const Real& sample_period) {
     if (slip_count(component) > 1) {
       coupled_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period, component));
+      if (split != nullptr) add_brake(*split, coupled_.back().get());
       return;
     }
+    const BrakePair pair = split ? brake_pair(*split) : BrakePair{};
     const auto fitting = std::find_if(slips_.begin(), slips_.end(), [&](const auto& group) { return group->accepts(component, pair); });
     if (fitting != slips_.end()) return (*fitting)->add(component, pair);
     slips_.push_back(std::make_unique<SlipGroup>(writer_, network_, sample_period, settings_));
@@ -207,6 +206,7 @@ class LawBuilder {
     for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
     for (const auto& component : coupled_) sum = writer_.plus(sum, component->write_output(change_));
     for (const auto& network : networks_) sum = writer_.plus(sum, network->write_output(change_));
+    sum = without_feedthrough(sum, law_.position);
     for (const auto& group : slips_) sum = compensated(sum, group->compensation());
     sum = made_up(sum);
     write_brake();
@@ -224,6 +224,7 @@ class LawBuilder {
       sum = write_push();
       contact_->write_surface();
       sum = plus_product(sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h", -feedthrough / sample_period_, contact_->change());
+      sum = without_feedthrough(sum, contact_->now());
     } else {
       contact_->write_change(linear_stiffness(), write_held());
       contact_->write_surface();
@@ -234,7 +235,24 @@ class LawBuilder {
     }
     if (sum == nothing) sum = writer_.constant("none", writer_.force(), "of a free tool", 0);
     writer_.assign(law_.output, opposing, sum, "f′ = f − b∞ Δs/h", {effective_elements(network_)});
-    contact_->write_command(opposing, feedthrough);
+    contact_->write_command(opposing, feedthrough, brake_behind_contact());
+  }
+
+  // f′ = f − Σ x Δu/h, x of every part's regime
+  ExpressionId without_feedthrough(ExpressionId force, VariableId position) {
+    for (const BrakedPart& part : brakes_) part.brake->write_output(part.signs, position);
+    for (const BrakedPart& part : brakes_) force = part.brake->without_feedthrough(force, change_, sample_period_);
+    return force;
+  }
+
+  BrakeBehindSlips brake_behind_contact() {
+    BrakeBehindSlips all;
+    for (const BrakedPart& part : brakes_) {
+      all.changing = writer_.plus(all.changing, part.brake->changing_damping());
+      all.steady += part.brake->steady_damping();
+      all.largest += part.brake->largest_damping();
+    }
+    return all;
   }
 
   ExpressionId write_push() {
@@ -266,6 +284,7 @@ class LawBuilder {
   ExpressionId made_up(ExpressionId sum) {
     ExpressionId shortfall = nothing;
     for (const auto& group : slips_) shortfall = writer_.plus(shortfall, group->shortfall());
+    for (const BrakedPart& part : brakes_) shortfall = writer_.plus(shortfall, part.brake->shortfall());
     if (shortfall == nothing) return sum;
     const ExpressionId most = writer_.constant("steady_make_up", writer_.damping(), "what the motor makes up at most", settings_.make_up);
     return writer_.plus(sum, writer_.multiply(writer_.clamp(shortfall, most), writer_.read(law_.velocity)));
@@ -281,6 +300,13 @@ class LawBuilder {
       least += group->brake().least_damping();
       largest += group->brake().largest_damping();
       at_rest += group->brake().damping_at_rest();
+    }
+    for (const BrakedPart& part : brakes_) {
+      changing = writer_.plus(changing, part.brake->changing_damping());
+      steady += part.brake->steady_damping();
+      least += part.brake->least_damping();
+      largest += part.brake->largest_damping();
+      at_rest += part.brake->damping_at_rest();
     }
     law_.damping = rounded(least, law_.scalar);
     law_.largest_damping = rounded(largest, law_.scalar);
@@ -303,6 +329,7 @@ class LawBuilder {
     for (const auto& group : slips_) group->write_update(change_);
     for (const auto& component : coupled_) component->write_update();
     for (const auto& network : networks_) network->write_update();
+    for (const BrakedPart& part : brakes_) part.brake->write_update();
     modes_.write_update(modes_.follows_position() ? writer_.kept(change_) : nothing,
                         modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing);
     if (law_.rest_position != no_variable)
@@ -353,6 +380,7 @@ class LawBuilder {
   std::vector<std::unique_ptr<SlipGroup>> slips_;
   std::vector<std::unique_ptr<CoupledSlips>> coupled_;
   std::vector<std::unique_ptr<NetworkedSlips>> networks_;
+  std::vector<BrakedPart> brakes_;
   NormalTree whole_{};  // behind a contact
   VariableId change_ = nothing;
 };

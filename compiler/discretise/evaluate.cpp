@@ -142,6 +142,8 @@ void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const S
     variables_[statement.target][0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
   for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
     if (coupling.elongation[i] != no_variable) variables_[coupling.elongation[i]][0] = solver.elongation[i];
+  for (std::size_t i = 0; i < coupling.sign.size(); ++i)
+    if (coupling.sign[i] != no_variable) variables_[coupling.sign[i]][0] = static_cast<Scalar>(solver.sign[i]);
 }
 
 template <class Scalar>
@@ -173,6 +175,7 @@ Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
     case Operation::clamp: return clamp_to(value(expression.right, place), value(expression.left, place));
     case Operation::where:
       return value(expression.condition, place) > 0 ? value(expression.left, place) : value(expression.right, place);
+    case Operation::pick: return coefficients_[expression.left][static_cast<std::size_t>(value(expression.right, place))];
     case Operation::sum: return sum(expression.left);
   }
   return Scalar(0);

@@ -30,6 +30,7 @@ class Printer {
       case Operation::where:
         if (spelling_.where) return spelling_.where(text(e.condition), text(e.left), text(e.right));
         return grouped(e.condition, 1) + " > 0 ? " + grouped(e.left, 1) + " : " + grouped(e.right, 1);
+      case Operation::pick: return spelling_.pick(law_.coefficients[e.left], text(e.right));
       case Operation::sum: return spelling_.sum(law_.variables[law_.expressions[e.left].left]);
     }
     return "";

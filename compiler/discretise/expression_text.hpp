@@ -15,6 +15,7 @@ struct Spelling {
   std::function<std::string(const std::string& value)> flush;
   std::function<std::string(const std::string& value, const std::string& limit)> clamp;
   std::function<std::string(const Variable& vector)> sum;
+  std::function<std::string(const Coefficient& table, const std::string& place)> pick;
   // Of two values, by a condition that is above zero or not; where it is empty, by C's operator.
   std::function<std::string(const std::string& condition, const std::string& yes, const std::string& no)> where = {};
 };

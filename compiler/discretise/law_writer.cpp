@@ -80,6 +80,12 @@ ExpressionId LawWriter::constants(const VectorName& name, const std::string& uni
   return node(Operation::constant, static_cast<std::uint32_t>(law_.coefficients.size() - 1));
 }
 
+ExpressionId LawWriter::pick(const std::string& name, const std::string& unit, const std::string& meaning,
+                             const std::vector<Real>& values, ExpressionId place) {
+  constants({"", name}, unit, meaning, values, {});
+  return node(Operation::pick, static_cast<std::uint32_t>(law_.coefficients.size() - 1), place);
+}
+
 VariableId LawWriter::reads(ExpressionId expression) const {
   const Expression& e = law_.expressions[expression];
   return e.operation == Operation::read ? e.left : nothing;

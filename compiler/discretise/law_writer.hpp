@@ -63,6 +63,10 @@ class LawWriter {
   ExpressionId constants(const VectorName& name, const std::string& unit, const std::string& meaning,
                          const std::vector<Real>& values, const Names& names);
 
+  // A table, and the place of it that an expression says.
+  ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning, const std::vector<Real>& values,
+                    ExpressionId place);
+
   // The variable that an expression is, or `nothing` where it is more than that.
   VariableId reads(ExpressionId expression) const;
 

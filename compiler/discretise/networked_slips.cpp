@@ -230,6 +230,12 @@ void NetworkedSlips::write_update() {
   }
 }
 
+VariableId NetworkedSlips::sign_of(const std::vector<std::size_t>& elements) const {
+  const std::vector<std::vector<std::size_t>> slips = slips_together(network_, elements_);
+  const auto slip = std::find(slips.begin(), slips.end(), elements);
+  return step_.sign[static_cast<std::size_t>(slip - slips.begin())];
+}
+
 // ½ F²/k
 ExpressionId NetworkedSlips::energy() {
   ExpressionId sum = nothing;

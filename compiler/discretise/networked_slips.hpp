@@ -35,6 +35,9 @@ class NetworkedSlips {
   void write_update();
   ExpressionId energy();  // nothing without springs
 
+  // Of a slip by its elements, after declare(): 0 where it holds.
+  VariableId sign_of(const std::vector<std::size_t>& slip) const;
+
  private:
   struct SpringTie {
     Tie tie;

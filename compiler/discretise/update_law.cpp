@@ -23,6 +23,7 @@ void count(const UpdateLaw& law, ExpressionId id, std::size_t places, Cost& cost
       cost.selections += places;
       count(law, expression.condition, places, cost);
       break;
+    case Operation::pick: cost.selections += places; return count(law, expression.right, places, cost);
     case Operation::sum:
       cost.additions += law.variables[law.expressions[expression.left].left].size - 1;
       return;
@@ -36,7 +37,8 @@ const Spelling& plain_spelling() {
                                  [](const Coefficient& coefficient) { return coefficient.name; },
                                  [](const std::string& value) { return "flush(" + value + ")"; },
                                  [](const std::string& value, const std::string& limit) { return "clamp(" + value + ", ±" + limit + ")"; },
-                                 [](const Variable& vector) { return "sum(" + vector.name + ")"; }};
+                                 [](const Variable& vector) { return "sum(" + vector.name + ")"; },
+                                 [](const Coefficient& table, const std::string& place) { return fmt::format("{}[{}]", table.name, place); }};
   return spelling;
 }
 

@@ -49,8 +49,10 @@ struct Coefficient {
   std::string name;
   std::string unit;
   std::string meaning;
-  std::vector<double> values;              // one, or one a place
-  std::vector<std::string> element_names = {};  // of a vector, one name a place; empty for a scalar
+  std::vector<double> values;              // one, or one a place, or those of a table that `pick` reads
+  std::vector<std::string> element_names = {};  // of a vector, one name a place; else empty
+
+  bool is_table() const { return values.size() > 1 && element_names.empty(); }
 };
 
 enum class Operation : std::uint8_t {
@@ -62,13 +64,14 @@ enum class Operation : std::uint8_t {
   flush,  // zero below the law's threshold, so that no state becomes subnormal
   clamp,  // left within ± right
   where,  // left where `condition` is above zero, else right
+  pick,   // of a table, the place `right` counted from 0
   sum,    // of a vector: from the first place to the last; where it is rolled, in `lanes` partial sums in turn, of which
           // the second half is added to the first until one is left
 };
 
 struct Expression {
   Operation operation;
-  std::uint32_t left = 0;   // VariableId of read, CoefficientId of constant, else ExpressionId
+  std::uint32_t left = 0;   // VariableId of read, CoefficientId of constant and pick, else ExpressionId
   std::uint32_t right = 0;  // ExpressionId
   ExpressionId condition = 0;
 };
@@ -92,6 +95,7 @@ struct Coupling {
   std::vector<VariableId> held;                // π of each block [N]; no_variable where it is 0
   std::vector<VariableId> elongation;          // local, δ of each block [m]; no_variable where nothing follows it
   std::vector<std::vector<std::size_t>> slips; // of each slip, indices into Network::elements
+  std::vector<VariableId> sign;                // local, of each slip: −1, 0 or 1; no_variable where nothing follows it
   VariableId surface_change = no_variable;     // local, of a tree that is pushed and not pulled: Δs [m]
 
   bool is_pushed() const { return surface_change != no_variable; }

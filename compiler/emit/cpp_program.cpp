@@ -86,6 +86,12 @@ class CppPrinter {
 
   void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {
     const std::string note = fmt::format("  // {} [{}]", coefficient.meaning, coefficient.unit);
+    if (coefficient.is_table()) {
+      std::string table = fmt::format("static constexpr scalar {}[{}] = {{", coefficient.name, coefficient.values.size());
+      for (std::size_t i = 0; i < coefficient.values.size(); ++i) table += (i == 0 ? "" : ", ") + literal(coefficient.values[i]);
+      lines.push_back("//" + note.substr(4));
+      return append(lines, table + "};");
+    }
     if (!statements_.is_rolled(coefficient)) return append_constant_of_each(coefficient, law_.scalar, lines);
     std::string table = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment(), coefficient.name, statements_.padded(coefficient.values.size()));
     for (std::size_t place = 0; place < coefficient.values.size(); ++place)

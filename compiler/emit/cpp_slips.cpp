@@ -43,6 +43,9 @@ void append_step(const UpdateLaw& law, const Statement& statement, const Couplin
   for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
     if (coupling.elongation[i] != no_variable)
       lines.push_back(statements.assignment(law.variables[coupling.elongation[i]], 0) + fmt::format("{}_elongation[{}];", name, i));
+  for (std::size_t i = 0; i < coupling.sign.size(); ++i)
+    if (coupling.sign[i] != no_variable)
+      lines.push_back(statements.assignment(law.variables[coupling.sign[i]], 0) + fmt::format("static_cast<scalar>({}_sign[{}]);", name, i));
 }
 
 void append_step(const UpdateLaw& law, const Statement& statement, const SlipNetwork& network, CppStatements& statements,

@@ -97,6 +97,7 @@ std::string CppStatements::lane(const Variable& vector) const { return summed_.s
 void CppStatements::find_sums(ExpressionId id) {
   const Expression& e = law_.expressions[id];
   if (e.operation == Operation::sum) summed_.insert(law_.expressions[e.left].left);
+  if (e.operation == Operation::pick) return find_sums(e.right);
   if (e.operation == Operation::read || e.operation == Operation::constant || e.operation == Operation::sum) return;
   find_sums(e.left);
   if (e.operation == Operation::where) find_sums(e.condition);
@@ -115,6 +116,7 @@ void CppStatements::find_vectors(ExpressionId id) {
   const Expression& e = law_.expressions[id];
   if (e.operation == Operation::read && law_.variables[e.left].size > 1) outliving_.insert(&law_.variables[e.left]);
   if (e.operation == Operation::read || e.operation == Operation::constant) return;
+  if (e.operation == Operation::pick) return find_vectors(e.right);
   find_vectors(e.left);
   if (e.operation == Operation::where) find_vectors(e.condition);
   if (e.operation != Operation::flush && e.operation != Operation::sum) find_vectors(e.right);
@@ -151,6 +153,10 @@ std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   spelling.sum = [&](const Variable& vector) {
     const std::string terms = sum_text(vector);
     return is_whole || is_rolled(vector) || vector.size == 1 ? terms : "(" + terms + ")";
+  };
+  spelling.pick = [&](const Coefficient& table, const std::string& index) {
+    used_coefficients_.insert(&table);
+    return fmt::format("{}[static_cast<int>({})]", table.name, index);
   };
   return expression_text(law_, id, spelling);
 }

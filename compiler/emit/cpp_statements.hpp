@@ -27,7 +27,7 @@ class CppStatements {
   static std::string scalar_name(const Variable& variable);
 
   bool is_rolled(const Variable& variable) const { return law_.is_rolled(variable.size); }
-  bool is_rolled(const Coefficient& coefficient) const { return law_.is_rolled(coefficient.values.size()); }
+  bool is_rolled(const Coefficient& coefficient) const { return law_.is_rolled(coefficient.values.size()) && !coefficient.is_table(); }
   std::size_t padded(std::size_t size) const { return (size + law_.lanes - 1) / law_.lanes * law_.lanes; }
 
   // What the lines so far refer to.

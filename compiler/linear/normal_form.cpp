@@ -175,6 +175,17 @@ std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& n
   return slips;
 }
 
+std::vector<std::vector<std::size_t>> slips_together(const Network& network, const std::vector<std::size_t>& elements) {
+  std::map<std::pair<NodeIndex, NodeIndex>, std::vector<std::size_t>> between;
+  for (std::size_t index : elements) {
+    const Element& element = network.elements[index];
+    if (std::holds_alternative<Slip>(element.law)) between[std::minmax(element.a, element.b)].push_back(index);
+  }
+  std::vector<std::vector<std::size_t>> slips;
+  for (auto& [ends, together] : between) slips.push_back(std::move(together));
+  return slips;
+}
+
 std::size_t slip_count(const NormalTree& tree) {
   std::size_t count = tree.kind == NormalTree::Kind::slip ? 1 : 0;
   for (const NormalTree& child : tree.children) count += slip_count(child);

@@ -42,6 +42,9 @@ NormalTree whole_tree(const NormalForm& form, const Network& network);
 // Yield forces by the nodes that slips join, among these elements; side by side they add.
 std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network, const std::vector<std::size_t>& elements);
 
+// These slips, each with those side by side with it, in the order of slips_between(). Indices into Network::elements.
+std::vector<std::vector<std::size_t>> slips_together(const Network& network, const std::vector<std::size_t>& elements);
+
 // Slips in it.
 std::size_t slip_count(const NormalTree& tree);
 

@@ -66,6 +66,7 @@ class Writer {
       case Operation::flush: return written(e.left);
       case Operation::clamp: return "<mi>clamp</mi><mo stretchy=\"false\">(</mo>" + written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3) + "<mo stretchy=\"false\">)</mo>";
       case Operation::where: return choice(e);
+      case Operation::pick: return "<msub>" + coefficient_mathml(law_.coefficients[e.left]) + written(e.right) + "</msub>";
       case Operation::sum: return "<munder><mo>∑</mo><mi>i</mi></munder>" + variable_mathml(law_.variables[law_.expressions[e.left].left]);
     }
     return "";

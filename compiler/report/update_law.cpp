@@ -54,7 +54,7 @@ std::string place_name(const Coefficient& c, std::size_t place) {
 std::string coefficients_table(const UpdateLaw& law, std::size_t size) {
   std::vector<const Coefficient*> columns;
   for (const Coefficient& c : law.coefficients)
-    if (c.values.size() == size && c.name.find("energy") == c.name.npos) columns.push_back(&c);
+    if (c.values.size() == size && !c.is_table() && c.name.find("energy") == c.name.npos) columns.push_back(&c);
   if (columns.empty()) return "";
   std::string table = "<div class=\"wide\"><table><thead><tr><th>i</th>";
   for (const Coefficient* c : columns)

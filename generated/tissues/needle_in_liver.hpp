@@ -9,7 +9,7 @@
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 5 N·s/m: in series B2 dissipates 100 % at low frequency and is observed;
 //   with the contact no more than the feedthrough damping, so that the motor compensates nothing
-// behind friction: by-motor, with the contact all slips are solved together; b = 0 N·s/m stuck, 0 sliding
+// behind friction: velocity-free, slips are behind a contact; b = 0 N·s/m stuck, 0 sliding
 // states: position driven by definition
 // contact: at 0 m; brake and motor 0 while the tool is free
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
@@ -74,7 +74,7 @@ class needle_in_liver {
     const scalar coupled_friction_held[2] = {held_force, presliding_spring_force_};
     scalar coupled_friction_elongation[2] = {};
     int coupled_friction_sign[1] = {};
-    dashpot::slip_tree_scratch<scalar, 5, 1, 6> coupled_friction_scratch;
+    dashpot::slip_tree_scratch<scalar, 5, 1, 12> coupled_friction_scratch;
     scalar coupled_friction_change = 0;
     const scalar coupled_friction_force = dashpot::slip_tree<scalar>(coupled_friction,
         coupled_friction_scratch).push(approach, coupled_friction_held, coupled_friction_elongation,
@@ -157,9 +157,9 @@ class needle_in_liver {
   static constexpr dashpot::slip_node<scalar> coupled_friction[5] = {
       {dashpot::slip_part::parallel, 1, 2, 1, 0, 0, 5155.201037484479, 0.00019397885605795074, 0.0},
       {dashpot::slip_part::block, 0, 0, 0, 0, 0, 5155.201037484479, 0.00019397885605795074, 0.0},
-      {dashpot::slip_part::series, 3, 2, 1, 0, 2, 0.0, 0.0, 0.0},
+      {dashpot::slip_part::series, 3, 2, 1, 0, 4, 0.0, 0.0, 0.0},
       {dashpot::slip_part::block, 0, 0, 0, 1, 0, 1000.0, 0.001, 0.0},
-      {dashpot::slip_part::slip, 0, 0, 1, 0, 4, 0.0, 0.0, 1.5},
+      {dashpot::slip_part::slip, 0, 0, 1, 0, 8, 0.0, 0.0, 1.5},
   };
 
   scalar surface_ = 0;  // s, how far the surface is pushed in [m]

@@ -92,6 +92,28 @@ class Json(CommandTest):
         self.assertEqual(self.explained(FIG_5)["regimes"], [])
 
 
+    def test_regimes_of_coupled_slips(self):
+        """Fails if slips that are coupled, in no tree, or behind a contact have no regimes, or the tool that is free none."""
+        bridge = """{ "dashpot": 1, "name": "bridge", MORE "elements": [
+          { "damper": 2, "nodes": ["tool", "a"] }, { "damper": 3, "nodes": ["tool", "b"] }, { "slip": 0.2, "nodes": ["a", "b"] },
+          { "damper": 4, "nodes": ["a", "ground"] }, { "damper": 1, "nodes": ["b", "ground"] } ] }"""
+        self.write("bridge.json", bridge.replace("MORE", ""))
+        regimes = self.explained("bridge.json")["regimes"]
+        self.assertEqual([regime["stuck"] for regime in regimes], [["slip_3"], []])
+        for regime, damping in zip(regimes, [2.5, 8 / 6 + 3 / 4]):
+            self.assertAlmostEqual(regime["damping"], damping, delta=1e-15)
+        self.assertEqual([regime["name"] for regime in regimes], ["velocity-free"] * 2)
+        self.write("touched.json", bridge.replace("MORE", '"contact": { "at": 0 },'))
+        regimes = self.explained("touched.json")["regimes"]
+        self.assertEqual([(regime["component"], regime["name"]) for regime in regimes],
+                         [("slip_3", "velocity-free")] * 2 + [("contact", "touching"), ("contact", "free")])
+        for regime, damping in zip(regimes, [2.5, 8 / 6 + 3 / 4, 0, 0], strict=True):
+            self.assertAlmostEqual(regime["damping"], damping, delta=1e-15)
+        candidate = self.explained("touched.json")["candidates"][0]
+        for regime in regimes:
+            self.assertLessEqual(set(candidate) - set(regime), {"state_inputs"})
+
+
 class Text(CommandTest):
     def test_names_every_candidate_and_the_choice(self):
         """Fails if the text for people leaves out a candidate, its damping or the reason."""

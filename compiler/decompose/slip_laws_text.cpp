@@ -1,0 +1,110 @@
+#include "decompose/slip_laws.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace dashpot::compiler {
+namespace {
+
+bool offers_choice(const ComponentSplit& split) {
+  return std::count_if(split.merits.begin(), split.merits.end(), [](const SlipLawMerit& merit) { return merit.refusal.empty(); }) > 1;
+}
+
+bool is_like(const ComponentSplit& first, const ComponentSplit& second) {
+  const auto same = [](const BrakeShare& x, const BrakeShare& y) {
+    return x.damping == y.damping && x.feedthrough == y.feedthrough && x.compensation == y.compensation;
+  };
+  return first.law == second.law && first.reason == second.reason &&
+         std::equal(first.shares.begin(), first.shares.end(), second.shares.begin(), second.shares.end(), same);
+}
+
+bool asks_the_brake(const ComponentSplit& split) {
+  return std::any_of(split.regimes.regimes.begin(), split.regimes.regimes.end(), [](const Regime& regime) { return regime.damping > 0; });
+}
+
+std::string regimes_text(const ComponentSplit& split, const Network& network) {
+  std::string text = fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}  observer\n", "stuck", "b", "its observer's", "b∞", "compensation");
+  for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) {
+    const Regime& regime = split.regimes.regimes[i];
+    const std::vector<std::string> stuck = slip_names(split.regimes, regime, false, network);
+    text += fmt::format("  {:<24}{:>14.8g}{:>16.8g}{:>14.8g}{:>14.8g}  {}\n", stuck.empty() ? "-" : fmt::format("{}", fmt::join(stuck, ", ")),
+                        split.shares[i].damping, to_double(regime.damping), to_double(regime.feedthrough()),
+                        split.shares[i].compensation, regime.reason);
+  }
+  return text;
+}
+
+std::string laws_text(const ComponentSplit& split) {
+  std::string text = fmt::format("  {:<16}{:>12}{:>14}\n", "law", "error", "motor noise");
+  for (const SlipLawMerit& merit : split.merits)
+    if (merit.refusal.empty())
+      text += fmt::format("  {:<16}{:>11.4g}%{:>14}\n", name_of(merit.law), 100 * merit.largest_error,
+                          merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
+    else
+      text += fmt::format("  {:<16}  not to be had: {}\n", name_of(merit.law), merit.refusal);
+  return text;
+}
+
+}  // namespace
+
+std::string_view name_of(SlipLaw law) {
+  switch (law) {
+    case SlipLaw::by_motor: return "by-motor";
+    case SlipLaw::velocity_free: return "velocity-free";
+    case SlipLaw::gated: return "gated";
+    case SlipLaw::compensated: return "compensated";
+  }
+  return "";
+}
+
+std::vector<std::string> slip_names(const RegimeList& list, const Regime& regime, bool sliding, const Network& network) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < list.slips.size(); ++i)
+    if (regime.slides[i] == sliding)
+      for (std::size_t element : list.slips[i]) names.push_back(network.elements[element].name);
+  return names;
+}
+
+std::string name_of(const ComponentSplit& split, const Network& network) {
+  std::string names;
+  for (std::size_t i = 0; i < split.regimes.slips.size(); ++i)
+    names += (i == 0 ? "" : ", ") + network.elements[split.regimes.slips[i].front()].name;
+  return names;
+}
+
+std::vector<SlipLikes> likes_of(const SlipDecomposition& slips, const Network& network) {
+  std::vector<SlipLikes> all;
+  for (const ComponentSplit* split : slips.all()) {
+    const auto like = std::find_if(all.begin(), all.end(), [&](const SlipLikes& other) { return is_like(*other.first, *split); });
+    if (like == all.end())
+      all.push_back({split, {name_of(*split, network)}});
+    else
+      like->names.push_back(name_of(*split, network));
+  }
+  return all;
+}
+
+std::string to_text(const SlipLikes& likes) {
+  const std::size_t shown = std::min<std::size_t>(likes.names.size(), 4);
+  std::string names;
+  for (std::size_t i = 0; i < shown; ++i) names += (i == 0 ? "" : "; ") + likes.names[i];
+  if (shown < likes.names.size()) names += fmt::format(" and {} more", likes.names.size() - shown);
+  return fmt::format("behind {}: {}, {}", names, name_of(likes.first->law), likes.first->reason);
+}
+
+std::string to_text(const SlipDecomposition& slips, const Network& network) {
+  std::string text;
+  for (const SlipLikes& likes : likes_of(slips, network)) {
+    text += fmt::format("{}\n", to_text(likes));
+    text += fmt::format("  {} regimes{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "");
+    if (asks_the_brake(*likes.first)) text += regimes_text(*likes.first, network);
+    if (likes.first->regimes.regimes.empty() && likes.first->shares.front().damping > 0)
+      text += fmt::format("  b = {:.8g} in every regime\n", likes.first->shares.front().damping);
+    if (offers_choice(*likes.first)) text += laws_text(*likes.first);
+  }
+  return text;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,75 @@
+// Commands of laws with slips along written motions, for devices that are given here.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "slip_run.hpp"
+#include "support/random.hpp"
+
+namespace dashpot::testing {
+
+// A linear device at 1 kHz with the difference of two samples for a velocity, everything else exact.
+inline compiler::Device device_with(double encoder_step) {
+  compiler::Device device;
+  device.name = "written";
+  device_description& d = device.description;
+  d.loop.sample_period = slip_period;
+  d.encoder.step = encoder_step;
+  d.brake.kind = brake_kind::eddy_current;
+  d.brake.max_damping = 1000;
+  return device;
+}
+
+inline compiler::Compilation decided(const compiler::Network& network, const std::string& law, const compiler::Device* device = nullptr) {
+  compiler::Choices choices;
+  choices.decomposition = law;
+  return compiled(network, choices, device);
+}
+
+inline std::vector<command<double>> commands_along(const compiler::UpdateLaw& law, const std::vector<double>& motion) {
+  compiler::Evaluation<double> evaluation(law);
+  evaluation.reset(0);
+  std::vector<command<double>> commands;
+  double last = 0;
+  for (double position : motion) {
+    commands.push_back(evaluation.step(position, (position - last) / slip_period));
+    last = position;
+  }
+  return commands;
+}
+
+inline std::vector<double> slide(double speed, std::size_t samples) {
+  std::vector<double> motion;
+  for (std::size_t i = 1; i <= samples; ++i) motion.push_back(speed * slip_period * double(i));
+  return motion;
+}
+
+// The difference of N samples, N from the device; positions before the first are 0.
+inline double difference(const std::vector<double>& motion, std::size_t i, std::size_t window) {
+  return (motion[i] - (i >= window ? motion[i - window] : 0)) / (double(window) * slip_period);
+}
+
+inline std::size_t toggles(const std::vector<command<double>>& commands, std::size_t first, std::size_t last) {
+  std::size_t count = 0;
+  for (std::size_t i = first + 1; i < last; ++i)
+    if (commands[i].damping != commands[i - 1].damping) ++count;
+  return count;
+}
+
+// To and fro by many times what makes the slip give way, at a pace that changes.
+inline std::vector<double> adversarial_motion(std::uint64_t seed) {
+  Random random(seed);
+  std::vector<double> motion;
+  double u = 0, velocity = 0;
+  for (int i = 0; i < 400; ++i) {
+    if (i % 7 == 0) velocity = random.chance(0.3) ? 0 : (random.uniform() - 0.5) * random.log_uniform(0.1, 10);
+    u += velocity * slip_period;
+    motion.push_back(u);
+  }
+  return motion;
+}
+
+}  // namespace dashpot::testing

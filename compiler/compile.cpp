@@ -27,15 +27,14 @@ std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics)
 
 namespace {
 
-// False, with a diagnostic, for what does not go with tunable parameters. Their states follow the position: only so does
+// False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position does
 // set() inject no energy.
 bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diagnostics) {
   if (!has_tunables(network)) return true;
-  if (network.contact) diagnostics.report<DiagnosticCode::tunable_with_contact>(network.contact->span);
   const StateInput asked = choices.state_input.value_or(StateInput::position);
   if (asked != StateInput::position) diagnostics.report<DiagnosticCode::tunable_needs_position>({}, name_of(asked));
   choices.state_input = StateInput::position;
-  return !network.contact && asked == StateInput::position;
+  return asked == StateInput::position;
 }
 
 }  // namespace
@@ -57,10 +56,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
   warn_about_validity(result.form.linear, result.network, diagnostics);
   const Device* const on = device ? &*device : nullptr;
   const bool is_tunable = has_tunables(result.network);
-  // Of slips with tunables the brake takes nothing: its rule is that of what reaches ground without them.
-  std::optional<Decomposition> decomposition =
-      is_tunable ? decompose(linear_part(present, result.form), result.form.linear, choices, on, diagnostics)
-                 : decompose(result.network, result.form, choices, on, diagnostics);
+  std::optional<Decomposition> decomposition = decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   const PortDevice port = device ? PortDevice::of(*device, result.network, diagnostics).value() : PortDevice::ideal();

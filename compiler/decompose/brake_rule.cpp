@@ -73,6 +73,9 @@ BrakeRule brake_rule_of(const Network& network, const Decomposition& decompositi
   const std::optional<PortDevice> port =
       device ? PortDevice::of(*device, network, already_reported) : std::optional(PortDevice::ideal());
   BrakeRule rule = uncapped_rule(network, decomposition.choice(), port ? port->reference_frequency() : 0);
+  // Where a surface can be left, more would have to be compensated in the samples of a touch.
+  if (network.contact && rule.rule != brake_rule::constant)
+    rule = {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
   if (port) rule.max_damping = port->max_damping();
   return rule;
 }

@@ -79,7 +79,7 @@ template <class Scalar>
 command<Scalar> Evaluation<Scalar>::tunable_output(Scalar position, Scalar velocity) {
   const Scalar force = tunable_->force(position, velocity);
   sampled_ = all_finite(position, velocity, force);
-  if (!sampled_) return {tunable_->damping(), Scalar(0)};
+  if (!sampled_) return {tunable_->last_damping(), Scalar(0)};
   tunable_->keep();
   return {tunable_->damping(), force};
 }

@@ -1,5 +1,7 @@
 #include "discretise/tunable_network.hpp"
 
+#include <dashpot/slip_regime.hpp>
+
 #include "discretise/update_law.hpp"
 
 namespace dashpot::compiler {
@@ -52,24 +54,35 @@ std::size_t slips(const TunableTables& tables) {
 }
 
 std::size_t tuning(const TunableTables& tables) {
-  std::size_t operations = 8 + 4 * tables.nodes.size();
-  // A number is asked for up to five times: by the brake, by two eliminations, by the viscosity, by the step.
-  for (const tunable_number<double>& number : tables.numbers) operations += 5 * size_of(number.count);
+  std::size_t operations = 14 + 4 * tables.nodes.size();
+  // A number is asked for up to six times: by the brake, by three eliminations, by the viscosity, by the step.
+  for (const tunable_number<double>& number : tables.numbers) operations += 6 * size_of(number.count);
   for (const tunable_part<double>& part : tables.parts) {
     const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
-    operations += 12;
+    operations += 14;
     if (part.kind == tunable_kind::relaxation) operations += 2 * (6 + mean_decay_operations);
-    if (part.kind == tunable_kind::mesh) operations += 16 * edges + 4 * elimination(nodes) + first_order_elimination(nodes);
+    if (part.kind == tunable_kind::mesh) operations += 20 * edges + 5 * elimination(nodes) + first_order_elimination(nodes);
   }
   return operations;
 }
+
+// Of the regime of the sample and of the command's, and √b where a coil lags.
+std::size_t slip_brake(const TunableTables& tables) {
+  if (!tables.head.slip_rule.takes_part) return 0;
+  std::size_t operations = 18 + 4 * tables.yields.size() + (tables.head.slip_rule.coil_share < 1 ? square_root_operations + 4 : 0);
+  for (const tunable_coupling& coupling : tables.couplings)
+    operations += 2 * (1 + size_of(slip_regime_operations(tables.nodes.data() + coupling.first_node, coupling.node_count)));
+  return operations;
+}
+
+std::size_t contact(const TunableTables& tables) { return tables.head.contact.is_there ? 18 : 0; }
 
 }  // namespace
 
 TunableCost cost_of(const TunableTables& tables) {
   const std::size_t springs = tables.springs.size();
   const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
-  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables), 6 + slips(tables),
+  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables), 6 + slips(tables) + slip_brake(tables) + contact(tables),
           advance(tables) + held(tables) + 9 * springs, springs};
 }
 

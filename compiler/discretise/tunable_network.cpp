@@ -61,8 +61,9 @@ void find_loose(const NormalTree& tree, std::set<const NormalTree*>& loose) {
 
 class TablesBuilder {
  public:
-  TablesBuilder(const Network& network, const BrakeRule& brake, const Choices& choices, const Real& sample_period)
-      : network_(network), structure_(at_largest(network)), brake_(brake), choices_(choices), period_(sample_period),
+  TablesBuilder(const Network& network, const BrakeRule& brake, const Decomposition& decomposition, const Choices& choices,
+                const Real& sample_period)
+      : network_(network), structure_(at_largest(network)), brake_(brake), decomposition_(decomposition), choices_(choices), period_(sample_period),
         blocks_(network_, choices_, period_, tables_) {}
 
   // False where slips are in no tree.
@@ -102,7 +103,15 @@ class TablesBuilder {
     const double largest = is_double ? std::numeric_limits<double>::max() : double(std::numeric_limits<float>::max());
     head.max_damping = brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest;
     head.static_spring = no_index;
+    head.contact = {network_.contact.has_value(), network_.contact ? to_scalar(Real(network_.contact->at)) : 0, to_scalar(Real(decomposition_.encoder_step))};
+    head.slip_rule = slip_rule();
     tables_.brake = brake_.text;
+  }
+
+  tunable_slip_rule<double> slip_rule() const {
+    const SlipDecomposition& slips = decomposition_.slips;
+    const bool takes_part = brake_.rule != brake_rule::constant && slip_elements(structure_) > 0;
+    return {takes_part, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share)), to_scalar(Real(slips.assured_share))};
   }
 
   void add_tunable(const Parameter& parameter) {
@@ -119,7 +128,10 @@ class TablesBuilder {
     std::vector<std::size_t> linear = effective_elements(network_);
     std::erase_if(linear, [&](std::size_t i) { return behind_slips.count(i) != 0; });
     blocks_.add(laid_out_part(network_, tree, linear), linear, false);
-    for (const NormalTree& component : form.components) add_component(component, tree);
+    if (!network_.contact)
+      for (const NormalTree& component : form.components) add_component(component, tree, false);
+    else
+      add_component(whole_tree(form, structure_), tree, !linear.empty());
   }
 
   static void collect(const NormalTree& tree, std::set<std::size_t>& elements) {
@@ -127,12 +139,14 @@ class TablesBuilder {
     for (const NormalTree& child : tree.children) collect(child, elements);
   }
 
-  // Of the table only the shape is taken: its numbers follow from the parameters.
-  void add_component(const NormalTree& component, const Tree& tree) {
+  // Of the table only the shape is taken: its numbers follow from the parameters. Behind a contact the first block may be the
+  // one that is there.
+  void add_component(const NormalTree& component, const Tree& tree, bool has_first_block) {
     const std::vector<Real> any_stiffness(blocks_breadth_first(component).size(), Real(1));
     const SlipTable table = slip_table(component, any_stiffness, choices_.scalar);
     tables_.couplings.push_back({static_cast<int>(tables_.nodes.size()), static_cast<int>(table.nodes.size()),
-                                 static_cast<int>(tables_.blocks.size()), static_cast<int>(tables_.yields.size()), tables_.corners});
+                                 static_cast<int>(tables_.blocks.size()) - (has_first_block ? 1 : 0),
+                                 static_cast<int>(tables_.yields.size()), tables_.corners});
     for (slip_node<double> node : table.nodes) {
       node.stiffness = node.compliance = node.yield = 0;
       tables_.nodes.push_back(node);
@@ -141,7 +155,7 @@ class TablesBuilder {
     std::set<const NormalTree*> loose;
     find_loose(component, loose);
     for (const NormalTree* block : table.blocks)
-      blocks_.add(laid_out_part(network_, tree, block->elements), block->elements, loose.count(block) != 0);
+      if (!has_first_block || block != table.blocks.front()) blocks_.add(laid_out_part(network_, tree, block->elements), block->elements, loose.count(block) != 0);
     for (const NormalTree* slip : table.slips) {
       const int first = static_cast<int>(tables_.cuts.size());
       for (const std::vector<std::size_t>& cut : cuts_through(tree, slip->elements)) tables_.cuts.push_back(blocks_.number(network_, cut));
@@ -162,6 +176,7 @@ class TablesBuilder {
   const Network& network_;
   Network structure_;
   const BrakeRule& brake_;
+  const Decomposition& decomposition_;
   const Choices& choices_;
   Real period_;
   TunableTables tables_;
@@ -208,7 +223,7 @@ std::optional<TunableTables> tunable_tables_of(const Network& linear, const Netw
       exceeds(static_cast<std::size_t>(slip_elements(network)), most_tunable_slips, "slips", network, diagnostics))
     return std::nullopt;
   const BrakeRule brake = brake_rule_of(linear, decomposition, device);
-  TablesBuilder builder(network, brake, choices, sample_period);
+  TablesBuilder builder(network, brake, decomposition, choices, sample_period);
   if (!builder.build()) {
     diagnostics.report<DiagnosticCode::tunable_slips_outside_tree>(network.name_span, network.name);
     return std::nullopt;

@@ -23,22 +23,24 @@ class TunableRun {
   TunableRun& operator=(const TunableRun&) = delete;
 
   void reset(Scalar position) {
-    last_position_ = sampled_position_ = position;
-    sampled_change_ = change_ = 0;
-    law_.reset(tables_, position);
+    last_position_ = sampled_position_ = tables_.contact.is_there ? pushed_in(tables_.contact.at, position) : position;
+    sampled_change_ = 0;
+    law_.reset(tables_, last_position_);
+    last_damping_ = law_.damping_at_rest(tables_);
   }
 
-  Scalar damping() const { return law_.damping(); }
+  Scalar last_damping() const { return last_damping_; }
+  Scalar damping() const { return sample_.damping; }
 
   Scalar force(Scalar position, Scalar velocity) {
-    position_ = position;
-    change_ = position - last_position_;
-    return law_.force(tables_, change_) + law_.velocity_gain() * velocity;
+    sample_ = law_.output(tables_, last_position_, position, velocity);
+    return sample_.force;
   }
 
   void keep() {
-    sampled_change_ = change_;
-    sampled_position_ = position_;
+    sampled_change_ = sample_.change;
+    sampled_position_ = sample_.position;
+    last_damping_ = sample_.damping;
   }
 
   void update() {
@@ -71,6 +73,8 @@ class TunableRun {
     const tunable_tables<double>& h = t.head;
     return {scalar(h.period), scalar(h.rate), h.is_exact, scalar(h.retention), scalar(h.threshold), scalar(h.least_share),
             h.rule, scalar(h.damping), h.observed, scalar(h.max_damping), h.static_spring,
+            {h.contact.is_there, scalar(h.contact.at), scalar(h.contact.encoder_step)},
+            {h.slip_rule.takes_part, scalar(h.slip_rule.hysteresis), scalar(h.slip_rule.coil_share), scalar(h.slip_rule.assured_share)},
             h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count, h.coupling_count,
             ranges_.data(), t.terms.data(), numbers_.data(), t.springs.data(), parts_.data(), t.edges.data(), t.blocks.data(),
             t.cuts.data(), t.yields.data(), t.couplings.data(), nodes_.data()};
@@ -83,7 +87,9 @@ class TunableRun {
   tunable_tables<Scalar> tables_;
   tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks, most_tunable_slip_parts,
               most_tunable_slips, most_tunable_corners> law_;
-  Scalar last_position_ = 0, position_ = 0, change_ = 0, sampled_position_ = 0, sampled_change_ = 0;
+  tunable_sample<Scalar> sample_ = {};
+  Scalar last_position_ = 0, sampled_position_ = 0, sampled_change_ = 0;
+  Scalar last_damping_ = law_.damping_at_rest(tables_);
 };
 
 }  // namespace dashpot::compiler

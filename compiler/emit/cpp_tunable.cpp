@@ -52,17 +52,20 @@ class TunablePrinter {
     program.set = set();
     program.constants = constants();
     program.states = states();
-    program.reset = {"last_position_ = dashpot::all_finite(position, position, position) ? position : 0;",
+    const bool is_pushed = tables_.head.contact.is_there;
+    program.reset = {fmt::format("last_position_ = dashpot::all_finite(position, position, position) ? {} : 0;",
+                                 is_pushed ? "dashpot::pushed_in(tables.contact.at, position)" : "position"),
                      "sampled_position_change_ = 0;", "sampled_position_ = last_position_;",
-                     "law_.reset(tables, last_position_);"};
-    program.output = {"// Δu = u − u₋", "const scalar position_change = position - last_position_;", "// m = f − b u̇",
-                      "const scalar force = law_.force(tables, position_change) + law_.velocity_gain() * velocity;"};
-    program.keep = {"sampled_position_change_ = position_change;", "sampled_position_ = position;"};
-    program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);", "// u₋ = u",
+                     "law_.reset(tables, last_position_);", "last_damping_ = law_.damping_at_rest(tables);"};
+    program.output = {is_pushed ? "// where the surface goes, b, and m = f − b u̇" : "// Δu = u − u₋, b, and m = f − b u̇",
+                      "const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);",
+                      "const scalar force = sample.force;"};
+    program.keep = {"sampled_position_change_ = sample.change;", "sampled_position_ = sample.position;", "last_damping_ = sample.damping;"};
+    program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);", is_pushed ? "// s₋ = s" : "// u₋ = u",
                       "last_position_ = sampled_position_;"};
     program.energy = {"// V + T: in the springs, and what changes of parameters have set free", "const scalar stored = law_.stored_energy(tables);"};
-    check_by_jumps(program, "{law_.damping(), 0}");
-    program.command = "{law_.damping(), force}";
+    check_by_jumps(program, "{last_damping_, 0}");
+    program.command = "{sample.damping, force}";
     return program;
   }
 
@@ -134,6 +137,9 @@ class TunablePrinter {
                                 number(h.threshold), number(h.least_share)));
     lines.push_back(fmt::format("    dashpot::brake_rule::{}, {}, {}, {}, {},", name_of(h.rule), number(h.damping), h.observed,
                                 number(h.max_damping), h.static_spring));
+    lines.push_back(fmt::format("    {{{}, {}, {}}}, {{{}, {}, {}, {}}},", h.contact.is_there, number(h.contact.at), number(h.contact.encoder_step),
+                                h.slip_rule.takes_part, number(h.slip_rule.hysteresis), number(h.slip_rule.coil_share),
+                                number(h.slip_rule.assured_share)));
     lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count,
                                 h.coupling_count));
     lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}}};", name_or_none("terms", tables_.terms),
@@ -169,7 +175,8 @@ class TunablePrinter {
             "scalar sampled_position_ = 0;  // port displacement u, at this sample",
             fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};", tables_.tunables.size(),
                         room(tables_.springs.size()), room(static_cast<std::size_t>(tables_.mesh_nodes)), tables_.blocks.size(),
-                        room(tables_.nodes.size()), tables_.yields.size(), room(static_cast<std::size_t>(tables_.corners)))};
+                        room(tables_.nodes.size()), tables_.yields.size(), room(static_cast<std::size_t>(tables_.corners))),
+            "scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before"};
   }
 
   const UpdateLaw& law_;

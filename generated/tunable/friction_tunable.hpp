@@ -2,6 +2,8 @@
 //
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 12 N·s/m: dampers at the tool in parallel add
+// behind friction: velocity-free, parameters change while it runs; b is that of their default values; b = 0 N·s/m
+//   stuck, 0 sliding
 // states: position driven, so that a change of parameters injects no energy
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
@@ -10,9 +12,9 @@
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): at most 47 additions, multiplications and divisions
+// cost of output(): at most 81 additions, multiplications and divisions
 // cost of update(): at most 29 additions and multiplications; 1 states
-// cost of set(): at most 460 additions, multiplications and divisions
+// cost of set(): at most 474 additions, multiplications and divisions
 //
 // Written by dashpot 0.1.0 from a network with digest f771aaa0034c9e10. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -53,22 +55,23 @@ class friction_tunable {
     sampled_position_change_ = 0;
     sampled_position_ = last_position_;
     law_.reset(tables, last_position_);
+    last_damping_ = law_.damping_at_rest(tables);
     sampled_ = false;
   }
 
   // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
   // non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
-    // Δu = u − u₋
-    const scalar position_change = position - last_position_;
-    // m = f − b u̇
-    const scalar force = law_.force(tables, position_change) + law_.velocity_gain() * velocity;
+    // Δu = u − u₋, b, and m = f − b u̇
+    const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);
+    const scalar force = sample.force;
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {law_.damping(), 0};
+    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
     sampled_ = true;
-    sampled_position_change_ = position_change;
-    sampled_position_ = position;
-    return {law_.damping(), force};
+    sampled_position_change_ = sample.change;
+    sampled_position_ = sample.position;
+    last_damping_ = sample.damping;
+    return {sample.damping, force};
   }
 
   // Takes the states to the next sample; to be called once after each output(), when the command has left.
@@ -135,18 +138,20 @@ class friction_tunable {
   static constexpr dashpot::slip_node<scalar> nodes[3] = {
       {dashpot::slip_part::series, 1, 2, 1, 0, 0, 0, 0, 0},
       {dashpot::slip_part::block, 0, 0, 0, 0, 0, 0, 0, 0},
-      {dashpot::slip_part::slip, 0, 0, 1, 0, 2, 0, 0, 0},
+      {dashpot::slip_part::slip, 0, 0, 1, 0, 4, 0, 0, 0},
   };
   static constexpr dashpot::tunable_tables<scalar> tables = {
       0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
       dashpot::brake_rule::observed, 0.0, 3, 1.7976931348623157e+308, -1,
+      {false, 0.0, 0.0}, {true, 0.0, 1.0, 1.0},
       3, 1, 2, 2, 1, 1,
       tunables, terms, numbers, springs, parts, nullptr, blocks, cuts, yields, couplings, nodes};
 
   scalar last_position_ = 0;  // u of the sample before
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
   scalar sampled_position_ = 0;  // port displacement u, at this sample
-  dashpot::tunable_law<scalar, 3, 1, 1, 2, 3, 1, 4> law_{tables};
+  dashpot::tunable_law<scalar, 3, 1, 1, 2, 3, 1, 8> law_{tables};
+  scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -14,7 +14,7 @@
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): at most 6 additions, multiplications and divisions
 // cost of update(): at most 57 additions and multiplications; 3 states
-// cost of set(): at most 1225 additions, multiplications and divisions
+// cost of set(): at most 1240 additions, multiplications and divisions
 //
 // Written by dashpot 0.1.0 from a network with digest 727e181de6d8edb7. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -54,22 +54,23 @@ class second_order_maxwell_tunable {
     sampled_position_change_ = 0;
     sampled_position_ = last_position_;
     law_.reset(tables, last_position_);
+    last_damping_ = law_.damping_at_rest(tables);
     sampled_ = false;
   }
 
   // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
   // non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
-    // Δu = u − u₋
-    const scalar position_change = position - last_position_;
-    // m = f − b u̇
-    const scalar force = law_.force(tables, position_change) + law_.velocity_gain() * velocity;
+    // Δu = u − u₋, b, and m = f − b u̇
+    const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);
+    const scalar force = sample.force;
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {law_.damping(), 0};
+    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
     sampled_ = true;
-    sampled_position_change_ = position_change;
-    sampled_position_ = position;
-    return {law_.damping(), force};
+    sampled_position_change_ = sample.change;
+    sampled_position_ = sample.position;
+    last_damping_ = sample.damping;
+    return {sample.damping, force};
   }
 
   // Takes the states to the next sample; to be called once after each output(), when the command has left.
@@ -132,6 +133,7 @@ class second_order_maxwell_tunable {
   static constexpr dashpot::tunable_tables<scalar> tables = {
       0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
       dashpot::brake_rule::observed, 0.0, 5, 1.7976931348623157e+308, 0,
+      {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
       2, 3, 3, 1, 0, 0,
       tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr};
 
@@ -139,6 +141,7 @@ class second_order_maxwell_tunable {
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
   scalar sampled_position_ = 0;  // port displacement u, at this sample
   dashpot::tunable_law<scalar, 2, 3, 1, 1, 1, 0, 1> law_{tables};
+  scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

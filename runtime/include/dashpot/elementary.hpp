@@ -6,18 +6,19 @@ namespace dashpot {
 
 namespace detail {
 
-// 1/n at [n]. Outside of functions, so that no compiler copies it to the stack, by a memcpy that may not be there.
+// 1/n at [n]. Outside of functions, so that no compiler copies it to the stack, by a memcpy that may not be there. With its
+// bound: without, clang takes no element of a template for a constant.
 template <class Scalar>
-inline constexpr Scalar reciprocal_of[] = {
+inline constexpr Scalar reciprocal_of[18] = {
     Scalar(0),      Scalar(1),      Scalar(1) / 2,  Scalar(1) / 3,  Scalar(1) / 4,  Scalar(1) / 5,
     Scalar(1) / 6,  Scalar(1) / 7,  Scalar(1) / 8,  Scalar(1) / 9,  Scalar(1) / 10, Scalar(1) / 11,
     Scalar(1) / 12, Scalar(1) / 13, Scalar(1) / 14, Scalar(1) / 15, Scalar(1) / 16, Scalar(1) / 17};
 
 // Powers of two by which square_root() takes any number to between 1 and 4.
 template <class Scalar>
-inline constexpr Scalar halves[] = {0x1p256, 0x1p256, 0x1p128, 0x1p64, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1};
+inline constexpr Scalar halves[10] = {0x1p256, 0x1p256, 0x1p128, 0x1p64, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1};
 template <>
-inline constexpr float halves<float>[] = {0x1p32f, 0x1p32f, 0x1p16f, 0x1p8f, 0x1p4f, 0x1p2f, 0x1p1f};
+inline constexpr float halves<float>[7] = {0x1p32f, 0x1p32f, 0x1p16f, 0x1p8f, 0x1p4f, 0x1p2f, 0x1p1f};
 
 }  // namespace detail
 

@@ -11,9 +11,12 @@
 
 #include <dashpot/command.hpp>
 #include <dashpot/exponential.hpp>
+#include <dashpot/slip_regime.hpp>
 #include <dashpot/slip_tree.hpp>
 #include <dashpot/tunable/energy_tank.hpp>
 #include <dashpot/tunable/mesh.hpp>
+#include <dashpot/tunable/sample.hpp>
+#include <dashpot/tunable/slip_brake.hpp>
 #include <dashpot/tunable/tables.hpp>
 
 namespace dashpot {
@@ -39,6 +42,7 @@ class tunable_law {
 
   // At rest at `position`: what joins tool and ground is loaded by it, what is behind a slip is not.
   constexpr void reset(const tables& t, Scalar position) noexcept {
+    if constexpr (Slips > 0) slip_brake_.reset(regime_damping(t, held_signs()));
     for (int i = 0; i < t.spring_count; ++i) elongation_[i] = offset_[i] = 0;
     for (int i = 0; i < Blocks; ++i) block_elongation_[i] = 0;
     tank_ = 0;
@@ -48,25 +52,49 @@ class tunable_law {
       if (part.kind == tunable_kind::mesh) load(t, part, position);
     });
     find_held(t);
+    if constexpr (Slips > 0) slip_brake_.reset(regime_damping(t, held_signs()));
   }
 
-  Scalar damping() const noexcept { return damping_; }              // b [N·s/m]
-  Scalar velocity_gain() const noexcept { return velocity_gain_; }  // b∞ − b [N·s/m]
-
-  // f − b∞ u̇ for the tool's displacement in this sample [N].
-  Scalar force([[maybe_unused]] const tables& t, Scalar change) noexcept {
-    Scalar force = step_stiffness_ * change + held_[0];
-    if constexpr (Slips > 0) force += slip_force(t, change);
-    return force;
+  // b of a tool that is in touch and at rest [N·s/m].
+  constexpr Scalar damping_at_rest(const tables& t) noexcept {
+    if (t.contact.is_there) return 0;
+    Scalar damping = damping_;
+    if constexpr (Slips > 0) damping += regime_damping(t, held_signs());
+    return damping;
   }
 
-  // Takes the states over the sample that force() has seen, to `position`.
+  // In: where the tool, or the surface that it pushes, was in the sample before; where the tool is, and its velocity.
+  tunable_sample<Scalar> output(const tables& t, Scalar last, Scalar position, Scalar velocity) noexcept {
+    tunable_answer<Scalar> answer = {0, velocity_gain_, damping_};
+    if (!t.contact.is_there) {
+      const Scalar change = position - last;
+      answer.opposing = step_stiffness_ * change + held_[0];
+      if constexpr (Slips > 0) {
+        answer.opposing += slip_force(t, change);
+        leave_to_brake(t, change, position, answer);
+      }
+      return held_sample(change, position, velocity, answer);
+    }
+    const Scalar depth = position - t.contact.at, approach = depth - last;
+    Scalar change = -(held_[0] * release_compliance_);
+    if (!(change > approach)) change = approach;
+    if (t.coupling_count == 0) answer.opposing = step_stiffness_ * change + held_[0];
+    if constexpr (Slips > 0)
+      if (t.coupling_count > 0) {
+        answer.opposing = pushed_force(t, approach, change) - feedthrough_ * t.rate * change;
+        leave_to_brake(t, change, position, answer);
+      }
+    return touching_sample(t.contact, t.threshold, last, depth, change, velocity, answer);
+  }
+
+  // Takes the states over the sample that output() has seen last, by its change and to its position.
   void update(const tables& t, Scalar change, Scalar position) noexcept {
     block_elongation_[0] = change;
     for (int i = 0; i < t.block_count; ++i)
       each_part(t, t.blocks[i], [&](const tunable_part<Scalar>& part) { advance(t, part, block_elongation_[i]); });
     if (t.static_spring != no_index) elongation_[t.static_spring] = position;
     if (is_owing_) bring_offsets_home(t);
+    if constexpr (Slips > 0) slip_brake_.keep(t.slip_count);
     find_held(t);
   }
 
@@ -112,6 +140,40 @@ class tunable_law {
     return sum;
   }
 
+  // The one coupling of a contact: the whole network.
+  Scalar pushed_force(const tables& t, Scalar approach, Scalar& change) noexcept {
+    const tunable_coupling& c = t.couplings[0];
+    slip_tree<Scalar> tree(slip_nodes_, c.node_count, slip_parts_, corners_, merged_);
+    return tree.push(approach, held_ + c.first_block, block_elongation_ + c.first_block, sign_, change);
+  }
+
+  constexpr const int* held_signs() noexcept {
+    for (int i = 0; i < slip_room; ++i) commanded_[i] = 0;
+    return commanded_;
+  }
+
+  // b∞ of all that is behind slips, within what the brake has left.
+  constexpr Scalar regime_damping(const tables& t, const int* sign) noexcept {
+    if (!t.slip_rule.takes_part) return 0;
+    Scalar sum = 0;
+    for (int i = 0; i < t.coupling_count; ++i) {
+      const tunable_coupling& c = t.couplings[i];
+      sum += slip_regime_feedthrough(slip_nodes_ + c.first_node, c.node_count, block_feedthrough_ + c.first_block, sign + c.first_slip,
+                                     slip_parts_ + c.first_node);
+    }
+    const Scalar left = t.max_damping - damping_;
+    return sum < left ? sum : left;
+  }
+
+  void leave_to_brake(const tables& t, Scalar change, Scalar position, tunable_answer<Scalar>& answer) noexcept {
+    if (!t.slip_rule.takes_part) return;
+    answer.opposing -= regime_damping(t, sign_) * t.rate * change;
+    slip_brake_.follow(t.slip_rule, t.slip_count, sign_, position, commanded_);
+    const Scalar wanted = regime_damping(t, commanded_), damping = slip_brake_.damping(t.slip_rule, wanted);
+    answer.damping += damping;
+    if (!t.contact.is_there) answer.gain += clamp_to(make_up_, wanted - damping);
+  }
+
   template <class Visit>
   static constexpr void each_part(const tables& t, const tunable_block& block, Visit visit) noexcept {
     for (int i = block.first_part; i < block.first_part + block.part_count; ++i) visit(t.parts[i]);
@@ -141,14 +203,26 @@ class tunable_law {
   constexpr void tune(const tables& t) noexcept {
     for (int i = 0; i < t.spring_count; ++i) stiffness_[i] = number(t, t.springs[i]);
     tune_brake(t);
+    for (int i = 0; i < t.block_count; ++i) block_feedthrough_[i] = i == 0 ? Scalar(0) : feedthrough_of(t, t.blocks[i]);
+    // Last, so that every mesh is left as the steps need it.
     for (int i = 0; i < t.block_count; ++i) {
       Scalar stiffness = 0;
       each_part(t, t.blocks[i], [&](const tunable_part<Scalar>& part) { stiffness += step_stiffness(t, part); });
       block_stiffness_[i] = stiffness;
     }
+    release_compliance_ = block_stiffness_[0] > 0 ? 1 / block_stiffness_[0] : Scalar(0);
     step_stiffness_ = 0;
     each_part(t, t.blocks[0], [&](const tunable_part<Scalar>& part) { step_stiffness_ += step_stiffness_at_port(t, part); });
     for (int i = 0; i < t.coupling_count; ++i) tune_slips(t, t.couplings[i]);
+  }
+
+  constexpr Scalar feedthrough_of(const tables& t, const tunable_block& block) noexcept {
+    Scalar sum = 0;
+    each_part(t, block, [&](const tunable_part<Scalar>& part) {
+      if (part.kind == tunable_kind::damper) sum += number(t, part.damping);
+      if (part.kind == tunable_kind::mesh) sum += eliminate(t, part, 0, 1);
+    });
+    return sum;
   }
 
   // g = dp/dδ of a part over a sample.
@@ -176,6 +250,12 @@ class tunable_law {
   // z ← z + φ δ − α z with x = k h/B, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
   constexpr void tune_relaxation(const tables& t, const tunable_part<Scalar>& part) noexcept {
     const Scalar stiffness = stiffness_[part.spring], damping = number(t, part.damping);
+    // Division by zero, and infinity, are no constant expressions: a damper of nothing leaves nothing of the spring by itself.
+    if (stiffness > 0 && !(damping > 0)) {
+      share_[part.spring] = 0;
+      loss_[part.spring] = 1;
+      return;
+    }
     const Scalar x = stiffness > 0 ? stiffness * t.period / damping : Scalar(0);
     const Scalar share = t.is_exact ? mean_decay(x) : 1 / (1 + x);
     share_[part.spring] = share;
@@ -216,7 +296,11 @@ class tunable_law {
     });
     const Scalar wanted = brake_damping(t, feedthrough_ + relaxing);
     damping_ = wanted < t.max_damping ? wanted : t.max_damping;
+    // Where a surface can be left the motor compensates nothing.
+    if (t.contact.is_there && damping_ > feedthrough_) damping_ = feedthrough_;
     velocity_gain_ = feedthrough_ - damping_;
+    const Scalar assured = t.slip_rule.assured_share * damping_ - (velocity_gain_ < 0 ? -velocity_gain_ : velocity_gain_);
+    make_up_ = assured > 0 ? assured : Scalar(0);
   }
 
   constexpr Scalar brake_damping(const tables& t, Scalar zero_frequency) const noexcept {
@@ -379,7 +463,10 @@ class tunable_law {
   Scalar block_stiffness_[Blocks] = {};    // g [N/m]
   Scalar least_stiffness_[Blocks] = {}, least_yield_[slip_room] = {};
   Scalar step_stiffness_ = 0;              // g of block 0 without b∞/h [N/m]
-  Scalar feedthrough_ = 0, damping_ = 0, velocity_gain_ = 0;  // b∞, b, b∞ − b [N·s/m]
+  Scalar feedthrough_ = 0, damping_ = 0, velocity_gain_ = 0;  // b∞, b, b∞ − b, without slips [N·s/m]
+  Scalar block_feedthrough_[Blocks] = {};  // b∞; 0 of block 0, whose is the above [N·s/m]
+  Scalar release_compliance_ = 0;          // 1/g of block 0 [m/N]
+  Scalar make_up_ = 0;                     // of b that the motor makes up at most [N·s/m]
   slip_node<Scalar> slip_nodes_[SlipParts] = {};
 
   Scalar elongation_[Springs] = {};        // z [m]
@@ -393,7 +480,8 @@ class tunable_law {
   spring_change<Scalar> changes_[Springs] = {};
   slip_part_state<Scalar> slip_parts_[SlipParts] = {};
   slip_corner<Scalar> corners_[Corners] = {}, merged_[slip_curve_room(slip_room)] = {};
-  int sign_[slip_room] = {};
+  int sign_[slip_room] = {}, commanded_[slip_room] = {};
+  tunable_slip_brake<Scalar, slip_room> slip_brake_;
 };
 
 }  // namespace dashpot

@@ -73,7 +73,7 @@ TunableLaw law_of(std::uint64_t seed) {
   choices.scalar = seed % 4 == 0 ? compiler::ScalarType::float32 : compiler::ScalarType::float64;
   choices.decomposition = decompositions[seed % std::size(decompositions)];
   choices.state_input = compiler::StateInput::position;
-  return TunableLaw(tunable_network(seed, Kind(seed % 4 == 0 ? seed / 4 % 4 : seed % 4)), choices);
+  return TunableLaw(tunable_network(seed, Kind((seed % 4 == 0 ? seed / 4 : seed) % kinds)), choices);
 }
 
 void emit(const TunableLaw& law, const fs::path& folder) {
@@ -142,6 +142,24 @@ TEST(TunableEmission, compiles_strictly_and_leaves_no_symbol_undefined) {
       EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "") << compiler << " " << level;
       EXPECT_EQ(run_command(fmt::format("nm -C '{}' | grep -c GLOBAL__sub_I", object.string())).output, "0\n") << compiler << " " << level;
     }
+}
+
+// A global law would be made while the program starts, after others that use it: no division by zero is a constant. All kinds,
+// and a branch whose damper is nothing to begin with.
+TEST(TunableEmission, is_made_by_constants_alone) {
+  const TemporaryFolder folder;
+  const char* const nothing = R"({ "dashpot": 1, "name": "tunable_0",
+    "parameters": { "B": { "value": 0, "tunable": true, "min": 0, "max": 5 } },
+    "network": { "parallel": [ { "spring": 3 }, { "series": [ { "spring": 10 }, { "damper": "B" } ] } ] } })";
+  std::string source = "#ifdef __clang__\n#define CONSTANT [[clang::require_constant_initialization]]\n#else\n#define CONSTANT __constinit\n#endif\n";
+  for (std::uint64_t seed = 0; seed <= 18; ++seed) {
+    emit(seed == 0 ? TunableLaw(nothing) : TunableLaw(tunable_network(seed, Kind(seed % kinds))), folder.path());
+    source += fmt::format("#include \"tunable_{0}.hpp\"\nCONSTANT dashpot::generated::tunable_{0} law_{0};\n", seed);
+  }
+  write_text(folder.path() / "globals.cpp", source);
+  for (const char* compiler : {DASHPOT_GXX, DASHPOT_CLANGXX})
+    run_or_fail(fmt::format("'{}' -std=c++17 -fsyntax-only -I'{}' -I'{}' '{}/globals.cpp'", compiler, DASHPOT_RUNTIME_INCLUDE,
+                            folder.path().string(), folder.path().string()));
 }
 
 // A step would take as long as a processor's division, which on a board is a call.

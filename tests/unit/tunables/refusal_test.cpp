@@ -47,9 +47,8 @@ TEST(TunableRefusal, of_states_that_follow_a_velocity) {
          "refused\nerror: state input 'velocity' with tunable parameters; their states follow the position [tunable-needs-position]");
 }
 
-// A contact, or slips in no tree, would be stepped by a law that knows nothing of them.
-TEST(TunableRefusal, of_contact_and_of_slips_outside_a_tree) {
-  expect(said_of(file("\"network\": { \"spring\": \"K\" }", "\"contact\": { \"at\": 0 }, ")), "[tunable-with-contact]");
+// Slips in no tree would be stepped by a law that knows nothing of them.
+TEST(TunableRefusal, of_slips_outside_a_tree) {
   const std::string bridge = said_of(file(R"("elements": [ { "spring": "K", "nodes": ["tool", "a"] }, { "spring": 1, "nodes": ["tool", "b"] },
     { "slip": 1, "nodes": ["a", "b"] }, { "spring": 1, "nodes": ["a", "ground"] }, { "damper": 1, "nodes": ["b", "ground"] } ])"));
   expect(bridge, "refused");

@@ -55,6 +55,9 @@ TEST(SameNetwork, of_branches_in_backward_euler) { expect_same_forces(Kind::para
 TEST(SameNetwork, of_trees_in_backward_euler) { expect_same_forces(Kind::tree, compiler::Scheme::backward_euler); }
 TEST(SameNetwork, of_graphs_in_backward_euler) { expect_same_forces(Kind::graph, compiler::Scheme::backward_euler); }
 TEST(SameNetwork, of_slips_in_backward_euler) { expect_same_forces(Kind::slips, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, behind_a_contact_in_the_exact_scheme) { expect_same_forces(Kind::touched, compiler::Scheme::exact); }
+TEST(SameNetwork, behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, of_slips_behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched_slips, compiler::Scheme::backward_euler); }
 
 }  // namespace
 }  // namespace dashpot::testing

@@ -29,14 +29,16 @@ compiler::Network branches(Random& random) {
   return network;
 }
 
+bool has_slips(Kind kind) { return kind == Kind::slips || kind == Kind::touched_slips; }
+
 compiler::Network network_of(std::uint64_t seed, Kind kind, Random& random) {
-  if (kind == Kind::parallel_branches) return branches(random);
+  if (kind == Kind::parallel_branches || kind == Kind::touched) return branches(random);
   NetworkRecipe recipe;
   recipe.topology = kind == Kind::graph ? Topology::graph : Topology::tree;
   recipe.most_nodes = 8;
   recipe.smallest_value = 1e-2;
   recipe.largest_value = 1e3;
-  recipe.most_slips = kind == Kind::slips ? 5 : 0;
+  recipe.most_slips = has_slips(kind) ? 5 : 0;
   return random_network(seed, recipe);
 }
 
@@ -64,14 +66,15 @@ std::string tunable_network(std::uint64_t seed, Kind kind) {
     const double value = compiler::value_of(e.law);
     const bool is_tunable = random.chance(0.5) || (parameters.empty() && i + 1 == network.elements.size());
     if (is_tunable) {
-      const double start = random.chance(0.05) && kind != Kind::slips ? 0 : value, least = start == 0 || random.chance(0.5) ? 0 : value / 10;
+      const double start = random.chance(0.05) && !has_slips(kind) ? 0 : value, least = start == 0 || random.chance(0.5) ? 0 : value / 10;
       parameters += fmt::format("{}\n  \"p{}\": {{ \"value\": {}, \"tunable\": true, \"min\": {}, \"max\": {} }}",
                                 parameters.empty() ? "" : ",", i, start, least, value * 10);
     }
     elements += fmt::format("{}\n  {{ \"{}\": {}, \"nodes\": [\"{}\", \"{}\"] }}", i == 0 ? "" : ",", compiler::kind_of(e.law),
                             is_tunable ? fmt::format("\"p{}\"", i) : fmt::format("{}", value), network.nodes[e.a], network.nodes[e.b]);
   }
-  return fmt::format("{{ \"dashpot\": 1, \"name\": \"tunable_{}\", \"parameters\": {{{} }},\n\"elements\": [{} ] }}\n", seed, parameters, elements);
+  const char* const contact = kind == Kind::touched || kind == Kind::touched_slips ? "\"contact\": { \"at\": 0 }, " : "";
+  return fmt::format("{{ \"dashpot\": 1, \"name\": \"tunable_{}\", {}\"parameters\": {{{} }},\n\"elements\": [{} ] }}\n", seed, contact, parameters, elements);
 }
 
 std::vector<double> next_values(const std::vector<compiler::Tunable>& tunables, const std::vector<double>& present, Random& random) {

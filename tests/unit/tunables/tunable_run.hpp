@@ -27,7 +27,9 @@ class TunableLaw {
   std::optional<compiler::Compilation> compilation_;
 };
 
-enum class Kind { parallel_branches, tree, graph, slips };
+enum class Kind { parallel_branches, tree, graph, slips, touched, touched_slips };  // the last two behind a contact at 0
+
+inline constexpr std::uint64_t kinds = 6;
 
 // A network file of that kind in which about half of all elements are tunable, over ranges from zero or a tenth to ten times
 // their value; some start at zero, where there are no slips.

@@ -86,7 +86,24 @@ enum class brake_rule : unsigned char {
   within_viscosity,     // the constant, never above Z(0)
 };
 
-// Block 0 is what joins tool and ground without a slip.
+// The surface that the tool pushes and cannot pull, if there is one.
+template <class Scalar>
+struct tunable_contact {
+  bool is_there;
+  Scalar at;            // where it lies unloaded [m]
+  Scalar encoder_step;  // how far the gap may open before the command lets go [m]
+};
+
+// What slips leave to the brake.
+template <class Scalar>
+struct tunable_slip_rule {
+  bool takes_part;
+  Scalar hysteresis;     // of the tool's displacement, before a slide has ended for the command [m]
+  Scalar coil_share;     // κ: of what is missing from √b, that the coil makes up in a sample [1]
+  Scalar assured_share;  // of the damping that no slip changes, what the motor may make up by an estimate; 0 for none [1]
+};
+
+// Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling.
 template <class Scalar>
 struct tunable_tables {
   Scalar period;        // h [s]
@@ -100,6 +117,8 @@ struct tunable_tables {
   int observed;         // number, of brake_rule::observed
   Scalar max_damping;   // what the brake can give [N·s/m]
   int static_spring;    // the spring that joins tool and ground directly, or none
+  tunable_contact<Scalar> contact;
+  tunable_slip_rule<Scalar> slip_rule;
   int tunable_count, spring_count, part_count, block_count, slip_count, coupling_count;
   const tunable_range<Scalar>* tunables;
   const int* terms;

@@ -208,6 +208,58 @@ class Table(SimulateTest):
         self.refuses("time,position\n0,0\n1e-300,0\n", "csv-rate-too-high")
 
 
+class Tunables(SimulateTest):
+    NETWORK = """{ "dashpot": 1, "name": "tuned", "parameters": {
+      "K": { "value": 100, "tunable": true, "min": 10, "max": 400 },
+      "B": { "value": 2, "tunable": true, "min": 0, "max": 5 } },
+      "network": { "parallel": [ { "spring": "K" }, { "damper": "B" } ] } }"""
+
+    def setUp(self):
+        super().setUp()
+        self.write("tuned.json", self.NETWORK)
+
+    def test_columns_give_values(self):
+        """Fails if a column that is called like a tunable does not set it from that row on, or the brake does not follow."""
+        rows = self.simulated("tuned.json", table([(0, 0, 100, 2), (0.001, 0, 100, 5), (0.002, 0.01, 200, 5), (0.003, 0.02, 200, 1)],
+                                                  "time,position,K,B"))
+        self.assertEqual([row["damping"] for row in rows], [2, 5, 5, 1])
+        for row, force in zip(rows, [0, 0, 2, 4]):
+            self.assertAlmostEqual(row["motor_force"], force, delta=1e-15)
+
+    def test_columns_may_be_missing(self):
+        """Fails if a tunable without a column is not at its own value, or none at all changes the law."""
+        motion = ramp(20)
+        plain = self.simulated("tuned.json", table(motion))
+        self.assertEqual(self.simulated("tuned.json", table([(*row, 2) for row in motion], "time,position,B")), plain)
+        self.assertAlmostEqual(plain[-1]["motor_force"], 100 * motion[-1][1], delta=1e-14)
+
+    def test_values_beyond_the_range(self):
+        """Fails if a value beyond its range is taken as it is, or clamped in silence, or warned of in every row."""
+        self.write("motion.csv", table([(0, 0, 1000), (0.001, 0.01, 1000), (0.002, 0.01, 1)], "time,position,K"))
+        done = self.dashpot("simulate", "tuned.json", "--input", "motion.csv")
+        self.assertEqual(done.stderr.count("[outside-valid-range]"), 1)
+        forces = [float(row["motor_force"]) for row in csv.DictReader(io.StringIO(done.stdout))]
+        self.assertAlmostEqual(forces[1], 400 * 0.01, delta=1e-14)
+        self.assertGreaterEqual(forces[2], 10 * 0.01)
+
+    def test_cells_that_are_no_numbers(self):
+        """Fails if a value that is no finite number reaches the law, or the column of another network is asked for numbers."""
+        for cell in ["stiff", "", "nan", "inf"]:
+            self.write("motion.csv", table([(0, 0, cell)], "time,position,K"))
+            self.refused("simulate", "tuned.json", "--input", "motion.csv", code="csv-not-a-number")
+            self.dashpot("simulate", "kelvin.json", "--input", "motion.csv")
+
+    def test_behind_a_contact(self):
+        """Fails if a wall whose stiffness is a slider pulls the tool back, or is felt before it is reached."""
+        self.write("wall.json", self.NETWORK.replace('"network"', '"contact": { "at": 0 }, "network"'))
+        rows = self.simulated("wall.json", table([(0.001 * n, position, 400 if n % 2 else 10, 2) for n, position in
+                                                  enumerate([-0.02, -0.01, 0.01, 0.02, 0.01, 0, -0.01])], "time,position,K,B"))
+        self.assertEqual([row["force"] for row in rows[:2]], [0, 0])
+        self.assertGreater(min(row["force"] for row in rows[2:4]), 0)
+        self.assertEqual(min(row["force"] for row in rows), 0)
+        self.assertEqual([row["damping"] for row in rows[-1:]], [0])
+
+
 class Validity(SimulateTest):
     def test_leaving_the_valid_range_is_said_once(self):
         """Fails if a motion beyond what the tissue was measured for goes unsaid, or is said in every row."""

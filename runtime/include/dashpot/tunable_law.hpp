@@ -38,11 +38,11 @@ class tunable_law {
     for (int i = 0; i < t.tunable_count; ++i) values_[i] = t.tunables[i].value;
     tune(t);
     find_held(t);
+    if constexpr (Slips > 0) slip_brake_.reset(regime_damping(t, held_signs()));
   }
 
   // At rest at `position`: what joins tool and ground is loaded by it, what is behind a slip is not.
   constexpr void reset(const tables& t, Scalar position) noexcept {
-    if constexpr (Slips > 0) slip_brake_.reset(regime_damping(t, held_signs()));
     for (int i = 0; i < t.spring_count; ++i) elongation_[i] = offset_[i] = 0;
     for (int i = 0; i < Blocks; ++i) block_elongation_[i] = 0;
     tank_ = 0;

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "source/render.hpp"
 #include "tunable_run.hpp"
 
@@ -77,6 +79,46 @@ TEST(TunableBrake, follows_the_parameters) {
   EXPECT_DOUBLE_EQ(damping("zero-frequency", {50, 0}), 52 + 6);
   EXPECT_DOUBLE_EQ(damping("quietest-passive", {50, 9}), (52 + 6.0 / 16) / 2);
   EXPECT_DOUBLE_EQ(damping("quietest-passive", {0, 9}), 2);
+}
+
+// The brake would take nothing of what is behind slips, or keep their damping when they give way. A table of patterns in the
+// law without tunables, a walk over the tree in this one.
+TEST(TunableBrake, follows_the_slips_that_slide) {
+  const char* const network = R"({ "dashpot": 1, "name": "n",
+    "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 }, "B": { "value": 2, "tunable": true, "min": 0, "max": 8 } },
+    "network": { "series": [ { "parallel": [ { "damper": "B" }, { "series": [ { "spring": 300 }, { "slip": 1 } ] } ] },
+                             { "parallel": [ { "slip": "Y" }, { "damper": 3 } ] } ] } })";
+  const TunableLaw law(network);
+  compiler::Evaluation<double> run(law.law());
+  const auto pressed = [&](double to, double speed) { return run.step(to, speed).damping; };
+  // 2 N·s/m carry 0.2 N at 0.1 m/s, less than the 0.4 N that the slip holds; at 1 m/s it gives way, and 3 N·s/m are in series.
+  EXPECT_EQ(pressed(1e-4, 0.1), 2);
+  EXPECT_DOUBLE_EQ(pressed(1.1e-3, 1), 2 * 3 / 5.0);
+  run.set({5, 6});
+  run.reset();
+  EXPECT_EQ(pressed(1e-4, 0.1), 6);
+  EXPECT_EQ(pressed(6e-4, 0.5), 6);
+  EXPECT_DOUBLE_EQ(pressed(2.6e-3, 2), 6 * 3 / 9.0);
+  EXPECT_EQ(run.step(std::nan(""), 0).damping, 6 * 3 / 9.0);
+}
+
+// A coil that lags would be told to jump, or a count of the encoder there and back to let go.
+TEST(TunableBrake, goes_no_faster_than_its_coil) {
+  const char* const network = R"({ "dashpot": 1, "name": "n",
+    "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 } },
+    "network": { "series": [ { "parallel": [ { "spring": 500 }, { "damper": 5 } ] }, { "slip": "Y" } ] } })";
+  compiler::UpdateLaw law = TunableLaw(network).law();
+  law.tunable->head.slip_rule = {true, 1e-4, 0.1, 0};
+  compiler::Evaluation<double> run(law);
+  double root = std::sqrt(5.0);
+  const auto expect = [&](double position, double velocity, double goal) {
+    root += 0.1 * (goal - root);
+    EXPECT_NEAR(run.step(position, velocity).damping, root * root, 1e-12) << position;
+  };
+  for (int n = 1; n <= 50; ++n) expect(1e-3 * n, 1, 0);
+  // Within the hysteresis it slides for the command, beyond it holds.
+  for (int n = 0; n < 10; ++n) expect(0.05 - 0.9e-4, 0, 0);
+  for (int n = 0; n < 10; ++n) expect(0.05 - 1.1e-4, 0, std::sqrt(5.0));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "insist.hpp"
 
 #include "certify/settle.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -40,7 +41,7 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
     diagnostics.report<DiagnosticCode::nothing_proved>({}, name, c.device->name, certificate.bound.reason);
     return true;
   }
-  const char* unit = c.network.port_motion == motion::rotation ? "N m s/rad" : "N s/m";
+  const std::string unit = port_units(c.network.port_motion).damping;
   const SampledLoop& loop = certificate.loop;
   const double available = assured_damping(loop, loop.max_damping).convert_to<double>();
   const double needed = least_need(c, choices, *c.device).needed;

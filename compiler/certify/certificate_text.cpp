@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "certify/certificate.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -30,17 +31,16 @@ std::string verdict(const Certificate& c, const std::string& unit) {
 }
 
 // K against 2 f_c/Δ, and what friction leaves.
-std::string quantisation_text(const Certificate& c, bool rotary) {
-  const char* stiffness = rotary ? "N m/rad" : "N/m";
+std::string quantisation_text(const Certificate& c, const PortUnits& units) {
   std::string text = "quantisation: ";
   if (c.quantisation_gain)
-    text += fmt::format("an error of the encoder reaches the motor with at most {:.6g} {}; ", *c.quantisation_gain, stiffness);
+    text += fmt::format("an error of the encoder reaches the motor with at most {:.6g} {}; ", *c.quantisation_gain, units.stiffness);
   if (c.quantisation_stiffness > 0)
-    text += fmt::format("friction pays for up to {:.6g} {} (2 f_c/step), no brake does", c.quantisation_stiffness, stiffness);
+    text += fmt::format("friction pays for up to {:.6g} {} (2 f_c/step), no brake does", c.quantisation_stiffness, units.stiffness);
   else
     text += "no friction is stated that would pay for it, and no brake does";
   if (unpaid_force(c) > 0)
-    text += fmt::format("; up to {:.3g} J a {} of travel are unpaid", unpaid_force(c), rotary ? "radian" : "metre");
+    text += fmt::format("; up to {:.3g} J/{} of travel are unpaid", unpaid_force(c), units.position);
   return text + "\n";
 }
 
@@ -66,10 +66,10 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
 }
 
 std::string to_text(const Certificate& c, motion port_motion) {
-  const bool rotary = port_motion == motion::rotation;
+  const PortUnits units = port_units(port_motion);
   std::string text;
-  for (const std::string& line : passivity_lines(c, rotary ? "N m s/rad" : "N s/m")) text += line + "\n";
-  return c.loop.encoder_step > 0 ? text + quantisation_text(c, rotary) : text;
+  for (const std::string& line : passivity_lines(c, units.damping)) text += line + "\n";
+  return c.loop.encoder_step > 0 ? text + quantisation_text(c, units) : text;
 }
 
 }  // namespace dashpot::compiler

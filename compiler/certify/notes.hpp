@@ -8,7 +8,7 @@
 
 namespace dashpot::compiler {
 
-// One clause each, at most one for the minimum damping and one for the motor's noise.
+// One clause each, at most one for the minimum damping, one for the motor's noise, and one for each component with slips.
 std::vector<std::string> notes_on_choice(const Decomposition& decomposition);
 
 }  // namespace dashpot::compiler

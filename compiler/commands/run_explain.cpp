@@ -7,6 +7,7 @@
 #include "certify/notes.hpp"
 #include "compile.hpp"
 #include "decompose/slip_laws.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -147,6 +148,23 @@ Json json_of(const Certificate& c) {
           {"unpaid_force", c.loop.encoder_step > 0 && c.quantisation_gain ? Json(unpaid_force(c)) : Json(nullptr)}};
 }
 
+// Of what joins tool and ground without slips, and of what is behind slips in each of their regimes [1/s].
+double fastest_rate(const Compilation& c) {
+  Real fastest = 0;
+  const auto look_at = [&](const LinearForm& form) {
+    for (const Mode& mode : form.modes) fastest = std::max(fastest, mode.relaxation_rate);
+  };
+  look_at(c.form.linear);
+  for (const ComponentSplit& split : c.decomposition.slips.components)
+    for (const Regime& regime : split.regimes.regimes) look_at(regime.form);
+  return to_double(fastest);
+}
+
+Json json_of(const Validity& valid) {
+  const auto ends = [](const std::optional<Range>& range) { return range ? Json({range->low, range->high}) : Json(nullptr); };
+  return {{"frequency", ends(valid.frequency)}, {"rate", ends(valid.rate)}, {"displacement", ends(valid.displacement)}};
+}
+
 Json json_of(const Compilation& c) {
   Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
   for (const Mode& mode : c.form.linear.modes)
@@ -168,6 +186,8 @@ Json json_of(const Compilation& c) {
           {"contact", c.network.contact ? Json({{"at", c.network.contact->at}, {"hysteresis", c.decomposition.encoder_step}}) : Json(nullptr)},
           {"scheme", name_of(c.law.scheme)},
           {"rate", c.rate},
+          {"fastest_relaxation_rate", fastest_rate(c)},
+          {"valid", json_of(c.network.valid)},
           {"device", c.device ? Json(c.device->name) : Json(nullptr)},
           {"coupled_operations", cost_of(c.law, c.law.output).coupled},
           {"candidates", candidates},
@@ -182,19 +202,32 @@ Json json_of(const Compilation& c) {
   return all;
 }
 
-std::string kelvin_text(const Compilation& c) {
+std::string kelvin_text(const Compilation& c, const PortUnits& units) {
   const KelvinForm creep = kelvin_form(c.form.linear);
-  std::string text = fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g}, fluidity {:.8g}\n",
-                                 to_double(creep.glass_compliance), to_double(creep.fluidity));
+  std::string text = fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g} {}, fluidity {:.8g} {}\n",
+                                 to_double(creep.glass_compliance), units.compliance, to_double(creep.fluidity), units.fluidity);
   for (const KelvinElement& element : creep.elements)
-    text += fmt::format("  Kelvin element      {:.10g} and {:.10g}\n", to_double(element.stiffness), to_double(element.damping));
+    text += fmt::format("  Kelvin element      {:.10g} {} and {:.10g} {}\n", to_double(element.stiffness), units.stiffness,
+                        to_double(element.damping), units.damping);
   return text;
 }
 
 std::string pace_text(const Compilation& c) {
-  if (c.form.linear.modes.empty()) return "";
-  const double fastest = to_double(1 / c.form.linear.modes.back().relaxation_rate);
-  return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", fastest, fastest * c.rate, c.rate);
+  const double rate = fastest_rate(c);
+  if (rate == 0) return "";
+  return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", 1 / rate, c.rate / rate, c.rate);
+}
+
+// Where the author says that the network is one of what it is to be.
+std::string valid_text(const Validity& valid, const PortUnits& units) {
+  std::string text;
+  const auto add = [&](const char* what, const std::optional<Range>& range, const std::string& unit) {
+    if (range) text += fmt::format("{}{} {} to {} {}", text.empty() ? "" : ", ", what, range->low, range->high, unit);
+  };
+  add("frequency", valid.frequency, "Hz");
+  add("rate", valid.rate, units.velocity);
+  add("displacement", valid.displacement, units.position);
+  return "valid                 " + (text.empty() ? "no range is stated" : text) + "\n";
 }
 
 std::string notes_text(const Compilation& c) {
@@ -228,13 +261,15 @@ std::string tunable_text(const TunableTables& tables) {
 
 std::string text_of(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
+  const PortUnits units = port_units(c.network.port_motion);
   std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
   text += to_text(c.form.linear, c.network);
-  text += fmt::format("zero-frequency damping {:.10g}\n", to_double(zero_frequency_damping(c.form.linear)));
-  text += pace_text(c) + kelvin_text(c) + "\n" + to_text(c.decomposition, c.network);
+  text += fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)), units.damping);
+  text += pace_text(c) + valid_text(c.network.valid, units) + kelvin_text(c, units) + "\n" + to_text(c.decomposition, c.network);
+  if (c.device) text += "error                 of the estimator, the loop's delay and the amplifier's lag; the hold's half period comes on top\n";
   text += to_text(c.decomposition.slips, c.network);
-  text += fmt::format("any delay             {:.6g} of extra damping keep an exact brake passive under any delay of the estimate\n",
-                      choice.extra_damping_any_delay.value_or(0));
+  text += fmt::format("any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",
+                      choice.extra_damping_any_delay.value_or(0), units.damping);
   if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";
   text += to_text(c.certificate, c.network.port_motion) + notes_text(c);
   return text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c));

@@ -7,6 +7,7 @@
 
 #include "decompose/observer.hpp"
 #include "decompose/spectrum.hpp"
+#include "network/port_units.hpp"
 #include "network/tree.hpp"
 
 namespace dashpot::compiler {
@@ -218,12 +219,16 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
 }
 
 std::string to_text(const Decomposition& decomposition, const Network& network) {
-  const char* unit = network.port_motion == motion::rotation ? "N m s/rad" : "N s/m";
+  const PortUnits units = port_units(network.port_motion);
   const auto or_dash = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "-"; };
-  std::string text = fmt::format("{:<18}{:>14}  {:<9}{:>14}{:>16}{:>17}{:>12}{:>12}  reason\n", "candidate", unit, "states",
-                                 "velocity gain", "any-delay extra", "minimum damping", "noise", "error");
+  const auto heading = [](const auto&... cells) {
+    return fmt::format("{:<18}{:>14}  {:<9}{:>14}{:>16}{:>17}{:>12}{:>12}{}\n", cells...);
+  };
+  std::string text = heading("candidate", "b", "states", "velocity gain", "any-delay extra", "minimum damping", "noise", "error",
+                             "  reason");
+  text += heading("", units.damping, "", units.damping, units.damping, units.damping, units.force, "%", "");
   for (const Candidate& c : decomposition.candidates)
-    text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>17}{:>12}{:>11.4g}%  {}{}\n", c.name, c.damping,
+    text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>17}{:>12}{:>12.4g}  {}{}\n", c.name, c.damping,
                         name_of(c.state_input), c.velocity_gain, c.extra_damping_any_delay.value_or(0),
                         or_dash(c.minimum_damping), or_dash(c.motor_noise), 100 * c.largest_error,
                         c.capped() ? fmt::format("lowered from {:.8g}: ", c.wanted_damping) : "", c.reason);
@@ -233,10 +238,11 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
 
 std::string contact_text(const Decomposition& decomposition, const Network& network) {
   if (!network.contact) return "";
-  const char* unit = network.port_motion == motion::rotation ? "rad" : "m";
+  const std::string unit = port_units(network.port_motion).position;
   std::string text = fmt::format("at {} {}; brake and motor 0 while the tool is free", network.contact->at, unit);
   if (decomposition.encoder_step > 0)
-    text += fmt::format(", from a gap of {:.6g} {} on, one step of the encoder, or as soon as they would pull", decomposition.encoder_step, unit);
+    text += fmt::format(", from a gap of {:.6g} {} on, one step of the encoder, or as soon as they would pull",
+                        decomposition.encoder_step, unit);
   return text;
 }
 

@@ -103,6 +103,13 @@ std::complex<double> PortDevice::velocity_response(double angular_frequency) con
   return dashpot::velocity_response(estimator().transfer(), angular_frequency, device_->description.loop.sample_period);
 }
 
+std::complex<double> PortDevice::motor_response(double angular_frequency) const {
+  if (is_ideal()) return 1;
+  const device_description& d = device_->description;
+  const double delay = d.loop.delay_samples * d.loop.sample_period;
+  return std::polar(1.0, -angular_frequency * delay) / std::complex(1.0, angular_frequency * d.motor.amplifier_lag);
+}
+
 // A linear estimator with gain 1 at rest follows the displacement in the long run; the others do not promise it.
 bool PortDevice::estimate_sums_to_displacement() const { return estimator_is_linear(); }
 

@@ -30,6 +30,8 @@ class PortDevice {
 
   // G(jω) = V̂/U̇ of the estimator; a pure delay where the estimator is not linear. 1 for an ideal device.
   std::complex<double> velocity_response(double angular_frequency) const;
+  // A(jω) between the motor's command and its force: whole samples of loop delay and the amplifier's lag; not the hold.
+  std::complex<double> motor_response(double angular_frequency) const;
   double encoder_step() const;                // at the tool [m] or [rad]; 0 for an ideal device
   bool estimator_is_linear() const;
   bool estimate_sums_to_displacement() const;  // so that velocity-driven slow modes do not drift

@@ -99,9 +99,11 @@ double largest_error(const LinearForm& form, double damping, StateInput input, c
   const double static_stiffness = to_double(form.static_stiffness);
   const auto error_at = [&](double w) {
     const MotorImpedance motor = scanned.impedance(w);
-    const std::complex<double> error = motor.velocity_driven * (device.velocity_response(w) - 1.0);
-    const std::complex<double> whole =
-        damping + motor.position_driven + motor.velocity_driven + static_stiffness / std::complex(0.0, w);
+    const std::complex<double> late = device.motor_response(w), prompt = motor.position_driven + static_stiffness / std::complex(0.0, w);
+    // (A − 1)(k0/jω + position_driven) + (A G − 1) velocity_driven
+    const std::complex<double> error =
+        (late - 1.0) * prompt + (late * device.velocity_response(w) - 1.0) * motor.velocity_driven;
+    const std::complex<double> whole = damping + prompt + motor.velocity_driven;
     return std::abs(error) == 0 ? 0.0 : std::abs(error) / std::abs(whole);
   };
   return largest_in_band(device, error_at);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "linear/modal_reduction.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -144,16 +145,15 @@ LinearForm linear_form(const KelvinForm& form) {
 }
 
 std::string to_text(const LinearForm& form, const Network& network) {
-  const std::string stiffness = network.port_motion == motion::rotation ? "N m/rad" : "N/m";
-  const std::string damping = network.port_motion == motion::rotation ? "N m s/rad" : "N s/m";
+  const PortUnits units = port_units(network.port_motion);
   std::string text = fmt::format("static stiffness      {:.10g} {}\nfeedthrough damping   {:.10g} {}\n",
-                                 to_double(form.static_stiffness), stiffness, to_double(form.feedthrough_damping),
-                                 damping);
+                                 to_double(form.static_stiffness), units.stiffness, to_double(form.feedthrough_damping),
+                                 units.damping);
   for (const Mode& mode : form.modes) {
     std::string names;
     for (std::size_t element : mode.elements) names += " " + network.elements[element].name;
     text += fmt::format("mode                  {:.10g} {}, relaxation rate {:.10g} 1/s, from{}\n",
-                        to_double(mode.stiffness), stiffness, to_double(mode.relaxation_rate), names);
+                        to_double(mode.stiffness), units.stiffness, to_double(mode.relaxation_rate), names);
   }
   return text;
 }

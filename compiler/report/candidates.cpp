@@ -23,7 +23,7 @@ struct FigureOfMerit {
 
 // In the order of the plot's menus.
 std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   const auto known = [](const std::optional<double>& figure) { return figure.value_or(not_computed); };
   std::vector<FigureOfMerit> all = {
       {"motor noise", units.force, [=](const Candidate& k) { return known(k.motor_noise); }},

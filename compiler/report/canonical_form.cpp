@@ -60,7 +60,7 @@ std::string modes_table(const Compilation& c, const PortUnits& units) {
 
 std::string canonical_form_html(const Compilation& c) {
   const LinearForm& form = c.form.linear;
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   std::string html = in_letters() + in_numbers(form) + "<table class=\"facts\"><tbody>\n";
   html += row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness), 6), units.stiffness);
   html += row("feedthrough damping <i>b</i><sub>∞</sub>", number_text(to_double(form.feedthrough_damping), 6), units.damping);

@@ -89,7 +89,7 @@ std::string linear_loop(const Compilation& c) {
   const Interval range = frequencies_of_interest(c.form.linear);
   const Oscillation motion = oscillation(c, default_amplitude(c.network), std::sqrt(range.low * range.high));
   const LawRun all = run(c, motion);
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   Plot plot = empty_plot("Hysteresis at " + number_text(motion.frequency, 3) + " Hz", units);
   const double added = c.certificate.added_damping;
   const auto closed = [&](std::size_t k) { return closed_form(c.form.linear, added, motion, all.time[k]); };
@@ -124,7 +124,7 @@ double usual_frequency(const Compilation& c) {
 std::string three_loops(const Compilation& c) {
   const double frequency = usual_frequency(c);
   const double middle = yielding_amplitude(c, frequency);
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   Plot plot = empty_plot("", units);
   for (const double size : {0.5, 1.0, 2.0}) {
     const Oscillation motion = oscillation(c, size * middle, frequency);

@@ -64,9 +64,10 @@ std::string number_mathml(double value, int digits) {
   return "<mrow><mn>" + d.mantissa + "</mn><mo>×</mo><msup><mn>10</mn>" + exponent + "</msup></mrow>";
 }
 
-PortUnits port_units(motion port_motion) {
-  if (port_motion == motion::rotation) return {"rad", "rad/s", "N·m", "N·m/rad", "N·m·s/rad", "rad/(N·m)"};
-  return {"m", "m/s", "N", "N/m", "N·s/m", "m/N"};
+PortUnits page_units(motion port_motion) {
+  PortUnits units = port_units(port_motion);
+  for (std::string* unit : {&units.force, &units.stiffness, &units.damping, &units.compliance, &units.fluidity}) *unit = dotted(*unit);
+  return units;
 }
 
 std::string value_text(const Element& element, motion port_motion) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "network/network.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 
@@ -17,15 +18,7 @@ std::string number_mathml(double value, int digits = 4);
 std::string power_text(int exponent);
 
 // Units at a port that moves so, with U+00B7 between factors.
-struct PortUnits {
-  std::string position;    // m | rad
-  std::string velocity;    // m/s | rad/s
-  std::string force;       // N | N·m
-  std::string stiffness;   // N/m | N·m/rad
-  std::string damping;     // N·s/m | N·m·s/rad
-  std::string compliance;  // m/N | rad/(N·m)
-};
-PortUnits port_units(motion port_motion);
+PortUnits page_units(motion port_motion);
 
 // "12 N/m": an element's value.
 std::string value_text(const Element& element, motion port_motion);

@@ -26,7 +26,7 @@ std::string row(const ComponentSplit& split, std::size_t i, const Network& netwo
 }
 
 std::string table(const ComponentSplit& split, const Network& network) {
-  const PortUnits units = port_units(network.port_motion);
+  const PortUnits units = page_units(network.port_motion);
   std::string html = fmt::format(
       "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>sliding</th><th class=\"word\">stuck</th>"
       "<th>brake <i>b</i> [{0}]</th><th>feedthrough <i>b</i><sub>∞</sub> [{0}]</th><th>compensated at most [{0}]</th>"

@@ -34,7 +34,7 @@ Fields fact(const std::string& label, const std::string& value, const std::strin
 
 // What a reader looks for first.
 std::vector<Fields> facts(const Compilation& c) {
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   std::vector<Fields> list;
   list.push_back(fact("brake b", brake_text(c.law), units.damping, "brake"));
   if (is_linear(c)) {
@@ -72,7 +72,7 @@ double live_duration(const Compilation& c) {
 }
 
 void add_live_part(const Compilation& c, bool there, CodeModel& model) {
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   for (const char* list : {"live", "live_end", "still", "sliders"}) model.lists[list];
   if (!there) {
     model.lists["still"].push_back({{"why", "Left out: when this page was written there was no clang with lld to compile the "
@@ -96,7 +96,7 @@ std::string tunables_json(const UpdateLaw& law) {
 }
 
 std::string live_json(const Compilation& c, const std::string& module) {
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   return fmt::format("{{\"period\":{},\"rate\":{},\"scalar\":\"{}\",\"position_unit\":{},\"force_unit\":{},\"tunables\":{},"
                      "\"module\":\"{}\"}}",
                      c.law.sample_period, c.rate, name_of(c.law.scalar), json_literal(units.position), json_literal(units.force),

@@ -39,7 +39,7 @@ std::string sampled_margin_html(const Compilation& c) {
   const SampledLoop& loop = c.certificate.loop;
   if (!motor || c.certificate.bound.proof == Proof::none) return "";
   if (motor->follows_estimate() && !estimator_factors(loop)) return "";
-  const PortUnits units = port_units(c.network.port_motion);
+  const PortUnits units = page_units(c.network.port_motion);
   Curve curve = needed(loop, *motor);
   const double sure = c.certificate.assured;
   const Curve assured{"assured by brake and device", Channel::brake, {curve.x.front(), curve.x.back()}, {sure, sure}};

@@ -140,7 +140,7 @@ Pareto measure_pareto() {
 Section show(const Pareto& pareto) {
   return {"pareto", "Pareto: what every split costs",
           {"Neither network has a damper at its feedthrough, so that position drives all of it without any estimate: b = 0 then has no "
-           "noise, no error, and at 10 kHz needs no more damping than the arm has. It wins for every estimator and every error of the brake. "
+           "noise, no error but that of the late loop, and at 10 kHz needs no more damping than the arm has. It wins for every estimator and every error of the brake. "
            "That is not the paper’s answer; the paper drives the states by the velocity, (17).",
            "Driven by the velocity there is no one winner. With the paper’s filter and an exact brake no b below about ½ Z_d(0) is "
            "passive for Fig. 5 without help, as the theorem of half the viscosity says, and b from 6.6 N·s/m on is; but a brake that is 2 or 5 % "

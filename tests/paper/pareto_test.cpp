@@ -52,7 +52,7 @@ TEST(Pareto, has_no_one_winner_driven_by_velocity) {
   EXPECT_NEAR(sweep("Fig. 6", "velocity", papers_filter).best(1).brake, 5.67, 0.17);
 }
 
-// Fails if driving by position stops being free of error, noise and extra damping without a brake.
+// Fails if driving by position stops being free of noise and extra damping without a brake, or if some brake errs less.
 TEST(Pareto, is_won_by_no_brake_driven_by_position) {
   for (const char* network : {"Fig. 5", "Fig. 6"})
     for (std::size_t estimator = 0; estimator < 3; ++estimator)
@@ -61,7 +61,7 @@ TEST(Pareto, is_won_by_no_brake_driven_by_position) {
         EXPECT_EQ(best.brake, 0);
         EXPECT_EQ(best.missing[error], 0);
         EXPECT_EQ(best.noise, 0);
-        EXPECT_LT(best.error, 1e-9);
+        for (const Split& split : sweep(network, "position", estimator).splits) EXPECT_LE(best.error, split.error);
       }
 }
 

@@ -1,0 +1,21 @@
+// Units at a port, as the compiler's text spells them.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+#include <string>
+
+namespace dashpot::compiler {
+
+struct PortUnits {
+  std::string position;    // m | rad
+  std::string velocity;    // m/s | rad/s
+  std::string force;       // N | N m
+  std::string stiffness;   // N/m | N m/rad
+  std::string damping;     // N s/m | N m s/rad
+  std::string compliance;  // m/N | rad/(N m)
+  std::string fluidity;    // m/(N s) | rad/(N m s)
+};
+PortUnits port_units(motion port_motion);
+
+}  // namespace dashpot::compiler

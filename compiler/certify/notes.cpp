@@ -56,8 +56,8 @@ std::vector<std::string> notes_on_choice(const Decomposition& decomposition) {
   if (quietest && choice.motor_noise && *quietest->motor_noise < worthwhile * *choice.motor_noise)
     notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise", quietest->name,
                                 100 * *quietest->motor_noise / *choice.motor_noise));
-  for (const ComponentSplit& split : decomposition.slips.components)
-    if (const auto note = quieter_law(split); note && std::find(notes.begin(), notes.end(), *note) == notes.end())
+  for (const ComponentSplit* split : decomposition.slips.all())
+    if (const auto note = quieter_law(*split); note && std::find(notes.begin(), notes.end(), *note) == notes.end())
       notes.push_back(*note);
   return notes;
 }

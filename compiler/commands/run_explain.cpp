@@ -155,8 +155,8 @@ double fastest_rate(const Compilation& c) {
     for (const Mode& mode : form.modes) fastest = std::max(fastest, mode.relaxation_rate);
   };
   look_at(c.form.linear);
-  for (const ComponentSplit& split : c.decomposition.slips.components)
-    for (const Regime& regime : split.regimes.regimes) look_at(regime.form);
+  for (const ComponentSplit* split : c.decomposition.slips.all())
+    for (const Regime& regime : split->regimes.regimes) look_at(regime.form);
   return to_double(fastest);
 }
 

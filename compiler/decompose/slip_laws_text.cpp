@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "network/port_units.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -25,7 +27,9 @@ bool asks_the_brake(const ComponentSplit& split) {
 }
 
 std::string regimes_text(const ComponentSplit& split, const Network& network) {
+  const std::string unit = port_units(network.port_motion).damping;
   std::string text = fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}  observer\n", "stuck", "b", "its observer's", "b∞", "compensation");
+  text += fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}\n", "", unit, unit, unit, unit);
   for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) {
     const Regime& regime = split.regimes.regimes[i];
     const std::vector<std::string> stuck = slip_names(split.regimes, regime, false, network);
@@ -36,11 +40,13 @@ std::string regimes_text(const ComponentSplit& split, const Network& network) {
   return text;
 }
 
-std::string laws_text(const ComponentSplit& split) {
-  std::string text = fmt::format("  {:<16}{:>12}{:>14}\n", "law", "error", "motor noise");
+// The error is the law's own: the loop's delay and the amplifier's lag come on top, the same for all.
+std::string laws_text(const ComponentSplit& split, const Network& network) {
+  std::string text = fmt::format("  {:<16}{:>12}{:>14}\n", "law", "own error", "motor noise");
+  text += fmt::format("  {:<16}{:>12}{:>14}\n", "", "%", port_units(network.port_motion).force);
   for (const SlipLawMerit& merit : split.merits)
     if (merit.refusal.empty())
-      text += fmt::format("  {:<16}{:>11.4g}%{:>14}\n", name_of(merit.law), 100 * merit.largest_error,
+      text += fmt::format("  {:<16}{:>12.4g}{:>14}\n", name_of(merit.law), 100 * merit.largest_error,
                           merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
     else
       text += fmt::format("  {:<16}  not to be had: {}\n", name_of(merit.law), merit.refusal);
@@ -102,7 +108,7 @@ std::string to_text(const SlipDecomposition& slips, const Network& network) {
     if (asks_the_brake(*likes.first)) text += regimes_text(*likes.first, network);
     if (likes.first->regimes.regimes.empty() && likes.first->shares.front().damping > 0)
       text += fmt::format("  b = {:.8g} in every regime\n", likes.first->shares.front().damping);
-    if (offers_choice(*likes.first)) text += laws_text(*likes.first);
+    if (offers_choice(*likes.first)) text += laws_text(*likes.first, network);
   }
   return text;
 }

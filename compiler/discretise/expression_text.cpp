@@ -1,7 +1,6 @@
 #include "discretise/expression_text.hpp"
 
 namespace dashpot::compiler {
-namespace {
 
 int precedence(Operation operation) {
   switch (operation) {
@@ -12,6 +11,8 @@ int precedence(Operation operation) {
     default: return 3;
   }
 }
+
+namespace {
 
 class Printer {
  public:

@@ -20,6 +20,9 @@ struct Spelling {
   std::function<std::string(const std::string& condition, const std::string& yes, const std::string& no)> where = {};
 };
 
+// How tightly an operation holds its operands together: 0 to 3.
+int precedence(Operation operation);
+
 // Parentheses stand exactly where leaving them out would change the order of operations.
 std::string expression_text(const UpdateLaw& law, ExpressionId expression, const Spelling& spelling);
 

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "discretise/expression_text.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
 
@@ -41,15 +42,7 @@ std::string symbol(const std::string& name, bool indexed) {
   return indexed ? "<msub>" + letter + "<mi>i</mi></msub>" : letter;
 }
 
-int precedence(Operation operation) {
-  switch (operation) {
-    case Operation::add:
-    case Operation::subtract: return 1;
-    case Operation::multiply: return 2;
-    case Operation::where: return 0;
-    default: return 3;
-  }
-}
+std::string bracketed(const std::string& inner) { return "<mo stretchy=\"false\">(</mo>" + inner + "<mo stretchy=\"false\">)</mo>"; }
 
 class Writer {
  public:
@@ -64,10 +57,10 @@ class Writer {
       case Operation::subtract: return grouped(e.left, 1) + "<mo>−</mo>" + grouped(e.right, 2);
       case Operation::multiply: return product(grouped(e.left, 2), grouped(e.right, 3));
       case Operation::flush: return written(e.left);
-      case Operation::clamp: return "<mi>clamp</mi><mo stretchy=\"false\">(</mo>" + written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3) + "<mo stretchy=\"false\">)</mo>";
+      case Operation::clamp: return "<mi>clamp</mi>" + bracketed(written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3));
       case Operation::where: return choice(e);
       case Operation::pick: return "<msub>" + coefficient_mathml(law_.coefficients[e.left]) + written(e.right) + "</msub>";
-      case Operation::sum: return "<munder><mo>∑</mo><mi>i</mi></munder>" + variable_mathml(law_.variables[law_.expressions[e.left].left]);
+      case Operation::sum: return summed(law_.variables[law_.expressions[e.left].left]);
     }
     return "";
   }
@@ -95,10 +88,13 @@ class Writer {
     return grouped(e.left, 1) + "<mo>−</mo>" + right;
   }
 
+  static std::string summed(const Variable& vector) { return "<munder><mo>∑</mo><mi>i</mi></munder>" + variable_mathml(vector); }
+
   std::string choice(const Expression& e) const {
-    return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.left) + "</mtd><mtd><mspace width=\"1em\"/><mtext>if</mtext><mspace width=\"0.4em\"/>" +
-           grouped(e.condition, 1) + "<mo>&gt;</mo><mn>0</mn></mtd></mtr><mtr><mtd>" + written(e.right) +
-           "</mtd><mtd><mspace width=\"1em\"/><mtext>else</mtext></mtd></mtr></mtable></mrow>";
+    const std::string condition = grouped(e.condition, 1) + "<mo>&gt;</mo><mn>0</mn>";
+    return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.left) +
+           "</mtd><mtd><mspace width=\"1em\"/><mtext>if</mtext><mspace width=\"0.4em\"/>" + condition + "</mtd></mtr><mtr><mtd>" +
+           written(e.right) + "</mtd><mtd><mspace width=\"1em\"/><mtext>else</mtext></mtd></mtr></mtable></mrow>";
   }
 
   std::string grouped(ExpressionId id, int least_precedence) const {
@@ -106,7 +102,7 @@ class Writer {
     // The guard is not shown: what it guards decides.
     if (e.operation == Operation::flush) return grouped(e.left, least_precedence);
     const std::string inner = "<mrow>" + written(id) + "</mrow>";
-    if (precedence(e.operation) < least_precedence) return "<mrow><mo stretchy=\"false\">(</mo>" + inner + "<mo stretchy=\"false\">)</mo></mrow>";
+    if (precedence(e.operation) < least_precedence) return "<mrow>" + bracketed(inner) + "</mrow>";
     return e.operation == Operation::read || e.operation == Operation::constant ? written(id) : inner;
   }
 

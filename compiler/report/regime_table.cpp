@@ -39,10 +39,9 @@ std::string table(const ComponentSplit& split, const Network& network) {
 }  // namespace
 
 std::string regimes_html(const Compilation& c) {
-  if (c.law.tunable)
-    return fmt::format("<p>Chosen: <b>{}</b>; {}. What is behind slips is left to the motor, since their yields may change.</p>\n",
-                       escaped(c.decomposition.choice().name), escaped(c.decomposition.choice().reason));
   std::string html;
+  if (c.law.tunable)
+    html = fmt::format("<p>Chosen: <b>{}</b>; {}.</p>\n", escaped(c.decomposition.choice().name), escaped(c.decomposition.choice().reason));
   for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) {
     html += "<p>" + escaped(to_text(likes)) + "</p>\n";
     if (!likes.first->regimes.regimes.empty()) html += table(*likes.first, c.network);

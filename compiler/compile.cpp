@@ -72,7 +72,8 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
     result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
-  result.certificate = certify(result.law, sampled_loop(port, 1 / result.rate));
+  const SampledLoop loop = sampled_loop(port, 1 / result.rate);
+  result.certificate = certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }

@@ -42,8 +42,14 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
     return true;
   }
   const std::string unit = port_units(c.network.port_motion).damping;
+  if (c.law.tunable) {
+    diagnostics.report<DiagnosticCode::not_certified>({}, name, certificate.bound.needed, unit, c.device->name, certificate.assured);
+    diagnostics.note<DiagnosticCode::compile_uncertified>({});
+    return false;
+  }
   const SampledLoop& loop = certificate.loop;
-  const double available = assured_damping(loop, loop.max_damping).convert_to<double>();
+  const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
+  const double available = assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
   const double needed = least_need(c, choices, *c.device).needed;
   diagnostics.report<DiagnosticCode::not_certified>({}, name, needed, unit, c.device->name, available);
   const double brake = missing_damping({Proof::sampled, needed, 0, ""}, loop, 0);

@@ -7,8 +7,10 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <limits>
 
+#include "certify/box_motor.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/quantisation.hpp"
+#include "discretise/rounding.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -38,6 +40,12 @@ std::string not_proved_for(const SampledLoop& loop) {
   return fmt::format("nothing is proved for the estimator {} in the motor", name_of(loop.velocity.estimator));
 }
 
+PassivityBound not_proved(std::string reason) {
+  PassivityBound bound;
+  bound.reason = std::move(reason);
+  return bound;
+}
+
 double nearest(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? value : static_cast<double>(static_cast<float>(value));
 }
@@ -56,7 +64,7 @@ double sum_above(double x, double y, ScalarType scalar) {
 PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop) {
   PassivityBound bound;
   if (!motor) {
-    bound.reason = "the law of a network with slips, contact or tunable parameters is not one linear law";
+    bound.reason = "the law is not one linear law";
     return bound;
   }
   if (hindrance_to_hold(*motor, loop).empty()) {
@@ -74,6 +82,32 @@ PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const
   MotorConstants position_driven = *motor;
   position_driven.velocity_gain = 0;
   return sampled_statement(position_driven, loop, {}, std::abs(motor->velocity_gain) * *gain * (1 + 1e-15));
+}
+
+// Least bounds add up, and of two statements the weaker is left.
+PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop) {
+  PassivityBound bound;
+  bound.proof = Proof::hold;
+  if (!slips.behind_contact && !linear.is_idle()) bound = passivity_bound(linear, loop);
+  bound.any_regime = true;
+  if (bound.proof == Proof::none) return bound;
+  const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
+  if (slips.lets_go_by_estimate && is_late) return not_proved("the contact lets go by a velocity estimate, and the loop is late");
+  const bool is_punctual = loop.amplifier_lag > 0;  // what is proved with a lag is proved for punctual samples
+  if (is_punctual) {
+    bound.proof = Proof::sampled;
+    bound.reason = "the amplifier lags";
+  }
+  const double hold = is_punctual ? 1 : loop.longest_hold() / loop.sample_period;
+  const double compensation = slips.compensation * hold + slips.held_compensation * (is_punctual ? 1 : hold - 1);
+  const std::optional<double> gain = compensation > 0 ? estimate_gain(loop) : 0;
+  if (!gain) return not_proved(not_proved_for(loop));
+  const double late = lateness(loop), needed = slips.stiffness * late * late * loop.sample_period + slips.damping;
+  bound.needed += (needed * hold + compensation * *gain) * (1 + 1e-14);
+  if (!slips.behind_contact || Rational(bound.needed) <= assured_damping(loop, 0)) return bound;
+  PassivityBound beyond = not_proved("a free tool, which the brake leaves alone, touches late, and the device itself has less damping than that needs");
+  beyond.needed = bound.needed;
+  return beyond;
 }
 
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake) {
@@ -106,22 +140,100 @@ double unpaid_force(const Certificate& certificate) {
   return std::max(most - certificate.loop.coulomb_friction, 0.0);
 }
 
-Certificate certify(UpdateLaw& law, const SampledLoop& loop) {
+namespace {
+
+// Every operation of a step is off by a unit of its result, which is no larger than the sum of the terms' sizes.
+double rounding_of_step(const UpdateLaw& law) {
+  const double unit = unit_roundoff(law.scalar);
+  if (law.tunable) return unit * double(cost_of(*law.tunable).output + cost_of(*law.tunable).update);
+  const Cost cost = cost_of(law, law.output);
+  return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled);
+}
+
+// What is lacking at the worst place of the box, as a need against the least brake.
+PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
+  if (!box.hindrance.empty()) return not_proved(box.hindrance);
+  PassivityBound bound;
+  bound.proof = loop.amplifier_lag > 0 ? Proof::sampled : Proof::hold;
+  if (loop.amplifier_lag > 0) bound.reason = "the amplifier lags";
+  bound.needed = ceiling(assured_share(loop) * Rational(box.least_brake) + Rational(box.lacking));
+  bound.any_value = true;
+  return bound;
+}
+
+PassivityBound bound_of(const UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
+  return slips ? passivity_bound(linear_motor_constants(law), *slips, loop) : passivity_bound(motor_constants(law), loop);
+}
+
+BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
+  const double hold = loop.amplifier_lag > 0 ? 1 : loop.longest_hold() / loop.sample_period;
+  return box_motor(law, {hold, lateness(loop), estimate_gain(loop), assured_share(loop).convert_to<double>() * (1 - 1e-15)});
+}
+
+// A brake that changes is told a sum, of whose rounding nothing is promised.
+double surely_told(const UpdateLaw& law) { return law.brake_changes() || law.tunable ? law.damping * (1 - 8 * unit_roundoff(law.scalar)) : law.damping; }
+
+// Out: what has been added to the brake's command in every regime. Behind a contact nothing would help: the brake is off
+// while the tool is free.
+double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoop& loop, bool behind_contact) {
+  if (behind_contact) return 0;
+  if (!law.brake_changes()) {
+    const double alone = law.damping;
+    law.damping = law.largest_damping = brake_command(bound, loop, alone, law.scalar);
+    return nearest(law.damping - alone, law.scalar);
+  }
+  const double missing = missing_damping(bound, loop, surely_told(law));
+  if (!loop.has_device || missing == 0 || !std::isfinite(missing)) return 0;
+  const double added = sum_above(missing, 32 * unit_roundoff(law.scalar) * law.largest_damping, law.scalar);
+  if (sum_above(law.largest_damping, added, law.scalar) > loop.max_damping) return 0;
+  add_steady_damping(law, added);
+  return added;
+}
+
+// With tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in a few rounds, or not.
+void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
+  const double reach = law.tunable->head.max_damping;
+  BoxMotor box = box_of(law, loop);
+  result.bound = box_bound(box, loop);
+  const auto missing = [&] { return missing_damping(result.bound, loop, box.least_brake * (1 - 8 * unit_roundoff(law.scalar))); };
+  const bool is_proved = result.bound.proof != Proof::none;
+  double added = 0;
+  for (int round = 0; is_proved && loop.has_device && missing() > added; ++round) {
+    added = sum_above(missing(), 32 * unit_roundoff(law.scalar) * box.largest_brake, law.scalar);
+    const bool is_beyond = round == 20 || !(added < loop.max_damping);
+    if (is_beyond) added = 0;
+    law.tunable->head.max_damping = is_beyond ? reach : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar));
+    box = box_of(law, loop);
+    result.bound = box_bound(box, loop);
+    if (is_beyond) break;
+  }
+  if (is_proved) result.minimum_damping = missing();
+  result.added_damping = law.tunable->added_damping = added;
+  law.damping = box.least_brake + added;
+  law.largest_damping = box.largest_brake + added;
+}
+
+}  // namespace
+
+Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
   const std::optional<MotorConstants> motor = motor_constants(law);
   Certificate result;
   result.loop = loop;
-  result.bound = passivity_bound(motor, loop);
-  if (result.bound.proof != Proof::none) {
-    result.minimum_damping = missing_damping(result.bound, loop, law.damping);
-    const double alone = law.damping;
-    law.damping = law.largest_damping = brake_command(result.bound, loop, alone, law.scalar);
-    result.added_damping = nearest(law.damping - alone, law.scalar);
+  if (law.tunable) settle_box(law, loop, result);
+  else result.bound = bound_of(law, loop, slips);
+  if (result.bound.proof != Proof::none && !law.tunable) {
+    result.minimum_damping = missing_damping(result.bound, loop, surely_told(law));
+    result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
   }
-  const Rational assured = assured_damping(loop, law.damping);
+  const Rational assured = assured_damping(loop, surely_told(law));
   result.assured = assured.convert_to<double>();
   result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
   if (motor) result.energy = check_energy_lemma(*motor);
+  if (law.tunable) result.energy = check_energy_lemma_over_box(law);
+  result.bound.any_regime = slips.has_value();
+  if (slips && !law.tunable) result.energy = check_energy_lemma_with_slips(linear_motor_constants(law), parts_behind_slips(law));
   if (motor) result.quantisation_gain = quantisation_gain(*motor, loop);
+  if (!motor) result.energy.rounding_share = rounding_of_step(law);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "certify/energy_lemma.hpp"
 #include "certify/sampled_bound.hpp"
+#include "certify/slip_motor.hpp"
 
 namespace dashpot::compiler {
 
@@ -22,9 +23,11 @@ std::string_view name_of(Proof proof);  // "none", "hold", "sampled"
 // How much physical damping the loop needs, whoever supplies it.
 struct PassivityBound {
   Proof proof = Proof::none;
-  double needed = 0;     // S or β T_max, not below it [N·s/m]
+  double needed = 0;     // S or β T_max, not below it; where nothing is proved, what would have to be there for it, or 0 [N·s/m]
   double frequency = 0;  // that binds [Hz]; 0 where none does
   std::string reason;    // why nothing is proved, or why it is not the hold certificate; one clause
+  bool any_regime = false;  // with slips or a contact: whatever slides, sticks, touches or lets go
+  bool any_value = false;   // with tunables: wherever they are in their ranges
 };
 
 struct Certificate {
@@ -45,6 +48,9 @@ double unpaid_force(const Certificate& certificate);
 // In: a law's constants, the loop around it. Out: the strongest statement that covers them.
 PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop);
 
+// The same of a law with slips or a contact, of which `linear` is what reaches ground without a slip.
+PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop);
+
 // x = ((S − b_device)/share − b)⁺: what the brake's command lacks, not below it; infinite where no command would do.
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake);
 
@@ -52,9 +58,9 @@ double missing_damping(const PassivityBound& bound, const SampledLoop& loop, dou
 // brake reaches; a number of the scalar's type.
 double brake_command(const PassivityBound& bound, const SampledLoop& loop, double damping, ScalarType scalar);
 
-// Out: the law's certificate. On a device, what passivity lacks is added to the law's brake command, uncompensated, as
+// In: a law, the loop around it, what its motor makes behind slips. Out: its certificate. On a device, what passivity lacks is added to the law's brake command, uncompensated, as
 // far as the brake reaches: what is rendered is then D + x s. Without one it is reported only.
-Certificate certify(UpdateLaw& law, const SampledLoop& loop);
+Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
 
 // One or more lines on what is proved; `unit` of a damping.
 std::vector<std::string> passivity_lines(const Certificate& certificate, const std::string& unit);

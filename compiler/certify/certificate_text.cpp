@@ -9,20 +9,26 @@ namespace dashpot::compiler {
 namespace {
 
 std::string covered(const Certificate& c) {
+  std::string regimes = c.bound.any_regime ? ", whatever slides, sticks, touches or lets go" : "";
+  if (c.bound.any_value) regimes += ", any values within their ranges between changes";
   if (c.bound.proof == Proof::sampled)
-    return fmt::format("any motion, samples at {:.6g} Hz", 1 / c.loop.sample_period) +
+    return fmt::format("any motion{}, samples at {:.6g} Hz", regimes, 1 / c.loop.sample_period) +
            (c.loop.jitter > 0 ? ", jitter not covered because " + c.bound.reason : std::string());
   const std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";
-  return "any motion" + jitter + ", any switching of the brake above its command";
+  const char* brake = c.bound.any_regime || c.bound.any_value ? "least command" : "command";
+  return "any motion" + regimes + jitter + ", any switching of the brake above its " + brake;
 }
 
 std::string requirement(const Certificate& c, const std::string& unit) {
   if (c.bound.proof == Proof::hold)
     return fmt::format("needs {:.6g} {} over the longest hold of {:.6g} s", c.bound.needed, unit, c.loop.longest_hold());
-  return fmt::format("needs {:.6g} {}, most at {:.6g} Hz", c.bound.needed, unit, c.bound.frequency);
+  const std::string most = c.bound.frequency > 0 ? fmt::format(", most at {:.6g} Hz", c.bound.frequency) : "";
+  return fmt::format("needs {:.6g} {}{}", c.bound.needed, unit, most);
 }
 
 std::string verdict(const Certificate& c, const std::string& unit) {
+  if (c.bound.proof == Proof::none && c.bound.needed > 0)
+    return fmt::format("not certified: {}: {:.6g} {}", c.bound.reason, c.bound.needed, unit);
   if (c.bound.proof == Proof::none) return "not certified: " + c.bound.reason;
   const std::string numbers = fmt::format("{}, at least {:.6g} {} is there", requirement(c, unit), c.assured, unit);
   if (c.certified) return fmt::format("certified for {}: {}", covered(c), numbers);
@@ -57,6 +63,10 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
   std::string energy = "energy: ";
   if (!c.energy.holds)
     energy += fmt::format("the law may give {:.3g} N/m times Δu² a sample more than it stores", c.energy.shortfall);
+  else if (c.energy.over_box)
+    energy += "no values within their ranges ever give more work than stored_energy() falls";
+  else if (c.energy.with_slips)
+    energy += "no part's constants ever give more work than it stores, and what slips or touches only takes";
   else if (c.energy.storage == EnergyStorage::emitted)
     energy += "the constants never give more work than stored_energy() falls";
   else

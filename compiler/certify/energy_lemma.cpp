@@ -41,4 +41,22 @@ EnergyLemma check_energy_lemma(const MotorConstants& motor) {
   return lemma;
 }
 
+EnergyLemma check_energy_lemma_with_slips(const MotorConstants& linear, const std::vector<MotorConstants>& parts) {
+  EnergyLemma lemma;
+  lemma.applies = !linear.estimate_drives_modes();
+  lemma.with_slips = true;
+  lemma.storage = EnergyStorage::weighted;
+  lemma.holds = lemma.applies && linear.static_stiffness >= 0;
+  const auto look_at = [&](const MotorConstants& part) {
+    for (const MotorMode& mode : part.modes) {
+      const Rational a = exact_decay(part, mode);
+      lemma.holds = lemma.holds && a >= 0 && a <= 1 && mode.position_drive >= 0;
+      ++lemma.reweighted_modes;
+    }
+  };
+  look_at(linear);
+  for (const MotorConstants& part : parts) look_at(part);
+  return lemma;
+}
+
 }  // namespace dashpot::compiler

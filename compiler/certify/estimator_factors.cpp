@@ -88,4 +88,16 @@ std::optional<double> adaptive_window_gain(const SampledLoop& loop) {
   return std::sqrt(square) * (1 + 1e-12);
 }
 
+std::optional<double> estimate_gain(const SampledLoop& loop) {
+  if (loop.has_device && loop.velocity.estimator == estimator_kind::butterworth) return 1;
+  const std::optional<EstimatorFactors> factors = estimator_factors(loop);
+  if (!factors) return adaptive_window_gain(loop);
+  double gain = 0;
+  for (const double tap : factors->taps) gain += std::abs(tap);
+  // 1/(1 − |p|) = (1 + |p|)/(1 − |p|²), and 1 − |p|² = 2 Re(1 − p) − |1 − p|²
+  for (const EstimatorPole& pole : factors->poles)
+    gain *= (1 + std::abs(pole.pole)) / (2 * pole.loss.real() - std::norm(pole.loss));
+  return gain * (1 + 1e-12);
+}
+
 }  // namespace dashpot::compiler

@@ -31,4 +31,8 @@ std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);
 // w = 1/n, γ² = 1 + 1/2 + … + 1/N. Empty for other estimators.
 std::optional<double> adaptive_window_gain(const SampledLoop& loop);
 
+// γ of ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ for any motion, not below it: Σ|taps| Π 1/(1 − |p|), 1 for Butterworth's filters, which never
+// amplify, or that of an adaptive window. Empty where nothing is known.
+std::optional<double> estimate_gain(const SampledLoop& loop);
+
 }  // namespace dashpot::compiler

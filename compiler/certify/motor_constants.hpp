@@ -33,6 +33,7 @@ struct MotorConstants {
   double unit_roundoff = 0;          // of the law's scalar type
   double error_bound = 0;            // of a mode's force, relative to its peak, from rounding while it runs
 
+  bool is_idle() const;              // it makes nothing
   bool follows_estimate() const;     // the motor uses v̂ anywhere
   bool estimate_drives_modes() const;
 };
@@ -40,7 +41,13 @@ struct MotorConstants {
 // a, exactly.
 Rational exact_decay(const MotorConstants& motor, const MotorMode& mode);
 
-// Empty for a law with slips, which is not linear, and for one whose parameters change.
+// Of a law with slips, the part that reaches ground without one.
+MotorConstants linear_motor_constants(const UpdateLaw& law);
+
+// The modes of every part behind slips, a part each.
+std::vector<MotorConstants> parts_behind_slips(const UpdateLaw& law);
+
+// Empty for a law with slips or a contact, which is not linear, and for one whose parameters change.
 std::optional<MotorConstants> motor_constants(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

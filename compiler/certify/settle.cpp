@@ -47,7 +47,8 @@ CandidateSettler::CandidateSettler(const Network& network, const NormalForm& for
       choices_(choices),
       device_(device),
       rate_(rate),
-      loop_(sampled_loop(device, 1 / rate)) {}
+      loop_(sampled_loop(device, 1 / rate)),
+      slips_(slip_motor(network, form, decomposition, choices, loop_)) {}
 
 void CandidateSettler::settle(Candidate& candidate) {
   for (StateInputMerit& merit : candidate.state_inputs) weigh(candidate, merit);
@@ -70,7 +71,8 @@ const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput 
   single.candidates[single.chosen].state_input = input;
   Diagnostics unheard;  // what they say of the law is said of the chosen one
   const UpdateLaw law = discretise(network_, form_, single, choices_, rate_, unheard);
-  return motors_.emplace(input, motor_constants(law)).first->second;
+  const bool needs_whole = network_.contact || !form_.has_slips();
+  return motors_.emplace(input, needs_whole ? motor_constants(law) : linear_motor_constants(law)).first->second;
 }
 
 // Whatever b: it is only in the velocity gain, b∞ − b.
@@ -80,7 +82,7 @@ PassivityBound CandidateSettler::bound(StateInput input, double damping) {
     motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
     motor->brake = damping;
   }
-  return passivity_bound(motor, loop_);
+  return motor && slips_ ? passivity_bound(*motor, *slips_, loop_) : passivity_bound(motor, loop_);
 }
 
 void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
@@ -88,7 +90,8 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
   merit.proof = name_of(needed.proof);
   merit.binding_frequency = needed.frequency;
   merit.minimum_damping.reset();
-  if (needed.proof != Proof::none) merit.minimum_damping = missing_damping(needed, loop_, candidate.damping);
+  const double least_brake = candidate.damping + (slips_ ? slips_->least_brake : 0);
+  if (needed.proof != Proof::none) merit.minimum_damping = missing_damping(needed, loop_, least_brake);
 }
 
 void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) {
@@ -98,12 +101,13 @@ void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) 
   candidate.minimum_damping = merit.minimum_damping;
   candidate.certified.reset();
   if (!merit.minimum_damping) return;
-  const double reach = device_.is_ideal() ? candidate.damping : loop_.max_damping;
-  candidate.certified = candidate.damping + *merit.minimum_damping <= reach;
+  const double reach = device_.is_ideal() ? candidate.damping + (slips_ ? slips_->largest_brake : 0) : loop_.max_damping;
+  const double largest_brake = candidate.damping + (slips_ ? slips_->largest_brake : 0);
+  candidate.certified = largest_brake + *merit.minimum_damping <= reach;
 }
 
 void CandidateSettler::make_room(Candidate& candidate) {
-  if (!candidate.minimum_damping || candidate.certified == true) return;
+  if (!candidate.minimum_damping || candidate.certified == true || slips_) return;
   const std::optional<double> fitting = largest_fitting(candidate.state_input, candidate.damping);
   if (!fitting) return;
   candidate.damping = *fitting;

@@ -37,6 +37,7 @@ class CandidateSettler {
   const PortDevice& device_;
   double rate_;
   SampledLoop loop_;
+  std::optional<SlipMotor> slips_;
   std::map<StateInput, std::optional<MotorConstants>> motors_;
 };
 

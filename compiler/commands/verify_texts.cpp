@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "compile.hpp"
+#include "linear/reach.hpp"
 #include "syntax/parse_device.hpp"
 #include "verify/verify_header.hpp"
 
@@ -18,14 +19,19 @@ std::optional<std::string> first_difference(const std::string& found, const std:
   return found.substr(start, found.find('\n', at) - start);
 }
 
-// What the network and the choices in the certificate give, compiled again: the code around the constants.
-void compare_code(const CertificateFile& certificate, const SourceFile& network, const std::optional<Device>& device,
-                  const std::string& header, Diagnostics& diagnostics) {
+// The code around the constants, which decides by jumps or in constant time.
+void compare_code(const Compilation& compiled, const std::string& header, Diagnostics& diagnostics) {
   Diagnostics unheard;
-  const std::optional<Compilation> again = compile(network, certificate.choices, device, unheard);
-  const auto emitted = again ? emit_cpp(*again, {}, unheard) : std::nullopt;
-  if (!emitted) return diagnostics.report<DiagnosticCode::no_certificate>({}, network.path(), "its network does not compile");
-  if (const auto line = first_difference(without_banner_and_digest(header), without_banner_and_digest(emitted->front().text)))
+  std::string expected;
+  for (const bool constant_time : {true, false}) {
+    EmissionOptions options;
+    options.constant_time = constant_time;
+    const auto emitted = emit_cpp(compiled, options, unheard);
+    if (!emitted) continue;
+    expected = without_banner_and_digest(emitted->front().text);
+    if (without_banner_and_digest(header) == expected) return;
+  }
+  if (const auto line = first_difference(without_banner_and_digest(header), expected))
     diagnostics.report<DiagnosticCode::code_differs>({}, *line);
 }
 
@@ -62,13 +68,26 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
     diagnostics.report<DiagnosticCode::no_emitted_header>({}, header.path());
     return std::nullopt;
   }
-  const auto count = verify_constants(*certificate, *network, *port, *constants, diagnostics);
-  if (!count) return std::nullopt;
-  compare_code(*certificate, network_file, device, header.text(), diagnostics);
-  if (!diagnostics.has_errors()) verify_bounds(*certificate, *port, *constants, diagnostics);
+  if (!is_within_reach(*network, diagnostics, most_verified_nodes)) return std::nullopt;
+  // What takes long is done last: many a wrong certificate is found out before.
+  const bool is_linear = is_plainly_linear(*network);
+  std::size_t count = is_linear ? verify_linear_constants(*certificate, *network, *port, *constants, diagnostics) : 0;
+  Diagnostics unheard;
+  const std::optional<Compilation> compiled = compile(network_file, certificate->choices, device, unheard);
+  if (!compiled) {
+    diagnostics.report<DiagnosticCode::no_certificate>({}, network_file.path(), "its network does not compile");
+    return std::nullopt;
+  }
+  if (!is_linear) {
+    const auto found = verify_constants(*certificate, *constants, *compiled, diagnostics);
+    if (!found) return std::nullopt;
+    count = *found;
+  }
+  compare_code(*compiled, header.text(), diagnostics);
+  if (!diagnostics.has_errors()) verify_bounds(*certificate, *port, *constants, *compiled, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;
   return fmt::format("{}: {} constants are the nearest to those of the network, recomputed in 100 digits; the code is that of the network; {}\n",
-                     network->name, *count, certificate->certified ? "certified" : "not certified");
+                     network->name, count, certificate->certified ? "certified" : "not certified");
 }
 
 }  // namespace dashpot::compiler

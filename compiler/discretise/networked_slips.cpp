@@ -10,29 +10,10 @@
 namespace dashpot::compiler {
 namespace {
 
-std::vector<std::size_t> linear_elements(const Network& network, const std::vector<std::size_t>& elements) {
-  std::vector<std::size_t> linear;
-  for (std::size_t index : elements)
-    if (!std::holds_alternative<Slip>(network.elements[index].law)) linear.push_back(index);
-  return linear;
-}
-
 const Element& first_slip(const Network& network, const std::vector<std::size_t>& elements) {
   return network.elements[*std::find_if(elements.begin(), elements.end(), [&](std::size_t index) {
     return std::holds_alternative<Slip>(network.elements[index].law);
   })];
-}
-
-// Nodes at which slips end, then the tool.
-std::vector<NodeIndex> terminals_of(const Network& network, const std::vector<std::size_t>& elements) {
-  std::vector<NodeIndex> nodes;
-  for (const auto& [ends, yield] : slips_between(network, elements))
-    for (NodeIndex node : {ends.first, ends.second})
-      if (node != ground && node != tool) nodes.push_back(node);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  nodes.push_back(tool);
-  return nodes;
 }
 
 double largest_finite(ScalarType scalar) {
@@ -48,7 +29,7 @@ NetworkedSlips::NetworkedSlips(LawWriter& writer, const Network& network, const 
       sample_period_(sample_period),
       elements_(std::move(elements)),
       is_pushed_(is_pushed),
-      form_(multiport_form(network, linear_elements(network, elements_), terminals_of(network, elements_))) {
+      form_(multiport_form_at_slips(network, elements_)) {
   name_ = step_.name = writer_.unique(joined("network", first_slip(network, elements_).name));
   number_ends();
   add_links();

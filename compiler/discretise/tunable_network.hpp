@@ -37,6 +37,7 @@ struct TunableTables {
   std::vector<slip_node<double>> nodes;
   int mesh_nodes = 0;
   int corners = 0;
+  double added_damping = 0;                 // what the brake is told beyond b [N·s/m]
   std::string brake;                        // what b follows, for people
   std::vector<std::string> mesh_elements;   // whose states are kept by backward Euler, for people
 };

@@ -18,7 +18,8 @@ class TunableRun {
         parts_(converted<tunable_part<Scalar>>(tables.parts, part_of)),
         nodes_(converted<slip_node<Scalar>>(tables.nodes, node_of)),
         tables_(tables_of(tables)),
-        law_(tables_) {}
+        law_(tables_),
+        added_damping_(scalar(tables.added_damping)) {}
   TunableRun(const TunableRun&) = delete;  // tables_ points into this
   TunableRun& operator=(const TunableRun&) = delete;
 
@@ -29,8 +30,8 @@ class TunableRun {
     last_damping_ = law_.damping_at_rest(tables_);
   }
 
-  Scalar last_damping() const { return last_damping_; }
-  Scalar damping() const { return sample_.damping; }
+  Scalar last_damping() const { return last_damping_ + added_damping_; }
+  Scalar damping() const { return sample_.damping + added_damping_; }
 
   Scalar force(Scalar position, Scalar velocity) {
     sample_ = law_.output(tables_, last_position_, position, velocity);
@@ -87,6 +88,7 @@ class TunableRun {
   tunable_tables<Scalar> tables_;
   tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks, most_tunable_slip_parts,
               most_tunable_slips, most_tunable_corners> law_;
+  Scalar added_damping_;
   tunable_sample<Scalar> sample_ = {};
   Scalar last_position_ = 0, sampled_position_ = 0, sampled_change_ = 0;
   Scalar last_damping_ = law_.damping_at_rest(tables_);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "discretise/expression_text.hpp"
 
 namespace dashpot::compiler {
@@ -139,8 +141,26 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
   return cost;
 }
 
+void add_steady_damping(UpdateLaw& law, double damping) {
+  const auto raise = [&](double& value) {
+    value = law.scalar == ScalarType::float64 ? value + damping : double(float(value) + float(damping));
+  };
+  const auto steady = std::find_if(law.coefficients.begin(), law.coefficients.end(), [](const Coefficient& c) { return c.name == "steady_damping"; });
+  const auto told = std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.brake; });
+  if (steady != law.coefficients.end()) {
+    raise(steady->values.front());
+  } else {
+    law.coefficients.push_back({"steady_damping", law.variables[law.brake].unit, "of what no slip changes", {damping}});
+    law.expressions.push_back({Operation::constant, static_cast<CoefficientId>(law.coefficients.size() - 1)});
+    const auto constant = static_cast<ExpressionId>(law.expressions.size() - 1);
+    law.expressions.push_back({Operation::add, told->value, constant});
+    told->value = constant + 1;
+  }
+  for (double* value : {&law.damping, &law.largest_damping, &law.variables[law.last_brake].rest_value}) raise(*value);
+}
+
 std::string to_text(const UpdateLaw& law, const Network& network) {
-  const std::string damping = law.brake_changes() ? fmt::format("{} to {}", law.damping, law.largest_damping) : fmt::format("{}", law.damping);
+  const std::string damping = law.brake_changes() || law.tunable ? fmt::format("{} to {}", law.damping, law.largest_damping) : fmt::format("{}", law.damping);
   std::string text = fmt::format("law of {}: {}, {} driven, {}, period {} s, damping {}, modes in {} form\n", network.name,
                                  name_of(law.scheme), name_of(law.state_input), name_of(law.scalar), law.sample_period,
                                  damping, name_of(law.mode_form));

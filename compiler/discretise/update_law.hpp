@@ -191,6 +191,9 @@ UpdateLaw discretise(const Network& network, const NormalForm& form, const Decom
 std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                                             const Choices& choices, double rate, const Device* device, Diagnostics& diagnostics);
 
+// Raises the brake's command in every regime of a law whose brake changes, by a number of the scalar's type.
+void add_steady_damping(UpdateLaw& law, double damping);
+
 std::string to_text(const UpdateLaw& law, const Network& network);
 
 }  // namespace dashpot::compiler

@@ -64,8 +64,9 @@ class TunablePrinter {
     program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);", is_pushed ? "// s₋ = s" : "// u₋ = u",
                       "last_position_ = sampled_position_;"};
     program.energy = {"// V + T: in the springs, and what changes of parameters have set free", "const scalar stored = law_.stored_energy(tables);"};
-    check_by_jumps(program, "{last_damping_, 0}");
-    program.command = "{sample.damping, force}";
+    const std::string added = tables_.added_damping > 0 ? " + added_damping" : "";
+    check_by_jumps(program, "{last_damping_" + added + ", 0}");
+    program.command = "{sample.damping" + added + ", force}";
     return program;
   }
 

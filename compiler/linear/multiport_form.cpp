@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "linear/normal_form.hpp"
 #include "linear/pencil.hpp"
 
 namespace dashpot::compiler {
@@ -175,6 +176,25 @@ class Block {
   RealMatrix inner_stiffness_, inner_damping_, drive_stiffness_, drive_damping_, stiffness_, damping_;
 };
 
+std::vector<std::size_t> linear_elements(const Network& network, const std::vector<std::size_t>& elements) {
+  std::vector<std::size_t> linear;
+  for (std::size_t index : elements)
+    if (!std::holds_alternative<Slip>(network.elements[index].law)) linear.push_back(index);
+  return linear;
+}
+
+// Nodes at which slips end, then the tool.
+std::vector<NodeIndex> terminals_of(const Network& network, const std::vector<std::size_t>& elements) {
+  std::vector<NodeIndex> nodes;
+  for (const auto& [ends, yield] : slips_between(network, elements))
+    for (NodeIndex node : {ends.first, ends.second})
+      if (node != ground && node != tool) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  nodes.push_back(tool);
+  return nodes;
+}
+
 }  // namespace
 
 MultiportForm multiport_form(const Network& network, const std::vector<std::size_t>& elements,
@@ -194,6 +214,10 @@ MultiportForm multiport_form(const Network& network, const std::vector<std::size
   MultiportForm form{terminals, {}, {}, {}};
   for (auto& [group, members] : blocks) Block(network, std::move(members), terminals).add_to(form);
   return form;
+}
+
+MultiportForm multiport_form_at_slips(const Network& network, const std::vector<std::size_t>& elements) {
+  return multiport_form(network, linear_elements(network, elements), terminals_of(network, elements));
 }
 
 }  // namespace dashpot::compiler

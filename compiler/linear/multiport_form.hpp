@@ -33,4 +33,7 @@ struct MultiportForm {
 MultiportForm multiport_form(const Network& network, const std::vector<std::size_t>& elements,
                              const std::vector<NodeIndex>& terminals);
 
+// The same of a part with slips, without them, looked at from the nodes at which they end, then the tool.
+MultiportForm multiport_form_at_slips(const Network& network, const std::vector<std::size_t>& elements);
+
 }  // namespace dashpot::compiler

@@ -65,6 +65,8 @@ Json json_of(const Certificate& c) {
           {"assured_damping", c.assured},
           {"minimum_damping", c.minimum_damping},
           {"certified", c.certified},
+          {"any_regime", c.bound.any_regime},
+          {"any_value", c.bound.any_value},
           {"reason", c.bound.reason},
           {"quantisation_stiffness", c.quantisation_stiffness},
           {"quantisation_gain", c.quantisation_gain ? Json(*c.quantisation_gain) : Json(nullptr)}};
@@ -73,6 +75,8 @@ Json json_of(const Certificate& c) {
 Json json_of(const EnergyLemma& lemma) {
   return {{"applies", lemma.applies},
           {"holds", lemma.holds},
+          {"over_box", lemma.over_box},
+          {"with_slips", lemma.with_slips},
           {"storage", lemma.storage == EnergyStorage::emitted ? "stored_energy" : "weighted"},
           {"reweighted_modes", lemma.reweighted_modes},
           {"shortfall", lemma.shortfall},
@@ -85,6 +89,7 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
   return {{"rate", c.rate},
           {"scheme", name_of(c.law.scheme)},
           {"scalar", name_of(c.law.scalar)},
+          {"vector", name_of(choices.registers)},
           {"state_input", name_of(c.decomposition.choice().state_input)},
           {"decomposition", decomposition},
           {"damping", c.decomposition.choice().damping},
@@ -115,6 +120,8 @@ Choices choices_of(const Json& json) {
   choices.rate = number_within(json, "rate", lowest_rate, highest_rate);
   choices.scheme = named(json, "scheme", {Scheme::exact, Scheme::backward_euler});
   choices.scalar = named(json, "scalar", {ScalarType::float64, ScalarType::float32});
+  if (json.contains("vector"))
+    choices.registers = named(json, "vector", {VectorRegisters::none, VectorRegisters::sse2, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon});
   choices.state_input = named(json, "state_input", {StateInput::position, StateInput::velocity, StateInput::nodal});
   if (json.at("decomposition").is_number()) choices.decomposition = number_within(json, "decomposition", 0, largest);
   else choices.decomposition = json.at("decomposition").get<std::string>();

@@ -35,6 +35,35 @@ bool read_values(std::string_view text, ScalarType scalar, std::vector<double>& 
   return true;
 }
 
+// The scalars of a table, which alone have a point or an exponent.
+bool read_table(std::string_view text, ScalarType scalar, std::vector<double>& values) {
+  constexpr std::string_view between = "{}, \n";
+  for (std::size_t start = text.find_first_not_of(between); start != text.npos;) {
+    const std::size_t end = std::min(text.find_first_of(between, start), text.size());
+    const std::string_view word = text.substr(start, end - start);
+    start = text.find_first_not_of(between, end);
+    if (word.find('.') == word.npos && (word.find('e') == word.npos || word.find(':') != word.npos)) continue;
+    const std::optional<double> value = number(word, scalar);
+    if (!value) return false;
+    values.push_back(*value);
+  }
+  return true;
+}
+
+// What is declared with the words of `opening`: a number or a list of numbers, or a table.
+bool read_declared(std::string_view header, std::string_view opening, bool is_table, HeaderConstants& result) {
+  for (std::size_t at = header.find(opening); at != header.npos; at = header.find(opening, at)) {
+    at += opening.size();
+    const std::size_t equals = header.find(" = ", at), end = header.find(';', at);
+    if (equals == header.npos || end == header.npos || end < equals) return false;
+    const std::string_view name = header.substr(at, equals - at), text = header.substr(equals + 3, end - equals - 3);
+    HeaderConstant constant{std::string(name.substr(0, name.find('['))), {}};
+    if (!(is_table ? read_table : read_values)(text, result.scalar, constant.values)) return false;
+    result.all.push_back(std::move(constant));
+  }
+  return true;
+}
+
 std::string without_line_of(std::string text, std::string_view words) {
   const std::size_t at = text.find(words);
   if (at == std::string::npos) return text;
@@ -48,16 +77,8 @@ std::optional<HeaderConstants> header_constants(std::string_view header) {
   HeaderConstants result;
   if (header.find("using scalar = float;") != header.npos) result.scalar = ScalarType::float32;
   else if (header.find("using scalar = double;") == header.npos) return std::nullopt;
-  constexpr std::string_view opening = "static constexpr scalar ";
-  for (std::size_t at = header.find(opening); at != header.npos; at = header.find(opening, at)) {
-    at += opening.size();
-    const std::size_t equals = header.find(" = ", at), end = header.find(';', at);
-    if (equals == header.npos || end == header.npos || end < equals) return std::nullopt;
-    std::string_view name = header.substr(at, equals - at);
-    HeaderConstant constant{std::string(name.substr(0, name.find('['))), {}};
-    if (!read_values(header.substr(equals + 3, end - equals - 3), result.scalar, constant.values)) return std::nullopt;
-    result.all.push_back(std::move(constant));
-  }
+  if (!read_declared(header, "static constexpr scalar ", false, result)) return std::nullopt;
+  if (!read_declared(header, "static constexpr dashpot::slip_node<scalar> ", true, result)) return std::nullopt;
   return result;
 }
 

@@ -6,21 +6,6 @@
 namespace dashpot::compiler {
 namespace {
 
-struct Factors {
-  Reference decay;  // a
-  Reference loss;   // 1 − a
-  Reference gain;   // c
-};
-
-// exact: a = e^{−x}, c = k (1 − a)/x. backward-euler: a = 1/(1 + x), c = k a. x = λ h; 1 − e^{−x} = 2 e^{−x/2} sinh(x/2).
-Factors factors_of(const ReferenceMode& mode, const LawFacts& facts) {
-  const Reference x = mode.relaxation_rate / Reference(facts.rate);
-  if (facts.scheme == Scheme::backward_euler) return {1 / (1 + x), x / (1 + x), mode.stiffness / (1 + x)};
-  const Reference decay = exp(-x);
-  const Reference loss = x < Reference(1e-3) ? Reference(2 * exp(-x / 2) * sinh(x / 2)) : Reference(1 - decay);
-  return {decay, loss, mode.stiffness * loss / x};
-}
-
 Reference spring_share(const ReferenceMode& mode, StateInput input) {
   if (input == StateInput::position) return 1;
   return input == StateInput::velocity ? Reference(0) : mode.spring_share;
@@ -41,13 +26,22 @@ double neighbour(double value, double towards, ScalarType scalar) {
 
 }  // namespace
 
+// exact: a = e^{−x}, c = k (1 − a)/x. backward-euler: a = 1/(1 + x), c = k a. x = λ h; 1 − e^{−x} = 2 e^{−x/2} sinh(x/2).
+ModeFactors mode_factors(const ReferenceMode& mode, const LawFacts& facts) {
+  const Reference x = mode.relaxation_rate / Reference(facts.rate);
+  if (facts.scheme == Scheme::backward_euler) return {1 / (1 + x), x / (1 + x), mode.stiffness / (1 + x)};
+  const Reference decay = exp(-x);
+  const Reference loss = x < Reference(1e-3) ? Reference(2 * exp(-x / 2) * sinh(x / 2)) : Reference(1 - decay);
+  return {decay, loss, mode.stiffness * loss / x};
+}
+
 std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts) {
   const Reference period = 1 / Reference(facts.rate);
   const double vanishing = facts.scalar == ScalarType::float64 ? 1e-100 : 1e-12;
   std::map<std::string, std::vector<Reference>> all;
   Reference step = 0, from_velocity = 0;
   for (const ReferenceMode& mode : form.modes) {
-    const Factors f = factors_of(mode, facts);
+    const ModeFactors f = mode_factors(mode, facts);
     const Reference share = spring_share(mode, facts.state_input);
     step += f.gain * share;
     from_velocity += f.gain * (1 - share) * period;

@@ -18,6 +18,13 @@ struct LawFacts {
   double damping = 0;  // b, as the decomposition has it [N·s/m]
 };
 
+struct ModeFactors {
+  Reference decay;  // a
+  Reference loss;   // 1 − a
+  Reference gain;   // c
+};
+ModeFactors mode_factors(const ReferenceMode& mode, const LawFacts& facts);
+
 // Each kind of constant, as emitted names end: one value, or one a mode by ascending relaxation rate. Constants that a
 // law of this kind does not have are absent.
 std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts);

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "decompose/observer.hpp"
-#include "linear/reach.hpp"
 #include "verify/reference_constants.hpp"
+#include "verify/verify_slips.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -147,26 +147,47 @@ class Verification {
   Diagnostics& diagnostics_;
 };
 
+// Empty where the constants can be recomputed.
+std::string hindrance(const Compilation& compiled) {
+  if (compiled.law.tunable) return "tunable parameters";
+  if (!series_parallel_tree(compiled.network)) return "slips or a contact beside what is no tree";
+  const bool is_nodal = compiled.decomposition.choice().state_input == StateInput::nodal;
+  return compiled.form.has_slips() && is_nodal ? "nodal states beside slips" : "";
+}
+
 }  // namespace
 
-std::optional<std::size_t> verify_constants(const CertificateFile& certificate, const Network& network,
-                                            const PortDevice& device, const HeaderConstants& header,
-                                            Diagnostics& diagnostics) {
+bool is_plainly_linear(const Network& network) {
   const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
-  if (std::any_of(network.elements.begin(), network.elements.end(), is_slip) || network.contact) {
-    diagnostics.report<DiagnosticCode::verify_needs_linear>({}, network.name);
-    return std::nullopt;
-  }
-  if (!is_within_reach(network, diagnostics, most_verified_nodes)) return std::nullopt;
+  return !network.contact && !has_tunables(network) && std::none_of(network.elements.begin(), network.elements.end(), is_slip);
+}
+
+std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network, const PortDevice& device,
+                                    const HeaderConstants& header, Diagnostics& diagnostics) {
   Verification verification(certificate, header, diagnostics);
   verification.compare_with_certificate();
   verification.recompute_constants(realised(network, certificate, device));
   return verification.constants();
 }
 
+std::optional<std::size_t> verify_constants(const CertificateFile& certificate, const HeaderConstants& header,
+                                            const Compilation& compiled, Diagnostics& diagnostics) {
+  if (const std::string what = hindrance(compiled); !what.empty()) {
+    diagnostics.report<DiagnosticCode::not_recomputed>({}, compiled.network.name, what);
+    return std::nullopt;
+  }
+  Verification verification(certificate, header, diagnostics);
+  verification.compare_with_certificate();
+  SlipVerification(certificate, header, compiled, diagnostics).recompute_constants();
+  return verification.constants();
+}
+
 void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
-                   Diagnostics& diagnostics) {
-  Verification(certificate, header, diagnostics).recompute_bounds(device);
+                   const Compilation& compiled, Diagnostics& diagnostics) {
+  if (is_plainly_linear(compiled.network))
+    Verification(certificate, header, diagnostics).recompute_bounds(device);
+  else
+    SlipVerification(certificate, header, compiled, diagnostics).recompute_bounds();
 }
 
 }  // namespace dashpot::compiler

@@ -6,8 +6,11 @@
 // behind Y: gated, the gated law errs by 3.63 % in the band, no more than 5 %; b = 0 N·s/m stuck, 0.8 sliding
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
-// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+// passivity: certified for any motion, whatever slides, sticks, touches or lets go, any switching of the brake
+//   above its least command: needs 0.5 N·s/m over the longest hold of 0.001 s, at least 2.5 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
+//   adds at most 1.2e-15 of the sum of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 2 multiplications, 0 guards against subnormals
 // cost of update(): 0 additions, 0 multiplications, 1 guards against subnormals; 6 states

@@ -7,8 +7,12 @@
 //   sliding
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
-// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+// passivity: certified for any motion, whatever slides, sticks, touches or lets go, any switching of the brake
+//   above its least command: needs 1.37838 N·s/m over the longest hold of 0.001 s, at least 1.62162 N·s/m is
+//   there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
+//   adds at most 1.9e-14 of the sum of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 15 additions, 14 multiplications, 0 guards against subnormals
 // cost of update(): 11 additions, 11 multiplications, 3 guards against subnormals; 12 states

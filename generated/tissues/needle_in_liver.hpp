@@ -13,8 +13,11 @@
 // states: position driven by definition
 // contact: at 0 m; brake and motor 0 while the tool is free
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
-// passivity: not certified: the law of a network with slips, contact or tunable parameters is not one linear law
+// passivity: not certified: a free tool, which the brake leaves alone, touches late, and the device itself has
+//   less damping than that needs: 10.5838 N·s/m
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
+//   adds at most 9.5e-15 of the sum of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 7 additions, 3 multiplications, 1 guards against subnormals
 //   and at most 61 additions, multiplications and divisions for the coupled slips

@@ -14,22 +14,38 @@ using namespace dashpot::compiler;
 
 int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 5000 : 200; }
 
-// S at single angles: a logarithmic grid, every relaxation rate, and a search around the largest.
+constexpr double pi = 3.14159265358979323846;
+
+// A logarithmic grid for slow modes, a linear one for what delays and windows make ripple near Nyquist, and every rate.
+std::vector<double> grid(const std::vector<double>& rates, double sample_period) {
+  std::vector<double> angles = {0};
+  for (int i = 0; i <= 600; ++i) angles.push_back(pi * std::pow(10, -9.0 * i / 600));
+  for (int i = 1; i <= 200; ++i) angles.push_back(pi * i / 200);
+  for (const double rate : rates) angles.push_back(std::min(pi, rate * sample_period));
+  std::sort(angles.begin(), angles.end());
+  return angles;
+}
+
+// S at single angles, and the top of every hill of the grid: the highest point of the grid may lie on a lower hill.
 double scanned(const NeededDamping& needed, const std::vector<double>& rates, double sample_period) {
   const auto at = [&](double angle) {
     const double x = std::tan(angle / 4);
     return needed.on({x, x}).at_centre;
   };
-  constexpr double pi = 3.14159265358979323846;
-  std::vector<double> angles = {0, pi};
-  for (int i = 0; i <= 600; ++i) angles.push_back(pi * std::pow(10, -9.0 * i / 600));
-  for (const double rate : rates) angles.push_back(std::min(pi, rate * sample_period));
-  double best = 0, largest = at(0);
-  for (const double angle : angles)
-    if (const double here = at(angle); here > largest) largest = here, best = angle;
-  for (double step = std::max(best / 20, 1e-9); step > 1e-12; step *= 0.8)
-    for (const double angle : {std::max(best - step, 0.0), std::min(best + step, pi)})
-      if (const double here = at(angle); here > largest) largest = here, best = angle;
+  const std::vector<double> angles = grid(rates, sample_period);
+  std::vector<double> heights;
+  for (const double angle : angles) heights.push_back(at(angle));
+  double largest = *std::max_element(heights.begin(), heights.end());
+  for (std::size_t i = 1; i + 1 < angles.size(); ++i) {
+    if (heights[i] < heights[i - 1] || heights[i] < heights[i + 1]) continue;
+    double low = angles[i - 1], high = angles[i + 1];
+    for (int step = 0; step < 60; ++step) {
+      const double left = low + (high - low) / 3, right = high - (high - low) / 3;
+      const double at_left = at(left), at_right = at(right);
+      largest = std::max({largest, at_left, at_right});
+      (at_left < at_right ? low : high) = at_left < at_right ? left : right;
+    }
+  }
   return largest;
 }
 

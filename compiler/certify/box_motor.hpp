@@ -1,0 +1,49 @@
+// What the motor of a network with tunable parameters asks for, whatever their values within the declared ranges (theory,
+// section 6). Every stiffness and damping is an affine function of the tunables with non-negative factors.
+//
+// With the law's own storage, V = Σ ½ k z² and what the tank holds, which set() never raises, a spring on the cut asks for
+// β = ½ k and a relaxation for ψ k: with φ = c/k, A = ½ (1 − a²), B = a (1 − φ), C = φ − ½ φ², g = (a − 1, φ),
+//     ψ = ¼ (g₁² C − g₁ g₂ B + g₂² A)/(A C − ¼ B²),     the largest of g·(F, δ) − A F² − B F δ − C δ²,
+// ½ for backward Euler and never above 0.57 for the exact scheme. Between changes; a change that cannot keep the force
+// (tunable_law.hpp) is one jump of the force, held for one sample.
+//
+// b, and with it b∞ − b, is at every point of the box one of a few affine functions: those that the brake's rule and reach
+// choose from. Of affine functions the largest over a box is exact.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "certify/energy_lemma.hpp"
+#include "certify/sampled_loop.hpp"
+#include "discretise/update_law.hpp"
+
+namespace dashpot::compiler {
+
+struct BoxMotor {
+  double lacking = 0;      // max over the box of what is needed less the assured share of b [N·s/m], not below it
+  double least_brake = 0;  // min b over the box [N·s/m], not above it
+  double largest_brake = 0;
+  std::string hindrance;   // why nothing is proved; empty where something is
+};
+
+// `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty where nothing is known of it; `share`:
+// of the brake's command that is assured.
+struct BoxLoop {
+  double hold, lateness;
+  std::optional<double> gain;
+  double share;
+};
+
+// Of a law with tunables.
+BoxMotor box_motor(const UpdateLaw& law, const BoxLoop& loop);
+
+// The energy lemma at every point of the box, of the law's own storage.
+EnergyLemma check_energy_lemma_over_box(const UpdateLaw& law);
+
+// ψ of a relaxation that keeps `decay` = a of its force and takes `share` = φ of its spring, not below it.
+double relaxation_hold(double share, double loss);
+
+inline constexpr double largest_relaxation_hold = 0.57;  // of the exact scheme, over all λh
+
+}  // namespace dashpot::compiler

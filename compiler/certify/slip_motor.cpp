@@ -1,0 +1,113 @@
+#include "certify/slip_motor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "certify/cut.hpp"
+#include "discretise/rounding.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// min x over a component's regimes; nothing where they are not listed.
+Real least_feedthrough(const ComponentSplit& split) {
+  if (split.shares.empty()) return 0;
+  return std::min_element(split.shares.begin(), split.shares.end(), [](const BrakeShare& x, const BrakeShare& y) {
+           return x.feedthrough < y.feedthrough;
+         })->feedthrough;
+}
+
+double largest_behind_slips(const SlipDecomposition& slips) {
+  double sum = 0;
+  for (const ComponentSplit* split : slips.all()) {
+    double largest = 0;
+    for (const BrakeShare& share : split->shares) largest = std::max(largest, share.damping);
+    sum += largest;
+  }
+  return sum;
+}
+
+class Sum {
+ public:
+  Sum(const Network& network, const CutSettings& settings, ScalarType scalar)
+      : network_(network), settings_(settings), margin_(1 + 16 * unit_roundoff(scalar)) {}
+
+  // Every part has a cut: where slips alone join tool and ground the force is not unique, and the network was refused.
+  void add(const ComponentSplit& split) {
+    cut_ += least_cut(split.rendered, settings_).value();
+    add_brake(split);
+  }
+  void add(const NormalTree& component) { cut_ += least_cut(component, settings_).value(); }
+  void add(const std::vector<std::size_t>& elements) { cut_ += least_cut(network_, elements, settings_).value(); }
+
+  void add_brake(const ComponentSplit& split) {
+    cut_.damping -= least_feedthrough(split);
+    double least = 0, largest = 0, compensation = 0;
+    for (std::size_t i = 0; i < split.shares.size(); ++i) {
+      const BrakeShare& share = split.shares[i];
+      least = i == 0 ? share.damping : std::min(least, share.damping);
+      largest = std::max(largest, share.damping);
+      compensation = std::max(compensation, share.compensation);
+    }
+    motor_.least_brake += least;
+    motor_.largest_brake += largest;
+    motor_.held_compensation += compensation;
+  }
+
+  // The brake has the dampers while the tool touches, and not while it is free.
+  void add_behind_contact(const LinearForm& linear, double brake, double behind_slips) {
+    cut_ += cut_of(linear, settings_);
+    motor_.behind_contact = true;
+    const double feedthrough = to_double(linear.feedthrough_damping);
+    motor_.lets_go_by_estimate = feedthrough + behind_slips > 0;
+    motor_.compensation += feedthrough + behind_slips + std::abs(feedthrough - brake);
+    motor_.largest_brake = brake + behind_slips;
+  }
+
+  // (b of the regime less b) v̂ while the coil is on its way, at most `most`.
+  void make_up(double most) { motor_.compensation += std::min(most, motor_.largest_brake - motor_.least_brake); }
+
+  SlipMotor result() {
+    motor_.stiffness = to_double(cut_.stiffness) * margin_;
+    motor_.damping = std::max(to_double(cut_.damping), 0.0) * margin_;
+    return motor_;
+  }
+
+ private:
+  const Network& network_;
+  CutSettings settings_;
+  double margin_;
+  Cut cut_;
+  SlipMotor motor_;
+};
+
+}  // namespace
+
+double lateness(const SampledLoop& loop) {
+  const double share = loop.amplifier_lag / loop.sample_period;
+  const double spread = share > 0 ? share / 2 / std::tanh(1 / (2 * share)) : 0;
+  return (loop.delay_samples + 1 + std::sqrt(spread)) * (1 + 1e-14);
+}
+
+std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                                    const Choices& choices, const SampledLoop& loop) {
+  if (!form.has_slips() && !network.contact) return std::nullopt;
+  const SlipDecomposition& slips = decomposition.slips;
+  Sum sum(network, {choices.scheme, Real(loop.sample_period), lateness(loop)}, choices.scalar);
+  for (std::size_t i = 0; i < form.components.size(); ++i)
+    if (i < slips.components.size() && !network.contact)
+      sum.add(slips.components[i]);
+    else
+      sum.add(form.components[i]);
+  for (std::size_t i = 0; i < form.networks.size(); ++i) {
+    sum.add(form.networks[i]);
+    if (i < slips.networks.size() && !network.contact) sum.add_brake(slips.networks[i]);
+  }
+  if (network.contact)
+    sum.add_behind_contact(form.linear, decomposition.choice().damping, largest_behind_slips(slips));
+  else
+    sum.make_up(slips.coil_share < 1 ? slips.make_up : 0);
+  return sum.result();
+}
+
+}  // namespace dashpot::compiler

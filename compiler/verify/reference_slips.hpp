@@ -1,0 +1,35 @@
+// What the constants of a law with slips or a contact may be, recomputed in 100 digits. A constant's kind is told by the end
+// of its name; the code around it, which a second compilation gives, tells whose it is.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "decompose/slip_decomposition.hpp"
+#include "verify/reference_constants.hpp"
+#include "verify/reference_tree.hpp"
+
+namespace dashpot::compiler {
+
+using Pool = std::map<std::string, std::vector<Reference>, std::less<>>;
+
+// "gain", "row", "yield", "table", …; empty for what is chosen, and no function of the network alone.
+std::string_view kind_behind_slips(std::string_view name);
+
+// `slips`: what the brake was given in every regime, and the encoder's step; a choice.
+Pool constants_behind_slips(const ReferenceTree& tree, bool with_contact, const SlipDecomposition& slips, const LawFacts& facts);
+
+// The least cut through springs, dampers and modes, each side of which no slip crosses (certify/cut.hpp): Σ k0/2 + Σ c/(1 + a)
+// and Σ b∞.
+struct ReferenceCut {
+  Reference stiffness, damping;
+};
+ReferenceCut reference_cut(const ReferenceTree& tree, bool with_contact, const SlipDecomposition& slips, const LawFacts& facts,
+                           double lateness);
+
+// False where the brake was given more of some regime's dampers than there are in it.
+bool are_within_regimes(const ReferenceTree& tree, const SlipDecomposition& slips);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,168 @@
+// What is proved about slips and contacts, against motions that take as much energy as they can: from sample to sample the
+// tool may go anywhere, and the brake takes what a constant damping takes at a constant speed over a hold.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <deque>
+
+#include "certified_loop.hpp"
+#include "discretise/evaluate.hpp"
+#include "support/random_network.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using namespace dashpot::compiler;
+
+int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 3000 : 150; }
+
+std::string with_contact(std::string text) { return text.insert(1, "\n  \"contact\": { \"at\": 0 },"); }
+
+// Trees and others, some behind a contact.
+CompiledCase slip_case(std::uint64_t seed, bool lags = false) {
+  Random random(seed);
+  CompiledCase one;
+  one.device = random_device(random);
+  device_description& d = one.device.description;
+  d.motor.amplifier_lag = lags ? random.log_uniform(0.05, 2) * d.loop.sample_period : 0;
+  d.velocity.estimator = random.chance(0.5) ? estimator_kind::backward_difference : estimator_kind::butterworth;
+  d.brake.coil_lag = lags || random.chance(0.5) ? 0 : random.log_uniform(0.1, 10) * d.loop.sample_period;
+  const bool touches = !lags && random.chance(0.3);
+  if (touches) d.loop.delay_samples = random.chance(0.7) ? 0 : 1;
+  d.mechanics.damping = touches ? 1e7 : d.mechanics.damping;
+  NetworkRecipe recipe;
+  recipe.topology = random.chance(0.7) ? Topology::tree : Topology::graph;
+  recipe.most_nodes = 6;
+  recipe.most_slips = recipe.topology == Topology::tree ? 6 : 5;
+  recipe.smallest_value = 1e-1;
+  recipe.largest_value = 1e3;
+  const std::string text = json_text(random_network(seed, recipe));
+  one.source = std::make_unique<SourceFile>("random.json", touches ? with_contact(text) : text);
+  const char* laws[] = {"most-dissipative", "velocity-free", "gated", "compensated", "virtual"};
+  one.choices.decomposition = laws[random.index(5)];
+  one.choices.scheme = random.chance(0.7) ? Scheme::exact : Scheme::backward_euler;
+  Diagnostics diagnostics;
+  one.compilation = compile(*one.source, one.choices, one.device, diagnostics);
+  return one;
+}
+
+struct Exchange {
+  double energy = 0, least = 0, largest = 0;  // [J]
+
+  void add(double work) {
+    energy += work;
+    least = std::min(least, energy);
+    largest = std::max(largest, std::abs(work));
+  }
+};
+
+bool is_compensated(const CompiledCase& one) {
+  const auto& components = one.compilation->decomposition.slips.components;
+  return std::any_of(components.begin(), components.end(), [](const ComponentSplit& split) { return split.law == SlipLaw::compensated; });
+}
+
+// The hold's physical damping: a share of what the certificate asks for, and under the compensated law, which has to earn
+// what it takes, what the brake has been told beyond its least.
+struct Holds {
+  const CompiledCase& one;
+  double needed, share, least_brake;
+
+  Holds(const CompiledCase& c, double share_of_needed)
+      : one(c), needed(share_of_needed * c.compilation->certificate.bound.needed),
+        share(is_compensated(c) ? 1 - c.device.description.brake.tolerance : 0), least_brake(c.compilation->law.damping) {}
+  double damping(double told) const { return needed + share * std::max(told - least_brake, 0.0); }
+};
+
+// Sizes of motion over many decades about what makes the slips give way; in between, and often, the motion over the next
+// hold that takes most at once, m/2 over b/Δt.
+double next_change(Random& random, double pace, double force, double damping_by_hold) {
+  if (random.chance(0.5)) return damping_by_hold > 0 ? -force / (2 * damping_by_hold) * random.uniform(0.5, 1.5) : 0;
+  return random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
+}
+
+Exchange exchange_of(const Holds& holds, Random& random, int samples) {
+  const device_description& d = holds.one.device.description;
+  Evaluation<double> law(holds.one.compilation->law);
+  law.reset(0);
+  any_estimator<double> estimator(d.velocity, d.loop.sample_period, 1e-9);
+  estimator.reset(0);
+  std::deque<command<double>> late(d.loop.delay_samples, command<double>{0, 0});
+  Exchange exchange;
+  double position = 0, pace = 1e-3;
+  for (int k = 0; k < samples; ++k) {
+    device_sample sample{};
+    sample.position = position;
+    late.push_back(law.step(position, estimator.update(sample)));
+    const command<double> now = late.front();
+    late.pop_front();
+    const double hold = d.loop.sample_period + (random.chance(0.5) ? d.loop.jitter : 0);
+    const double damping = holds.damping(now.damping) / hold;
+    if (random.chance(0.05)) pace = random.log_uniform(1e-6, 1);
+    const double change = next_change(random, pace, now.force, damping);
+    exchange.add(now.force * change + damping * change * change);
+    position += change;
+  }
+  return exchange;
+}
+
+// Some network with slips would give out energy under a certificate.
+TEST(SlipHolds, GiveOutNoEnergy) {
+  int certified = 0, touching = 0, late = 0, changing = 0;
+  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+    SCOPED_TRACE(seed);
+    const CompiledCase one = slip_case(seed);
+    if (!one.compilation || !one.compilation->certificate.bound.any_regime) continue;
+    const Certificate& certificate = one.compilation->certificate;
+    if (certificate.bound.proof != Proof::hold) continue;
+    ++certified;
+    touching += one.compilation->network.contact ? 1 : 0;
+    late += one.device.description.loop.delay_samples > 0 ? 1 : 0;
+    changing += one.compilation->law.brake_changes() ? 1 : 0;
+    Random random(seed);
+    const Exchange exchange = exchange_of(Holds(one, 1), random, 3000);
+    EXPECT_GE(exchange.least, -1e-9 * exchange.largest);
+  }
+  EXPECT_GT(touching, certified / 20);
+  EXPECT_GT(late, certified / 20);
+  EXPECT_GT(changing, certified / 20);
+}
+
+// In closed loop with an amplifier that lags, in some passive hand, a certified law would give out energy.
+TEST(SlipHolds, LoopsThatLagGiveOutNoEnergy) {
+  int certified = 0;
+  for (std::uint64_t seed = 1; certified < cases() / 3; ++seed) {
+    SCOPED_TRACE(seed);
+    const CompiledCase one = slip_case(seed, true);
+    if (!one.compilation || !one.compilation->certificate.certified || !one.compilation->certificate.bound.any_regime) continue;
+    ++certified;
+    Random random(seed + 1'000'000);
+    for (const simulated::brake_gain gain : {simulated::brake_gain::lowest, simulated::brake_gain::highest}) {
+      Conditions conditions;
+      conditions.gain = gain;
+      const RunOfLoop run = run_loop(one, random, conditions, 1500);
+      EXPECT_GE(run.least_energy, -1e-9 * run.largest_exchange);
+    }
+  }
+}
+
+// The bound would ask for several times what is needed: at 0.3 of it a simple motion takes energy out of most laws.
+TEST(SlipHolds, GiveOutEnergyFarBelowTheBound) {
+  int certified = 0, gained = 0;
+  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+    const CompiledCase one = slip_case(seed);
+    if (!one.compilation || one.compilation->certificate.bound.proof != Proof::hold) continue;
+    const PassivityBound& bound = one.compilation->certificate.bound;
+    if (!bound.any_regime || bound.needed == 0 || one.compilation->law.brake_changes()) continue;
+    ++certified;
+    Random random(seed);
+    const Exchange exchange = exchange_of(Holds(one, 0.3), random, 3000);
+    gained += exchange.least < -1e-6 * exchange.largest ? 1 : 0;
+  }
+  EXPECT_GT(gained, certified / 2);
+}
+
+}  // namespace
+}  // namespace dashpot::testing

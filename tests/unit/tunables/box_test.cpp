@@ -1,0 +1,109 @@
+// Certificates of networks with tunable parameters hold wherever the parameters are in their ranges.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <deque>
+
+#include "certify/box_motor.hpp"
+#include "support/shrink.hpp"
+#include "tunable_run.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using namespace dashpot::compiler;
+
+constexpr Kind kinds[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips};
+
+Device punctual_device(Random& random) {
+  Device device;
+  device.name = "random";
+  device_description& d = device.description;
+  d.loop.sample_period = random.log_uniform(2e-4, 4e-3);
+  d.loop.delay_samples = unsigned(random.index(3));
+  d.loop.jitter = random.chance(0.5) ? 0 : random.uniform(0, 0.5) * d.loop.sample_period;
+  d.velocity.window = unsigned(random.between(1, 10));
+  d.brake.kind = brake_kind::eddy_current;
+  d.brake.max_damping = random.log_uniform(1e3, 1e9);
+  d.brake.tolerance = random.uniform(0, 0.2);
+  return device;
+}
+
+// The most that motions of random sizes, half of which take most at once, have got out of the law with what is assured of
+// the brake, relative to the largest exchange.
+double given_out(const UpdateLaw& update_law, const std::vector<double>& values, const Device& device, Random& random) {
+  const device_description& d = device.description;
+  Evaluation<double> law(update_law);
+  law.reset(0);
+  law.set(values);
+  any_estimator<double> estimator(d.velocity, d.loop.sample_period, 1e-9);
+  estimator.reset(0);
+  const double told = law.step(0, 0).damping;
+  std::deque<command<double>> late(d.loop.delay_samples, command<double>{told, 0});
+  double position = 0, pace = 1e-3, energy = 0, least = 0, largest = 0;
+  for (int k = 0; k < 1000; ++k) {
+    device_sample sample{};
+    sample.position = position;
+    late.push_back(law.step(position, estimator.update(sample)));
+    const command<double> now = late.front();
+    late.pop_front();
+    const double hold = d.loop.sample_period + (random.chance(0.5) ? d.loop.jitter : 0);
+    const double damping = (1 - d.brake.tolerance) * now.damping / hold;
+    if (random.chance(0.05)) pace = random.log_uniform(1e-6, 1);
+    const bool greedy = damping > 0 && random.chance(0.5);
+    const double change = greedy ? -now.force / (2 * damping) * random.uniform(0.5, 1.5) : random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
+    const double work = now.force * change + damping * change * change;
+    energy += work;
+    least = std::min(least, energy);
+    largest = std::max(largest, std::abs(work));
+    position += change;
+  }
+  return largest > 0 ? -least / largest : 0;
+}
+
+// Somewhere in its box a certified law would give out energy.
+TEST(Box, CertifiedLawsGiveOutNoEnergy) {
+  int certified = 0, with_meshes = 0, with_slips = 0, raised = 0;
+  for (std::uint64_t seed = 1; certified < int(repetitions(60, 2000)); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Kind kind = kinds[seed % 4];
+    const Device device = punctual_device(random);
+    const SourceFile source("random.json", tunable_network(seed, kind));
+    Diagnostics diagnostics;
+    const std::optional<Compilation> compilation = compile(source, {}, device, diagnostics);
+    if (!compilation || !compilation->certificate.certified) continue;
+    ++certified;
+    with_meshes += compilation->law.tunable->mesh_nodes > 0 ? 1 : 0;
+    with_slips += compilation->law.tunable->couplings.empty() ? 0 : 1;
+    raised += compilation->certificate.added_damping > 0 ? 1 : 0;
+    EXPECT_TRUE(compilation->certificate.energy.holds);
+    std::vector<double> values;
+    for (const Tunable& t : compilation->law.tunable->tunables) values.push_back(t.range.value);
+    for (int corner = 0; corner < 8; ++corner) {
+      EXPECT_LE(given_out(compilation->law, values, device, random), 1e-9);
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const tunable_range<double>& range = compilation->law.tunable->tunables[i].range;
+        values[i] = random.chance(0.4) ? range.max : random.chance(0.5) ? range.min : random.uniform(range.min, range.max);
+      }
+    }
+  }
+  EXPECT_GT(with_meshes, 0);
+  EXPECT_GT(with_slips, 0);
+  EXPECT_GT(raised, certified / 2);
+}
+
+// A relaxation would be held for softer or stiffer than it is between samples: ½ k where it is slow or fast, most near
+// λh = 2.45, and never above the bound that stands for all of them.
+TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {
+  double largest = 0;
+  for (double x = 1e-6; x < 500; x *= 1.001) largest = std::max(largest, relaxation_hold(-std::expm1(-x) / x, -std::expm1(-x)));
+  EXPECT_NEAR(largest, 0.5685, 1e-4);
+  EXPECT_LT(largest, largest_relaxation_hold);
+  EXPECT_NEAR(relaxation_hold(-std::expm1(-1e-6) / 1e-6, -std::expm1(-1e-6)), 0.5, 1e-6);
+}
+
+}  // namespace
+}  // namespace dashpot::testing

@@ -17,6 +17,12 @@
 namespace dashpot::compiler {
 namespace {
 
+constexpr double lowest_rate = 1e-6, highest_rate = 1e9;  // [Hz], as on the command line
+constexpr unsigned most_delay_samples = 64;               // the bounds of a certificate take longer with each
+// Far beyond any machine: so that what a certificate multiplies stays finite.
+constexpr double lowest_speed = 1e-9, highest_speed = 1e9;  // [m/s] or [rad/s]
+constexpr double longest_lag = 1e6;                         // [s]
+
 // The dimensions of the joint's own coordinate.
 struct JointDimensions {
   Dimension position, velocity, acceleration, force, damping, inertia, force_constant, damping_per_current_squared;
@@ -94,6 +100,8 @@ class DeviceBuilder {
   }
 
  private:
+  const char* speed_unit() const { return motion_ == motion::rotation ? "rad/s" : "m/s"; }
+
   SectionReader section(const char* name) const { return {decl_, name, motion_, diagnostics_}; }
 
   void read_arm_radius() {
@@ -116,9 +124,10 @@ class DeviceBuilder {
     reader.require("rate");
     double rate = 1 / loop.sample_period;
     reader.read("rate", dimensions::frequency, Bound::above_zero, rate);
-    loop.sample_period = 1 / rate;
+    if (reader.is_within("rate", rate, lowest_rate, highest_rate, "Hz")) loop.sample_period = 1 / rate;
     reader.read("jitter", dimensions::time, Bound::zero_or_more, loop.jitter);
     reader.read_count("delay_samples", 0, loop.delay_samples);
+    if (!reader.is_within("delay_samples", loop.delay_samples, 0, most_delay_samples, "samples")) loop.delay_samples = 0;
     reader.read_pair("band", dimensions::frequency, Bound::above_zero, loop.band_low, loop.band_high);
     reader.read("reference_frequency", dimensions::frequency, Bound::zero_or_more, loop.reference_frequency);
     reader.read_count("missed_deadlines_allowed", 0, loop.missed_deadlines_allowed);
@@ -133,6 +142,7 @@ class DeviceBuilder {
       encoder.rounding = *word == 0 ? quantiser::floor : quantiser::round;
     reader.read_pair("range", due_.position, Bound::any, encoder.range_low, encoder.range_high);
     reader.read("max_speed", due_.velocity, Bound::above_zero, encoder.max_speed);
+    reader.is_within("max_speed", encoder.max_speed, 0, highest_speed, speed_unit());
   }
 
   void read_encoder_step(const SectionReader& reader, encoder_description& encoder) {
@@ -216,6 +226,7 @@ class DeviceBuilder {
     reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
     reader.read("max_torque", due_.force, Bound::above_zero, motor.max_torque);
     reader.read("amplifier_lag", dimensions::time, Bound::zero_or_more, motor.amplifier_lag);
+    reader.is_within("amplifier_lag", motor.amplifier_lag, 0, longest_lag, "s");
     reader.read("saturation_allowed", dimensions::time, Bound::above_zero, motor.saturation_allowed);
   }
 
@@ -236,6 +247,7 @@ class DeviceBuilder {
     reader.read("coil_lag", dimensions::time, Bound::zero_or_more, brake.coil_lag);
     reader.read("slew", dimensions::current_rate, Bound::above_zero, brake.slew);
     reader.read("critical_speed", due_.velocity, Bound::above_zero, brake.critical_speed);
+    reader.is_within("critical_speed", brake.critical_speed, lowest_speed, highest_speed, speed_unit());
     reader.read("safe_damping", due_.damping, Bound::zero_or_more, brake.safe_damping);
     check_brake(reader, brake);
   }

@@ -66,6 +66,15 @@ void SectionReader::read_count(std::string_view key, unsigned least, unsigned& t
     diagnostics_.report<DiagnosticCode::not_a_count>(decl->span, dotted(key), excerpt(decl->text), least);
 }
 
+bool SectionReader::is_within(std::string_view key, double value, double low, double high, const char* unit) const {
+  if (value >= low && value <= high) return true;
+  const ValueDecl* decl = find_single(key);
+  if (decl == nullptr) return true;
+  diagnostics_.report<DiagnosticCode::estimator_setting>(decl->span, name_ + "." + std::string(key), excerpt(decl->text),
+                                                         fmt::format("{} to {} {}", low, high, unit));
+  return false;
+}
+
 std::optional<std::size_t> SectionReader::read_word(std::string_view key, const std::vector<std::string>& words) const {
   const ValueDecl* decl = find_single(key);
   if (decl == nullptr) return std::nullopt;

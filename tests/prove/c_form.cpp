@@ -56,9 +56,16 @@ class CForm {
   void constants() {
     if (!law_.brake_changes()) text_ += fmt::format("static const scalar damping = {};\n", literal(law_.damping));
     text_ += fmt::format("static const scalar threshold = {};\n", literal(law_.flush_threshold));
-    for (const compiler::Coefficient& c : law_.coefficients)
+    for (const compiler::Coefficient& c : law_.coefficients) {
+      if (is_table(c)) {
+        text_ += fmt::format("static const scalar {}[{}] = {{", c.name, c.values.size());
+        for (const double value : c.values) text_ += literal(value) + ", ";
+        text_ += "};\n";
+        continue;
+      }
       for (std::size_t place = 0; place < c.values.size(); ++place)
         text_ += fmt::format("static const scalar {} = {};\n", scalar_name(c, place), literal(c.values[place]));
+    }
   }
 
   void states() {

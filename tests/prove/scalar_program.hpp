@@ -29,6 +29,8 @@ struct ScalarSpelling {
 std::vector<ScalarAssignment> scalar_program(const compiler::UpdateLaw& law, const std::vector<compiler::Statement>& program,
                                              const ScalarSpelling& spelling);
 
+bool is_table(const compiler::Coefficient& coefficient);  // which `pick` reads by place, in brackets
+
 bool is_straight(const compiler::UpdateLaw& law);  // neither coupled slips nor tunables: the law is all in its programs
 
 }  // namespace dashpot::testing

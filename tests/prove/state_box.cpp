@@ -101,6 +101,12 @@ class Magnitudes {
     return all;
   }
 
+  static double largest(const std::vector<double>& table) {
+    double most = 0;
+    for (const double value : table) most = std::max(most, std::abs(value));
+    return most;
+  }
+
   Affine product(const compiler::Expression& e, std::size_t place) const {
     const compiler::Expression& left = law_.expressions[e.left];
     if (left.operation != Operation::constant) return {{}, magnitude(of(e.left, place)) * magnitude(of(e.right, place))};
@@ -120,6 +126,7 @@ class Magnitudes {
       case Operation::flush: return of(e.left, place);
       case Operation::clamp: return {{}, std::min(size(e.left), size(e.right))};
       case Operation::where: return {{}, std::max(size(e.left), size(e.right))};
+      case Operation::pick: return {{}, largest(law_.coefficients[e.left].values)};
       case Operation::sum: break;
     }
     Affine all;

@@ -17,9 +17,10 @@ double error_bound(ModeForm form, double loss, double roundoff) {
 }
 
 ModeForm cheapest_form(double smallest_loss, ScalarType scalar) {
-  const ModeForm plain = scalar == ScalarType::float64 ? ModeForm::product : ModeForm::delta;
   const double tolerated = scalar == ScalarType::float64 ? 1e-12 : 1e-3;
-  return error_bound(plain, smallest_loss, unit_roundoff(scalar)) <= tolerated ? plain : ModeForm::compensated;
+  const auto is_tolerable = [&](ModeForm form) { return error_bound(form, smallest_loss, unit_roundoff(scalar)) <= tolerated; };
+  if (scalar == ScalarType::float64 && is_tolerable(ModeForm::product)) return ModeForm::product;
+  return is_tolerable(ModeForm::delta) ? ModeForm::delta : ModeForm::compensated;
 }
 
 double flush_threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }

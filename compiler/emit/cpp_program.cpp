@@ -67,7 +67,8 @@ class CppPrinter {
   void put_alias_before(std::vector<std::string>& lines, const std::vector<std::string>& more = {}) const {
     const auto uses_vectors = [](const std::string& line) { return line.find("vector::") != line.npos; };
     if (std::any_of(lines.begin(), lines.end(), uses_vectors) || std::any_of(more.begin(), more.end(), uses_vectors))
-      lines.insert(lines.begin(), fmt::format("using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, {}>>;", law_.lanes));
+      lines.insert(lines.begin(), fmt::format("using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, {}>{}>;", law_.lanes,
+                                                    law_.register_bytes > 0 ? fmt::format(", {}", law_.register_bytes) : ""));
   }
 
   std::vector<std::string> constants() const {

@@ -28,6 +28,9 @@ CppStatements::CppStatements(const UpdateLaw& law, const Network& network, Timin
 std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& program) {
   std::vector<std::string> lines;
   summed_.clear();
+  assigned_.clear();
+  hoisted_.clear();
+  for (const Statement& statement : program) assigned_.insert(statement.target);
   for (const Statement& statement : program)
     if (target(statement).size == 1) find_sums(statement.value);
   for (std::size_t i = 0; i < program.size();) {
@@ -72,8 +75,9 @@ void CppStatements::print_loop(const std::vector<Statement>& program, std::size_
     const Variable& vector = target(statement);
     if (outlives_loop(vector)) lines.push_back(fmt::format("scalar {}[{}];", vector.name, padded(vector.size)));
     if (summed_.count(statement.target) != 0)
-      lines.push_back(fmt::format("dashpot::partial_sums<scalar, {}> {};", law_.lanes, lane(vector)));
+      lines.push_back(fmt::format("dashpot::partial_sums<vector, {}> {};", law_.lanes, lane(vector)));
   }
+  for (const Statement& statement : body) hoist_scalars(statement.value, lines);
   lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", padded(target(body.front()).size), law_.lanes));
   lines.push_back("  DASHPOT_UNROLL");
   lines.push_back(fmt::format("  for (int j = i; j < i + {}; j += vector::width) {{", law_.lanes));
@@ -93,6 +97,21 @@ void CppStatements::print_loop(const std::vector<Statement>& program, std::size_
 
 // Partial sums; called after their vector where a function has several.
 std::string CppStatements::lane(const Variable& vector) const { return summed_.size() == 1 ? "lane" : vector.name + "_lane"; }
+
+// A scalar state would be read again in each round: what a round stores might be it, for all that a compiler knows.
+void CppStatements::hoist_scalars(ExpressionId id, std::vector<std::string>& lines) {
+  const Expression& e = law_.expressions[id];
+  if (e.operation == Operation::constant || e.operation == Operation::sum) return;
+  if (e.operation == Operation::read) {
+    const Variable& variable = law_.variables[e.left];
+    const bool is_steady = variable.role == Role::state && variable.size == 1 && assigned_.count(e.left) == 0;
+    if (is_steady && hoisted_.insert(e.left).second) lines.push_back(fmt::format("const vector {} = {};", variable.name, scalar_name(variable)));
+    return;
+  }
+  hoist_scalars(e.left, lines);
+  if (e.operation == Operation::where) hoist_scalars(e.condition, lines);
+  if (e.operation != Operation::flush) hoist_scalars(e.right, lines);
+}
 
 void CppStatements::find_sums(ExpressionId id) {
   const Expression& e = law_.expressions[id];
@@ -163,7 +182,10 @@ std::string CppStatements::expression(ExpressionId id, std::size_t place) {
 
 std::string CppStatements::rolled_expression(ExpressionId id) {
   Spelling spelling;
-  spelling.variable = [this](const Variable& variable) { return place_name(variable, 0); };
+  spelling.variable = [this](const Variable& variable) {
+    const auto id_of = static_cast<VariableId>(&variable - law_.variables.data());
+    return hoisted_.count(id_of) != 0 ? variable.name : place_name(variable, 0);
+  };
   spelling.coefficient = [this](const Coefficient& coefficient) {
     used_coefficients_.insert(&coefficient);
     return coefficient.element_names.empty() ? coefficient.name : fmt::format("vector::at({}, j)", coefficient.name);

@@ -39,6 +39,7 @@ class CppStatements {
   void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last, std::vector<std::string>& lines);
   std::string lane(const Variable& vector) const;
   void find_sums(ExpressionId id);
+  void hoist_scalars(ExpressionId id, std::vector<std::string>& lines);
   void find_vectors(ExpressionId id);
   bool outlives_loop(const Variable& variable) const;
   bool is_array(const Variable& vector) const;
@@ -55,6 +56,7 @@ class CppStatements {
   bool uses_flush_ = false;
   std::set<const Coefficient*> used_coefficients_;
   std::set<VariableId> summed_;  // of the program at hand
+  std::set<VariableId> assigned_, hoisted_;  // likewise
   std::set<const Variable*> outliving_;
 };
 

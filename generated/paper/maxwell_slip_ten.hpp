@@ -61,11 +61,11 @@ class maxwell_slip_ten {
   // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
   // non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
-    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>>;
+    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>, 16>;
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
     scalar Y1_slip[16];
-    dashpot::partial_sums<scalar, 8> lane;
+    dashpot::partial_sums<vector, 8> lane;
     for (int i = 0; i < 16; i += 8)
       DASHPOT_UNROLL
       for (int j = i; j < i + 8; j += vector::width) {
@@ -95,7 +95,7 @@ class maxwell_slip_ten {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>>;
+    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>, 16>;
     for (int i = 0; i < 16; i += 8)
       DASHPOT_UNROLL
       for (int j = i; j < i + 8; j += vector::width) {
@@ -117,8 +117,8 @@ class maxwell_slip_ten {
 
   // In the springs after the last update() [J].
   scalar stored_energy() const noexcept {
-    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>>;
-    dashpot::partial_sums<scalar, 8> lane;
+    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>, 16>;
+    dashpot::partial_sums<vector, 8> lane;
     for (int i = 0; i < 16; i += 8)
       DASHPOT_UNROLL
       for (int j = i; j < i + 8; j += vector::width) {

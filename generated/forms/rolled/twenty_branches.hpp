@@ -77,15 +77,16 @@ class twenty_branches {
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>>;
-    dashpot::partial_sums<scalar, 8> lane;
+    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>, 16>;
+    dashpot::partial_sums<vector, 8> lane;
+    const vector sampled_position_change = sampled_position_change_;
     for (int i = 0; i < 24; i += 8)
       DASHPOT_UNROLL
       for (int j = i; j < i + 8; j += vector::width) {
         // F ← a (F + c Δu)
         vector::put(mode_force_, j, vector::flush_below(threshold,
             vector::at(mode_decay, j) * vector::at(mode_force_, j) +
-            vector::at(mode_gain, j) * sampled_position_change_));
+            vector::at(mode_gain, j) * sampled_position_change));
         lane.add(j - i, vector::at(mode_force_, j));
       }
     // S = Σ a_i F_i
@@ -105,8 +106,8 @@ class twenty_branches {
 
   // In the springs after the last update() [J].
   scalar stored_energy() const noexcept {
-    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>>;
-    dashpot::partial_sums<scalar, 8> lane;
+    using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, 8>, 16>;
+    dashpot::partial_sums<vector, 8> lane;
     for (int i = 0; i < 24; i += 8)
       DASHPOT_UNROLL
       for (int j = i; j < i + 8; j += vector::width) {

@@ -34,27 +34,32 @@ inline constexpr int vector_width = register_bytes / static_cast<int>(sizeof(Sca
                                         : (register_bytes > 0 ? register_bytes / static_cast<int>(sizeof(Scalar)) : 1);
 
 #if defined(__GNUC__)
-template <class Scalar, int count>
+template <class Scalar, int count, unsigned alignment>
 struct packed {
   typedef Scalar type __attribute__((vector_size(sizeof(Scalar) * static_cast<unsigned>(count))));
   typedef Scalar in_memory
-      __attribute__((vector_size(sizeof(Scalar) * static_cast<unsigned>(count)), aligned(alignof(Scalar)), may_alias));
+      __attribute__((vector_size(sizeof(Scalar) * static_cast<unsigned>(count)), aligned(alignment), may_alias));
 };
 #else
-template <class Scalar, int count>
+template <class Scalar, int count, unsigned alignment>
 struct packed;
 #endif
 
-template <class Scalar>
-struct packed<Scalar, 1> {
+template <class Scalar, unsigned alignment>
+struct packed<Scalar, 1, alignment> {
   using type = Scalar;
   using in_memory = Scalar;
 };
 
-template <class Scalar, int count>
+// `alignment`: of what at() and put() are given [bytes]; from 16 on, SSE2 reads memory within an operation.
+template <class Scalar, int count, unsigned alignment = alignof(Scalar)>
 class vector {
+  using in_memory =
+      typename packed<Scalar, count, (alignment < sizeof(Scalar) * static_cast<unsigned>(count) ? alignment : sizeof(Scalar) * static_cast<unsigned>(count))>::in_memory;
+
  public:
-  using packed_type = typename packed<Scalar, count>::type;
+  using packed_type = typename packed<Scalar, count, alignof(Scalar)>::type;
+  using scalar = Scalar;
   static constexpr int width = count;
 
   vector() noexcept : value_{} {}
@@ -63,11 +68,11 @@ class vector {
   // The `width` values from place i on.
   template <class Index>
   static vector at(const Scalar* values, Index i) noexcept {
-    return vector(packed_tag(), *reinterpret_cast<const typename packed<Scalar, count>::in_memory*>(values + i));
+    return vector(packed_tag(), *reinterpret_cast<const in_memory*>(values + i));
   }
   template <class Index>
   static void put(Scalar* values, Index i, vector v) noexcept {
-    *reinterpret_cast<typename packed<Scalar, count>::in_memory*>(values + i) = v.value_;
+    *reinterpret_cast<in_memory*>(values + i) = v.value_;
   }
 
   friend vector operator+(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ + b.value_); }
@@ -135,20 +140,20 @@ class vector {
 
 // A sum in `lanes` partial ones: place i goes to lane i mod `lanes`; at last the second half of the lanes is added to the
 // first until one is left.
-template <class Scalar, int lanes>
+template <class part, int lanes>
 class partial_sums {
  public:
-  using part = vector<Scalar, vector_width<Scalar, lanes>>;
+  using scalar = typename part::scalar;
 
   // The lanes from `first` on.
   void add(int first, part values) noexcept { parts_[first / part::width] = parts_[first / part::width] + values; }
 
-  Scalar total() noexcept {
+  scalar total() noexcept {
     DASHPOT_UNROLL
     for (int half = lanes / part::width / 2; half > 0; half /= 2)
       DASHPOT_UNROLL
       for (int i = 0; i < half; ++i) parts_[i] = parts_[i] + parts_[i + half];
-    Scalar last[part::width];
+    scalar last[part::width];
     DASHPOT_UNROLL
     for (int i = 0; i < part::width; ++i) last[i] = parts_[0][i];
     DASHPOT_UNROLL

@@ -79,6 +79,7 @@ void expect_bounded(double relaxation_rate, ScalarType scalar, ModeForm form) {
 // Fails if forces in double are worse than the banner of the emitted code says, at any pace of relaxation.
 TEST(Rounding, double_keeps_its_bound) {
   for (const double rate : {1.0, 30.0, 700.0, 5000.0}) expect_bounded<double>(rate, ScalarType::float64, ModeForm::product);
+  expect_bounded<double>(0.2, ScalarType::float64, ModeForm::delta);
   for (const double rate : {1e-3, 0.1}) expect_bounded<double>(rate, ScalarType::float64, ModeForm::compensated);
 }
 

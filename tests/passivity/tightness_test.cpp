@@ -5,11 +5,10 @@
 #include <cmath>
 #include <complex>
 #include <dashpot/estimators/any_estimator.hpp>
-#include <dashpot/estimators/frequency_response.hpp>
-#include <deque>
+
+#include <Eigen/Dense>
 
 #include "certified_loop.hpp"
-#include "discretise/evaluate.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -17,40 +16,44 @@ namespace {
 using namespace dashpot::compiler;
 using Complex = std::complex<double>;
 
-// Arm and hand in one: m ü + b u̇ + k u = −f, f held over a period. A spring and a mass are a passive hand.
+// Arm and hand in one: m ü + b u̇ + k u = −f, where f follows what is held over a period through the amplifier's lag,
+// τ ḟ = c − f. A spring and a mass are a passive hand.
 struct Plant {
   double mass;
   double damping;
   double stiffness;
+  double lag;
 };
 
-struct PlantStep {
-  double to_position[3], to_velocity[3];  // of position, velocity and held force
-};
+// What position, velocity, force and the held command of one sample leave of themselves at the next.
+using Step = Eigen::Matrix4d;
 
-// The matrix exponential of the motion over a period, by squaring a Taylor series of a 2⁻¹² of it.
-PlantStep exact_step(const Plant& plant, double period) {
-  const double h = period / 4096, rates[3][3] = {{0, h, 0}, {-plant.stiffness / plant.mass * h, -plant.damping / plant.mass * h, -h / plant.mass}, {0, 0, 0}};
-  double power[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, sum[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const auto multiply = [](const double (&x)[3][3], const double (&y)[3][3], double scale, double (&out)[3][3]) {
-    double product[3][3];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) product[i][j] = scale * (x[i][0] * y[0][j] + x[i][1] * y[1][j] + x[i][2] * y[2][j]);
-    std::copy(&product[0][0], &product[0][0] + 9, &out[0][0]);
-  };
-  for (int n = 1; n <= 12; ++n) {
-    multiply(power, rates, 1.0 / n, power);
-    for (int i = 0; i < 9; ++i) (&sum[0][0])[i] += (&power[0][0])[i];
-  }
-  for (int n = 0; n < 12; ++n) multiply(sum, sum, 1, sum);
-  return {{sum[0][0], sum[0][1], sum[0][2]}, {sum[1][0], sum[1][1], sum[1][2]}};
+// The matrix exponential of the motion over a period, by squaring a Taylor series of a 2⁻¹² of it. Without lag the force is
+// the command.
+Step exact_step(const Plant& plant, double period) {
+  Step rates = Step::Zero();
+  rates(0, 1) = 1;
+  rates(1, 0) = -plant.stiffness / plant.mass;
+  rates(1, 1) = -plant.damping / plant.mass;
+  rates(1, plant.lag > 0 ? 2 : 3) = -1 / plant.mass;
+  if (plant.lag > 0) rates(2, 2) = -1 / plant.lag, rates(2, 3) = 1 / plant.lag;
+  Step power = Step::Identity(), sum = Step::Identity();
+  for (int n = 1; n <= 12; ++n) sum += power = power * rates * (period / 4096 / n);
+  for (int n = 0; n < 12; ++n) sum = sum * sum;
+  return sum;
 }
 
-// From held force to position sample, at z.
+// From held command to position sample, at z; the command opposes, so that the loop is 1 + H P.
 Complex plant_response(const Plant& plant, double period, Complex z) {
-  const PlantStep s = exact_step(plant, period);
-  const Complex a = z - s.to_position[0], d = z - s.to_velocity[1];
-  return (d * s.to_position[2] + s.to_position[1] * s.to_velocity[2]) / (a * d - s.to_position[1] * s.to_velocity[0]);
+  const Step step = exact_step(plant, period);
+  const Eigen::Matrix3cd matrix = z * Eigen::Matrix3cd::Identity() - step.topLeftCorner<3, 3>().cast<Complex>();
+  return -matrix.partialPivLu().solve(step.topRightCorner<3, 1>().cast<Complex>())(0);
+}
+
+Complex polynomial(const double* coefficients, unsigned order, Complex w) {
+  Complex sum = 0;
+  for (unsigned i = order + 1; i-- > 0;) sum = sum * w + coefficients[i];
+  return sum;
 }
 
 Complex motor_response(const MotorConstants& motor, const SampledLoop& loop, Complex z) {
@@ -64,44 +67,39 @@ Complex motor_response(const MotorConstants& motor, const SampledLoop& loop, Com
   if (motor.follows_estimate()) {
     const any_estimator<double> estimator(loop.velocity, loop.sample_period, loop.joint_encoder_step);
     const auto transfer = estimator.transfer();
-    estimate = detail::at_angle(transfer.numerator, transfer.numerator_order, std::arg(z)) /
-               detail::at_angle(transfer.denominator, transfer.denominator_order, std::arg(z));
+    estimate = polynomial(transfer.numerator, transfer.numerator_order, w) /
+               polynomial(transfer.denominator, transfer.denominator_order, w);
   }
   return std::pow(w, int(loop.delay_samples)) * (motor.static_stiffness + (1.0 - w) * position + estimate * velocity);
 }
 
-// Whether the loop grows from a small displacement.
-bool grows(const CompiledCase& one, const Plant& plant) {
-  const SampledLoop& loop = one.compilation->certificate.loop;
-  const PlantStep step = exact_step(plant, loop.sample_period);
-  any_estimator<double> estimator(loop.velocity, loop.sample_period, loop.joint_encoder_step);
-  Evaluation<double> law(one.compilation->law);
-  law.reset(0);
-  estimator.reset(0);
-  std::deque<double> line(loop.delay_samples, 0.0);
-  constexpr int samples = 60000;
-  double u = 1e-3, v = 0, early = 0, late = 0;
-  for (int k = 0; k < samples && std::abs(u) < 1e6; ++k) {
-    device_sample sample;
-    sample.position = u;
-    line.push_back(law.step(u, estimator.update(sample)).force);
-    const double force = line.front(), before = u;
-    line.pop_front();
-    u = step.to_position[0] * before + step.to_position[1] * v + step.to_position[2] * force;
-    v = step.to_velocity[0] * before + step.to_velocity[1] * v + step.to_velocity[2] * force;
-    if (k >= samples / 5 && k < 2 * samples / 5) early = std::max(early, std::abs(u));
-    if (k >= 4 * samples / 5) late = std::max(late, std::abs(u));
+// Whether the loop has a root outside the unit circle near `angle`: H + 1/P = 0, by Newton's method. A run
+// would take millions of samples to show it.
+bool has_growing_root(const MotorConstants& motor, const SampledLoop& loop, const Plant& plant, double angle) {
+  const auto residue = [&](Complex z) {
+    return motor_response(motor, loop, z) + 1.0 / plant_response(plant, loop.sample_period, z);
+  };
+  Complex z = std::polar(1.0, angle), change = 1;
+  for (int i = 0; i < 40 && std::abs(change) > 1e-13; ++i) {
+    const Complex here = residue(z), step = 1e-6 * (z - 1.0);
+    change = here * 2.0 * step / (residue(z + step) - residue(z - step));
+    if (!(std::abs(change) < angle)) return false;
+    z -= change;
   }
-  return std::abs(u) >= 1e6 || late > early;
+  const bool is_root = std::abs(residue(z) / motor_response(motor, loop, z)) < 1e-6;
+  return is_root && std::arg(z) > angle / 2 && std::abs(z) - 1 > 1e-11;
 }
 
-// The damping and spring with which the loop just oscillates at `angle` for ever, by Newton's method on 1 + H P = 0.
-std::optional<Plant> marginal(const Complex& motor, double period, double angle, double mass, Plant guess) {
+// The damping and spring with which the loop just oscillates at `angle` for ever, by Newton's method on
+// H + 1/P = 0, which is nearly linear in both.
+std::optional<Plant> marginal(const Complex& motor, double period, double angle, const Plant& guess) {
   const Complex z = std::polar(1.0, angle);
-  const auto residue = [&](double b, double k) { return 1.0 / motor + plant_response({mass, b, k}, period, z); };
+  const auto residue = [&](double b, double k) {
+    return motor + 1.0 / plant_response({guess.mass, b, k, guess.lag}, period, z);
+  };
   double b = guess.damping, k = guess.stiffness;
   for (int i = 0; i < 40; ++i) {
-    const double db = 1e-6 * b, dk = 1e-6 * (std::abs(k) + 1e-3 * mass / (period * period));
+    const double db = 1e-6 * b, dk = 1e-6 * (std::abs(k) + 1e-3 * guess.mass / (period * period));
     const Complex r = residue(b, k), rb = (residue(b + db, k) - r) / db, rk = (residue(b, k + dk) - r) / dk;
     const double det = rb.real() * rk.imag() - rb.imag() * rk.real();
     if (det == 0) return std::nullopt;
@@ -109,52 +107,80 @@ std::optional<Plant> marginal(const Complex& motor, double period, double angle,
     k -= (rb.real() * r.imag() - rb.imag() * r.real()) / det;
     if (!(b > 0) || !std::isfinite(k)) return std::nullopt;
   }
-  if (k < 0 || std::abs(residue(b, k) * motor) > 1e-8) return std::nullopt;
-  return Plant{mass, b, k};
+  if (k < 0 || std::abs(residue(b, k) / motor) > 1e-8) return std::nullopt;
+  return Plant{guess.mass, b, k, guess.lag};
+}
+
+// Where hands are tuned to: at and around the angle that binds; where that is rest, at slow ones that a run has time for.
+std::vector<double> angles_around(const Certificate& certificate) {
+  const double pi = 3.14159265358979323846;
+  const double bound = 2 * pi * certificate.bound.frequency * certificate.loop.sample_period;
+  const double binding = certificate.bound.proof == Proof::hold ? pi : bound;
+  std::vector<double> angles;
+  for (const double detune : {1.0, 0.999, 0.97, 0.9, 0.75, 1.03, 1.1, 1.3})
+    if (binding > 0.002 && binding * detune <= pi) angles.push_back(binding * detune);
+  if (binding < 0.02) angles.insert(angles.end(), {0.06, 0.02, 0.007, 0.003, 0.001, 3e-4, 1e-4});
+  return angles;
+}
+
+// From heavy to light against the damping over a period; and those that swing at the angle on the motor's own stiffness,
+// with little or no spring in the hand.
+std::vector<double> masses(double damped, double swinging) {
+  std::vector<double> all;
+  if (swinging > 0)
+    for (const double times : {1.0001, 1.01, 1.2, 3.0}) all.push_back(times * swinging);
+  for (const double share : {1e-4, 0.003, 0.02, 0.1, 0.5, 3.0, 30.0, 300.0}) all.push_back(damped / share);
+  return all;
 }
 
 // A hand that makes the loop grow while the tool's physical damping is `damping`.
 bool some_hand_destabilises(const CompiledCase& one, double damping) {
   const Certificate& certificate = one.compilation->certificate;
   const MotorConstants motor = motor_constants(one.compilation->law).value();
-  const double period = certificate.loop.sample_period;
-  const double binding = std::max(2 * 3.14159265358979 * certificate.bound.frequency * period, 1e-6);
-  const double around = certificate.bound.proof == Proof::hold ? 3.14159265358979 : binding;
-  for (const double share : {1e-4, 0.003, 0.02, 0.1, 0.5, 3.0, 30.0, 300.0})
-    for (const double detune : {1.0, 0.999, 0.97, 0.9, 0.75}) {
-      const double angle = around * detune, mass = damping * period / share, omega = angle / period;
-      const Complex H = motor_response(motor, certificate.loop, std::polar(1.0, angle));
-      const Complex needed = (1.0 - std::polar(1.0, -angle)) * H * period / std::norm(1.0 - std::polar(1.0, -angle));
-      const Plant guess{mass, certificate.bound.needed, std::max(mass * omega * omega - needed.imag() * omega, 0.0)};
-      const std::optional<Plant> edge = marginal(H, period, angle, mass, guess);
-      if (edge && edge->damping > damping && grows(one, {mass, damping, edge->stiffness})) return true;
-      if (share >= 0.5 && grows(one, {mass, damping, 0})) return true;
+  const double period = certificate.loop.sample_period, lag = certificate.loop.amplifier_lag;
+  for (const double angle : angles_around(certificate)) {
+    const Complex H = motor_response(motor, certificate.loop, std::polar(1.0, angle));
+    const Complex needed = (1.0 - std::polar(1.0, -angle)) * H * period / std::norm(1.0 - std::polar(1.0, -angle));
+    for (const double mass : masses(damping * period, needed.imag() * period / angle)) {
+      const double tuned = mass * angle * angle / (period * period) - needed.imag() * angle / period;
+      const Plant guess{mass, certificate.bound.needed, std::max(tuned, 0.0), lag};
+      const std::optional<Plant> edge = marginal(H, period, angle, guess);
+      const double stiffness = edge ? edge->stiffness : 0;
+      if (edge && has_growing_root(motor, certificate.loop, {mass, damping, stiffness, lag}, angle)) return true;
+      if (has_growing_root(motor, certificate.loop, {mass, damping, 0, lag}, angle)) return true;
     }
+  }
   return false;
 }
 
-// The certificate would ask for damping that no passive hand makes necessary. Linear laws without lag, where the bound
-// is met by linear hands, whose minimum is more than a hundredth of b.
-TEST(Tightness, NineTenthsOfTheMinimumAreTooLittle) {
+// Linear laws and estimators whose minimum is more than a hundredth of b, with delays and amplifier lags; how many of a
+// hundred some hand destabilises with a share of the minimum.
+int destabilised_with(double share) {
   int eligible = 0, destabilised = 0;
-  for (std::uint64_t seed = 1; eligible < 30; ++seed) {
-    Random random(seed);
+  for (std::uint64_t seed = 1; eligible < 100; ++seed) {
     CompiledCase one = random_case(seed);
     if (!one.compilation) continue;
     Certificate& certificate = one.compilation->certificate;
     certificate.loop.jitter = 0;
-    if (certificate.bound.proof == Proof::none || certificate.loop.amplifier_lag > 0) continue;
-    if (certificate.loop.velocity.estimator == estimator_kind::foaw) continue;
-    certificate.bound = passivity_bound(motor_constants(one.compilation->law), certificate.loop);
+    const std::optional<MotorConstants> motor = motor_constants(one.compilation->law);
+    if (!motor || certificate.loop.velocity.estimator == estimator_kind::foaw) continue;
+    certificate.bound = passivity_bound(motor, certificate.loop);
     const double b = one.compilation->decomposition.choice().damping;
     const double minimum = missing_damping(certificate.bound, certificate.loop, b);
     if (!(minimum > 0.01 * b) || !std::isfinite(minimum)) continue;
     ++eligible;
-    const double damping = assured_damping(certificate.loop, Rational(b) + Rational(0.9 * minimum)).convert_to<double>();
-    destabilised += some_hand_destabilises(one, damping) ? 1 : 0;
+    const Rational brake = Rational(b) + Rational(share * minimum);
+    destabilised += some_hand_destabilises(one, assured_damping(certificate.loop, brake).convert_to<double>()) ? 1 : 0;
   }
-  EXPECT_GE(destabilised, 27);
+  return destabilised;
 }
+
+// The certificate would ask for damping that no passive hand makes necessary.
+TEST(Tightness, NineTenthsOfTheMinimumAreTooLittle) { EXPECT_GE(destabilised_with(0.9), 90); }
+
+// The hands above would be none, or what they do a mistake of the test: with the minimum, and a thousandth of it, no hand
+// makes a loop grow.
+TEST(Tightness, TheMinimumIsEnough) { EXPECT_EQ(destabilised_with(1.001), 0); }
 
 }  // namespace
 }  // namespace dashpot::testing

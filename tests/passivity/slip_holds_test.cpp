@@ -164,5 +164,25 @@ TEST(SlipHolds, GiveOutEnergyFarBelowTheBound) {
   EXPECT_GT(gained, certified / 2);
 }
 
+// Laws with slips would give out energy in closed loop, held by passive hands: the brake at either end of its tolerance,
+// with jitter where the proof covers it. Without a coil's lag: a certificate speaks of a brake that is on.
+TEST(SlipHolds, InPassiveHandsGiveOutNoEnergy) {
+  int certified = 0;
+  for (std::uint64_t seed = 1; certified < cases() / 3; ++seed) {
+    SCOPED_TRACE(seed);
+    const CompiledCase one = slip_case(seed);
+    if (!one.compilation || !one.compilation->certificate.certified) continue;
+    if (one.compilation->network.contact || one.device.description.brake.coil_lag > 0) continue;
+    ++certified;
+    Random random(seed + 3'000'000);
+    for (const simulated::brake_gain gain : {simulated::brake_gain::lowest, simulated::brake_gain::highest}) {
+      Conditions conditions;
+      conditions.gain = gain;
+      const RunOfLoop run = run_loop(one, random, conditions, 1500);
+      EXPECT_GE(run.least_energy, -1e-9 * run.largest_exchange);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace dashpot::testing

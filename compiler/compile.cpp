@@ -39,13 +39,21 @@ bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diag
 
 }  // namespace
 
-std::optional<Compilation> compile(const SourceFile& source, const Choices& asked, const std::optional<Device>& device,
+std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics) {
+  StageTimes unseen;
+  return compile(source, choices, device, diagnostics, unseen);
+}
+
+std::optional<Compilation> compile(const SourceFile& source, const Choices& asked, const std::optional<Device>& device,
+                                   Diagnostics& diagnostics, StageTimes& times) {
+  times.enter("front end");
   std::optional<Network> network = check(source, diagnostics);
   Choices choices = asked;
   if (!network || !settle_tunables(*network, choices, diagnostics)) return std::nullopt;
   const Network present = at_default(*network);
   if (!is_within_reach(present, diagnostics)) return std::nullopt;
+  times.enter("normal form");
   std::optional<NormalForm> form = closed_normal_form(present, diagnostics);
   if (!form) return std::nullopt;
   Compilation result;
@@ -54,6 +62,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
   result.rate = choices.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
   result.form = std::move(*form);
   warn_about_validity(result.form.linear, result.network, diagnostics);
+  times.enter("decomposition");
   const Device* const on = device ? &*device : nullptr;
   const bool is_tunable = has_tunables(result.network);
   std::optional<Decomposition> decomposition = decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
@@ -62,6 +71,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
   const PortDevice port = device ? PortDevice::of(*device, result.network, diagnostics).value() : PortDevice::ideal();
   if (!is_tunable) settle_choice(result, choices, port);
   warn_about_choice(result.decomposition, result.form.linear, diagnostics);
+  times.enter("discretisation");
   if (is_tunable) {
     result.decomposition.reason = "position driven, so that a change of parameters injects no energy";
     std::optional<UpdateLaw> law =
@@ -72,6 +82,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
     result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
+  times.enter("certificate");
   const SampledLoop loop = sampled_loop(port, 1 / result.rate);
   result.certificate = certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;

@@ -6,6 +6,7 @@
 #include "decompose/choices.hpp"
 #include "emit/emission.hpp"
 #include "source/diagnostic.hpp"
+#include "stage_times.hpp"
 
 namespace dashpot::compiler {
 
@@ -13,6 +14,10 @@ namespace dashpot::compiler {
 // refuses; all that can be found is reported.
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics);
+
+// The same, and what each stage takes.
+std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
+                                   Diagnostics& diagnostics, StageTimes& times);
 
 // What the sampled loop needs of every candidate, not only of the chosen one: for those who look at them.
 void weigh_all_candidates(Compilation& compilation, const Choices& choices);

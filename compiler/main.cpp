@@ -117,6 +117,9 @@ void describe(CLI::App& app, CommandLine& line) {
   compile->add_option("--certificate", options.certificate, "Also write what is proved, with all that is needed to check it")
       ->option_text("FILE.json");
   compile->add_option("--depfile", options.depfile, "Also write a makefile of what the output depends on")->option_text("FILE");
+  compile->add_option("--timings", options.timings, "Say on standard error what each stage took")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->option_text("text|json");
   compile->add_option("--print", options.print, "Print a stage and write nothing")
       ->check(CLI::IsMember({"network", "linear", "decomposition", "law", "certificate"}))
       ->option_text("network|linear|decomposition|law|certificate");

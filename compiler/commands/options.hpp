@@ -32,6 +32,7 @@ struct Options {
   std::optional<std::string> output;  // folder of compile, file of simulate, log of run
   std::string input;                  // simulate: the motion
   std::optional<std::string> print;   // compile: the stage to show instead of writing
+  std::optional<std::string> timings;  // compile: "text" or "json"
   std::optional<std::string> depfile;
   std::optional<std::string> certificate;  // compile: to write; verify: to read
   std::string header;             // verify

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <iostream>
 #include <utility>
 
 #include "commands/commands.hpp"
@@ -66,9 +67,8 @@ void report_same_names(const std::vector<OutputFile>& files, Diagnostics& diagno
       if (files[i].name == files[j].name) diagnostics.report<DiagnosticCode::same_output>({}, files[i].name);
 }
 
-}  // namespace
-
-ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& diagnostics, StageTimes& times) {
+  times.enter("files");
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   std::vector<OutputFile> outputs;
@@ -80,7 +80,8 @@ ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& 
   for (const std::string& path : options.networks) {
     const SourceFile* file = files.open(path, diagnostics);
     const std::optional<Compilation> compilation =
-        file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
+        file ? compile(*file, options.choices, device.device, diagnostics, times) : std::nullopt;
+    times.enter("emission");
     if (!compilation) continue;
     if (options.print) {
       shown += stage_text(*compilation, *options.print);
@@ -92,12 +93,23 @@ ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& 
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);
     }
   }
+  times.enter("files");
   report_same_names(outputs, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.print) return write_standard_output(shown, diagnostics);
   std::vector<OutputFile> all = placed(std::move(outputs), options);
   if (options.certificate) all.push_back({*options.certificate, certificate});
   return write_files("", all, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+}  // namespace
+
+ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  StageTimes times;
+  const ExitStatus status = compile_all(options, files, diagnostics, times);
+  times.end();
+  if (options.timings) std::cerr << (*options.timings == "json" ? times.to_json() : times.to_text());
+  return status;
 }
 
 }  // namespace dashpot::compiler

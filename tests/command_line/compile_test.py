@@ -1,4 +1,5 @@
 """What `dashpot compile` writes, and when it writes nothing."""
+import json
 import os
 import subprocess
 import unittest
@@ -73,6 +74,19 @@ class Files(CommandTest):
                            (SOURCE / "networks/tunable/standard_solid_tunable.json", "step-of-tunables")]:
             refused = self.refused("compile", file, "--batch", code=code)
             self.assertIn("without --batch one object of the class for each point", refused.stderr)
+
+    def test_the_timings(self):
+        """Fails if --timings leaves a stage out, changes what is written, or is printed where output belongs."""
+        stages = ["files", "front end", "normal form", "decomposition", "discretisation", "certificate", "emission", "total"]
+        self.dashpot("compile", "kelvin.json", "maxwell.json", "-o", "untimed")
+        text = self.dashpot("compile", "kelvin.json", "maxwell.json", "--timings", "text", "-o", "timed")
+        self.assertEqual([line[:16].rstrip() for line in text.stderr.splitlines()], stages)
+        self.assertEqual(text.stdout, "")
+        for name in ["kelvin.hpp", "maxwell.hpp"]:
+            self.assertEqual((self.folder / "timed" / name).read_text(), (self.folder / "untimed" / name).read_text())
+        timings = json.loads(self.dashpot("compile", "kelvin.json", "--timings", "json").stderr)["timings"]
+        self.assertEqual(list(timings), stages)
+        self.assertAlmostEqual(timings.pop("total"), sum(timings.values()), delta=1e-12)
 
     def test_the_rate(self):
         """Fails if the period in the code is not that of --rate, or of the device."""

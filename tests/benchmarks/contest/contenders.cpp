@@ -25,28 +25,32 @@ constexpr int lanes = 2;
 #endif
 
 #ifdef DASHPOT_FAUST
+template <class Network>
+double brake_of() {
+  return constants_of<Network>.brake;
+}
+template <>
+double brake_of<two_kelvins>() {
+  return two_kelvins::damping[0];
+}
+template <>
+double brake_of<needle>() {
+  return needle::damping[0];
+}
+
 template <class Process, class Network>
 struct faust_of : faust_law<Process> {
-  faust_of() : faust_law<Process>(constants_of<Network>.brake) {}
+  faust_of() : faust_law<Process>(brake_of<Network>()) {}
 };
 
-template <>
-struct faust_of<faust_two_kelvins, two_kelvins> : faust_law<faust_two_kelvins> {
-  faust_of() : faust_law(two_kelvins::damping[0]) {}
-};
-
-template <>
-struct faust_of<faust_needle, needle> : faust_law<faust_needle> {
-  faust_of() : faust_law(needle::damping[0]) {}
-};
-
-template <class Process, class Network>
+template <class Process, class Blocks, class Network>
 void add_faust(std::vector<contender>& all, const std::string& network) {
-  all.push_back(fused<faust_of<Process, Network>>(network, "Faust"));
+  all.push_back(fused<faust_of<Blocks, Network>>(network, "Faust"));
+  all.push_back(fused<faust_of<Process, Network>>(network, "Faust, one sample"));
 }
-#define ADD_FAUST(process, network_type) add_faust<process, network_type>(all, network)
+#define ADD_FAUST(name, network_type) add_faust<faust_##name, faust_blocks_##name, network_type>(all, network)
 #else
-#define ADD_FAUST(process, network_type) static_cast<void>(0)
+#define ADD_FAUST(name, network_type) static_cast<void>(0)
 #endif
 
 template <class Law>
@@ -68,17 +72,18 @@ void add_fig_5(std::vector<contender>& all, const std::string& network) {
   add_maxwell<fig_5>(all, network);
   all.push_back(fused<hand_fig_5>(network, "by hand, one pair"));
   all.push_back(fused<hand_fig_5_scalar>(network, "by hand, scalar"));
-  ADD_FAUST(faust_fig_5, fig_5);
+  ADD_FAUST(fig_5, fig_5);
   add_ours<generated::fig_5>(all, network);
 }
 
 void add_kelvin(std::vector<contender>& all, const std::string& network) {
   all.push_back(fused<printed_kelvin>(network, "as printed"));
-  all.push_back(fused<hand_kelvin>(network, "by hand, scalar"));
+  all.push_back(fused<hand_kelvin>(network, "by hand, displacement"));
+  all.push_back(fused<hand_kelvin_forces>(network, "by hand, force"));
   all.push_back(fused<eigen_fixed_kelvin>(network, "Eigen, fixed state space"));
   all.push_back(fused<eigen_dynamic<two_kelvins>>(network, "Eigen, dynamic state space"));
   all.push_back(fused<element_list<two_kelvins>>(network, "virtual element list"));
-  ADD_FAUST(faust_two_kelvins, two_kelvins);
+  ADD_FAUST(two_kelvins, two_kelvins);
   add_ours<generated::two_kelvins>(all, network);
 }
 
@@ -87,22 +92,22 @@ void add_needle(std::vector<contender>& all, const std::string& network) {
   all.push_back(fused<printed_needle>(network, "as printed"));
   all.push_back(fused<hand_needle>(network, "by hand, scalar"));
   all.push_back(fused<element_list<needle>>(network, "virtual element list"));
-  ADD_FAUST(faust_needle, needle);
+  ADD_FAUST(needle, needle);
   add_ours<generated::needle>(all, network);
 }
 
 void add_branches(std::vector<contender>& all) {
   std::string network = "maxwell_8";
   add_maxwell<many_branches<8>>(all, network);
-  ADD_FAUST(faust_branches_8, many_branches<8>);
+  ADD_FAUST(branches_8, many_branches<8>);
   add_ours<generated::branches_8>(all, network);
   network = "maxwell_64";
   add_maxwell<many_branches<64>>(all, network);
-  ADD_FAUST(faust_branches_64, many_branches<64>);
+  ADD_FAUST(branches_64, many_branches<64>);
   add_ours<generated::branches_64>(all, network);
   network = "maxwell_512";
   add_maxwell<many_branches<512>>(all, network);
-  ADD_FAUST(faust_branches_512, many_branches<512>);
+  ADD_FAUST(branches_512, many_branches<512>);
   add_ours<generated::branches_512>(all, network);
 }
 

@@ -1,10 +1,12 @@
-// Faust's C++ of the networks in faust/, one sample at a time. Faust has no way to refuse a sample, so that its inputs are looked at
+// Faust's C++ of the networks in faust/: as it is made by default, for blocks, here of one sample, and as it is made for one sample at
+// a time (-os). Faust has no way to refuse a sample, so that its inputs are looked at
 // beforehand.
 #pragma once
 
 #ifdef DASHPOT_FAUST
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 // What Faust's classes expect around them, and no more of it than they use here.
 #define FAUSTFLOAT double
@@ -22,6 +24,17 @@ struct one_sample_dsp {
   virtual void instanceInit(int) = 0;
 };
 
+struct dsp {
+  virtual ~dsp() = default;
+  virtual void instanceInit(int) = 0;
+};
+
+#include "faust_blocks_branches_512.hpp"
+#include "faust_blocks_branches_64.hpp"
+#include "faust_blocks_branches_8.hpp"
+#include "faust_blocks_fig_5.hpp"
+#include "faust_blocks_needle.hpp"
+#include "faust_blocks_two_kelvins.hpp"
 #include "faust_branches_512.hpp"
 #include "faust_branches_64.hpp"
 #include "faust_branches_8.hpp"
@@ -43,7 +56,12 @@ struct faust_law {
   command<double> step(double position, double velocity) noexcept {
     if (!is_finite(position) || !is_finite(velocity)) return {brake, 0};
     double inputs[2] = {position, velocity}, outputs[2] = {0, 0};
-    process.compute(inputs, outputs, nullptr, nullptr);
+    if constexpr (std::is_base_of_v<one_sample_dsp, Process>) {
+      process.compute(inputs, outputs, nullptr, nullptr);
+    } else {
+      double *input_blocks[2] = {&inputs[0], &inputs[1]}, *output_blocks[2] = {&outputs[0], &outputs[1]};
+      process.compute(1, input_blocks, output_blocks);
+    }
     return process.getNumOutputs() == 2 ? command<double>{outputs[0], outputs[1]} : command<double>{brake, outputs[0]};
   }
 };

@@ -2,8 +2,6 @@
 // no finite number leaves the states alone and gives a motor force of 0.
 #pragma once
 
-#include <limits>
-
 #include <dashpot/command.hpp>
 
 namespace dashpot::contest {
@@ -14,6 +12,6 @@ constexpr double threshold = 6.223015277861142e-61;  // [N], or [m] for states t
 constexpr double awake(double state) noexcept { return state > threshold || state < -threshold ? state : 0; }
 
 // Of a force that is a sum with finite gains other than 0, so that each input that is not finite makes it so as well.
-constexpr bool is_finite(double value) noexcept { return __builtin_fabs(value) <= std::numeric_limits<double>::max(); }
+constexpr bool is_finite(double value) noexcept { return value - value == value - value; }
 
 }  // namespace dashpot::contest

@@ -24,6 +24,21 @@ inline typename vectors<Lanes>::values relaxed(typename vectors<Lanes>::values f
   return values((magnitude > threshold) & bits(decay * force));
 }
 
+// a b + c, in one instruction where there is one: which product is fused decides what waits for what.
+inline double fused(double a, double b, double c) noexcept {
+#ifdef __FMA__
+  return __builtin_fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
+// driven + decay · state, the guard in a branch that is never taken: the sum does not wait for it.
+inline double after(double state, double decay, double driven) noexcept {
+  const double next = driven + decay * state;
+  return __builtin_expect(state > threshold || state < -threshold, true) ? next : driven;
+}
+
 template <class Network, int Lanes>
 class hand_maxwell {
   static constexpr int size = Network::size;
@@ -40,7 +55,7 @@ class hand_maxwell {
 
   // m = S + K0 u + G v
   command<double> output(double position, double velocity) noexcept {
-    const double force = relaxed_force_ + Network::static_stiffness * position + constants_of<Network>.velocity_gain * velocity;
+    const double force = relaxed_force_ + (Network::static_stiffness * position + constants_of<Network>.velocity_gain * velocity);
     is_taken_ = is_finite(force);
     velocity_ = velocity;
     return {constants_of<Network>.brake, is_taken_ ? force : 0};
@@ -89,20 +104,21 @@ class hand_fig_5 {
   values force_ = {};
 };
 
-// The same without vectors.
+// The same without vectors, its sum kept: nothing waits longer than it has to.
 class hand_fig_5_scalar {
  public:
   command<double> step(double position, double velocity) noexcept {
     const auto& k = constants_of<fig_5>;
-    const double force = (first_ + second_) + fig_5::static_stiffness * position + k.velocity_gain * velocity;
+    const double force = sum_ + (fig_5::static_stiffness * position + k.velocity_gain * velocity);
     if (!is_finite(force)) return {k.brake, 0};
-    first_ = k.decay[0] * awake(first_) + k.drive[0] * velocity;
-    second_ = k.decay[1] * awake(second_) + k.drive[1] * velocity;
+    first_ = after(first_, k.decay[0], k.drive[0] * velocity);
+    second_ = after(second_, k.decay[1], k.drive[1] * velocity);
+    sum_ = first_ + second_;
     return {k.brake, force};
   }
 
  private:
-  double first_ = 0, second_ = 0;
+  double sum_ = 0, first_ = 0, second_ = 0;
 };
 
 // (10) and (11) normalised: x ← α u + β v + γ x,  m = A u + B v + C x. The state x is a displacement: in a network that has crept
@@ -119,14 +135,39 @@ class hand_kelvin {
     constexpr double by_position = stiffness - (stiffness + per_step) * alpha;
     constexpr double by_velocity = -(stiffness + per_step) * beta;
     constexpr double by_state = per_step - (stiffness + per_step) * gamma;
-    const double force = by_state * x_ + by_position * position + by_velocity * velocity;
+    const double force = fused(by_state, x_, fused(by_position, position, by_velocity * velocity));
     if (!is_finite(force)) return {two_kelvins::damping[0], 0};
-    x_ = gamma * awake(x_) + alpha * position + beta * velocity;
+    x_ = after(x_, gamma, fused(alpha, position, beta * velocity));
     return {two_kelvins::damping[0], force};
   }
 
  private:
   double x_ = 0;  // [m]
+};
+
+// The same law with a force for a state, F = C (x − r u) with r u where x comes to rest: F ← γ F − γ C r Δu + C β v and
+// m = F + K u − C r Δu + B v. Its rounding errors are those of the force that is left, however far the network has crept: this is the form
+// that dashpot emits.
+class hand_kelvin_forces {
+  static constexpr double k1 = two_kelvins::stiffness[0], k2 = two_kelvins::stiffness[1];  // [N/m]
+  static constexpr double b1 = two_kelvins::damping[0];                                    // [N·s/m]
+  static constexpr double rate = (b1 + two_kelvins::damping[1]) / period, whole = k1 + k2 + rate;
+  static constexpr double gamma = rate / whole, beta = b1 / whole, at_rest = k1 / (k1 + k2);
+  static constexpr double of_state = b1 / period - (k1 + b1 / period) * gamma;  // C
+  static constexpr double by_change = -of_state * at_rest, by_velocity = -(k1 + b1 / period) * beta;
+
+ public:
+  command<double> step(double position, double velocity) noexcept {
+    const double change = position - last_position_;
+    const double force = fused(k1 * k2 / (k1 + k2), position, force_) + fused(by_change, change, by_velocity * velocity);
+    if (!is_finite(force)) return {b1, 0};
+    force_ = after(force_, gamma, fused(gamma * by_change, change, of_state * beta * velocity));
+    last_position_ = position;
+    return {b1, force};
+  }
+
+ private:
+  double force_ = 0, last_position_ = 0;  // [N], [m]
 };
 
 // Fig. 10: t = F + K Δu, F = clamp(t, ±Y); b tells whether t was beyond.

@@ -1,6 +1,6 @@
 """The least time in which a step can be done on a machine, from what its instructions cost (machine.cpp measures that).
 
-A chain: the harness feeds a force into the next sample, then
+A chain: the harness feeds a force into the next sample, by a fused multiplication (or multiply + add), then
   linear networks  m = (S + k0 u) + G v: with fused multiplications one of the two inputs passes both: 2 fused; without them a
                    product and two sums: multiply + 2 add;
   Fig. 10          t = F + K (u - u'), clamped from both sides: add + fused (or add + multiply + add), then 2 least.
@@ -18,6 +18,10 @@ def after_inputs(network, machine):
     return 2 * fused if fused else machine["multiply"] + 2 * machine["add"]
 
 
+def harness(machine):
+    return machine.get("fused") or machine["multiply"] + machine["add"]
+
+
 def states_alone(network, machine, target):
     if not network.startswith("maxwell"):
         return 0
@@ -25,5 +29,5 @@ def states_alone(network, machine, target):
     return max(3 * vectors * machine["load"], vectors * machine["store"])
 
 
-def chain(network, machine, harness, target):
-    return max(harness + after_inputs(network, machine), states_alone(network, machine, target))
+def chain(network, machine, target):
+    return max(harness(machine) + after_inputs(network, machine), states_alone(network, machine, target))

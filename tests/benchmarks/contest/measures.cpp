@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
 
 namespace dashpot::contest {
@@ -72,10 +73,14 @@ double run_chain(const contender& c, void* law, const motion& tool, long steps) 
 }
 
 double run_stream(const contender& c, void* law, const motion& tool, long steps) {
-  double sum = 0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(steps); ++i)
-    sum += c.step(law, tool.position[i & mask], tool.velocity[i & mask]).force;
-  return sum;
+  std::uint64_t all = 0;  // in a register that calls leave alone
+  for (std::size_t i = 0; i < static_cast<std::size_t>(steps); ++i) {
+    const double force = c.step(law, tool.position[i & mask], tool.velocity[i & mask]).force;
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &force, sizeof bits);
+    all ^= bits;
+  }
+  return static_cast<double>(all);
 }
 
 double command_latency(const contender& c, void* law, const motion& tool, int ticks) {

@@ -9,7 +9,7 @@ namespace dashpot::contest {
 // Each sample waits for the force of the one before: returns the last force.
 double run_chain(const contender& c, void* law, const motion& tool, long steps);
 
-// Samples are there beforehand: returns the sum of the forces.
+// Samples are there beforehand: returns something of all forces.
 double run_stream(const contender& c, void* law, const motion& tool, long steps);
 
 // Mean of the middle of `ticks` samples, each looked at by itself: from the input's arrival to the command. What follows the command

@@ -1,0 +1,26 @@
+#!/usr/bin/env python3
+"""micro_test.py PROCESSOR MACHINE PROGRAM.elf HOST_PROGRAM: a board against this machine, bit for bit.
+
+Prints "instructions per step" for each law; the numbers are not asserted.
+"""
+import subprocess
+import sys
+
+
+def main():
+    processor, machine, program, host = sys.argv[1:]
+    run = subprocess.run(
+        ["qemu-system-arm", "-M", machine, "-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=s0",
+         "-semihosting-config", "enable=on,target=native,chardev=s0", "-icount", "shift=0", "-kernel", program],
+        capture_output=True, text=True, timeout=100, check=True)
+    board = [line.split() for line in run.stdout.splitlines()]
+    expected = [line.split() for line in subprocess.run([host], capture_output=True, text=True, check=True).stdout.splitlines()]
+    different = [name for (name, trace, _), twin in zip(board, expected, strict=True) if [name, trace] != twin]
+    for name, _, instructions in board:
+        print(f"instructions per step on {processor}, {name}: {instructions}")
+    if different:
+        sys.exit(f"{processor} and this machine disagree on {', '.join(different)}")
+
+
+if __name__ == "__main__":
+    main()

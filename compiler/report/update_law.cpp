@@ -83,14 +83,14 @@ std::string all_tables(const UpdateLaw& law) {
 
 std::string brake_text(const UpdateLaw& law) {
   const std::string least = number_text(law.damping, 6);
-  return law.brake_changes() ? least + " to " + number_text(law.largest_damping, 6) : least;
+  return law.largest_damping > law.damping ? least + " to " + number_text(law.largest_damping, 6) : least;
 }
 
 std::string update_law_html(const Compilation& c) {
   const PortUnits units = page_units(c.network.port_motion);
   std::string html = fmt::format("<p>At each sample, with the position <i>u</i> and an estimate <i>v̂</i> of the velocity: "
                                  "<b class=\"brake\">brake</b> <i>b</i>{} {}, <b class=\"motor\">motor</b> <i>m</i> [{}].</p>\n",
-                                 (c.law.brake_changes() ? " from " : " = ") + brake_text(c.law), units.damping, units.force);
+                                 (c.law.largest_damping > c.law.damping ? " from " : " = ") + brake_text(c.law), units.damping, units.force);
   if (c.law.tunable) return html + tunable_law_html(c);
   html += "<h4>Before the command leaves</h4>\n" + program(c.law, c.law.output);
   const std::string after = program(c.law, c.law.update);

@@ -33,7 +33,7 @@ void ContactSurface::write_change(const Real& stiffness, VariableId held) {
   const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
   const VariableId recovery =
       writer_.scalar("surface_recovery", writer_.length(), "the surface's change if nothing touched it", Role::local);
-  const ExpressionId compliance = writer_.constant("recovery_compliance", writer_.compliance(), "−1/g", -1 / stiffness);
+  const ExpressionId compliance = writer_.constant("recovery_compliance", writer_.compliance(), "−1/g", stiffness > 0 ? Real(-1 / stiffness) : Real(0));
   writer_.assign(output, recovery, writer_.multiply(compliance, held == no_variable ? none : writer_.read(held)), "f = 0 at Δs = −π/g");
   const ExpressionId ahead = writer_.subtract(writer_.read(recovery), writer_.read(approach_));
   writer_.assign(output, change_, writer_.where(ahead, writer_.read(recovery), writer_.read(approach_)), "f ≥ 0");

@@ -173,4 +173,15 @@ TEST(ContactCommand, SurvivesWhatIsNoNumber) {
   }
 }
 
+// A wall of nothing, as a slider leaves it, would be refused as if its numbers were too large.
+TEST(ContactCommand, TakesAWallOfNothing) {
+  const compiler::UpdateLaw law = law_for(R"({"spring": 0})", 0);
+  compiler::Evaluation<double> run(law);
+  for (double position : {-1e-3, 1e-3, -1e-3}) {
+    const command<double> now = run.step(position, 1);
+    EXPECT_EQ(now.force, 0);
+    EXPECT_EQ(now.damping, 0);
+  }
+}
+
 }  // namespace dashpot::testing

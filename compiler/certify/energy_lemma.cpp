@@ -22,18 +22,20 @@ EnergyLemma check_energy_lemma(const MotorConstants& motor) {
   if (!lemma.applies) return lemma;
   const Rational static_excess = Rational(motor.static_stiffness) - 2 * Rational(motor.half_static_stiffness);
   Rational left = Rational(motor.half_static_stiffness) + Rational(motor.step_stiffness);
+  boost::multiprecision::cpp_int asked = 0;  // of all modes, in steps of the grid: fractions that are kept in lowest terms are slow
   for (const MotorMode& mode : motor.modes) {
     const Rational a = exact_decay(motor, mode), d = mode.position_drive;
     if (d == 0) continue;
     // c/2 is the least that any weight asks; what an emitted weight asks beyond c itself is more than rounding.
     const std::optional<Rational> emitted = demand(a, d, mode.energy_weight);
     if (emitted && *emitted * a <= d) {
-      left -= rounded_up(*emitted);
+      asked += grid_steps_up(*emitted);
       continue;
     }
     ++lemma.reweighted_modes;
-    left -= rounded_up(a == 0 ? d : Rational(d / (2 * a)));
+    asked += grid_steps_up(a == 0 ? d : Rational(d / (2 * a)));
   }
+  left -= of_grid_steps(asked);
   lemma.storage = lemma.reweighted_modes == 0 ? EnergyStorage::emitted : EnergyStorage::weighted;
   lemma.holds = left >= 0 && static_excess == 0;
   if (left < 0) lemma.shortfall = ceiling(-left);

@@ -14,8 +14,9 @@ namespace dashpot::compiler {
 // Requires that the motor does not follow the estimate.
 Rational hold_stiffness(const MotorConstants& motor);
 
-// The rational rounded up at 2⁻¹²⁰⁰.
-Rational rounded_up(const Rational& value);
+// The rational rounded up at 2⁻¹²⁰⁰, as a number of such steps, and back.
+boost::multiprecision::cpp_int grid_steps_up(const Rational& value);
+Rational of_grid_steps(const boost::multiprecision::cpp_int& steps);
 
 // The least double that is not below `value`.
 double ceiling(const Rational& value);

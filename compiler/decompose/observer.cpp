@@ -52,7 +52,7 @@ struct Group {
   Real compliance_ratio = 0;  // Σ D_first/D_i
   Real damping = 0;
 
-  ObserverResponse response() const { return scaled(members.front().response, 1 / compliance_ratio); }
+  ObserverResponse response() const { return members.size() == 1 ? members.front().response : scaled(members.front().response, 1 / compliance_ratio); }
 };
 
 void join(std::vector<Group>& groups, Observed child) {

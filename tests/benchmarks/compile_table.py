@@ -76,7 +76,7 @@ def print_family(title, sizes, make, dashpot, repetitions):
     print(f"\n| {title} | " + " | ".join(COLUMNS) + " |\n" + "| --- " * (len(COLUMNS) + 1) + "|")
     for size, row in rows.items():
         print(f"| {size} | " + " | ".join(f"{row[column]:.2f}" for column in COLUMNS) + " |")
-    if len(sizes) > 2:
+    if isinstance(next(iter(sizes)), int):
         print("| exponent | " + " | ".join(f"{exponent([(n, row[c]) for n, row in rows.items()]):.2f}" for c in COLUMNS) + " |", flush=True)
 
 

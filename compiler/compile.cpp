@@ -18,15 +18,6 @@ void settle_choice(Compilation& c, const Choices& choices, const PortDevice& dev
   c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, device.is_ideal());
 }
 
-}  // namespace
-
-std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics) {
-  const std::optional<NetworkDecl> decl = parse_network(source, diagnostics);
-  return decl ? build_network(*decl, diagnostics) : std::nullopt;
-}
-
-namespace {
-
 // False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position does
 // set() inject no energy.
 bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diagnostics) {
@@ -38,6 +29,11 @@ bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diag
 }
 
 }  // namespace
+
+std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics) {
+  const std::optional<NetworkDecl> decl = parse_network(source, diagnostics);
+  return decl ? build_network(*decl, diagnostics) : std::nullopt;
+}
 
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 
 #include "commands/commands.hpp"
@@ -78,15 +79,10 @@ class ValueColumns {
     return &*found;
   }
 
-  struct Once {
-    bool is_done = false;
-    operator bool&() { return is_done; }
-  };
-
   const Network& network_;
   std::vector<Tunable> tunables_;
   std::vector<const OtherColumn*> columns_;
-  std::vector<Once> warned_;
+  std::deque<bool> warned_;  // a vector of them has no bool&
   bool is_empty_ = true;
 };
 

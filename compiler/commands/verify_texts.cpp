@@ -22,26 +22,33 @@ std::optional<std::string> first_difference(const std::string& found, const std:
 // The code around the constants, which decides by jumps or in constant time.
 void compare_code(const Compilation& compiled, const std::string& header, Diagnostics& diagnostics) {
   Diagnostics unheard;
-  std::string expected;
-  for (const bool constant_time : {true, false}) {
+  const std::string found = without_banner_and_digest(header);
+  std::string by_jumps;
+  for (const bool constant_time : {false, true}) {
     EmissionOptions options;
     options.constant_time = constant_time;
     const auto emitted = emit_cpp(compiled, options, unheard);
     if (!emitted) continue;
-    expected = without_banner_and_digest(emitted->front().text);
-    if (without_banner_and_digest(header) == expected) return;
+    const std::string expected = without_banner_and_digest(emitted->front().text);
+    if (found == expected) return;
+    if (!constant_time) by_jumps = expected;
   }
-  if (const auto line = first_difference(without_banner_and_digest(header), expected))
+  if (const auto line = first_difference(found, by_jumps))
     diagnostics.report<DiagnosticCode::code_differs>({}, *line);
+}
+
+// A text of the certificate as a file that lives as long as diagnostics may point into it.
+const SourceFile& kept(SourceFiles& files, const char* name, const std::string& text) {
+  std::vector<std::unique_ptr<SourceFile>> one;
+  one.push_back(std::make_unique<SourceFile>(name, text));
+  const SourceFile& file = *one.front();
+  files.keep(std::move(one));
+  return file;
 }
 
 std::optional<Device> device_of(const CertificateFile& certificate, SourceFiles& files, Diagnostics& diagnostics) {
   if (!certificate.device_text) return std::nullopt;
-  std::vector<std::unique_ptr<SourceFile>> text;
-  text.push_back(std::make_unique<SourceFile>("device of the certificate", *certificate.device_text));
-  const SourceFile& file = *text.front();
-  files.keep(std::move(text));
-  const auto decl = parse_device(file, diagnostics);
+  const auto decl = parse_device(kept(files, "device of the certificate", *certificate.device_text), diagnostics);
   return decl ? build_device(*decl, diagnostics) : std::nullopt;
 }
 
@@ -51,10 +58,7 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
                                         Diagnostics& diagnostics) {
   const std::optional<CertificateFile> certificate = read_certificate(certificate_file, diagnostics);
   if (!certificate) return std::nullopt;
-  std::vector<std::unique_ptr<SourceFile>> text;
-  text.push_back(std::make_unique<SourceFile>("network of the certificate", certificate->network_text));
-  const SourceFile& network_file = *text.front();
-  files.keep(std::move(text));
+  const SourceFile& network_file = kept(files, "network of the certificate", certificate->network_text);
   Diagnostics of_network;  // its warnings were given when it was compiled
   const std::optional<Network> network = check(network_file, of_network);
   const std::optional<Device> device = device_of(*certificate, files, diagnostics);

@@ -8,6 +8,10 @@
 namespace dashpot::compiler {
 namespace {
 
+std::string literal(const UpdateLaw& law, double value) { return cpp_literal(value, law.scalar); }
+
+}  // namespace
+
 const char* part_name(slip_part kind) {
   switch (kind) {
     case slip_part::block: return "block";
@@ -17,10 +21,6 @@ const char* part_name(slip_part kind) {
   }
   return "";
 }
-
-std::string literal(const UpdateLaw& law, double value) { return cpp_literal(value, law.scalar); }
-
-}  // namespace
 
 void append_step(const UpdateLaw& law, const Statement& statement, const Coupling& coupling, CppStatements& statements,
                  std::vector<std::string>& lines) {

@@ -9,6 +9,8 @@
 
 namespace dashpot::compiler {
 
+const char* part_name(slip_part kind);  // the enumerator's
+
 void append_step(const UpdateLaw& law, const Statement& statement, const Coupling& coupling, CppStatements& statements,
                  std::vector<std::string>& lines);
 void append_step(const UpdateLaw& law, const Statement& statement, const SlipNetwork& network, CppStatements& statements,

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "emit/cpp_slips.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -27,16 +29,6 @@ const char* name_of(brake_rule rule) {
     case brake_rule::half_zero_frequency: return "half_zero_frequency";
     case brake_rule::feedthrough: return "feedthrough";
     case brake_rule::within_viscosity: return "within_viscosity";
-  }
-  return "";
-}
-
-const char* name_of(slip_part kind) {
-  switch (kind) {
-    case slip_part::block: return "block";
-    case slip_part::slip: return "slip";
-    case slip_part::series: return "series";
-    case slip_part::parallel: return "parallel";
   }
   return "";
 }
@@ -126,7 +118,7 @@ class TunablePrinter {
 
   void append_nodes(std::vector<std::string>& lines) const {
     list(lines, "dashpot::slip_node<scalar>", "nodes", tables_.nodes, [](const slip_node<double>& n, std::size_t) {
-      return fmt::format("{{dashpot::slip_part::{}, {}, {}, {}, {}, {}, 0, 0, 0}},", name_of(n.kind), n.first_child, n.child_count,
+      return fmt::format("{{dashpot::slip_part::{}, {}, {}, {}, {}, {}, 0, 0, 0}},", part_name(n.kind), n.first_child, n.child_count,
                          n.slips, n.place, n.first_corner);
     });
   }

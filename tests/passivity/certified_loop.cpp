@@ -5,6 +5,8 @@
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/simulated/simulated_device.hpp>
 
+#include <gtest/gtest.h>
+
 #include "discretise/evaluate.hpp"
 #include "support/random_network.hpp"
 
@@ -118,6 +120,15 @@ RunOfLoop run_loop(const CompiledCase& one, Random& random, const Conditions& co
     device.write({-now.force, now.damping});
   }
   return run;
+}
+
+void expect_no_energy_given_out(const CompiledCase& one, Random random) {
+  for (const simulated::brake_gain gain : {simulated::brake_gain::lowest, simulated::brake_gain::highest}) {
+    Conditions conditions;
+    conditions.gain = gain;
+    const RunOfLoop run = run_loop(one, random, conditions, 1500);
+    EXPECT_GE(run.least_energy, -1e-9 * run.largest_exchange);
+  }
 }
 
 }  // namespace dashpot::testing

@@ -45,4 +45,8 @@ struct RunOfLoop {
 // The law on the device for `samples`, in the hands of a random user.
 RunOfLoop run_loop(const CompiledCase& one, Random& random, const Conditions& conditions, int samples);
 
+// Fails where the loop, with ideal sensors and the brake at either end of its tolerance, gives out more energy than it has taken
+// up. Rounding: 1e-9 of what went to and fro.
+void expect_no_energy_given_out(const CompiledCase& one, Random random);
+
 }  // namespace dashpot::testing

@@ -1,6 +1,8 @@
 // Commands of laws with slips along written motions, for devices that are given here.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -57,6 +59,29 @@ inline std::size_t toggles(const std::vector<command<double>>& commands, std::si
   for (std::size_t i = first + 1; i < last; ++i)
     if (commands[i].damping != commands[i - 1].damping) ++count;
   return count;
+}
+
+// V_k − V_{k−1} ≤ m_k Δu_k whatever the brake does: it takes no part, but is commanded no more than `most_damping`. Empty, or
+// where that fails. Rounding: 1e-13 of the largest energy, `shared(damping, change)` [J] among them, and `rounding` [N/m] Δu².
+template <class SharedEnergy>
+std::string energy_from_motor(const compiler::Compilation& compilation, const std::vector<double>& motion, double most_damping,
+                               SharedEnergy shared, double rounding) {
+  if (compilation.decomposition.choice().velocity_gain != 0) return "";  // what reaches ground without a slip asks for an estimate
+  compiler::Evaluation<double> evaluation(compilation.law);
+  evaluation.reset(0);
+  double stored = 0, last = 0, scale = 0;
+  for (double position : motion) {
+    const double change = position - last;
+    last = position;
+    const command<double> now = evaluation.step(position, change / slip_period);
+    if (now.damping < 0 || now.damping > most_damping * (1 + 1e-12)) return fmt::format("a damping of {}", now.damping);
+    const double work = now.force * change, after = evaluation.stored_energy();
+    scale = std::max({scale, std::abs(work), after, shared(now.damping, change)});
+    if (!(after - stored - work <= 1e-13 * scale + rounding * change * change))
+      return fmt::format("energy rose by {} for {} at a scale of {}", after - stored, work, scale);
+    stored = after;
+  }
+  return "";
 }
 
 // To and fro by many times what makes the slip give way, at a pace that changes.

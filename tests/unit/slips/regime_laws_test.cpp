@@ -257,7 +257,7 @@ bool has_slips(const compiler::Network& network) {
   });
 }
 
-// V_k − V_{k−1} ≤ m_k Δu_k whatever the brake does, since it takes no part: with `law` and a brake of little reach.
+// With `law` and a brake of little reach.
 std::string gain_without_brake(const compiler::Network& network, const char* law) {
   if (!has_slips(network)) return "";
   compiler::Device device = device_with(1e-5);
@@ -267,23 +267,9 @@ std::string gain_without_brake(const compiler::Network& network, const char* law
   compiler::Choices choices;
   choices.decomposition = law;
   choices.state_input = compiler::StateInput::position;
-  const compiler::Compilation compilation = compiled(network, choices, &device);
-  if (compilation.decomposition.choice().velocity_gain != 0) return "";  // what reaches ground without a slip asks for an estimate
-  compiler::Evaluation<double> evaluation(compilation.law);
-  evaluation.reset(0);
-  double stored = 0, last = 0, scale = 0;
-  for (double position : random_motion(network, 11, 200)) {
-    const double change = position - last;
-    last = position;
-    const command<double> now = evaluation.step(position, change / slip_period);
-    if (now.damping < 0 || now.damping > device.description.brake.max_damping * (1 + 1e-12)) return fmt::format("a damping of {}", now.damping);
-    const double work = now.force * change, after = evaluation.stored_energy();
-    // What the brake takes is taken from a whole that is rounded.
-    scale = std::max({scale, std::abs(work), after, now.damping * change / slip_period * change});
-    if (!(after - stored - work <= 1e-13 * scale)) return fmt::format("energy rose by {} for {} at a scale of {}", after - stored, work, scale);
-    stored = after;
-  }
-  return "";
+  // What the brake takes is taken from a whole that is rounded.
+  const auto taken = [](double damping, double change) { return damping * change / slip_period * change; };
+  return energy_from_motor(compiled(network, choices, &device), random_motion(network, 11, 200), 0.1, taken, 0);
 }
 
 // Capped, the law of the whole is still that of the elements.

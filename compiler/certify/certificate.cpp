@@ -26,8 +26,8 @@ std::string hindrance_to_hold(const MotorConstants& motor, const SampledLoop& lo
 
 // The bounds of two parts of a motor add up.
 PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator,
-                                 double besides) {
-  const SampledBound found = sampled_bound(NeededDamping(motor, loop, estimator), loop.sample_period);
+                                 double besides, std::size_t terms) {
+  const SampledBound found = sampled_bound(NeededDamping(motor, loop, estimator), loop.sample_period, terms);
   PassivityBound bound;
   bound.proof = Proof::sampled;
   bound.needed = found.needed + besides;
@@ -61,7 +61,7 @@ double sum_above(double x, double y, ScalarType scalar) {
 
 }  // namespace
 
-PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop) {
+PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms) {
   PassivityBound bound;
   if (!motor) {
     bound.reason = "the law is not one linear law";
@@ -72,8 +72,8 @@ PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const
     bound.needed = ceiling(hold_stiffness(*motor) * (Rational(loop.sample_period) + Rational(loop.jitter)));
     return bound;
   }
-  if (!motor->follows_estimate()) return sampled_statement(*motor, loop, {}, 0);
-  if (const auto linear = estimator_factors(loop)) return sampled_statement(*motor, loop, *linear, 0);
+  if (!motor->follows_estimate()) return sampled_statement(*motor, loop, {}, 0, terms);
+  if (const auto linear = estimator_factors(loop)) return sampled_statement(*motor, loop, *linear, 0, terms);
   const std::optional<double> gain = adaptive_window_gain(loop);
   if (!gain || motor->estimate_drives_modes()) {
     bound.reason = not_proved_for(loop);
@@ -81,7 +81,8 @@ PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const
   }
   MotorConstants position_driven = *motor;
   position_driven.velocity_gain = 0;
-  return sampled_statement(position_driven, loop, {}, std::abs(motor->velocity_gain) * *gain * (1 + 1e-15));
+  const double besides = std::abs(motor->velocity_gain) * *gain * (1 + 1e-15);
+  return sampled_statement(position_driven, loop, {}, besides, terms);
 }
 
 // Least bounds add up, and of two statements the weaker is left.

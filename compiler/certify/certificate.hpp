@@ -45,8 +45,9 @@ struct Certificate {
 // (K Δ/2 − f_c)⁺: the energy that the encoder's step may bring in, beyond friction, for each metre of travel [N].
 double unpaid_force(const Certificate& certificate);
 
-// In: a law's constants, the loop around it. Out: the strongest statement that covers them.
-PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop);
+// In: a law's constants, the loop around it. Out: the strongest statement that covers them; with less than `most_terms` one
+// that is found sooner and may ask a little more.
+PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms = most_terms);
 
 // The same of a law with slips or a contact, of which `linear` is what reaches ground without a slip.
 PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop);

@@ -37,6 +37,7 @@ class NeededDamping {
 
   // Sum of the sizes of S's terms: nothing is known more finely than this, rounded [N·s/m].
   double scale() const { return scale_; }
+  std::size_t terms() const { return modes_.size() + 8; }  // that are summed on an arc, those of estimator and lag included
   double roundoff() const { return roundoff_; }  // of S, relative to the size of its terms
 
  private:

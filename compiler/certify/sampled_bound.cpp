@@ -8,7 +8,6 @@ namespace dashpot::compiler {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr std::size_t most_arcs = 1'000'000;
 
 struct BoundedArc {
   Arc arc;
@@ -18,7 +17,7 @@ struct BoundedArc {
 
 }  // namespace
 
-SampledBound sampled_bound(const NeededDamping& needed, double sample_period) {
+SampledBound sampled_bound(const NeededDamping& needed, double sample_period, std::size_t terms) {
   SampledBound result;
   result.attained = -std::numeric_limits<double>::infinity();
   std::priority_queue<BoundedArc> open;
@@ -34,7 +33,7 @@ SampledBound sampled_bound(const NeededDamping& needed, double sample_period) {
   look({1, 1});
   look({0, 1});
   const double resolution = std::max(1e-12, 4 * needed.roundoff()) * needed.scale();
-  while (result.arcs < most_arcs) {
+  while (result.arcs * needed.terms() < terms) {
     const BoundedArc highest = open.top();
     const double middle = highest.arc.centre();
     const bool close = highest.bound <= result.attained + bound_precision * std::max(result.attained, 0.0) + resolution;

@@ -12,10 +12,13 @@ struct SampledBound {
   std::size_t arcs = 0;  // that were looked at
 };
 
+// Of modes on arcs. A supremum hardly above the rounding of its terms could be looked for without end: after so many the bound
+// is left where it is, above it and less near.
+inline constexpr std::size_t most_terms = 400'000;
 inline constexpr double bound_precision = 4e-10;  // relative; and 1e-12 of the size of the terms, or rounding if larger
 
 // Branch and bound over all frequencies from 0 to Nyquist: the arc with the highest bound is halved until that bound is
 // within the precision of what is attained. Every bound is outward.
-SampledBound sampled_bound(const NeededDamping& needed, double sample_period);
+SampledBound sampled_bound(const NeededDamping& needed, double sample_period, std::size_t terms = most_terms);
 
 }  // namespace dashpot::compiler

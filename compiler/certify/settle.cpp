@@ -9,6 +9,9 @@
 namespace dashpot::compiler {
 namespace {
 
+// A search asks for some hundred bounds. Each lies above the supremum however soon it is left, so what fits it fits.
+constexpr std::size_t search_terms = most_terms / 10;
+
 // Beyond the precision of the bounds.
 bool is_noticeably_less(double x, double y) { return x < y * (1 - 1e-6); }
 
@@ -76,13 +79,13 @@ const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput 
 }
 
 // Whatever b: it is only in the velocity gain, b∞ − b.
-PassivityBound CandidateSettler::bound(StateInput input, double damping) {
+PassivityBound CandidateSettler::bound(StateInput input, double damping, std::size_t terms) {
   std::optional<MotorConstants> motor = without_brake(input);
   if (motor) {
     motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
     motor->brake = damping;
   }
-  return motor && slips_ ? passivity_bound(*motor, *slips_, loop_) : passivity_bound(motor, loop_);
+  return motor && slips_ ? passivity_bound(*motor, *slips_, loop_) : passivity_bound(motor, loop_, terms);
 }
 
 void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
@@ -124,14 +127,14 @@ void CandidateSettler::make_room(Candidate& candidate) {
 
 double CandidateSettler::least_need(const Candidate& candidate) {
   const StateInput input = candidate.state_input;
-  const auto need = [&](double damping) { return bound(input, damping).needed; };
+  const auto need = [&](double damping) { return bound(input, damping, search_terms).needed; };
   return need(least_place(need, 0, candidate.damping));
 }
 
 // The need is a convex function of b: each frequency's is, and the largest of convex functions.
 std::optional<double> CandidateSettler::largest_fitting(StateInput input, double most) {
   const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 1e-9);
-  const auto lack = [&](double damping) { return bound(input, damping).needed - available; };
+  const auto lack = [&](double damping) { return bound(input, damping, search_terms).needed - available; };
   double fits = least_place(lack, 0, most), fails = most;
   if (lack(fits) > 0) return std::nullopt;
   for (int i = 0; i < 30; ++i) {

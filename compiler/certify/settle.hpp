@@ -24,7 +24,7 @@ class CandidateSettler {
 
  private:
   const std::optional<MotorConstants>& without_brake(StateInput input);
-  PassivityBound bound(StateInput input, double damping);
+  PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);
   void weigh(Candidate& candidate, StateInputMerit& merit);
   void take(Candidate& candidate, const StateInputMerit& merit);
   void make_room(Candidate& candidate);

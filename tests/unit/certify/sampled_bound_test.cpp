@@ -133,5 +133,23 @@ TEST(SampledBound, MeetsAScanWithALag) {
   }
 }
 
+// A supremum that is all but level, near the rounding of its terms, would be looked for without end; or, left early, the bound
+// would fall below it.
+TEST(SampledBound, LeavesALevelSupremumInTimeAndAbove) {
+  for (const double rate : {22.0, 2200.0, 2.2e5}) {
+    SCOPED_TRACE(rate);
+    const SampledLoop loop = plain_loop(1e-9);
+    MotorConstants motor = spring_motor(0);
+    add_maxwell(motor, 22, rate, loop.sample_period, true);
+    const NeededDamping needed(motor, loop, {});
+    const SampledBound bound = sampled_bound(needed, loop.sample_period), sooner = sampled_bound(needed, loop.sample_period, 100);
+    EXPECT_LE(bound.arcs, most_terms / needed.terms() + 2);
+    EXPECT_LE(sooner.arcs, 100 / needed.terms() + 2);
+    EXPECT_GE(sooner.needed, bound.needed);
+    EXPECT_GE(bound.needed, bound.attained);
+    EXPECT_GE(bound.needed, largest_by_scan(motor, loop, 400) - 1e-10 * needed.scale());
+  }
+}
+
 }  // namespace
 }  // namespace dashpot::compiler

@@ -50,8 +50,9 @@ double nearest(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? value : static_cast<double>(static_cast<float>(value));
 }
 
-// The least number of the scalar's type that is not below the sum.
+// The least number of the scalar's type that is not below the sum; infinite where none is.
 double sum_above(double x, double y, ScalarType scalar) {
+  if (!(x + y <= largest_finite(scalar))) return std::numeric_limits<double>::infinity();
   const Rational exact = Rational(x) + Rational(y);
   if (scalar == ScalarType::float64) return ceiling(exact);
   float nearest = static_cast<float>(x + y);

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "discretise/element_names.hpp"
+#include "discretise/rounding.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -14,10 +14,6 @@ const Element& first_slip(const Network& network, const std::vector<std::size_t>
   return network.elements[*std::find_if(elements.begin(), elements.end(), [&](std::size_t index) {
     return std::holds_alternative<Slip>(network.elements[index].law);
   })];
-}
-
-double largest_finite(ScalarType scalar) {
-  return scalar == ScalarType::float64 ? std::numeric_limits<double>::max() : double(std::numeric_limits<float>::max());
 }
 
 }  // namespace

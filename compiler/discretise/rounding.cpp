@@ -1,8 +1,14 @@
 #include "discretise/rounding.hpp"
 
+#include <limits>
+
 namespace dashpot::compiler {
 
 double unit_roundoff(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-53 : 0x1p-24; }
+
+double largest_finite(ScalarType scalar) {
+  return scalar == ScalarType::float64 ? std::numeric_limits<double>::max() : double(std::numeric_limits<float>::max());
+}
 
 // An error decays at the rate α, so that 1/α equal ones add up. Product: the rounding of aF, of the sum, and of `a`
 // itself are each relative to F. Delta: only the sum's is; αF, α, the gain and its product are relative to what they

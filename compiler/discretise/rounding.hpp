@@ -6,6 +6,7 @@
 namespace dashpot::compiler {
 
 double unit_roundoff(ScalarType scalar);
+double largest_finite(ScalarType scalar);
 
 // Worst case over any run, relative to the mode's largest force, for a decay of `loss` = 1 − a a sample.
 double error_bound(ModeForm form, double loss, double roundoff);

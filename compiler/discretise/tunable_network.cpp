@@ -1,7 +1,6 @@
 #include "discretise/tunable_network.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "discretise/law_writer.hpp"
@@ -100,8 +99,7 @@ class TablesBuilder {
     head.least_share = is_double ? 0x1p-24 : 0x1p-10;
     head.rule = brake_.rule;
     head.damping = to_scalar(Real(brake_.damping));
-    const double largest = is_double ? std::numeric_limits<double>::max() : double(std::numeric_limits<float>::max());
-    head.max_damping = brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest;
+    head.max_damping = brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest_finite(choices_.scalar);
     head.static_spring = no_index;
     head.contact = {network_.contact.has_value(), network_.contact ? to_scalar(Real(network_.contact->at)) : 0, to_scalar(Real(decomposition_.encoder_step))};
     head.slip_rule = slip_rule();

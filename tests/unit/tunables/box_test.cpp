@@ -95,6 +95,25 @@ TEST(Box, CertifiedLawsGiveOutNoEnergy) {
   EXPECT_GT(raised, certified / 2);
 }
 
+// A brake of which nothing is assured would be added to without end.
+TEST(Box, IsNotCertifiedOnABrakeThatPromisesNothing) {
+  int bounded = 0;
+  for (const Kind kind : kinds) {
+    Random random(1);
+    Device device = punctual_device(random);
+    device.description.brake.tolerance = 1;
+    Diagnostics diagnostics;
+    const auto compilation = compile(SourceFile("random.json", tunable_network(std::uint64_t(kind) + 1, kind)), {}, device, diagnostics);
+    ASSERT_TRUE(compilation);
+    EXPECT_FALSE(compilation->certificate.certified);
+    EXPECT_EQ(compilation->certificate.added_damping, 0);
+    if (compilation->certificate.bound.proof == Proof::none) continue;
+    ++bounded;
+    EXPECT_TRUE(std::isinf(compilation->certificate.minimum_damping));
+  }
+  EXPECT_GT(bounded, 0);
+}
+
 // A relaxation would be held for softer or stiffer than it is between samples: ½ k where it is slow or fast, most near
 // λh = 2.45, and never above the bound that stands for all of them.
 TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {

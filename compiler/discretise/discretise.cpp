@@ -190,19 +190,21 @@ class LawBuilder {
       change_ = writer_.scalar("position_change", writer_.length(), "Δu since the sample before", Role::local);
   }
 
-  // f_k = k0 u_k + (Σc) Δu + (b∞ − b) u̇_k + S
+  // f_k = S + k0 u_k + (Σc) Δu + (b∞ − b) u̇_k, in two halves: neither the sample nor S, which is the last to be stored, then passes
+  // through every sum.
   void write_output() {
     if (change_ != nothing)
       writer_.assign(law_.output, change_,
                      writer_.subtract(writer_.read(law_.position), writer_.read(law_.rest_position)), "Δu = u − u₋");
-    ExpressionId sum = nothing;
-    sum = plus_product(sum, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
-    sum = plus_product(sum, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
-                       modes_.step_stiffness(), change_);
+    const ExpressionId held = modes_.empty() ? nothing : writer_.read(modes_.decayed_sum());
+    const ExpressionId placed = plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
+    const ExpressionId stepped = plus_product(nothing, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
+                                              modes_.step_stiffness(), change_);
     const Real velocity_gain = feedthrough_of_motor() + modes_.velocity_gain();
     const char* meaning = modes_.follows_velocity() ? "b∞ − b + h Σ c_i, what the estimate drives within a sample" : "b∞ − b";
-    sum = plus_product(sum, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
-    if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
+    const ExpressionId driven = plus_product(nothing, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
+    ExpressionId sum = stepped == nothing ? writer_.plus(held, writer_.plus(placed, driven))
+                                          : writer_.plus(writer_.plus(held, placed), writer_.plus(stepped, driven));
     for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
     for (const auto& component : coupled_) sum = writer_.plus(sum, component->write_output(change_));
     for (const auto& network : networks_) sum = writer_.plus(sum, network->write_output(change_));

@@ -23,7 +23,7 @@ class Printer {
     switch (e.operation) {
       case Operation::read: return spelling_.variable(law_.variables[e.left]);
       case Operation::constant: return spelling_.coefficient(law_.coefficients[e.left]);
-      case Operation::add: return binary(e, " + ");
+      case Operation::add: return spelling_.relax && is_relaxation(e) ? relaxation(e) : binary(e, " + ");
       case Operation::subtract: return binary(e, " - ");
       case Operation::multiply: return binary(e, " * ");
       case Operation::flush: return spelling_.flush(text(e.left));
@@ -38,6 +38,16 @@ class Printer {
   }
 
  private:
+  bool is_relaxation(const Expression& sum) const {
+    const Expression& product = law_.expressions[sum.right];
+    return product.operation == Operation::multiply && law_.expressions[product.right].operation == Operation::flush;
+  }
+
+  std::string relaxation(const Expression& sum) const {
+    const Expression& product = law_.expressions[sum.right];
+    return spelling_.relax(text(product.left), text(law_.expressions[product.right].left), text(sum.left));
+  }
+
   // Operators associate to the left: a right operand of equal precedence needs its parentheses.
   std::string binary(const Expression& e, const char* sign) const {
     const int own = own_precedence(e.operation);

@@ -18,6 +18,8 @@ struct Spelling {
   std::function<std::string(const Coefficient& table, const std::string& place)> pick;
   // Of two values, by a condition that is above zero or not; where it is empty, by C's operator.
   std::function<std::string(const std::string& condition, const std::string& yes, const std::string& no)> where = {};
+  // drive + decay · flush(force), where that has a name of its own; else it is spelt out.
+  std::function<std::string(const std::string& decay, const std::string& force, const std::string& drive)> relax = {};
 };
 
 // How tightly an operation holds its operands together: 0 to 3.

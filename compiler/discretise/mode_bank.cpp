@@ -40,8 +40,11 @@ double ModeBank::smallest_loss() const {
 
 void ModeBank::declare() {
   if (empty()) return;
-  decayed_sum_ = writer_.scalar(joined(prefix_, "relaxed_force"), writer_.force(), "sum of the modes' forces, decayed to the next sample", Role::state);
+  const bool are_several = modes_.size() > 1;
+  if (are_several)
+    decayed_sum_ = writer_.scalar(joined(prefix_, "relaxed_force"), writer_.force(), "sum of the modes' forces, decayed to the next sample", Role::state);
   forces_ = state("force", "force of the mode, decayed to the next sample");
+  if (!are_several) decayed_sum_ = forces_;
   if (writer_.law().mode_form == ModeForm::compensated) errors_ = state("error", "what rounding kept from the force");
 }
 
@@ -53,7 +56,9 @@ void ModeBank::write_update(VariableId position_change, VariableId velocity) {
   switch (writer_.law().mode_form) {
     case ModeForm::product: {
       const ExpressionId decay = per_mode("decay", "1", decayed.c_str(), [](const auto& c) { return c.decay; });
-      writer_.assign(update, forces_, writer_.flush(writer_.add(writer_.multiply(decay, writer_.read(forces_)), driven)),
+      // The guard looks at the force before, which waits for nothing; the drive comes first, so that the product that a compiler may
+      // fuse with the sum is that of the force.
+      writer_.assign(update, forces_, writer_.add(driven, writer_.multiply(decay, writer_.flush(writer_.read(forces_)))),
                      "F ← a (F + c Δu)", origins());
       break;
     }
@@ -63,7 +68,7 @@ void ModeBank::write_update(VariableId position_change, VariableId velocity) {
       break;
     case ModeForm::compensated: write_compensated(driven);
   }
-  writer_.assign(update, decayed_sum_, writer_.sum(forces_), "S = Σ a_i F_i");
+  if (decayed_sum_ != forces_) writer_.assign(update, decayed_sum_, writer_.sum(forces_), "S = Σ a_i F_i");
 }
 
 ExpressionId ModeBank::energy() {

@@ -8,6 +8,7 @@
 #include "emit/cpp_slips.hpp"
 #include "emit/cpp_statements.hpp"
 #include "emit/cpp_tunable.hpp"
+#include "emit/fused_step.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -23,6 +24,7 @@ class CppPrinter {
     program.keep = statements_.kept_lines_of(law_.keep);
     program.update = statements_.kept_lines_of(law_.update);
     timing_ == Timing::constant ? check_by_masks(program) : check_and_return(program);
+    program.step = timing_ == Timing::any && is_fusable(law_) ? fused(program) : two_phases();
     program.energy = statements_.lines_of(law_.energy);
     for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
     put_alias_before(program.output, program.keep);
@@ -50,7 +52,7 @@ class CppPrinter {
 
   void check_and_return(CppProgram& program) const {
     program.command = law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
-    check_by_jumps(program, law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}");
+    check_by_jumps(program, checked_numbers(law_), law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}");
   }
 
   // What is kept of a sample that is no number is what was there before.
@@ -69,6 +71,20 @@ class CppPrinter {
     if (std::any_of(lines.begin(), lines.end(), uses_vectors) || std::any_of(more.begin(), more.end(), uses_vectors))
       lines.insert(lines.begin(), fmt::format("using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, {}>{}>;", law_.lanes,
                                                     law_.register_bytes > 0 ? fmt::format(", {}", law_.register_bytes) : ""));
+  }
+
+  // What output() finds, update() uses at once.
+  std::vector<std::string> fused(const CppProgram& program) {
+    const std::map<VariableId, VariableId> carried = carried_numbers(law_);
+    std::vector<Statement> kept = law_.keep;
+    std::erase_if(kept, [&](const Statement& statement) { return carried.count(statement.target) != 0; });
+    std::vector<std::string> lines = program.output;
+    lines.insert(lines.end(), program.check.begin(), program.check.end() - 1);  // but for the promise to update()
+    for (const auto& more : {statements_.lines_of(kept), statements_.lines_of(law_.update, carried)})
+      lines.insert(lines.end(), more.begin(), more.end());
+    lines.push_back(fmt::format("return {};", program.command));
+    put_alias_before(lines);
+    return lines;
   }
 
   std::vector<std::string> constants() const {
@@ -129,10 +145,21 @@ class CppPrinter {
     return fmt::format("clear({}_);", variable.name);
   }
 
+  // The last position comes last, away from the forces: a compiler stores neighbours as one vector, and a force would then wait for
+  // its neighbour, and the next step for both.
+  std::vector<const Variable*> states_in_order() const {
+    std::vector<const Variable*> all;
+    for (const Variable& variable : law_.variables)
+      if (variable.role == Role::state) all.push_back(&variable);
+    if (law_.rest_position != no_variable)
+      std::stable_partition(all.begin(), all.end(), [&](const Variable* v) { return v != &law_.variables[law_.rest_position]; });
+    return all;
+  }
+
   std::vector<std::string> states() const {
     std::vector<std::string> lines;
-    for (const Variable& variable : law_.variables) {
-      if (variable.role != Role::state) continue;
+    for (const Variable* state : states_in_order()) {
+      const Variable& variable = *state;
       const std::string note = fmt::format("  // {} [{}]", variable.meaning, variable.unit);
       if (variable.size == 1)
         lines.push_back(fmt::format("scalar {} = {};{}", CppStatements::scalar_name(variable), rest_value(variable), note));
@@ -174,13 +201,17 @@ std::string cpp_literal(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? fmt::format("{:#}", value) : fmt::format("{:#}f", static_cast<float>(value));
 }
 
+std::vector<std::string> two_phases() {
+  return {"const dashpot::command<scalar> now = output(position, velocity);", "update();", "return now;"};
+}
+
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing) {
   return law.tunable ? tunable_program(law) : CppPrinter(law, network, timing).print();
 }
 
-void check_by_jumps(CppProgram& program, const std::string& safe_command) {
+void check_by_jumps(CppProgram& program, const std::string& checked, const std::string& safe_command) {
   program.check = {"sampled_ = false;",
-                   fmt::format("if (!dashpot::all_finite(position, velocity, force)) return {};", safe_command), "sampled_ = true;"};
+                   fmt::format("if (!dashpot::all_finite({})) return {};", checked, safe_command), "sampled_ = true;"};
   program.wait = {"if (!sampled_) return;", "sampled_ = false;"};
 }
 

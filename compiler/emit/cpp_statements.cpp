@@ -25,8 +25,10 @@ CppStatements::CppStatements(const UpdateLaw& law, const Network& network, Timin
   for (const Statement& statement : law.keep) find_vectors(statement.value);
 }
 
-std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& program) {
+std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& program, const std::map<VariableId, VariableId>& given) {
   std::vector<std::string> lines;
+  given_.clear();
+  for (const auto& [copy, original] : given) given_[&law_.variables[copy]] = &law_.variables[original];
   summed_.clear();
   assigned_.clear();
   hoisted_.clear();
@@ -151,7 +153,7 @@ bool CppStatements::is_array(const Variable& vector) const { return vector.role 
 std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   Spelling spelling;
   const std::string decisions = branch_free_ ? "dashpot::branch_free" : "dashpot";
-  spelling.variable = [&](const Variable& variable) { return place_name(variable, place); };
+  spelling.variable = [&](const Variable& variable) { return place_name(original(variable), place); };
   spelling.coefficient = [&](const Coefficient& coefficient) {
     used_coefficients_.insert(&coefficient);
     return coefficient.element_names.empty() ? coefficient.name : coefficient.element_names[place];
@@ -162,6 +164,11 @@ std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   };
   // A sum is one operand: inside a longer expression its terms keep together.
   const bool is_whole = law_.expressions[id].operation == Operation::sum;
+  if (!branch_free_)
+    spelling.relax = [&](const std::string& decay, const std::string& force, const std::string& drive) {
+    uses_flush_ = true;
+    return fmt::format("dashpot::relaxed(threshold, {}, {}, {})", decay, force, drive);
+  };
   spelling.clamp = [&](const std::string& value, const std::string& limit) {
     return fmt::format("{}::clamp_to({}, {})", decisions, limit, value);
   };
@@ -184,7 +191,7 @@ std::string CppStatements::rolled_expression(ExpressionId id) {
   Spelling spelling;
   spelling.variable = [this](const Variable& variable) {
     const auto id_of = static_cast<VariableId>(&variable - law_.variables.data());
-    return hoisted_.count(id_of) != 0 ? variable.name : place_name(variable, 0);
+    return hoisted_.count(id_of) != 0 ? variable.name : place_name(original(variable), 0);
   };
   spelling.coefficient = [this](const Coefficient& coefficient) {
     used_coefficients_.insert(&coefficient);

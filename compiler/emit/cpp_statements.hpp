@@ -2,6 +2,7 @@
 // structure-of-arrays coefficients for many.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ class CppStatements {
   // Both outlive this.
   CppStatements(const UpdateLaw& law, const Network& network, Timing timing);
 
-  std::vector<std::string> lines_of(const std::vector<Statement>& program);
+  // Where a variable is a key of `given`, what it was copied from is read in its place.
+  std::vector<std::string> lines_of(const std::vector<Statement>& program, const std::map<VariableId, VariableId>& given = {});
   // The same of a program that assigns to states: in constant time only where the mask `sampled` is set.
   std::vector<std::string> kept_lines_of(const std::vector<Statement>& program);
 
@@ -47,6 +49,10 @@ class CppStatements {
   std::string vector_name(const Variable& variable, std::size_t place) const;
   std::string place_name(const Variable& variable, std::size_t place) const;
   std::string array_name(const Variable& variable) const;
+  const Variable& original(const Variable& variable) const {
+    const auto found = given_.find(&variable);
+    return found == given_.end() ? variable : *found->second;
+  }
   const Variable& target(const Statement& statement) const { return law_.variables[statement.target]; }
 
   const UpdateLaw& law_;
@@ -57,6 +63,7 @@ class CppStatements {
   std::set<const Coefficient*> used_coefficients_;
   std::set<VariableId> summed_;  // of the program at hand
   std::set<VariableId> assigned_, hoisted_;  // likewise
+  std::map<const Variable*, const Variable*> given_;
   std::set<const Variable*> outliving_;
 };
 

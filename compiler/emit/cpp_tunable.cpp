@@ -52,12 +52,13 @@ class TunablePrinter {
     program.output = {is_pushed ? "// where the surface goes, b, and m = f − b u̇" : "// Δu = u − u₋, b, and m = f − b u̇",
                       "const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);",
                       "const scalar force = sample.force;"};
+    program.step = two_phases();
     program.keep = {"sampled_position_change_ = sample.change;", "sampled_position_ = sample.position;", "last_damping_ = sample.damping;"};
     program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);", is_pushed ? "// s₋ = s" : "// u₋ = u",
                       "last_position_ = sampled_position_;"};
     program.energy = {"// V + T: in the springs, and what changes of parameters have set free", "const scalar stored = law_.stored_energy(tables);"};
     const std::string added = tables_.added_damping > 0 ? " + added_damping" : "";
-    check_by_jumps(program, "{last_damping_" + added + ", 0}");
+    check_by_jumps(program, "position, velocity, force", "{last_damping_" + added + ", 0}");
     program.command = "{sample.damping" + added + ", force}";
     return program;
   }

@@ -198,6 +198,7 @@ CodeModel header_model(const Compilation& c, Timing timing) {
   model.lists["keep"] = as_list(program.keep);
   model.lists["wait"] = as_list(program.wait);
   model.lists["update"] = as_list(program.update);
+  model.lists["step"] = as_list(program.step);
   model.lists["energy"] = as_list(program.energy);
   model.lists["functions"] = as_list(program.functions);
   model.lists["constants"] = as_list(program.constants);

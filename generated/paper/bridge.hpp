@@ -61,10 +61,10 @@ class bridge {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
     // m = f − b u̇
-    const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
-        relaxed_force_;
+    const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) return {damping, 0};
     sampled_ = true;
     sampled_position_change_ = position_change;
     sampled_position_ = position;
@@ -77,10 +77,10 @@ class bridge {
     sampled_ = false;
     // F ← a (F + c Δu)
     // K1, B1, K2, B2 and 1 more
-    K1_to_K3_force_ = dashpot::flush_below(threshold, K1_to_K3_decay * K1_to_K3_force_ +
+    K1_to_K3_force_ = dashpot::relaxed(threshold, K1_to_K3_decay, K1_to_K3_force_,
         K1_to_K3_gain * sampled_position_change_);
     // K1, B1, K2, B2 and 1 more
-    K1_to_K3_2_force_ = dashpot::flush_below(threshold, K1_to_K3_2_decay * K1_to_K3_2_force_ +
+    K1_to_K3_2_force_ = dashpot::relaxed(threshold, K1_to_K3_2_decay, K1_to_K3_2_force_,
         K1_to_K3_2_gain * sampled_position_change_);
     // S = Σ a_i F_i
     relaxed_force_ = K1_to_K3_force_ + K1_to_K3_2_force_;
@@ -88,10 +88,26 @@ class bridge {
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    // F ← a (F + c Δu)
+    // K1, B1, K2, B2 and 1 more
+    K1_to_K3_force_ = dashpot::relaxed(threshold, K1_to_K3_decay, K1_to_K3_force_, K1_to_K3_gain * position_change);
+    // K1, B1, K2, B2 and 1 more
+    K1_to_K3_2_force_ = dashpot::relaxed(threshold, K1_to_K3_2_decay, K1_to_K3_2_force_,
+        K1_to_K3_2_gain * position_change);
+    // S = Σ a_i F_i
+    relaxed_force_ = K1_to_K3_force_ + K1_to_K3_2_force_;
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -124,12 +140,12 @@ class bridge {
   static constexpr scalar K1_to_K3_energy_weight = 0.011255228247430114;  // 1/(2 k a²) [m/N]
   static constexpr scalar K1_to_K3_2_energy_weight = 0.002841810144439544;  // 1/(2 k a²) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar K1_to_K3_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar K1_to_K3_2_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -13,7 +13,7 @@
 //   of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
-// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 5 states
+// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 4 states
 // rounding: a mode's force is off by at most 1.2e-14 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest 01c1226b24d8a48e. It belongs to whoever had it written. Compile it
@@ -47,7 +47,6 @@ class generalised_kelvin_two {
   // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
-    relaxed_force_ = 0;
     K1_B1_K2_B2_force_ = 0;
     sampled_position_change_ = 0;
     sampled_position_ = 0;
@@ -60,10 +59,10 @@ class generalised_kelvin_two {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
     // m = f − b u̇
-    const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
-        relaxed_force_;
+    const scalar force = K1_B1_K2_B2_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) return {damping, 0};
     sampled_ = true;
     sampled_position_change_ = position_change;
     sampled_position_ = position;
@@ -75,18 +74,27 @@ class generalised_kelvin_two {
     if (!sampled_) return;
     sampled_ = false;
     // F ← a (F + c Δu)
-    K1_B1_K2_B2_force_ = dashpot::flush_below(threshold, K1_B1_K2_B2_decay * K1_B1_K2_B2_force_ +
+    K1_B1_K2_B2_force_ = dashpot::relaxed(threshold, K1_B1_K2_B2_decay, K1_B1_K2_B2_force_,
         K1_B1_K2_B2_gain * sampled_position_change_);
-    // S = Σ a_i F_i
-    relaxed_force_ = K1_B1_K2_B2_force_;
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = K1_B1_K2_B2_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    // F ← a (F + c Δu)
+    K1_B1_K2_B2_force_ = dashpot::relaxed(threshold, K1_B1_K2_B2_decay, K1_B1_K2_B2_force_,
+        K1_B1_K2_B2_gain * position_change);
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -112,11 +120,10 @@ class generalised_kelvin_two {
   static constexpr scalar half_static_stiffness = 28.571428571428573;  // ½ k0 [N/m]
   static constexpr scalar K1_B1_K2_B2_energy_weight = 0.019119792836147415;  // 1/(2 k a²) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
-  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar K1_B1_K2_B2_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -12,7 +12,7 @@
 //   of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormals
-// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 5 states
+// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 4 states
 // rounding: a mode's force is off by at most 3.4e-14 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest 99eeb1bafaa6a7f6. It belongs to whoever had it written. Compile it
@@ -46,7 +46,6 @@ class maxwell_reversal {
   // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
-    relaxed_force_ = 0;
     B_K_force_ = 0;
     sampled_position_change_ = 0;
     sampled_position_ = 0;
@@ -59,9 +58,9 @@ class maxwell_reversal {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
     // m = f − b u̇
-    const scalar force = step_stiffness * position_change + velocity_gain * velocity + relaxed_force_;
+    const scalar force = B_K_force_ + (step_stiffness * position_change + velocity_gain * velocity);
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) return {damping, 0};
     sampled_ = true;
     sampled_position_change_ = position_change;
     sampled_position_ = position;
@@ -73,17 +72,24 @@ class maxwell_reversal {
     if (!sampled_) return;
     sampled_ = false;
     // F ← a (F + c Δu)
-    B_K_force_ = dashpot::flush_below(threshold, B_K_decay * B_K_force_ + B_K_gain * sampled_position_change_);
-    // S = Σ a_i F_i
-    relaxed_force_ = B_K_force_;
+    B_K_force_ = dashpot::relaxed(threshold, B_K_decay, B_K_force_, B_K_gain * sampled_position_change_);
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = B_K_force_ + (step_stiffness * position_change + velocity_gain * velocity);
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    // F ← a (F + c Δu)
+    B_K_force_ = dashpot::relaxed(threshold, B_K_decay, B_K_force_, B_K_gain * position_change);
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -107,11 +113,10 @@ class maxwell_reversal {
   static constexpr scalar B_K_decay = 0.9900498337491681;  // a = e^{−λh} [1]
   static constexpr scalar B_K_energy_weight = 0.010202013400267558;  // 1/(2 k a²) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
-  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar B_K_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

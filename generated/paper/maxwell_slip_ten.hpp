@@ -106,6 +106,7 @@ class maxwell_slip_ten {
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
@@ -152,11 +153,11 @@ class maxwell_slip_ten {
       0.0029411764705882353, 0.003125, 0.0033333333333333335, 0.0035714285714285713, 0.0038461538461538464,
       0.004166666666666667, 0.004545454545454545};
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   alignas(16) scalar K1_spring_force_[16] = {};  // force of the spring [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   alignas(16) scalar sampled_Y1_slip_[16] = {};  // the slip's force, at this sample [N]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -92,10 +92,36 @@ class virtual_wall {
     surface_ = sampled_surface_now_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δ = u − s₋
+    const scalar approach = position - surface_;
+    // π = k0 s₋ + S
+    const scalar held_force = static_stiffness * surface_;
+    // f = 0 at Δs = −π/g
+    const scalar surface_recovery = recovery_compliance * held_force;
+    // f ≥ 0
+    const scalar surface_change = surface_recovery - approach > 0 ? surface_recovery : approach;
+    // gap = s − u
+    const scalar gap = surface_change - approach;
+    // s = s₋ + Δs
+    const scalar surface_now = gap > 0 ? dashpot::flush_below(threshold, surface_ + surface_change) : position;
+    // f′ = f − b∞ Δs/h
+    const scalar opposing = static_stiffness * surface_now;
+    // −(f′ + b∞ v̂)
+    const scalar pull = none - (opposing + feedthrough * velocity);
+    // above 0 where the tool is free
+    const scalar released = pull > 0 ? pull : gap;
+    // b = 0 of a free tool
+    const scalar brake = released > 0 ? none : contact_damping;
+    // m = f − b u̇ of a tool that touches
+    const scalar force = released > 0 ? none : opposing;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {sampled_brake_, 0};
+    sampled_brake_ = brake;
+    // s₋ = s
+    surface_ = surface_now;
+    return {brake, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -117,9 +143,9 @@ class virtual_wall {
   static constexpr scalar contact_damping = 5.0;  // b while the tool touches [N·s/m]
   static constexpr scalar half_static_stiffness = 250.0;  // ½ k0 [N/m]
 
-  scalar surface_ = 0;  // s, how far the surface is pushed in [m]
   scalar sampled_brake_ = 0;  // b, at this sample [N·s/m]
   scalar sampled_surface_now_ = 0;  // s, at this sample [m]
+  scalar surface_ = 0;  // s, how far the surface is pushed in [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

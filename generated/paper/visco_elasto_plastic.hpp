@@ -92,10 +92,30 @@ class visco_elasto_plastic {
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // t = stuck trial
+    const scalar Y_trial = Y_trial_by_change * position_change + K_spring_force_;
+    // s = clamp(t, ±Y)
+    const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
+    // r = t − s
+    const scalar Y_excess = Y_trial - Y_slip;
+    // b of the regime
+    const scalar Y_damping = Y_excess * Y_slip > 0 ? Y_sliding_damping : Y_stuck_damping;
+    // b of the regime
+    const scalar damping = Y_damping + steady_damping;
+    // m = f − b u̇
+    const scalar force = Y_slip;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
+    last_damping_ = damping;
+    // F ← F + k δ
+    K_spring_force_ = dashpot::flush_below(threshold, Y_slip);
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -119,12 +139,12 @@ class visco_elasto_plastic {
   static constexpr scalar steady_damping = 2.5;  // of what no slip changes [N·s/m]
   static constexpr scalar K_compliance = 0.0005;  // 1/(2 k) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   scalar K_spring_force_ = 0;  // force of the spring [N]
   scalar last_damping_ = 2.5;  // b of the sample before [N·s/m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_Y_slip_ = 0;  // the slip's force, at this sample [N]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -15,7 +15,7 @@
 //   adds at most 1.9e-14 of the sum of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 15 additions, 14 multiplications, 0 guards against subnormals
-// cost of update(): 11 additions, 11 multiplications, 3 guards against subnormals; 12 states
+// cost of update(): 11 additions, 11 multiplications, 3 guards against subnormals; 11 states
 // rounding: a mode's force is off by at most 1.6e-14 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest 67a28d78792a7f21. It belongs to whoever had it written. Compile it
@@ -50,7 +50,6 @@ class visco_elasto_plastic_organ {
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     K3_B3_K4_B4_spring_force_ = 0;
-    K3_B3_K4_B4_relaxed_force_ = 0;
     K3_B3_K4_B4_mode_force_ = 0;
     K_spring_force_ = 0;
     Y_samples_ = 0;
@@ -70,7 +69,7 @@ class visco_elasto_plastic_organ {
     const scalar position_change = position - last_position_;
     // t = stuck trial
     const scalar Y_trial = Y_trial_by_change * position_change +
-        Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_relaxed_force_) +
+        Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_trial_by_K * K_spring_force_;
     // s = clamp(t, ±Y)
     const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
@@ -78,9 +77,9 @@ class visco_elasto_plastic_organ {
     const scalar Y_excess = Y_trial - Y_slip;
     // f' = f − x Δu/h, x of the regime
     const scalar Y_force = Y_excess * Y_slip > 0 ? Y_force_by_change * position_change +
-        Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_relaxed_force_) +
+        Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess : Y_stuck_force_by_change * position_change +
-        Y_stuck_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_relaxed_force_) +
+        Y_stuck_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_stuck_force_by_K * K_spring_force_;
     // b of the regime
     const scalar Y_damping = Y_excess * Y_slip > 0 ? Y_sliding_damping : Y_stuck_damping;
@@ -93,7 +92,7 @@ class visco_elasto_plastic_organ {
     // m = f − b u̇
     const scalar force = Y_force - Y_compensation * velocity;
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
+    if (!dashpot::all_finite(position, force)) return {last_damping_, 0};
     sampled_ = true;
     last_damping_ = damping;
     sampled_position_change_ = position_change;
@@ -111,12 +110,12 @@ class visco_elasto_plastic_organ {
     // δ of the block
     const scalar K3_B3_K4_B4_elongation = Y_K3_B3_K4_B4_elongation_by_change *
         sampled_position_change_ - Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ +
-        K3_B3_K4_B4_relaxed_force_) +
+        K3_B3_K4_B4_mode_force_) +
         Y_K3_B3_K4_B4_elongation_by_K * K_spring_force_ - Y_K3_B3_K4_B4_elongation_by_excess * sampled_Y_excess_;
     // F ← F + k δ
     const scalar K3_B3_K4_B4_spring_force_next = dashpot::flush_below(threshold, K3_B3_K4_B4_spring_force_ +
         (Y_K3_B3_K4_B4_spring_by_change * sampled_position_change_ - Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 *
-        (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_relaxed_force_) +
+        (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
         Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * sampled_Y_excess_));
     // F ← F + k δ
     const scalar K_spring_force_next = dashpot::flush_below(threshold,
@@ -124,19 +123,65 @@ class visco_elasto_plastic_organ {
     K3_B3_K4_B4_spring_force_ = K3_B3_K4_B4_spring_force_next;
     K_spring_force_ = K_spring_force_next;
     // F ← a (F + c Δu)
-    K3_B3_K4_B4_mode_force_ = dashpot::flush_below(threshold, K3_B3_K4_B4_mode_decay * K3_B3_K4_B4_mode_force_ +
+    K3_B3_K4_B4_mode_force_ = dashpot::relaxed(threshold, K3_B3_K4_B4_mode_decay, K3_B3_K4_B4_mode_force_,
         K3_B3_K4_B4_mode_gain * K3_B3_K4_B4_elongation);
-    // S = Σ a_i F_i
-    K3_B3_K4_B4_relaxed_force_ = K3_B3_K4_B4_mode_force_;
     Y_samples_ = sampled_Y_sliding_samples_;
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // t = stuck trial
+    const scalar Y_trial = Y_trial_by_change * position_change +
+        Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_trial_by_K * K_spring_force_;
+    // s = clamp(t, ±Y)
+    const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
+    // r = t − s
+    const scalar Y_excess = Y_trial - Y_slip;
+    // f' = f − x Δu/h, x of the regime
+    const scalar Y_force = Y_excess * Y_slip > 0 ? Y_force_by_change * position_change +
+        Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess : Y_stuck_force_by_change * position_change +
+        Y_stuck_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_stuck_force_by_K * K_spring_force_;
+    // b of the regime
+    const scalar Y_damping = Y_excess * Y_slip > 0 ? Y_sliding_damping : Y_stuck_damping;
+    // samples of this slide
+    const scalar Y_sliding_samples = Y_excess * Y_slip > 0 ? Y_samples_ + Y_one : Y_none;
+    // β, held
+    const scalar Y_compensation = Y_sliding_samples - Y_hold > 0 ? Y_compensation_most : Y_none;
+    // b of the regime
+    const scalar damping = Y_damping;
+    // m = f − b u̇
+    const scalar force = Y_force - Y_compensation * velocity;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, force)) return {last_damping_, 0};
+    last_damping_ = damping;
+    // δ of the block
+    const scalar K3_B3_K4_B4_elongation = Y_K3_B3_K4_B4_elongation_by_change *
+        position_change - Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ +
+        K3_B3_K4_B4_mode_force_) +
+        Y_K3_B3_K4_B4_elongation_by_K * K_spring_force_ - Y_K3_B3_K4_B4_elongation_by_excess * Y_excess;
+    // F ← F + k δ
+    const scalar K3_B3_K4_B4_spring_force_next = dashpot::flush_below(threshold, K3_B3_K4_B4_spring_force_ +
+        (Y_K3_B3_K4_B4_spring_by_change * position_change - Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 *
+        (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * Y_excess));
+    // F ← F + k δ
+    const scalar K_spring_force_next = dashpot::flush_below(threshold, Y_trial - Y_K_spring_by_excess * Y_excess);
+    K3_B3_K4_B4_spring_force_ = K3_B3_K4_B4_spring_force_next;
+    K_spring_force_ = K_spring_force_next;
+    // F ← a (F + c Δu)
+    K3_B3_K4_B4_mode_force_ = dashpot::relaxed(threshold, K3_B3_K4_B4_mode_decay, K3_B3_K4_B4_mode_force_,
+        K3_B3_K4_B4_mode_gain * K3_B3_K4_B4_elongation);
+    Y_samples_ = Y_sliding_samples;
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -191,9 +236,7 @@ class visco_elasto_plastic_organ {
   static constexpr scalar K3_B3_K4_B4_mode_energy_weight = 0.003847128473365685;  // 1/(2 k a²) [m/N]
   static constexpr scalar K_compliance = 0.0005;  // 1/(2 k) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   scalar K3_B3_K4_B4_spring_force_ = 0;  // force of the spring [N]
-  scalar K3_B3_K4_B4_relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar K3_B3_K4_B4_mode_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar K_spring_force_ = 0;  // force of the spring [N]
   scalar Y_samples_ = 0;  // for which the command has taken it for sliding [1]
@@ -203,6 +246,7 @@ class visco_elasto_plastic_organ {
   scalar sampled_Y_trial_ = 0;  // the slip's force if it held, at this sample [N]
   scalar sampled_Y_sliding_samples_ = 0;  // at this sample [1]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -57,7 +57,7 @@ class gelatin_oil_20 {
     // m = f − b u̇
     const scalar force = static_stiffness * position;
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(velocity, force)) return {damping, 0};
     sampled_ = true;
     sampled_position_ = position;
     return {damping, force};
@@ -71,10 +71,15 @@ class gelatin_oil_20 {
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // m = f − b u̇
+    const scalar force = static_stiffness * position;
+    sampled_ = false;
+    if (!dashpot::all_finite(velocity, force)) return {damping, 0};
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -92,8 +97,8 @@ class gelatin_oil_20 {
   static constexpr scalar static_stiffness = 44.0;  // k0 [N/m]
   static constexpr scalar half_static_stiffness = 22.0;  // ½ k0 [N/m]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

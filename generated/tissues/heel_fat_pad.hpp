@@ -68,10 +68,10 @@ class heel_fat_pad {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
     // m = f − b u̇
-    const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
-        relaxed_force_;
+    const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) return {damping, 0};
     sampled_ = true;
     sampled_position_change_ = position_change;
     sampled_position_ = position;
@@ -107,10 +107,39 @@ class heel_fat_pad {
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    // y = (a c Δu − α F) + e
+    // B3, K3
+    const scalar B3_K3_increment = B3_K3_gain * position_change - B3_K3_loss * B3_K3_force_ + B3_K3_error_;
+    // B2, K2
+    const scalar B2_K2_increment = B2_K2_gain * position_change - B2_K2_loss * B2_K2_force_ + B2_K2_error_;
+    // B1, K1
+    const scalar B1_K1_increment = B1_K1_gain * position_change - B1_K1_loss * B1_K1_force_ + B1_K1_error_;
+    // t = F + y
+    const scalar B3_K3_next = B3_K3_force_ + B3_K3_increment;
+    const scalar B2_K2_next = B2_K2_force_ + B2_K2_increment;
+    const scalar B1_K1_next = B1_K1_force_ + B1_K1_increment;
+    // e = y − (t − F)
+    B3_K3_error_ = dashpot::flush_below(threshold, B3_K3_increment - (B3_K3_next - B3_K3_force_));
+    B2_K2_error_ = dashpot::flush_below(threshold, B2_K2_increment - (B2_K2_next - B2_K2_force_));
+    B1_K1_error_ = dashpot::flush_below(threshold, B1_K1_increment - (B1_K1_next - B1_K1_force_));
+    // F = t
+    B3_K3_force_ = dashpot::flush_below(threshold, B3_K3_next);  // B3, K3
+    B2_K2_force_ = dashpot::flush_below(threshold, B2_K2_next);  // B2, K2
+    B1_K1_force_ = dashpot::flush_below(threshold, B1_K1_next);  // B1, K1
+    // S = Σ a_i F_i
+    relaxed_force_ = B3_K3_force_ + B2_K2_force_ + B1_K1_force_;
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -145,7 +174,6 @@ class heel_fat_pad {
   static constexpr scalar B2_K2_energy_weight = 0.00013174728806145854;  // 1/(2 k a²) [m/N]
   static constexpr scalar B1_K1_energy_weight = 0.010228482971941651;  // 1/(2 k a²) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar B3_K3_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]
@@ -155,6 +183,7 @@ class heel_fat_pad {
   scalar B1_K1_error_ = 0;  // what rounding kept from the force [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

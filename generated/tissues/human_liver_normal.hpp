@@ -16,7 +16,7 @@
 //   of the force's terms
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
-// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 5 states
+// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 4 states
 // rounding: a mode's force is off by at most 1.6e-15 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest cba43328b944ed20. It belongs to whoever had it written. Compile it
@@ -50,7 +50,6 @@ class human_liver_normal {
   // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
-    relaxed_force_ = 0;
     B2_K2_force_ = 0;
     sampled_position_change_ = 0;
     sampled_position_ = 0;
@@ -63,10 +62,10 @@ class human_liver_normal {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
     // m = f − b u̇
-    const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
-        relaxed_force_;
+    const scalar force = B2_K2_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) return {damping, 0};
     sampled_ = true;
     sampled_position_change_ = position_change;
     sampled_position_ = position;
@@ -78,18 +77,25 @@ class human_liver_normal {
     if (!sampled_) return;
     sampled_ = false;
     // F ← a (F + c Δu)
-    B2_K2_force_ = dashpot::flush_below(threshold, B2_K2_decay * B2_K2_force_ +
-        B2_K2_gain * sampled_position_change_);
-    // S = Σ a_i F_i
-    relaxed_force_ = B2_K2_force_;
+    B2_K2_force_ = dashpot::relaxed(threshold, B2_K2_decay, B2_K2_force_, B2_K2_gain * sampled_position_change_);
     // u₋ = u
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = B2_K2_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
+    sampled_ = false;
+    if (!dashpot::all_finite(force)) return {damping, 0};
+    // F ← a (F + c Δu)
+    B2_K2_force_ = dashpot::relaxed(threshold, B2_K2_decay, B2_K2_force_, B2_K2_gain * position_change);
+    // u₋ = u
+    last_position_ = position;
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -115,11 +121,10 @@ class human_liver_normal {
   static constexpr scalar half_static_stiffness = 23.2;  // ½ k0 [N/m]
   static constexpr scalar B2_K2_energy_weight = 0.010885385708852854;  // 1/(2 k a²) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
-  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -21,7 +21,7 @@
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 7 additions, 3 multiplications, 1 guards against subnormals
 //   and at most 61 additions, multiplications and divisions for the coupled slips
-// cost of update(): 2 additions, 3 multiplications, 2 guards against subnormals; 8 states
+// cost of update(): 2 additions, 3 multiplications, 2 guards against subnormals; 7 states
 // rounding: a mode's force is off by at most 1.6e-15 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest 7795867927feb132. It belongs to whoever had it written. Compile it
@@ -56,7 +56,6 @@ class needle_in_liver {
   // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
   void reset(scalar position = 0) noexcept {
     surface_ = dashpot::all_finite(position, position, position) ? dashpot::pushed_in(0.0, position) : 0;
-    relaxed_force_ = 0;
     B2_K2_force_ = 0;
     presliding_spring_force_ = 0;
     sampled_brake_ = 0;
@@ -72,7 +71,7 @@ class needle_in_liver {
     // Δ = u − s₋
     const scalar approach = position - surface_;
     // π = k0 s₋ + S
-    const scalar held_force = static_stiffness * surface_ + relaxed_force_;
+    const scalar held_force = static_stiffness * surface_ + B2_K2_force_;
     // f and every block's δ, by curves, signs and numbers
     const scalar coupled_friction_held[2] = {held_force, presliding_spring_force_};
     scalar coupled_friction_elongation[2] = {};
@@ -116,14 +115,12 @@ class needle_in_liver {
     presliding_spring_force_ = dashpot::flush_below(threshold, presliding_spring_force_ +
         presliding_stiffness * sampled_presliding_elongation_);
     // F ← a (F + c Δu)
-    B2_K2_force_ = dashpot::flush_below(threshold, B2_K2_decay * B2_K2_force_ +
-        B2_K2_gain * sampled_surface_change_);
-    // S = Σ a_i F_i
-    relaxed_force_ = B2_K2_force_;
+    B2_K2_force_ = dashpot::relaxed(threshold, B2_K2_decay, B2_K2_force_, B2_K2_gain * sampled_surface_change_);
     // s₋ = s
     surface_ = sampled_surface_now_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
@@ -165,14 +162,13 @@ class needle_in_liver {
       {dashpot::slip_part::slip, 0, 0, 1, 0, 8, 0.0, 0.0, 1.5},
   };
 
-  scalar surface_ = 0;  // s, how far the surface is pushed in [m]
-  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar B2_K2_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar presliding_spring_force_ = 0;  // force of the spring [N]
   scalar sampled_brake_ = 0;  // b, at this sample [N·s/m]
   scalar sampled_presliding_elongation_ = 0;  // δ of the block, at this sample [m]
   scalar sampled_surface_change_ = 0;  // Δs since the sample before, at this sample [m]
   scalar sampled_surface_now_ = 0;  // s, at this sample [m]
+  scalar surface_ = 0;  // s, how far the surface is pushed in [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

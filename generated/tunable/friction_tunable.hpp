@@ -87,6 +87,7 @@ class friction_tunable {
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();

@@ -121,8 +121,8 @@ class second_order_maxwell_batch {
     // Δu = u − u₋
     const vector position_change = position - last_position_;
     // m = f − b u̇
-    const vector force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
-        relaxed_force_;
+    const vector force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
     const vector sampled = vector::all_finite(position, velocity, force);
     if constexpr (gives_commands) {
       vector::put(forces, point, vector::where(sampled, force, scalar(0)));
@@ -131,10 +131,10 @@ class second_order_maxwell_batch {
       const vector sampled_position_change_ = position_change;
       const vector sampled_position_ = position;
       // F ← a (F + c Δu)
-      B2_K2_force_ = vector::flush_below(threshold, B2_K2_decay * B2_K2_force_ +
-          B2_K2_gain * sampled_position_change_);
-      B1_K1_force_ = vector::flush_below(threshold, B1_K1_decay * B1_K1_force_ +
-          B1_K1_gain * sampled_position_change_);
+      B2_K2_force_ = B2_K2_gain * sampled_position_change_ +
+          B2_K2_decay * vector::flush_below(threshold, B2_K2_force_);
+      B1_K1_force_ = B1_K1_gain * sampled_position_change_ +
+          B1_K1_decay * vector::flush_below(threshold, B1_K1_force_);
       // u₋ = u
       last_position_ = sampled_position_;
       vector::put(state, 0 * block, vector::where(sampled, last_position_, vector::at(state, 0 * block)));

@@ -94,6 +94,7 @@ class visco_elasto_plastic {
     last_position_ = dashpot::branch_free::chosen(sampled, sampled_position_, last_position_);
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
@@ -121,12 +122,12 @@ class visco_elasto_plastic {
   static constexpr scalar steady_damping = 2.5;  // of what no slip changes [N·s/m]
   static constexpr scalar K_compliance = 0.0005;  // 1/(2 k) [m/N]
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   scalar K_spring_force_ = 0;  // force of the spring [N]
   scalar last_damping_ = 2.5;  // b of the sample before [N·s/m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_Y_slip_ = 0;  // the slip's force, at this sample [N]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

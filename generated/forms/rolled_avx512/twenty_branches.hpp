@@ -63,10 +63,10 @@ class twenty_branches {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;
     // m = f − b u̇
-    const scalar force = static_stiffness * position + step_stiffness * position_change + velocity_gain * velocity +
-        relaxed_force_;
+    const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
+        velocity_gain * velocity);
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) return {damping, 0};
     sampled_ = true;
     sampled_position_change_ = position_change;
     sampled_position_ = position;
@@ -84,9 +84,8 @@ class twenty_branches {
       DASHPOT_UNROLL
       for (int j = i; j < i + 32; j += vector::width) {
         // F ← a (F + c Δu)
-        vector::put(mode_force_, j, vector::flush_below(threshold,
-            vector::at(mode_decay, j) * vector::at(mode_force_, j) +
-            vector::at(mode_gain, j) * sampled_position_change));
+        vector::put(mode_force_, j, vector::at(mode_gain, j) * sampled_position_change +
+            vector::at(mode_decay, j) * vector::flush_below(threshold, vector::at(mode_force_, j)));
         lane.add(j - i, vector::at(mode_force_, j));
       }
     // S = Σ a_i F_i
@@ -95,6 +94,7 @@ class twenty_branches {
     last_position_ = sampled_position_;
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();
@@ -153,11 +153,11 @@ class twenty_branches {
       0.04568838789558418, 0.04362152707714892, 0.041911721235910165, 0.04053565583601803, 0.0394288665911734,
       0.03864863934491891, 0.037922846277870015, 0.037446611637797944};
 
-  scalar last_position_ = 0;  // u of the sample before [m]
   scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   alignas(64) scalar mode_force_[32] = {};  // force of the mode, decayed to the next sample [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

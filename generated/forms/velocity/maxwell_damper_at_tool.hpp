@@ -10,7 +10,7 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // device: ideal: exact brake, exact velocity, no delay
 // cost of output(): 1 additions, 1 multiplications, 0 guards against subnormals
-// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 3 states
+// cost of update(): 1 additions, 2 multiplications, 1 guards against subnormals; 2 states
 // rounding: a mode's force is off by at most 3.4e-14 of its peak
 //
 // Written by dashpot 0.1.0 from a network with digest 9064276efb0f87b7. It belongs to whoever had it written. Compile it
@@ -44,7 +44,6 @@ class maxwell_damper_at_tool {
   // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
   void reset(scalar position = 0) noexcept {
     static_cast<void>(position);
-    relaxed_force_ = 0;
     B_K_force_ = 0;
     sampled_velocity_ = 0;
     sampled_ = false;
@@ -54,9 +53,9 @@ class maxwell_damper_at_tool {
   // non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
-    const scalar force = velocity_gain * velocity + relaxed_force_;
+    const scalar force = B_K_force_ + velocity_gain * velocity;
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(position, force)) return {damping, 0};
     sampled_ = true;
     sampled_velocity_ = velocity;
     return {damping, force};
@@ -67,15 +66,18 @@ class maxwell_damper_at_tool {
     if (!sampled_) return;
     sampled_ = false;
     // F ← a (F + c Δu)
-    B_K_force_ = dashpot::flush_below(threshold, B_K_decay * B_K_force_ + B_K_velocity_drive * sampled_velocity_);
-    // S = Σ a_i F_i
-    relaxed_force_ = B_K_force_;
+    B_K_force_ = dashpot::relaxed(threshold, B_K_decay, B_K_force_, B_K_velocity_drive * sampled_velocity_);
   }
 
+  // Both at once, where nothing else has to happen in between.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
-    const dashpot::command<scalar> now = output(position, velocity);
-    update();
-    return now;
+    // m = f − b u̇
+    const scalar force = B_K_force_ + velocity_gain * velocity;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, force)) return {damping, 0};
+    // F ← a (F + c Δu)
+    B_K_force_ = dashpot::relaxed(threshold, B_K_decay, B_K_force_, B_K_velocity_drive * velocity);
+    return {damping, force};
   }
 
   // No parameter of this network can be set while it runs.
@@ -98,7 +100,6 @@ class maxwell_damper_at_tool {
   static constexpr scalar B_K_decay = 0.9900498337491681;  // a = e^{−λh} [1]
   static constexpr scalar B_K_energy_weight = 0.010202013400267558;  // 1/(2 k a²) [m/N]
 
-  scalar relaxed_force_ = 0;  // sum of the modes' forces, decayed to the next sample [N]
   scalar B_K_force_ = 0;  // force of the mode, decayed to the next sample [N]
   scalar sampled_velocity_ = 0;  // estimate of u̇, at this sample [m/s]
   bool sampled_ = false;  // a finite sample waits for update()

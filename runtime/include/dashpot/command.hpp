@@ -19,10 +19,19 @@ struct command {
   Scalar force;    // motor force opposing +u [N], or torque [N·m] in rotation
 };
 
-// True when every argument is finite: x − x is 0 for a finite x and NaN for the others.
+// True when every argument is finite: x − x is 0 for a finite x and NaN for the others, and NaN alone differs from itself.
+template <class Scalar>
+constexpr bool all_finite(Scalar a) noexcept {
+  const Scalar nothing = a - a;
+  return nothing == nothing;
+}
+template <class Scalar>
+constexpr bool all_finite(Scalar a, Scalar b) noexcept {
+  return all_finite((a - a) + (b - b));
+}
 template <class Scalar>
 constexpr bool all_finite(Scalar a, Scalar b, Scalar c) noexcept {
-  return (a - a) + (b - b) + (c - c) == Scalar(0);
+  return all_finite((a - a) + (b - b) + (c - c));
 }
 
 // Whether `value` lies beyond ± `threshold`. One question in two forms: a desktop's processor predicts two comparisons and
@@ -43,6 +52,19 @@ constexpr bool is_beyond(Scalar threshold, Scalar value) noexcept {
 template <class Scalar>
 constexpr Scalar flush_below(Scalar threshold, Scalar value) noexcept {
   return is_beyond(threshold, value) ? value : Scalar(0);
+}
+
+// drive + decay · force, where a force below ± `threshold` counts as zero. The guard looks at the force before, so that nothing waits for
+// it; on processors that predict jumps, nothing ever waits at all.
+template <class Scalar>
+constexpr Scalar relaxed(Scalar threshold, Scalar decay, Scalar force, Scalar drive) noexcept {
+  const Scalar next = drive + decay * force;
+#if defined(__GNUC__) && !defined(__arm__)
+  if (__builtin_expect(is_beyond(threshold, force), true)) return next;
+  return drive + Scalar(0);
+#else
+  return is_beyond(threshold, force) ? next : drive + Scalar(0);
+#endif
 }
 
 // `value` within ± `limit`, which is not negative: what a slip holds of the force that acts on it.

@@ -58,7 +58,7 @@ TEST(EmitCpp, returns_a_brake_that_changes) {
   c.law.last_brake = static_cast<VariableId>(c.law.variables.size());
   c.law.variables.push_back({"last_damping", "N·s/m", "b", Role::state, 1, {}, 2.5});
   const std::string text = emit_cpp(c, {}, diagnostics)->front().text;
-  EXPECT_TRUE(contains(text, "if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};")) << text;
+  EXPECT_TRUE(contains(text, "if (!dashpot::all_finite(velocity, force)) return {last_damping_, 0};")) << text;
   EXPECT_TRUE(contains(text, "return {damping, force};")) << text;
   EXPECT_TRUE(contains(text, "    last_damping_ = 2.5;\n")) << text;
   EXPECT_TRUE(contains(text, "scalar last_damping_ = 2.5;")) << text;
@@ -74,6 +74,27 @@ TEST(EmitCpp, states_form_and_error_bound_of_float) {
   EXPECT_TRUE(contains(header_of(network, choices), "in delta form a mode's force is off by at most 6.2e-06 of its peak"));
   choices.rate = 1e6;
   EXPECT_TRUE(contains(header_of(network, choices), "in compensated form a mode's force is off by at most 3.6e-07 of its peak"));
+}
+
+// Fails if an input that is no number can pass unseen, or if what the force shows of itself is looked at again.
+TEST(EmitCpp, looks_at_what_the_force_does_not_show) {
+  const auto network = [](const char* structure) { return fmt::format(R"({{ "dashpot": 1, "name": "pad", "network": {} }})", structure); };
+  const auto checked = [](const std::string& text, const std::string& numbers) { return contains(text, "all_finite(" + numbers + ")) return"); };
+  const char* const maxwell = R"({ "parallel": [ { "spring": 5 }, { "series": [ { "spring": 12 }, { "damper": 5 } ] } ] })";
+  EXPECT_TRUE(checked(header_of(network(maxwell)), "force"));
+  EXPECT_TRUE(checked(header_of(network(R"({ "spring": 5 })")), "velocity, force"));
+  EXPECT_TRUE(checked(header_of(network(R"({ "series": [ { "spring": 5 }, { "slip": 1 } ] })")), "position, velocity, force"));
+}
+
+// Fails if a step goes through copies that only update() needs, or through two functions where one is enough.
+TEST(EmitCpp, fuses_a_step) {
+  const std::string text = header_of(testing::parallel_branches("some", 3));
+  const std::size_t start = text.find("step(scalar position"), end = text.find("unsigned set(", start);
+  ASSERT_NE(end, text.npos);
+  const std::string step = text.substr(start, end - start);
+  EXPECT_FALSE(contains(step, "sampled_position")) << step;
+  EXPECT_FALSE(contains(step, "update()")) << step;
+  EXPECT_TRUE(contains(step, "last_position_ = position;")) << step;
 }
 
 // Fails if the emitted code does not read like the author's model.

@@ -136,15 +136,18 @@ class Box {
 
   double cost(const BoxCut& cut) const { return most(cut.stiffness) * period_ * loop_.lateness * loop_.lateness + most(cut.damping); }
 
-  // As least_cut() of a tree, by what a cut asks for at the box's far corner; blocks no softer than the law makes them.
+  // No softer than the law makes blocks behind slips.
+  BoxCut bounded_cut(int block) const {
+    BoxCut cut = cut_of(tables_.blocks[static_cast<std::size_t>(block)]);
+    cut.stiffness.base += tables_.head.least_share * 2 * (most(cut.stiffness) + most(cut.damping) / period_);
+    return cut;
+  }
+
+  // As least_cut() of a tree, by what a cut asks for at the box's far corner.
   std::optional<BoxCut> least_cut(const tunable_coupling& coupling, int index) const {
     const slip_node<double>& node = tables_.nodes[static_cast<std::size_t>(coupling.first_node + index)];
     if (node.kind == slip_part::slip) return std::nullopt;
-    if (node.kind == slip_part::block) {
-      BoxCut cut = cut_of(tables_.blocks[static_cast<std::size_t>(coupling.first_block + node.place)]);
-      cut.stiffness.base += tables_.head.least_share * 2 * (most(cut.stiffness) + most(cut.damping) / period_);
-      return cut;
-    }
+    if (node.kind == slip_part::block) return bounded_cut(coupling.first_block + node.place);
     std::optional<BoxCut> least, sum = BoxCut{};
     for (int i = node.first_child; i < node.first_child + node.child_count; ++i) {
       const std::optional<BoxCut> child = least_cut(coupling, i);
@@ -154,6 +157,35 @@ class Box {
     return node.kind == slip_part::series ? least : sum;
   }
 
+  // Of slips in no tree the least of all ways to take ends to the tool's side, no slip between the sides. There is one: no path
+  // of slips alone joins tool and ground.
+  BoxCut least_cut(const tunable_graph& graph) const {
+    std::vector<BoxCut> cuts;
+    for (int i = 0; i < graph.tie_count; ++i) cuts.push_back(bounded_cut(graph.first_block + i));
+    const auto separates = [&](unsigned at_tool, const tunable_ends& ends) {
+      const auto is_at_tool = [&](int end) { return end == graph.end_count || (end < graph.end_count && (at_tool >> end & 1u) != 0); };
+      return is_at_tool(ends.from) != is_at_tool(ends.to);
+    };
+    std::optional<unsigned> least;
+    double least_cost = 0;
+    for (unsigned at_tool = 0; at_tool < 1u << graph.end_count; ++at_tool) {
+      bool is_crossed = false;
+      for (int k = graph.first_slip; k < graph.first_slip + graph.link_count; ++k) is_crossed |= separates(at_tool, tables_.links[static_cast<std::size_t>(k)]);
+      double sum = 0;
+      for (std::size_t i = 0; i < cuts.size(); ++i)
+        if (separates(at_tool, tie(graph, i))) sum += cost(cuts[i]);
+      if (is_crossed || (least && sum >= least_cost)) continue;
+      least = at_tool;
+      least_cost = sum;
+    }
+    BoxCut cut;
+    for (std::size_t i = 0; i < cuts.size(); ++i)
+      if (separates(least.value(), tie(graph, i))) cut = plus(cut, cuts[i]);
+    return cut;
+  }
+
+  const tunable_ends& tie(const tunable_graph& graph, std::size_t i) const { return tables_.ties[static_cast<std::size_t>(graph.first_tie) + i]; }
+
   // T_max β lateness² + b∞(cut) T_max/h. Dampers that join tool and ground are the brake's; those of a mesh as far as none of
   // its nodes is between.
   Affine needed() const {
@@ -162,6 +194,7 @@ class Box {
       if (part.kind != tunable_kind::damper) cut = plus(cut, cut_of(part));
     });
     for (const tunable_coupling& coupling : tables_.couplings) cut = plus(cut, least_cut(coupling, 0).value());
+    for (const tunable_graph& graph : tables_.graphs) cut = plus(cut, least_cut(graph));
     const double margin = 1 + 64 * unit_roundoff(scalar_);
     const Affine all = plus(plus({}, cut.stiffness, period_ * loop_.lateness * loop_.lateness), cut.damping);
     return plus({}, all, loop_.hold * margin);
@@ -263,7 +296,7 @@ EnergyLemma check_energy_lemma_over_box(const UpdateLaw& law) {
   const BoxLoop unused{1, 1, std::nullopt, 1};
   EnergyLemma lemma;
   lemma.applies = lemma.over_box = true;
-  lemma.with_slips = !law.tunable->couplings.empty();
+  lemma.with_slips = !law.tunable->yields.empty();
   lemma.holds = Box(law, unused).relaxations_give_no_energy();
   return lemma;
 }

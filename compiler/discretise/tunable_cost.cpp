@@ -1,5 +1,6 @@
 #include "discretise/tunable_network.hpp"
 
+#include <dashpot/slip_network.hpp>
 #include <dashpot/slip_regime.hpp>
 
 #include "discretise/update_law.hpp"
@@ -50,6 +51,8 @@ std::size_t slips(const TunableTables& tables) {
   std::size_t operations = 0;
   for (const tunable_coupling& coupling : tables.couplings)
     operations += size_of(slip_tree_operations(tables.nodes.data() + coupling.first_node, coupling.node_count));
+  // What blocks do at both ends, and how long they become.
+  for (const tunable_graph& graph : tables.graphs) operations += size_of(tables.operations(graph) + 5 * graph.tie_count);
   return operations;
 }
 
@@ -72,12 +75,21 @@ std::size_t slip_brake(const TunableTables& tables) {
   std::size_t operations = 18 + 4 * tables.yields.size() + (tables.head.slip_rule.coil_share < 1 ? square_root_operations + 4 : 0);
   for (const tunable_coupling& coupling : tables.couplings)
     operations += 2 * (1 + size_of(slip_regime_operations(tables.nodes.data() + coupling.first_node, coupling.node_count)));
+  for (const tunable_graph& graph : tables.graphs)
+    operations += 2 * (1 + size_of(2 * graph.tie_count) + elimination(size_of(graph.end_count)));
   return operations;
 }
 
 std::size_t contact(const TunableTables& tables) { return tables.head.contact.is_there ? 18 : 0; }
 
 }  // namespace
+
+// Of patterns only how many there are matters: a slip that holds 1 N, and behind a contact the tool's own, which has two.
+int TunableTables::operations(const tunable_graph& graph) const {
+  std::vector<slip_link<double>> of_graph(size_of(graph.link_count), {0, 0, -1, 1});
+  if (head.contact.is_there) of_graph.push_back({0, 0, 0, 1});
+  return slip_network_operations(of_graph.data(), static_cast<int>(of_graph.size()), graph.end_count);
+}
 
 TunableCost cost_of(const TunableTables& tables) {
   const std::size_t springs = tables.springs.size();

@@ -1,12 +1,15 @@
 #include "discretise/tunable_network.hpp"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "discretise/law_writer.hpp"
 #include "discretise/rounding.hpp"
 #include "discretise/slip_table.hpp"
 #include "discretise/tunable_blocks.hpp"
+#include "discretise/tunable_graph.hpp"
+#include "linear/validity.hpp"
 #include "network/effect.hpp"
 #include "network/law.hpp"
 
@@ -65,19 +68,17 @@ class TablesBuilder {
       : network_(network), structure_(at_largest(network)), brake_(brake), decomposition_(decomposition), choices_(choices), period_(sample_period),
         blocks_(network_, choices_, period_, tables_) {}
 
-  // False where slips are in no tree.
-  bool build() {
+  // False, with a diagnostic, where too many slips are in no tree.
+  bool build(Diagnostics& diagnostics) {
     write_head();
     for (const Parameter& parameter : network_.parameters)
       if (parameter.tunable) add_tunable(parameter);
-    if (slip_elements(structure_) == 0) {
-      blocks_.add(network_, effective_elements(network_), false);
-    } else {
-      const std::optional<Tree> tree = series_parallel_tree(structure_);
-      const std::optional<NormalForm> form = normal_form(structure_);
-      if (!tree || !form) return false;
+    const std::optional<NormalForm> form = closed_normal_form(structure_, diagnostics);
+    if (!form) return false;
+    if (const std::optional<Tree> tree = form->has_slips() ? series_parallel_tree(structure_) : std::nullopt)
       add_tree(*tree, *form);
-    }
+    else
+      add_parts(*form);
     tables_.head.observed = blocks_.number(network_, brake_.observed);
     count();
     return true;
@@ -121,10 +122,7 @@ class TablesBuilder {
   }
 
   void add_tree(const Tree& tree, const NormalForm& form) {
-    std::set<std::size_t> behind_slips;
-    for (const NormalTree& component : form.components) collect(component, behind_slips);
-    std::vector<std::size_t> linear = effective_elements(network_);
-    std::erase_if(linear, [&](std::size_t i) { return behind_slips.count(i) != 0; });
+    const std::vector<std::size_t> linear = linear_elements(form);
     blocks_.add(laid_out_part(network_, tree, linear), linear, false);
     if (!network_.contact)
       for (const NormalTree& component : form.components) add_component(component, tree, false);
@@ -132,10 +130,33 @@ class TablesBuilder {
       add_component(whole_tree(form, structure_), tree, !linear.empty());
   }
 
-  static void collect(const NormalTree& tree, std::set<std::size_t>& elements) {
-    elements.insert(tree.elements.begin(), tree.elements.end());
-    for (const NormalTree& child : tree.children) collect(child, elements);
+  // Of what is no tree as a whole; with a contact all slips are solved together.
+  void add_parts(const NormalForm& form) {
+    blocks_.add(network_, linear_elements(form), false);
+    std::vector<std::size_t> together;
+    for (const NormalTree& component : form.components) {
+      const std::vector<std::size_t> elements = elements_of(component);
+      if (network_.contact)
+        together.insert(together.end(), elements.begin(), elements.end());
+      else
+        add_component(component, tree_of(elements), false);
+    }
+    for (const std::vector<std::size_t>& part : form.networks)
+      if (network_.contact)
+        together.insert(together.end(), part.begin(), part.end());
+      else
+        add_graph(part);
+    if (!together.empty()) add_graph(together);
   }
+
+  Tree tree_of(const std::vector<std::size_t>& elements) const {
+    Network part = structure_;
+    for (Element& element : part.elements) element.has_effect = false;
+    for (std::size_t element : elements) part.elements[element].has_effect = true;
+    return series_parallel_tree(part).value();
+  }
+
+  std::vector<std::size_t> linear_elements(const NormalForm& form) const { return effective_elements(linear_part(network_, form)); }
 
   // Of the table only the shape is taken: its numbers follow from the parameters. Behind a contact the first block may be the
   // one that is there.
@@ -158,7 +179,33 @@ class TablesBuilder {
       const int first = static_cast<int>(tables_.cuts.size());
       for (const std::vector<std::size_t>& cut : cuts_through(tree, slip->elements)) tables_.cuts.push_back(blocks_.number(network_, cut));
       tables_.yields.push_back({first, static_cast<int>(tables_.cuts.size()) - first});
+      tables_.links.push_back({0, 0});
     }
+  }
+
+  // Behind a contact the surface is the last of the inner ends, and block 0 between it and the ground the first tie.
+  void add_graph(const std::vector<std::size_t>& elements) {
+    const SlipGraph graph = slip_graph(structure_, elements);
+    std::map<NodeIndex, int> place;
+    for (NodeIndex node : graph.ends) place.emplace(node, static_cast<int>(place.size()));
+    place.emplace(tool, static_cast<int>(place.size()));
+    const int ends = static_cast<int>(graph.ends.size()) + (network_.contact ? 1 : 0);
+    place.emplace(ground, ends + 1);
+    tables_.graphs.push_back({ends, static_cast<int>(graph.links.size()), static_cast<int>(tables_.yields.size()), 0,
+                              static_cast<int>(tables_.ties.size()), static_cast<int>(tables_.blocks.size()) - (network_.contact ? 1 : 0)});
+    if (network_.contact) tables_.ties.push_back({place.at(tool), ends + 1});
+    for (const OnePort& tie : graph.ties) {
+      tables_.ties.push_back({place.at(tie.from), place.at(tie.to)});
+      blocks_.add(laid_out(network_, tie), tie.elements, is_loose(graph, tie));
+    }
+    for (const GraphLink& link : graph.links) {
+      tables_.links.push_back({place.at(link.a), place.at(link.b)});
+      tables_.yields.push_back({static_cast<int>(tables_.cuts.size()), 1});
+      tables_.cuts.push_back(blocks_.number(network_, link.slips));
+    }
+    tables_.graphs.back().tie_count = static_cast<int>(tables_.ties.size()) - tables_.graphs.back().first_tie;
+    tables_.ends = std::max(tables_.ends, ends);
+    for (std::size_t element : graph.opened) tables_.mesh_elements.push_back(network_.elements[element].name);
   }
 
   void count() {
@@ -169,6 +216,7 @@ class TablesBuilder {
     head.block_count = static_cast<int>(tables_.blocks.size());
     head.slip_count = static_cast<int>(tables_.yields.size());
     head.coupling_count = static_cast<int>(tables_.couplings.size());
+    head.graph_count = static_cast<int>(tables_.graphs.size());
   }
 
   const Network& network_;
@@ -194,7 +242,8 @@ bool is_too_large(const TunableTables& tables, const Network& network, Diagnosti
          exceeds(static_cast<std::size_t>(tables.mesh_nodes), most_tunable_nodes, "inner nodes", network, diagnostics) ||
          exceeds(tables.blocks.size(), most_tunable_blocks, "parts between slips", network, diagnostics) ||
          exceeds(tables.nodes.size(), most_tunable_slip_parts, "parts between slips", network, diagnostics) ||
-         exceeds(static_cast<std::size_t>(tables.corners), most_tunable_corners, "corners of slips", network, diagnostics);
+         exceeds(static_cast<std::size_t>(tables.corners), most_tunable_corners, "corners of slips", network, diagnostics) ||
+         exceeds(static_cast<std::size_t>(tables.ends), most_tunable_ends, "ends of slips outside a tree", network, diagnostics);
 }
 
 }  // namespace
@@ -222,10 +271,7 @@ std::optional<TunableTables> tunable_tables_of(const Network& linear, const Netw
     return std::nullopt;
   const BrakeRule brake = brake_rule_of(linear, decomposition, device);
   TablesBuilder builder(network, brake, decomposition, choices, sample_period);
-  if (!builder.build()) {
-    diagnostics.report<DiagnosticCode::tunable_slips_outside_tree>(network.name_span, network.name);
-    return std::nullopt;
-  }
+  if (!builder.build(diagnostics)) return std::nullopt;
   TunableTables tables = builder.take();
   if (is_too_large(tables, network, diagnostics)) return std::nullopt;
   return tables;

@@ -76,9 +76,10 @@ class TunableRun {
             h.rule, scalar(h.damping), h.observed, scalar(h.max_damping), h.static_spring,
             {h.contact.is_there, scalar(h.contact.at), scalar(h.contact.encoder_step)},
             {h.slip_rule.takes_part, scalar(h.slip_rule.hysteresis), scalar(h.slip_rule.coil_share), scalar(h.slip_rule.assured_share)},
-            h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count, h.coupling_count,
+            h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count, h.coupling_count, h.graph_count,
             ranges_.data(), t.terms.data(), numbers_.data(), t.springs.data(), parts_.data(), t.edges.data(), t.blocks.data(),
-            t.cuts.data(), t.yields.data(), t.couplings.data(), nodes_.data()};
+            t.cuts.data(), t.yields.data(), t.couplings.data(), nodes_.data(),
+            t.graphs.data(), t.links.data(), t.ties.data()};
   }
 
   std::vector<tunable_range<Scalar>> ranges_;
@@ -87,7 +88,7 @@ class TunableRun {
   std::vector<slip_node<Scalar>> nodes_;
   tunable_tables<Scalar> tables_;
   tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks, most_tunable_slip_parts,
-              most_tunable_slips, most_tunable_corners> law_;
+              most_tunable_slips, most_tunable_corners, most_tunable_ends> law_;
   Scalar added_damping_;
   tunable_sample<Scalar> sample_ = {};
   Scalar last_position_ = 0, sampled_position_ = 0, sampled_change_ = 0;

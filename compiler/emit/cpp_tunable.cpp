@@ -113,6 +113,7 @@ class TunablePrinter {
       return fmt::format("{{{}, {}, {}, {}, {}}},", c.first_node, c.node_count, c.first_block, c.first_slip, c.first_corner);
     });
     append_nodes(lines);
+    append_graphs(lines);
     append_head(lines);
     return lines;
   }
@@ -122,6 +123,16 @@ class TunablePrinter {
       return fmt::format("{{dashpot::slip_part::{}, {}, {}, {}, {}, {}, 0, 0, 0}},", part_name(n.kind), n.first_child, n.child_count,
                          n.slips, n.place, n.first_corner);
     });
+  }
+
+  void append_graphs(std::vector<std::string>& lines) const {
+    if (tables_.graphs.empty()) return;
+    const auto ends = [](const tunable_ends& e, std::size_t) { return fmt::format("{{{}, {}}},", e.from, e.to); };
+    list(lines, "dashpot::tunable_graph", "graphs", tables_.graphs, [](const tunable_graph& g, std::size_t) {
+      return fmt::format("{{{}, {}, {}, {}, {}, {}}},", g.end_count, g.link_count, g.first_slip, g.tie_count, g.first_tie, g.first_block);
+    });
+    list(lines, "dashpot::tunable_ends", "links", tables_.links, ends);
+    list(lines, "dashpot::tunable_ends", "ties", tables_.ties, ends);
   }
 
   void append_head(std::vector<std::string>& lines) const {
@@ -134,12 +145,13 @@ class TunablePrinter {
     lines.push_back(fmt::format("    {{{}, {}, {}}}, {{{}, {}, {}, {}}},", h.contact.is_there, number(h.contact.at), number(h.contact.encoder_step),
                                 h.slip_rule.takes_part, number(h.slip_rule.hysteresis), number(h.slip_rule.coil_share),
                                 number(h.slip_rule.assured_share)));
-    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count,
-                                h.coupling_count));
-    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}}};", name_or_none("terms", tables_.terms),
+    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count,
+                                h.coupling_count, h.graph_count));
+    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {}}};", name_or_none("terms", tables_.terms),
                                 name_or_none("springs", tables_.springs), name_or_none("parts", tables_.parts),
                                 name_or_none("edges", tables_.edges), name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
-                                name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes)));
+                                name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes),
+                                tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties"));
   }
 
   template <class Entry>
@@ -167,9 +179,9 @@ class TunablePrinter {
     return {"scalar last_position_ = 0;  // u of the sample before",
             "scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample",
             "scalar sampled_position_ = 0;  // port displacement u, at this sample",
-            fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};", tables_.tunables.size(),
+            fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};", tables_.tunables.size(),
                         room(tables_.springs.size()), room(static_cast<std::size_t>(tables_.mesh_nodes)), tables_.blocks.size(),
-                        room(tables_.nodes.size()), tables_.yields.size(), room(static_cast<std::size_t>(tables_.corners))),
+                        room(tables_.nodes.size()), tables_.yields.size(), room(static_cast<std::size_t>(tables_.corners)), tables_.ends),
             "scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before"};
   }
 

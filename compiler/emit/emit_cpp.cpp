@@ -105,7 +105,7 @@ void describe_tunables(const TunableTables& tables, const std::string& damping_u
   facts.push_back("tunable: " + names);
   facts.push_back("  set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay");
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake));
-  if (!elements.empty()) facts.push_back("  by backward Euler, since their relaxations mix with a tunable: " + elements);
+  if (!elements.empty()) facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
   facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions", cost.output));
   facts.push_back(fmt::format("cost of update(): at most {} additions and multiplications; {} states", cost.update, cost.states));
   facts.push_back(fmt::format("cost of set(): at most {} additions, multiplications and divisions", cost.set));

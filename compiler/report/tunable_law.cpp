@@ -46,7 +46,7 @@ std::string tunable_law_html(const Compilation& c) {
   html += parameters_table(tables) + command(c);
   html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake) + ".";
   if (!tables.mesh_elements.empty())
-    html += " By backward Euler, since their relaxations mix with a parameter: " + escaped(joined(tables.mesh_elements)) + ".";
+    html += " By backward Euler, since their relaxations mix with a parameter or at several slips: " + escaped(joined(tables.mesh_elements)) + ".";
   return html + fmt::format(" Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
                             "{} state{}.</p>\n",
                             cost.output, cost.update, cost.set, cost.states, cost.states == 1 ? "" : "s");

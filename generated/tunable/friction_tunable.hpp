@@ -149,13 +149,13 @@ class friction_tunable {
       0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
       dashpot::brake_rule::observed, 0.0, 3, 1.7976931348623157e+308, -1,
       {false, 0.0, 0.0}, {true, 0.0, 1.0, 1.0},
-      3, 1, 2, 2, 1, 1,
-      tunables, terms, numbers, springs, parts, nullptr, blocks, cuts, yields, couplings, nodes};
+      3, 1, 2, 2, 1, 1, 0,
+      tunables, terms, numbers, springs, parts, nullptr, blocks, cuts, yields, couplings, nodes, nullptr, nullptr, nullptr};
 
   scalar last_position_ = 0;  // u of the sample before
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
   scalar sampled_position_ = 0;  // port displacement u, at this sample
-  dashpot::tunable_law<scalar, 3, 1, 1, 2, 3, 1, 8> law_{tables};
+  dashpot::tunable_law<scalar, 3, 1, 1, 2, 3, 1, 8, 0> law_{tables};
   scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
   bool sampled_ = false;  // a finite sample waits for update()
 };

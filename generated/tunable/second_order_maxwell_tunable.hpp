@@ -139,13 +139,13 @@ class second_order_maxwell_tunable {
       0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
       dashpot::brake_rule::observed, 0.0, 5, 1.7976931348623157e+308, 0,
       {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
-      2, 3, 3, 1, 0, 0,
-      tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr};
+      2, 3, 3, 1, 0, 0, 0,
+      tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
   scalar last_position_ = 0;  // u of the sample before
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
   scalar sampled_position_ = 0;  // port displacement u, at this sample
-  dashpot::tunable_law<scalar, 2, 3, 1, 1, 1, 0, 1> law_{tables};
+  dashpot::tunable_law<scalar, 2, 3, 1, 1, 1, 0, 1, 0> law_{tables};
   scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
   bool sampled_ = false;  // a finite sample waits for update()
 };

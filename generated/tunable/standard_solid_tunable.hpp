@@ -15,7 +15,7 @@
 // tunable: K1 (50 to 800 N/m)
 //   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1
-//   by backward Euler, since their relaxations mix with a tunable: spring_1, B1, K2
+//   by backward Euler, since their relaxations mix with a tunable or at several slips: spring_1, B1, K2
 // cost of output(): at most 6 additions, multiplications and divisions
 // cost of update(): at most 46 additions and multiplications; 2 states
 // cost of set(): at most 806 additions, multiplications and divisions
@@ -137,13 +137,13 @@ class standard_solid_tunable {
       0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
       dashpot::brake_rule::observed, 0.0, 3, 1.7976931348623157e+308, -1,
       {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
-      1, 2, 1, 1, 0, 0,
-      tunables, terms, numbers, springs, parts, edges, blocks, nullptr, nullptr, nullptr, nullptr};
+      1, 2, 1, 1, 0, 0, 0,
+      tunables, terms, numbers, springs, parts, edges, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr};
 
   scalar last_position_ = 0;  // u of the sample before
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
   scalar sampled_position_ = 0;  // port displacement u, at this sample
-  dashpot::tunable_law<scalar, 1, 2, 1, 1, 1, 0, 1> law_{tables};
+  dashpot::tunable_law<scalar, 1, 2, 1, 1, 1, 0, 1, 0> law_{tables};
   scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
   bool sampled_ = false;  // a finite sample waits for update()
 };

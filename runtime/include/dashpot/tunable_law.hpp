@@ -15,9 +15,9 @@
 
 namespace dashpot {
 
-// Sizes are those of the tables, at least 1 each but for `Slips`. `SlipParts` and `Corners` are those of all couplings
-// together.
-template <class Scalar, int Tunables, int Springs, int Nodes, int Blocks, int SlipParts, int Slips, int Corners>
+// Sizes are those of the tables, at least 1 each but for `Slips` and `Ends`. `SlipParts` and `Corners` are those of all
+// couplings together, `Ends` those of the largest graph.
+template <class Scalar, int Tunables, int Springs, int Nodes, int Blocks, int SlipParts, int Slips, int Corners, int Ends>
 class tunable_law {
  public:
   using tables = tunable_tables<Scalar>;
@@ -196,7 +196,7 @@ class tunable_law {
 
   tunable_parts<Scalar, Tunables, Springs, Nodes> parts_;
   tunable_curves<Scalar, Blocks> curves_;
-  tunable_slips<Scalar, Blocks, SlipParts, Slips, Corners> slips_;
+  tunable_slips<Scalar, Blocks, SlipParts, Slips, Corners, Ends> slips_;
   Scalar step_stiffness_ = 0;      // g of block 0 without b∞/h [N/m]
   Scalar release_compliance_ = 0;  // 1/g of block 0 [m/N]
   Scalar feedthrough_ = 0, damping_ = 0, velocity_gain_ = 0;  // b∞, b, b∞ − b, without slips [N·s/m]

@@ -15,7 +15,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-constexpr Kind kinds[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips};
+constexpr Kind kinds[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips, Kind::slips_in_graph};
 
 Device punctual_device(Random& random) {
   Device device;
@@ -65,11 +65,11 @@ double given_out(const UpdateLaw& update_law, const std::vector<double>& values,
 
 // Somewhere in its box a certified law would give out energy.
 TEST(Box, CertifiedLawsGiveOutNoEnergy) {
-  int certified = 0, with_meshes = 0, with_slips = 0, raised = 0;
+  int certified = 0, with_meshes = 0, with_slips = 0, outside_trees = 0, raised = 0;
   for (std::uint64_t seed = 1; certified < int(repetitions(60, 2000)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const Kind kind = kinds[seed % 4];
+    const Kind kind = kinds[seed % 5];
     const Device device = punctual_device(random);
     const SourceFile source("random.json", tunable_network(seed, kind));
     Diagnostics diagnostics;
@@ -78,6 +78,7 @@ TEST(Box, CertifiedLawsGiveOutNoEnergy) {
     ++certified;
     with_meshes += compilation->law.tunable->mesh_nodes > 0 ? 1 : 0;
     with_slips += compilation->law.tunable->couplings.empty() ? 0 : 1;
+    outside_trees += compilation->law.tunable->graphs.empty() ? 0 : 1;
     raised += compilation->certificate.added_damping > 0 ? 1 : 0;
     EXPECT_TRUE(compilation->certificate.energy.holds);
     std::vector<double> values;
@@ -92,6 +93,7 @@ TEST(Box, CertifiedLawsGiveOutNoEnergy) {
   }
   EXPECT_GT(with_meshes, 0);
   EXPECT_GT(with_slips, 0);
+  EXPECT_GT(outside_trees, 3);
   EXPECT_GT(raised, certified / 2);
 }
 

@@ -73,7 +73,7 @@ TunableLaw law_of(std::uint64_t seed) {
   choices.scalar = seed % 4 == 0 ? compiler::ScalarType::float32 : compiler::ScalarType::float64;
   choices.decomposition = decompositions[seed % std::size(decompositions)];
   choices.state_input = compiler::StateInput::position;
-  return TunableLaw(tunable_network(seed, Kind((seed % 4 == 0 ? seed / 4 : seed) % kinds)), choices);
+  return TunableLaw(tunable_network(seed, Kind((seed % 4 == 0 ? seed / 4 : seed - seed / 4) % kinds)), choices);
 }
 
 void emit(const TunableLaw& law, const fs::path& folder) {
@@ -123,7 +123,7 @@ TEST(TunableEmission, has_the_bits_of_evaluate) {
 TEST(TunableEmission, compiles_strictly_and_leaves_no_symbol_undefined) {
   const TemporaryFolder folder;
   std::string source;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+  for (std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 24, 28}) {
     emit(law_of(seed), folder.path());
     source += fmt::format("#include \"tunable_{0}.hpp\"\nstatic dashpot::generated::tunable_{0} law_{0};\n"
                           "double step_{0}(double u, double v) {{ return static_cast<double>(law_{0}.step(static_cast<decltype(law_{0})::scalar>(u), "

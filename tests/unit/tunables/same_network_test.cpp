@@ -60,6 +60,36 @@ TEST(SameNetwork, of_slips_in_backward_euler) { expect_same_forces(Kind::slips, 
 TEST(SameNetwork, behind_a_contact_in_the_exact_scheme) { expect_same_forces(Kind::touched, compiler::Scheme::exact); }
 TEST(SameNetwork, behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched, compiler::Scheme::backward_euler); }
 TEST(SameNetwork, of_slips_behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched_slips, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, of_slips_outside_trees_in_backward_euler) { expect_same_forces(Kind::slips_in_graph, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, of_slips_outside_trees_behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched_slips_in_graph, compiler::Scheme::backward_euler); }
+
+// What relaxes between two ends of slips would be stepped by backward Euler, though nothing else relaxes with it: a ring of
+// three slips, a tunable Maxwell element and a tunable Kelvin element in series with a spring between their ends.
+TEST(SameNetwork, of_one_ports_between_slips_in_the_exact_scheme) {
+  const char* const ring = R"({ "dashpot": 1, "name": "ring",
+    "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 }, "Y": { "value": 0.2, "tunable": true, "min": 0, "max": 1 } },
+    "elements": [ { "spring": 500, "nodes": ["tool", "a"] }, { "slip": "Y", "nodes": ["a", "b"] }, { "slip": 0.3, "nodes": ["b", "c"] },
+      { "slip": 0.1, "nodes": ["c", "a"] }, { "spring": "K", "nodes": ["b", "m"] }, { "damper": 3, "nodes": ["m", "ground"] },
+      { "spring": 200, "nodes": ["c", "n"] }, { "spring": 50, "nodes": ["n", "ground"] }, { "damper": 2, "nodes": ["n", "ground"] } ] })";
+  const TunableLaw law(ring);
+  ASSERT_EQ(law.law().tunable->graphs.size(), 1u);
+  EXPECT_TRUE(law.law().tunable->mesh_elements.empty());
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) EXPECT_LE(difference(ring, seed, compiler::Scheme::exact), rounding) << seed;
+}
+
+// An inner node that three ends of slips share would be lost, or its springs take another way.
+TEST(SameNetwork, of_stars_between_slips_in_backward_euler) {
+  const char* const star = R"({ "dashpot": 1, "name": "star",
+    "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 } },
+    "elements": [ { "spring": 500, "nodes": ["tool", "a"] }, { "slip": 0.2, "nodes": ["a", "b"] }, { "slip": 0.3, "nodes": ["b", "c"] },
+      { "spring": "K", "nodes": ["a", "m"] }, { "damper": 3, "nodes": ["b", "m"] }, { "damper": 4, "nodes": ["m", "n"] },
+      { "spring": 200, "nodes": ["n", "c"] }, { "spring": 50, "nodes": ["c", "ground"] }, { "damper": 2, "nodes": ["n", "ground"] } ] })";
+  const TunableLaw law(star);
+  ASSERT_EQ(law.law().tunable->graphs.size(), 1u);
+  EXPECT_EQ(law.law().tunable->ends, 5);
+  EXPECT_EQ(law.law().tunable->mesh_elements.size(), 5u);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) EXPECT_LE(difference(star, seed, compiler::Scheme::backward_euler), rounding) << seed;
+}
 
 }  // namespace
 }  // namespace dashpot::testing

@@ -49,7 +49,8 @@ double worst_gain(const std::string& text, std::uint64_t seed) {
   return worst;
 }
 
-constexpr Kind all_kinds[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips, Kind::touched, Kind::touched_slips};
+constexpr Kind all_kinds[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips, Kind::touched, Kind::touched_slips,
+                              Kind::slips_in_graph, Kind::touched_slips_in_graph};
 
 // A static spring, a Maxwell branch of 8 s, a Kelvin and a spring in series, all with a tunable.
 const char* const pressed_network = R"({ "dashpot": 1, "name": "pressed",
@@ -112,6 +113,8 @@ TEST(Set, injects_no_energy_into_graphs) { expect_no_gain(Kind::graph); }
 TEST(Set, injects_no_energy_into_slips) { expect_no_gain(Kind::slips); }
 TEST(Set, injects_no_energy_behind_a_contact) { expect_no_gain(Kind::touched); }
 TEST(Set, injects_no_energy_into_slips_behind_a_contact) { expect_no_gain(Kind::touched_slips); }
+TEST(Set, injects_no_energy_into_slips_outside_trees) { expect_no_gain(Kind::slips_in_graph); }
+TEST(Set, injects_no_energy_into_slips_outside_trees_behind_a_contact) { expect_no_gain(Kind::touched_slips_in_graph); }
 
 // A slider that is not moved would be felt.
 TEST(Set, changes_no_bit_where_nothing_changes) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "linear/normal_form.hpp"
 #include "network/law.hpp"
 #include "source/render.hpp"
 #include "support/random_network.hpp"
@@ -29,17 +30,21 @@ compiler::Network branches(Random& random) {
   return network;
 }
 
-bool has_slips(Kind kind) { return kind == Kind::slips || kind == Kind::touched_slips; }
+bool is_graph(Kind kind) { return kind == Kind::slips_in_graph || kind == Kind::touched_slips_in_graph; }
+bool has_slips(Kind kind) { return kind == Kind::slips || kind == Kind::touched_slips || is_graph(kind); }
+bool is_touched(Kind kind) { return kind == Kind::touched || kind == Kind::touched_slips || kind == Kind::touched_slips_in_graph; }
 
 compiler::Network network_of(std::uint64_t seed, Kind kind, Random& random) {
   if (kind == Kind::parallel_branches || kind == Kind::touched) return branches(random);
   NetworkRecipe recipe;
-  recipe.topology = kind == Kind::graph ? Topology::graph : Topology::tree;
+  recipe.topology = kind == Kind::graph || is_graph(kind) ? Topology::graph : Topology::tree;
   recipe.most_nodes = 8;
   recipe.smallest_value = 1e-2;
   recipe.largest_value = 1e3;
   recipe.most_slips = has_slips(kind) ? 5 : 0;
-  return random_network(seed, recipe);
+  compiler::Network network = random_network(seed, recipe);
+  for (std::uint64_t i = 1; is_graph(kind) && compiler::normal_form(network).networks.empty(); ++i) network = random_network(1000000 * i + seed, recipe);
+  return network;
 }
 
 }  // namespace
@@ -73,7 +78,7 @@ std::string tunable_network(std::uint64_t seed, Kind kind) {
     elements += fmt::format("{}\n  {{ \"{}\": {}, \"nodes\": [\"{}\", \"{}\"] }}", i == 0 ? "" : ",", compiler::kind_of(e.law),
                             is_tunable ? fmt::format("\"p{}\"", i) : fmt::format("{}", value), network.nodes[e.a], network.nodes[e.b]);
   }
-  const char* const contact = kind == Kind::touched || kind == Kind::touched_slips ? "\"contact\": { \"at\": 0 }, " : "";
+  const char* const contact = is_touched(kind) ? "\"contact\": { \"at\": 0 }, " : "";
   return fmt::format("{{ \"dashpot\": 1, \"name\": \"tunable_{}\", {}\"parameters\": {{{} }},\n\"elements\": [{} ] }}\n", seed, contact, parameters, elements);
 }
 

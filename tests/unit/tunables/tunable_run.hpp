@@ -27,9 +27,10 @@ class TunableLaw {
   std::optional<compiler::Compilation> compilation_;
 };
 
-enum class Kind { parallel_branches, tree, graph, slips, touched, touched_slips };  // the last two behind a contact at 0
+// Slips in a graph are in no tree, some of them; touched ones are behind a contact at 0.
+enum class Kind { parallel_branches, tree, graph, slips, touched, touched_slips, slips_in_graph, touched_slips_in_graph };
 
-inline constexpr std::uint64_t kinds = 6;
+inline constexpr std::uint64_t kinds = 8;
 
 // A network file of that kind in which about half of all elements are tunable, over ranges from zero or a tenth to ten times
 // their value; some start at zero, where there are no slips.

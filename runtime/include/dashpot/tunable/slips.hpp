@@ -1,24 +1,16 @@
-// The slips of a law with tunable parameters, and the curves of the parts between them: one step of dashpot::slip_tree for
-// each coupling, and what they leave to the brake.
+// The slips of a law with tunable parameters: one step for each coupling of slips that meet in a tree, and for each graph of
+// others, and what all leave to the brake.
 #pragma once
 
 #include <dashpot/slip_regime.hpp>
 #include <dashpot/slip_tree.hpp>
 #include <dashpot/tunable/slip_brake.hpp>
+#include <dashpot/tunable/slip_graph.hpp>
 #include <dashpot/tunable/tables.hpp>
 
 namespace dashpot {
 
-// Of all blocks: p = g δ + π over a sample, and b∞.
-template <class Scalar, int Blocks>
-struct tunable_curves {
-  Scalar stiffness[Blocks] = {};    // g [N/m]
-  Scalar held[Blocks] = {};         // π [N]
-  Scalar elongation[Blocks] = {};   // δ in this sample [m]
-  Scalar feedthrough[Blocks] = {};  // b∞; 0 of block 0, whose is the law's own [N·s/m]
-};
-
-template <class Scalar, int Blocks, int SlipParts, int Slips, int Corners>
+template <class Scalar, int Blocks, int SlipParts, int Slips, int Corners, int Ends>
 class tunable_slips {
  public:
   using tables = tunable_tables<Scalar>;
@@ -40,9 +32,14 @@ class tunable_slips {
   template <class Number>
   constexpr void tune(const tables& t, const curves& of, Number number) noexcept {
     for (int i = 0; i < t.coupling_count; ++i) tune_tree(t, t.couplings[i], of, number);
+    if constexpr (Ends > 0)
+      for (int i = 0; i < t.graph_count; ++i) tune_graph(t, t.graphs[i], of, number);
   }
 
-  constexpr void reset(Scalar damping) noexcept { brake_.reset(damping); }
+  constexpr void reset(Scalar damping) noexcept {
+    for (int& sign : last_sign_) sign = 0;
+    brake_.reset(damping);
+  }
 
   Scalar step(const tables& t, Scalar change, curves& of) noexcept {
     Scalar sum = 0;
@@ -50,11 +47,19 @@ class tunable_slips {
       const tunable_coupling& c = t.couplings[i];
       sum += tree(c).step(change, of.held + c.first_block, of.elongation + c.first_block, sign_ + c.first_slip);
     }
+    if constexpr (Ends > 0)
+      for (int i = 0; i < t.graph_count; ++i) sum += step_graph(t, t.graphs[i], t.graphs[i].link_count, change, of);
     return sum;
   }
 
-  // The one coupling of a contact: the whole network.
+  // The one coupling, or graph, of a contact: the whole network.
   Scalar push(const tables& t, Scalar approach, curves& of, Scalar& change) noexcept {
+    if constexpr (Ends > 0)
+      if (t.graph_count > 0) {
+        const Scalar force = step_graph(t, t.graphs[0], t.graphs[0].link_count + 1, approach, of);
+        change = graph_.surface_change(t.graphs[0]);
+        return force;
+      }
     const tunable_coupling& c = t.couplings[0];
     return tree(c).push(approach, of.held + c.first_block, of.elongation + c.first_block, sign_, change);
   }
@@ -73,10 +78,20 @@ class tunable_slips {
   // b on its way there.
   Scalar reached_damping(const tables& t, Scalar wanted) noexcept { return brake_.damping(t.slip_rule, wanted); }
 
-  void keep(const tables& t) noexcept { brake_.keep(t.slip_count); }
+  void keep(const tables& t) noexcept {
+    for (int i = 0; i <= t.slip_count; ++i) last_sign_[i] = sign_[i];
+    brake_.keep(t.slip_count);
+  }
 
  private:
-  static constexpr int room = Slips > 0 ? Slips : 1;
+  static constexpr int room = Slips > 0 ? Slips : 1, end_room = Ends > 0 ? Ends : 1;
+
+  static constexpr Scalar largest_finite() noexcept {
+    if constexpr (sizeof(Scalar) == sizeof(float))
+      return 0x1.fffffep127f;
+    else
+      return 0x1.fffffffffffffp1023;
+  }
 
   slip_tree<Scalar> tree(const tunable_coupling& c) noexcept {
     return slip_tree<Scalar>(nodes_ + c.first_node, c.node_count, parts_ + c.first_node, corners_ + c.first_corner, merged_);
@@ -89,7 +104,29 @@ class tunable_slips {
       sum += slip_regime_feedthrough(nodes_ + c.first_node, c.node_count, of.feedthrough + c.first_block, sign + c.first_slip,
                                      parts_ + c.first_node);
     }
+    if constexpr (Ends > 0)
+      for (int i = 0; i < t.graph_count; ++i) {
+        const tunable_graph& g = t.graphs[i];
+        const int tool = t.contact.is_there ? g.end_count - 1 : g.end_count;
+        sum += graph_.feedthrough(g, t.ties + g.first_tie, t.links + g.first_slip, tool, of, sign + g.first_slip);
+      }
     return sum;
+  }
+
+  // From the pattern of the sample before. With a contact one link more is the tool's own.
+  Scalar step_graph(const tables& t, const tunable_graph& g, int links, Scalar change, curves& of) noexcept {
+    for (int k = g.first_slip; k < g.first_slip + links; ++k) sign_[k] = last_sign_[k];
+    return graph_.step(g, t.ties + g.first_tie, links_ + g.first_slip, links, change, tie_stiffness_, of, sign_ + g.first_slip);
+  }
+
+  template <class Number>
+  constexpr void tune_graph(const tables& t, const tunable_graph& g, const curves& of, Number number) noexcept {
+    for (int i = g.first_block; i < g.first_block + g.tie_count; ++i) tie_stiffness_[i] = bounded_stiffness(i, of);
+    for (int k = g.first_slip; k < g.first_slip + g.link_count; ++k) {
+      const Scalar yield = bounded_yield(t, k, number);
+      links_[k] = {t.links[k].from, t.links[k].to, -yield, yield};
+    }
+    if (t.contact.is_there) links_[t.slip_count] = {g.end_count, g.end_count - 1, 0, largest_finite()};
   }
 
   template <class Number>
@@ -144,7 +181,10 @@ class tunable_slips {
   slip_node<Scalar> nodes_[SlipParts] = {};
   slip_part_state<Scalar> parts_[SlipParts] = {};
   slip_corner<Scalar> corners_[Corners] = {}, merged_[slip_curve_room(room)] = {};
-  int sign_[room] = {}, commanded_[room] = {};
+  Scalar tie_stiffness_[Blocks] = {};  // g of blocks in graphs [N/m]
+  slip_link<Scalar> links_[room + 1] = {};
+  tunable_slip_graph<Scalar, end_room> graph_;
+  int sign_[room + 1] = {}, last_sign_[room + 1] = {}, commanded_[room] = {};
   tunable_slip_brake<Scalar, room> brake_;
 };
 

@@ -76,6 +76,24 @@ struct tunable_coupling {
   int first_corner;
 };
 
+// What a block or a slip is between where slips meet in no tree: inner ends by their number from 0, then the tool, then the
+// ground.
+struct tunable_ends {
+  int from;
+  int to;
+};
+
+// Slips that are stepped together and meet in no tree, and the blocks between their ends, one a tie. With a contact the last
+// inner end is the surface.
+struct tunable_graph {
+  int end_count;  // inner ones
+  int link_count;
+  int first_slip;  // into slips and links
+  int tie_count;
+  int first_tie;
+  int first_block;
+};
+
 // What the brake's damping follows.
 enum class brake_rule : unsigned char {
   constant,             // nothing
@@ -103,7 +121,7 @@ struct tunable_slip_rule {
   Scalar assured_share;  // of the damping that no slip changes, what the motor may make up by an estimate; 0 for none [1]
 };
 
-// Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling.
+// Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling or graph.
 template <class Scalar>
 struct tunable_tables {
   Scalar period;        // h [s]
@@ -119,7 +137,7 @@ struct tunable_tables {
   int static_spring;    // the spring that joins tool and ground directly, or none
   tunable_contact<Scalar> contact;
   tunable_slip_rule<Scalar> slip_rule;
-  int tunable_count, spring_count, part_count, block_count, slip_count, coupling_count;
+  int tunable_count, spring_count, part_count, block_count, slip_count, coupling_count, graph_count;
   const tunable_range<Scalar>* tunables;
   const int* terms;
   const tunable_number<Scalar>* numbers;
@@ -131,6 +149,9 @@ struct tunable_tables {
   const tunable_yield* yields;
   const tunable_coupling* couplings;
   const slip_node<Scalar>* nodes;  // without stiffness, compliance and yield force
+  const tunable_graph* graphs;
+  const tunable_ends* links;  // one a slip
+  const tunable_ends* ties;
 };
 
 }  // namespace dashpot

@@ -1,0 +1,185 @@
+// A needle that sticks in two layers, which slide on each other: a ring of three slips, frictions and stiffness change while it runs
+//
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 3 N·s/m: dampers at the tool in parallel add
+// behind skin_grip, muscle_grip, fascia: velocity-free, 3 slips in no tree
+// states: position driven, so that a change of parameters injects no energy
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their
+//   ranges between changes, any switching of the brake above its least command: needs 3 N·s/m over the longest
+//   hold of 0.001 s, at least 3 N·s/m is there, 2.66454e-15 N·s/m more is missing in the brake's command
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
+//   1.3e-12 of the sum of the force's terms
+// device: ideal: exact brake, exact velocity, no delay
+// tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
+//   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
+//   b [N·s/m] follows drag
+// cost of output(): at most 11529 additions, multiplications and divisions
+// cost of update(): at most 96 additions and multiplications; 4 states
+// cost of set(): at most 1434 additions, multiplications and divisions
+//
+// Written by dashpot 0.1.0 from a network with digest 35cf3fded87fa20a. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+#include <dashpot/tunable_law.hpp>
+
+namespace dashpot::generated {
+
+class layers_tunable {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {
+    scalar skin_friction = 0.8;  // 0 to 3 [N]
+    scalar muscle_friction = 1.2;  // 0 to 3 [N]
+    scalar muscle_stiffness = 900.0;  // 100 to 4000 [N/m]
+  };
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = last_position_;
+    law_.reset(tables, last_position_);
+    last_damping_ = law_.damping_at_rest(tables);
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋, b, and m = f − b u̇
+    const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);
+    const scalar force = sample.force;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
+    sampled_ = true;
+    sampled_position_change_ = sample.change;
+    sampled_position_ = sample.position;
+    last_damping_ = sample.damping;
+    return {sample.damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    law_.update(tables, sampled_position_change_, sampled_position_);
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  // Both at once, where nothing else has to happen in between.
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
+  // no number and is as it was.
+  unsigned set(const parameters& wanted) noexcept {
+    update();
+    const scalar values[] = {wanted.skin_friction, wanted.muscle_friction, wanted.muscle_stiffness};
+    return law_.set(tables, values);
+  }
+
+  // In the springs, and set free by changes of parameters, after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V + T: in the springs, and what changes of parameters have set free
+    const scalar stored = law_.stored_energy(tables);
+    return stored;
+  }
+
+ private:
+  static constexpr dashpot::tunable_range<scalar> tunables[3] = {
+      {0.8, 0.0, 3.0},  // skin_friction [N]
+      {1.2, 0.0, 3.0},  // muscle_friction [N]
+      {900.0, 100.0, 4000.0},  // muscle_stiffness [N/m]
+  };
+  static constexpr int terms[3] = {2, 0, 1};
+  static constexpr dashpot::tunable_number<scalar> numbers[11] = {
+      {3.0, 0, 0},
+      {4000.0, 0, 0},
+      {400.0, 0, 0},
+      {3.0, 0, 0},
+      {200.0, 0, 0},
+      {0.0, 0, 1},
+      {20.0, 1, 0},
+      {0.0, 1, 1},
+      {0.0, 2, 1},
+      {0.5, 3, 0},
+      {3.0, 3, 0},
+  };
+  static constexpr int springs[4] = {
+      1,  // presliding
+      2,  // skin_elasticity
+      4,  // muscle_rest
+      5,  // muscle_elasticity_muscle_viscosity
+  };
+  static constexpr dashpot::tunable_part<scalar> parts[6] = {
+      {dashpot::tunable_kind::damper, -1, 0, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::spring, 0, -1, 0, 0, 0, 0, true, 0.0, 0.0},
+      {dashpot::tunable_kind::spring, 1, -1, 0, 0, 0, 0, true, 0.0, 0.0},
+      {dashpot::tunable_kind::damper, -1, 3, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::spring, 2, -1, 0, 0, 0, 0, true, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 3, 6, 0, 0, 0, 0, false, 0.0, 0.0},
+  };
+  static constexpr dashpot::tunable_block blocks[4] = {
+      {0, 1},
+      {1, 1},
+      {2, 2},
+      {4, 2},
+  };
+  static constexpr int cuts[3] = {7, 8, 9};
+  static constexpr dashpot::tunable_yield yields[3] = {
+      {0, 1},
+      {1, 1},
+      {2, 1},
+  };
+  static constexpr dashpot::tunable_graph graphs[1] = {
+      {3, 3, 0, 3, 0, 1},
+  };
+  static constexpr dashpot::tunable_ends links[3] = {
+      {0, 1},
+      {0, 2},
+      {1, 2},
+  };
+  static constexpr dashpot::tunable_ends ties[3] = {
+      {3, 0},
+      {1, 4},
+      {2, 4},
+  };
+  static constexpr dashpot::tunable_tables<scalar> tables = {
+      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
+      dashpot::brake_rule::observed, 0.0, 10, 1.7976931348623157e+308, -1,
+      {false, 0.0, 0.0}, {true, 0.0, 1.0, 1.0},
+      3, 4, 6, 4, 3, 0, 1,
+      tunables, terms, numbers, springs, parts, nullptr, blocks, cuts, yields, nullptr, nullptr, graphs, links, ties};
+
+  scalar last_position_ = 0;  // u of the sample before
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
+  scalar sampled_position_ = 0;  // port displacement u, at this sample
+  dashpot::tunable_law<scalar, 3, 4, 1, 4, 1, 3, 1, 3> law_{tables};
+  scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 #include <queue>
 
 namespace dashpot::compiler {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 struct BoundedArc {
   Arc arc;

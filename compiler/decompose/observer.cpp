@@ -10,8 +10,6 @@
 namespace dashpot::compiler {
 namespace {
 
-const Real equal_to{"1e-12"};
-
 bool nearly_equal(const Real& x, const Real& y) { return abs(x - y) <= equal_to * (abs(x) + abs(y)); }
 
 // Re(1/Z) = Re(jω/D), to leading order c·ωⁿ: in series all children carry the same force F, and child i dissipates

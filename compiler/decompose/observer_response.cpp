@@ -6,7 +6,6 @@
 namespace dashpot::compiler {
 namespace {
 
-const Real equal_to{"1e-12"};
 constexpr int places = 16;
 
 ComplexReal inverse(const ComplexReal& d) {

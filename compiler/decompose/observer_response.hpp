@@ -8,6 +8,8 @@
 
 namespace dashpot::compiler {
 
+inline const Real equal_to{"1e-12"};  // relative: two dissipations that differ by less are equal
+
 struct ObserverResponse {
   Real stiffness = 0;        // k0 of D(s) = k0 + z s + … for s → 0 [N/m]
   Real viscosity = 0;        // z there [N·s/m]

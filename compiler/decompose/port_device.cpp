@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/estimators/estimator_names.hpp>
 #include <dashpot/estimators/frequency_response.hpp>
@@ -9,7 +10,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 // (1/2π) ∮ |E|² dθ: the variance that white noise of unit variance leaves in the estimate, by the trapezoidal rule, which
 // converges geometrically for a rational E.

@@ -39,13 +39,6 @@ Names names_of_modes(const std::vector<Mode>& modes, const Network& network, Law
   return names;
 }
 
-std::vector<std::size_t> effective_elements(const Network& network) {
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    if (network.elements[i].has_effect) all.push_back(i);
-  return all;
-}
-
 UpdateLaw blank_law(const Candidate& choice, const Choices& choices, const Real& sample_period) {
   UpdateLaw law;
   law.scalar = choices.scalar;

@@ -38,13 +38,6 @@ Network at_largest(Network network) {
   return network;
 }
 
-std::vector<std::size_t> effective_elements(const Network& network) {
-  std::vector<std::size_t> all;
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    if (network.elements[i].has_effect) all.push_back(i);
-  return all;
-}
-
 int slip_elements(const Network& network) {
   return static_cast<int>(std::count_if(network.elements.begin(), network.elements.end(), [](const Element& element) {
     return element.has_effect && std::holds_alternative<Slip>(element.law);

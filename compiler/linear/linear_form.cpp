@@ -12,8 +12,6 @@
 namespace dashpot::compiler {
 namespace {
 
-// Amounts below this share of the whole, at every frequency, are rounding left over from cancellation.
-const Real negligible_share{"1e-30"};
 const Real equal_rates{"1e-12"};
 
 Real glass_stiffness(const LinearForm& form) {
@@ -37,12 +35,6 @@ void drop_unobservable(LinearForm& form) {
   for (const Mode& mode : form.modes)
     if (!is_negligible(mode, form, glass)) kept.push_back(mode);
   form.modes = std::move(kept);
-}
-
-void unite(std::vector<std::size_t>& elements, const std::vector<std::size_t>& more) {
-  elements.insert(elements.end(), more.begin(), more.end());
-  std::sort(elements.begin(), elements.end());
-  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
 }
 
 // Keeps Σk and Σk/λ, and with them D at both ends of the frequency axis.
@@ -69,13 +61,6 @@ void sort_and_merge(std::vector<Mode>& modes) {
       distinct.push_back(mode);
   }
   modes = std::move(distinct);
-}
-
-std::vector<std::size_t> effective_elements(const Network& network) {
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    if (network.elements[i].has_effect) chosen.push_back(i);
-  return chosen;
 }
 
 }  // namespace
@@ -124,6 +109,12 @@ LinearForm in_parallel(LinearForm first, const LinearForm& second) {
   unite(first.feedthrough_elements, second.feedthrough_elements);
   sort_and_merge(first.modes);
   return first;
+}
+
+void unite(std::vector<std::size_t>& elements, const std::vector<std::size_t>& more) {
+  elements.insert(elements.end(), more.begin(), more.end());
+  std::sort(elements.begin(), elements.end());
+  elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
 }
 
 KelvinForm kelvin_form(const LinearForm& form) {

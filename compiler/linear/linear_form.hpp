@@ -59,6 +59,9 @@ LinearForm in_parallel(LinearForm first, const LinearForm& second);
 // elements of the generalised Kelvin form (Foster's first form): B_i = 1/k_i, K_i = λ_i/k_i. Its own inverse.
 LinearForm reciprocal(const LinearForm& form);
 
+// Adds indices of elements to others: in order, each once.
+void unite(std::vector<std::size_t>& elements, const std::vector<std::size_t>& more);
+
 // Foster's first form: 1/D(s) = 1/k_g + 1/(b_g s) + Σ 1/(K_i + B_i s), in series.
 struct KelvinElement {
   Real stiffness;  // K_i [N/m]

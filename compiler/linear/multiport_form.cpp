@@ -10,8 +10,6 @@
 namespace dashpot::compiler {
 namespace {
 
-const Real negligible_share{"1e-30"};
-
 struct Values {
   Real stiffness = 0, damping = 0;
 };

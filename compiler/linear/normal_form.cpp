@@ -8,11 +8,6 @@
 namespace dashpot::compiler {
 namespace {
 
-void unite(std::vector<std::size_t>& all, const std::vector<std::size_t>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  std::sort(all.begin(), all.end());
-}
-
 NormalTree leaf(const Network& network, std::size_t index) {
   const Law& law = network.elements[index].law;
   if (const Slip* slip = std::get_if<Slip>(&law)) return {NormalTree::Kind::slip, {}, slip->yield_force, {index}, {}};
@@ -83,13 +78,6 @@ NormalTree normal(const Tree& tree, const Network& network) {
   for (NormalTree& part : rest) result.children.push_back(std::move(part));
   if (result.children.size() == 1) return std::move(result.children.front());
   return result;
-}
-
-std::vector<std::size_t> effective_elements(const Network& network) {
-  std::vector<std::size_t> elements;
-  for (std::size_t i = 0; i < network.elements.size(); ++i)
-    if (network.elements[i].has_effect) elements.push_back(i);
-  return elements;
 }
 
 bool has_slips(const Network& network, const std::vector<std::size_t>& elements) {

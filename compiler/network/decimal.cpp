@@ -20,8 +20,6 @@ struct Decimal {
   long exponent;
 };
 
-bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
-
 std::size_t digits_length(std::string_view text) {
   return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
 }

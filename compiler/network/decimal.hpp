@@ -8,6 +8,8 @@
 
 namespace dashpot::compiler {
 
+inline bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
+
 // The length of the decimal literal that `text` starts with ("-1.5e3", "+.5"); 0 where it starts with none.
 std::size_t decimal_length(std::string_view text);
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <optional>
 
+#include "network/decimal.hpp"
 #include "source/excerpt.hpp"
 
 namespace dashpot::compiler {
@@ -38,7 +39,6 @@ constexpr std::string_view members[] = {
     "device_digest", "now",           "stored",        "dashpot",   "generated", "std"};
 
 bool is_letter(char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); }
-bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
 bool is_name_byte(char byte) { return is_letter(byte) || is_digit(byte) || byte == '_'; }
 
 bool has_name_form(std::string_view name) {

@@ -57,6 +57,13 @@ std::string to_text(const Network& network) {
   return out;
 }
 
+std::vector<std::size_t> effective_elements(const Network& network) {
+  std::vector<std::size_t> effective;
+  for (std::size_t i = 0; i < network.elements.size(); ++i)
+    if (network.elements[i].has_effect) effective.push_back(i);
+  return effective;
+}
+
 std::string unit_of(const Law& law, motion port_motion) { return unit_of(dimension_of(law, port_motion)); }
 
 }  // namespace dashpot::compiler

@@ -61,6 +61,9 @@ std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagn
 
 std::string to_text(const Network& network);
 
+// The indices of those that can carry force, in the network's order.
+std::vector<std::size_t> effective_elements(const Network& network);
+
 // "N/m", "N m s/rad", …: the unit of an element's value in this motion.
 std::string unit_of(const Law& law, motion port_motion);
 

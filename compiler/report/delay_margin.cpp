@@ -1,6 +1,7 @@
 #include "report/delay_margin.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "decompose/spectrum.hpp"
 #include "report/linear_responses.hpp"
@@ -10,8 +11,8 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr int points = 200;
+using std::numbers::pi;
+constexpr int delay_points = 200;
 
 double tolerance_of(const Compilation& c) { return c.device ? c.device->description.brake.tolerance : 0; }
 
@@ -20,8 +21,8 @@ Curve margin(const Compilation& c, const Candidate& candidate, const std::string
   const LinearForm& form = candidate.state_input == StateInput::nodal ? c.decomposition.realisation : c.form.linear;
   const Interval range = frequencies_of_interest(c.form.linear);
   Curve curve{name, dashed ? Channel::motor : Channel::total, {}, {}, dashed};
-  for (int i = 0; i < points; ++i) {
-    const double frequency = range.low * std::pow(range.high / range.low, double(i) / (points - 1));
+  for (int i = 0; i < delay_points; ++i) {
+    const double frequency = range.low * std::pow(range.high / range.low, double(i) / (delay_points - 1));
     const MotorImpedance motor = motor_impedance(form, candidate.damping, candidate.state_input, 2 * pi * frequency);
     curve.x.push_back(frequency);
     curve.y.push_back((1 - tolerance_of(c)) * candidate.damping + motor.position_driven.real() - std::abs(motor.velocity_driven));

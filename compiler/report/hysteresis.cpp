@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "report/law_run.hpp"
 #include "report/linear_responses.hpp"
@@ -11,7 +12,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr std::size_t cycles = 3;              // the last one is drawn
 constexpr double least_samples = 40, most_samples = 20'000;  // a cycle
 constexpr std::size_t drawn_points = 180, drawn_dots = 30;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "report/number_text.hpp"
 #include "report/plot.hpp"
@@ -10,7 +11,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr int points = 160;
 
 std::vector<double> logarithmic(const Interval& range) {

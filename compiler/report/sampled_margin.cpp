@@ -1,6 +1,7 @@
 #include "report/sampled_margin.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "certify/certificate.hpp"
 #include "certify/needed_damping.hpp"
@@ -10,9 +11,9 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double decades = 4;  // below Nyquist
-constexpr int points = 240;
+constexpr int margin_points = 240;
 
 // θ = 4 atan x
 Arc arc_at(double frequency, double period) {
@@ -20,14 +21,14 @@ Arc arc_at(double frequency, double period) {
   return {x, x};
 }
 
-// S(ω); the bound holds between the points as well.
+// S(ω); the bound holds between the margin_points as well.
 Curve needed(const SampledLoop& loop, const MotorConstants& motor) {
   const double period = loop.sample_period, nyquist = 0.5 / period;
   const NeededDamping damping(motor, loop, estimator_factors(loop).value_or(EstimatorFactors{}));
   Curve curve{"needed by motor and hold", Channel::motor, {}, {}};
-  for (int i = 0; i < points; ++i) {
-    curve.x.push_back(nyquist * std::pow(10, decades * (double(i) / (points - 1) - 1)));
-    curve.y.push_back(damping.on(i + 1 == points ? Arc{1, 1} : arc_at(curve.x.back(), period)).at_centre);
+  for (int i = 0; i < margin_points; ++i) {
+    curve.x.push_back(nyquist * std::pow(10, decades * (double(i) / (margin_points - 1) - 1)));
+    curve.y.push_back(damping.on(i + 1 == margin_points ? Arc{1, 1} : arc_at(curve.x.back(), period)).at_centre);
   }
   return curve;
 }

@@ -55,7 +55,7 @@ std::vector<Text> parse_assumed(const ObjectReader& device, Diagnostics& diagnos
   return assumed;
 }
 
-DeviceDecl parse_keys(ObjectReader reader, Diagnostics& diagnostics) {
+DeviceDecl parse_device_keys(ObjectReader reader, Diagnostics& diagnostics) {
   DeviceDecl decl;
   reader.refuse_other_keys(device_keys);
   reader.require("name");
@@ -75,7 +75,7 @@ std::optional<DeviceDecl> parse_device(const SourceFile& file, Diagnostics& diag
   const std::size_t errors_before = diagnostics.error_count();
   const std::optional<JsonValue> root = parse_json(file, diagnostics);
   if (!root || !is_format_1(FileKind::device, *root, diagnostics)) return std::nullopt;
-  DeviceDecl decl = parse_keys(ObjectReader(*root, "the device file", diagnostics), diagnostics);
+  DeviceDecl decl = parse_device_keys(ObjectReader(*root, "the device file", diagnostics), diagnostics);
   decl.digest = digest_of(file.text());
   decl.complete = diagnostics.error_count() == errors_before;
   return decl;

@@ -77,7 +77,7 @@ void parse_structure(const ObjectReader& reader, NetworkDecl& decl, Diagnostics&
   }
 }
 
-NetworkDecl parse_keys(ObjectReader reader, Diagnostics& diagnostics) {
+NetworkDecl parse_network_keys(ObjectReader reader, Diagnostics& diagnostics) {
   NetworkDecl decl;
   reader.refuse_other_keys(network_keys);
   reader.require("name");
@@ -98,7 +98,7 @@ std::optional<NetworkDecl> parse_network(const SourceFile& file, Diagnostics& di
   const std::size_t errors_before = diagnostics.error_count();
   const std::optional<JsonValue> root = parse_json(file, diagnostics);
   if (!root || !is_format_1(FileKind::network, *root, diagnostics)) return std::nullopt;
-  NetworkDecl decl = parse_keys(ObjectReader(*root, "the network file", diagnostics), diagnostics);
+  NetworkDecl decl = parse_network_keys(ObjectReader(*root, "the network file", diagnostics), diagnostics);
   decl.digest = digest_of(file.text());
   decl.complete = diagnostics.error_count() == errors_before;
   return decl;

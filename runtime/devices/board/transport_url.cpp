@@ -7,7 +7,7 @@
 namespace dashpot::board {
 namespace {
 
-using result = std::optional<transport_url>;
+using parsed = std::optional<transport_url>;
 
 // All of `digits` as a number from 1 to `most`.
 std::optional<unsigned> whole_number(std::string_view digits, unsigned most) {
@@ -17,12 +17,12 @@ std::optional<unsigned> whole_number(std::string_view digits, unsigned most) {
   return all_read && value >= 1 && value <= most ? std::optional(value) : std::nullopt;
 }
 
-result refuse(std::string_view seen, const char* expected, std::string& error) {
+parsed refuse(std::string_view seen, const char* expected, std::string& error) {
   error = "'" + std::string(seen) + "': " + expected;
   return std::nullopt;
 }
 
-result parse_serial(std::string_view text, std::string_view rest, std::string& error) {
+parsed parse_serial(std::string_view text, std::string_view rest, std::string& error) {
   const auto mark = rest.find('?');
   serial_url url;
   url.path = rest.substr(0, mark);
@@ -36,7 +36,7 @@ result parse_serial(std::string_view text, std::string_view rest, std::string& e
   return url;
 }
 
-result parse_unix(std::string_view text, std::string_view rest, std::string& error) {
+parsed parse_unix(std::string_view text, std::string_view rest, std::string& error) {
   if (rest.empty()) return refuse(text, "a Unix socket needs a path, as in unix:/run/board.sock", error);
   return unix_url{std::string(rest)};
 }
@@ -47,7 +47,7 @@ std::string_view bare_host(std::string_view host) {
   return bracketed ? host.substr(1, host.size() - 2) : host;
 }
 
-result parse_udp(std::string_view text, std::string_view rest, std::string& error) {
+parsed parse_udp(std::string_view text, std::string_view rest, std::string& error) {
   const auto colon = rest.rfind(':');
   if (colon == std::string_view::npos || colon == 0) return refuse(text, "expected udp:host:port", error);
   const auto port = whole_number(rest.substr(colon + 1), 65535);

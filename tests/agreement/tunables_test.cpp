@@ -8,7 +8,7 @@
 
 #include "support/shell_command.hpp"
 #include "support/shrink.hpp"
-#include "unit/tunables/tunable_run.hpp"
+#include "support/tunable_run.hpp"
 
 namespace dashpot::testing {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "certify/box_motor.hpp"
 #include "support/shrink.hpp"
-#include "tunable_run.hpp"
+#include "support/tunable_run.hpp"
 
 namespace dashpot::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "support/shrink.hpp"
-#include "tunable_run.hpp"
+#include "support/tunable_run.hpp"
 
 namespace dashpot::testing {
 namespace {

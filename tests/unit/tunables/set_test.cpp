@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "support/shrink.hpp"
-#include "tunable_run.hpp"
+#include "support/tunable_run.hpp"
 
 namespace dashpot::testing {
 namespace {

@@ -1,4 +1,4 @@
-#include "tunable_run.hpp"
+#include "support/tunable_run.hpp"
 
 #include <fmt/format.h>
 

@@ -6,6 +6,7 @@
 #include "discretise/representable.hpp"
 #include "linear/reach.hpp"
 #include "linear/validity.hpp"
+#include "network/port_units.hpp"
 #include "syntax/parse_network.hpp"
 
 namespace dashpot::compiler {
@@ -15,7 +16,7 @@ namespace {
 void settle_choice(Compilation& c, const Choices& choices, const PortDevice& device) {
   if (device.is_ideal()) return;
   CandidateSettler(c.network, c.form, c.decomposition, choices, device, c.rate).settle(c.decomposition.candidates[c.decomposition.chosen]);
-  c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, device.is_ideal());
+  c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, device.is_ideal(), port_units(c.network.port_motion).damping);
 }
 
 // False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position does

@@ -176,14 +176,14 @@ void warn_about_choice(const Decomposition& all, const LinearForm& form, Diagnos
                                                                 100 * single_motor->largest_error);
 }
 
-std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal) {
+std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal, const std::string& damping_unit) {
   if (choices.state_input) return fmt::format("{} driven as asked", name_of(chosen.state_input));
   if (chosen.state_inputs.size() == 1) return fmt::format("{} driven by definition", name_of(chosen.state_input));
   if (device_is_ideal) return "position driven: on an ideal device nothing tells the inputs apart";
   std::string text = fmt::format("{} driven; minimum damping and largest error in the band:", name_of(chosen.state_input));
   for (const StateInputMerit& merit : chosen.state_inputs)
     text += fmt::format("{} {} {}, {:.4g} %", &merit == &chosen.state_inputs.front() ? "" : ";", name_of(merit.state_input),
-                        merit.minimum_damping ? fmt::format("{:.4g}", *merit.minimum_damping) : "not proved",
+                        merit.minimum_damping ? fmt::format("{:.4g} {}", *merit.minimum_damping, damping_unit) : "not proved",
                         100 * merit.largest_error);
   return text;
 }
@@ -213,7 +213,7 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
     return std::nullopt;
   }
   result.encoder_step = port->encoder_step();
-  result.reason = reason_for_input(result.choice(), choices, port->is_ideal());
+  result.reason = reason_for_input(result.choice(), choices, port->is_ideal(), port_units(network.port_motion).damping);
   warn_about_share(result.choice(), form, *port, diagnostics);
   return result;
 }

@@ -61,7 +61,7 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
 void warn_about_choice(const Decomposition& decomposition, const LinearForm& form, Diagnostics& diagnostics);
 
 // What decided between position, velocity and nodal.
-std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal);
+std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal, const std::string& damping_unit);
 
 // True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);

@@ -67,6 +67,14 @@ class Json(CommandTest):
                 json.loads(text, parse_constant=lambda word: self.fail(f"{word} in {edge}"))
                 self.assertNotIn("null,\n      \"relaxation_rate\"", text)
 
+    def test_units(self):
+        """Fails if a number of the JSON has no unit of its motion, or a parameter none."""
+        self.write("rotary.json", KELVIN.replace('"name"', '"motion": "rotation", "name"', 1))
+        self.assertEqual(self.explained("rotary.json")["units"]["stiffness"], "N m/rad")
+        found = self.explained(SOURCE / "networks/tunable/second_order_maxwell_tunable.json")
+        self.assertEqual(found["units"]["damping"], "N s/m")
+        self.assertEqual([t["unit"] for t in found["tunables"]], ["N/m", "N s/m"])
+
     def test_json_alone_on_standard_output(self):
         """Fails if warnings mix with the JSON."""
         self.write("fast.json", network('{ "series": [ { "spring": 1e6 }, { "damper": 1 } ] }'))

@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "certify/notes.hpp"
+#include "commands/explain.hpp"
+#include "decompose/slip_laws.hpp"
+#include "network/port_units.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const Candidate& c) {
+  Json inputs = Json::array();
+  for (const StateInputMerit& merit : c.state_inputs)
+    inputs.push_back({{"state_input", name_of(merit.state_input)},
+                      {"largest_error", merit.largest_error},
+                      {"extra_damping_any_delay", or_null(merit.extra_damping_any_delay)},
+                      {"minimum_damping", or_null(merit.minimum_damping)},
+                      {"proof", merit.proof},
+                      {"binding_frequency", merit.binding_frequency}});
+  return {{"name", c.name},
+          {"damping", c.damping},
+          {"wanted_damping", c.wanted_damping},
+          {"state_input", name_of(c.state_input)},
+          {"velocity_gain", c.velocity_gain},
+          {"motor_noise", or_null(c.motor_noise)},
+          {"largest_error", c.largest_error},
+          {"extra_damping_any_delay", or_null(c.extra_damping_any_delay)},
+          {"minimum_damping", or_null(c.minimum_damping)},
+          {"certified", or_null(c.certified)},
+          {"reason", c.reason},
+          {"state_inputs", inputs}};
+}
+
+const SlipLawMerit* chosen_merit(const ComponentSplit& split) {
+  for (const SlipLawMerit& merit : split.merits)
+    if (merit.law == split.law) return &merit;
+  return nullptr;
+}
+
+// The keys of a candidate, where they make sense; the error is that of what slides.
+Json json_of(const ComponentSplit& split, std::size_t i, const Network& network) {
+  const Regime& regime = split.regimes.regimes[i];
+  const BrakeShare& share = split.shares[i];
+  const SlipLawMerit* merit = chosen_merit(split);
+  const bool slides = std::find(regime.slides.begin(), regime.slides.end(), true) != regime.slides.end();
+  const bool is_exact = !slides || merit == nullptr;
+  return {{"component", name_of(split, network)},
+          {"stuck", slip_names(split.regimes, regime, false, network)},
+          {"sliding", slip_names(split.regimes, regime, true, network)},
+          {"name", name_of(split.law)},
+          {"damping", share.damping},
+          {"wanted_damping", to_double(regime.damping)},
+          {"feedthrough_damping", to_double(regime.feedthrough())},
+          {"zero_frequency_damping", to_double(zero_frequency_damping(regime.form))},
+          {"static_stiffness", to_double(regime.form.static_stiffness)},
+          {"state_input", name_of(StateInput::position)},
+          {"velocity_gain", share.compensation},
+          {"motor_noise", is_exact ? Json(0.0) : or_null(merit->motor_noise)},
+          {"largest_error", is_exact ? 0.0 : merit->largest_error},
+          {"extra_damping_any_delay", share.compensation > 0 ? Json(nullptr) : Json(0.0)},
+          {"minimum_damping", nullptr},
+          {"certified", nullptr},
+          {"reason", regime.reason}};
+}
+
+// The keys of a candidate for what reaches ground without a slip, while the tool touches, and for a tool that is free.
+Json json_of_contact(const Compilation& c, bool touches) {
+  const Candidate& choice = c.decomposition.choice();
+  const LinearForm& form = c.form.linear;
+  const auto in_touch = [=](double value) { return touches ? value : 0.0; };
+  return {{"component", "contact"},
+          {"stuck", Json::array()},
+          {"sliding", Json::array()},
+          {"name", touches ? "touching" : "free"},
+          {"damping", in_touch(choice.damping)},
+          {"wanted_damping", in_touch(choice.wanted_damping)},
+          {"feedthrough_damping", in_touch(to_double(form.feedthrough_damping))},
+          {"zero_frequency_damping", in_touch(to_double(zero_frequency_damping(form)))},
+          {"static_stiffness", in_touch(to_double(form.static_stiffness))},
+          {"state_input", name_of(StateInput::position)},
+          {"velocity_gain", in_touch(choice.velocity_gain)},
+          {"motor_noise", touches ? or_null(choice.motor_noise) : Json(0.0)},
+          {"largest_error", in_touch(choice.largest_error)},
+          {"extra_damping_any_delay", touches ? or_null(choice.extra_damping_any_delay) : Json(0.0)},
+          {"minimum_damping", nullptr},
+          {"certified", nullptr},
+          {"reason", touches ? choice.reason : "a surface cannot pull the tool"}};
+}
+
+Json regimes_of(const Compilation& c) {
+  Json regimes = Json::array();
+  for (const ComponentSplit* split : c.decomposition.slips.all())
+    for (std::size_t i = 0; i < split->regimes.regimes.size(); ++i) regimes.push_back(json_of(*split, i, c.network));
+  if (c.network.contact)
+    for (const bool touches : {true, false}) regimes.push_back(json_of_contact(c, touches));
+  return regimes;
+}
+
+// What each law would cost a component, and which is taken.
+Json slip_laws_of(const Compilation& c) {
+  Json components = Json::array();
+  for (const ComponentSplit* each : c.decomposition.slips.all()) {
+    const ComponentSplit& split = *each;
+    Json laws = Json::array();
+    for (const SlipLawMerit& merit : split.merits)
+      laws.push_back({{"name", name_of(merit.law)},
+                      {"largest_error", merit.refusal.empty() ? Json(merit.largest_error) : Json(nullptr)},
+                      {"motor_noise", merit.refusal.empty() ? or_null(merit.motor_noise) : Json(nullptr)},
+                      {"refusal", merit.refusal.empty() ? Json(nullptr) : Json(merit.refusal)}});
+    components.push_back({{"component", name_of(split, c.network)},
+                          {"regimes", split.regimes.count},
+                          {"laws", laws},
+                          {"chosen", name_of(split.law)},
+                          {"reason", split.reason}});
+  }
+  return components;
+}
+
+Json json_of(const TunableTables& tables) {
+  Json list = Json::array();
+  for (const Tunable& t : tables.tunables)
+    list.push_back({{"name", t.name}, {"unit", t.unit}, {"value", t.range.value}, {"min", t.range.min}, {"max", t.range.max}});
+  return list;
+}
+
+// Of every key by how it ends; what is no such quantity is a share of something.
+Json json_of(const PortUnits& units) {
+  return {{"stiffness", units.stiffness}, {"damping", units.damping},   {"compliance", units.compliance},
+          {"fluidity", units.fluidity},   {"rate", "1/s"},              {"frequency", "Hz"},
+          {"velocity_gain", units.damping}, {"motor_noise", units.force}, {"extra_damping_any_delay", units.damping},
+          {"quantisation_gain", units.stiffness}, {"unpaid_force", units.force}, {"hysteresis", units.position},
+          {"at", units.position},         {"displacement", units.position}, {"valid.rate", units.velocity}};
+}
+
+Json json_of(const Certificate& c) {
+  return {{"proof", name_of(c.bound.proof)},
+          {"certified", c.certified},
+          {"needed_damping", c.bound.proof == Proof::none ? Json(nullptr) : Json(c.bound.needed)},
+          {"binding_frequency", c.bound.frequency},
+          {"assured_damping", c.assured},
+          {"minimum_damping", c.bound.proof == Proof::none ? Json(nullptr) : Json(c.minimum_damping)},
+          {"added_damping", c.added_damping},
+          {"reason", c.bound.reason},
+          {"quantisation_stiffness", c.quantisation_stiffness > 0 ? Json(c.quantisation_stiffness) : Json(nullptr)},
+          {"quantisation_gain", or_null(c.quantisation_gain)},
+          {"unpaid_force", c.loop.encoder_step > 0 && c.quantisation_gain ? Json(unpaid_force(c)) : Json(nullptr)}};
+}
+
+Json json_of(const Validity& valid) {
+  const auto ends = [](const std::optional<Range>& range) { return range ? Json({range->low, range->high}) : Json(nullptr); };
+  return {{"frequency", ends(valid.frequency)}, {"rate", ends(valid.rate)}, {"displacement", ends(valid.displacement)}};
+}
+
+}  // namespace
+
+std::string explain_json(const Compilation& c) {
+  Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
+  for (const Mode& mode : c.form.linear.modes)
+    modes.push_back({{"stiffness", to_double(mode.stiffness)}, {"relaxation_rate", to_double(mode.relaxation_rate)}});
+  const KelvinForm creep = kelvin_form(c.form.linear);
+  for (const KelvinElement& element : creep.elements)
+    kelvin.push_back({{"stiffness", to_double(element.stiffness)}, {"damping", to_double(element.damping)}});
+  for (const Candidate& candidate : c.decomposition.candidates) candidates.push_back(json_of(candidate));
+  const Candidate& choice = c.decomposition.choice();
+  Json all = {{"name", c.network.name},
+          {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
+          {"units", json_of(port_units(c.network.port_motion))},
+          {"static_stiffness", to_double(c.form.linear.static_stiffness)},
+          {"feedthrough_damping", to_double(c.form.linear.feedthrough_damping)},
+          {"modes", modes},
+          {"zero_frequency_damping", to_double(zero_frequency_damping(c.form.linear))},
+          {"kelvin", {{"glass_compliance", to_double(creep.glass_compliance)},
+                      {"fluidity", to_double(creep.fluidity)},
+                      {"elements", kelvin}}},
+          {"contact", c.network.contact ? Json({{"at", c.network.contact->at}, {"hysteresis", c.decomposition.encoder_step}}) : Json(nullptr)},
+          {"scheme", name_of(c.law.scheme)},
+          {"rate", c.rate},
+          {"fastest_relaxation_rate", fastest_rate(c)},
+          {"valid", json_of(c.network.valid)},
+          {"device", c.device ? Json(c.device->name) : Json(nullptr)},
+          {"coupled_operations", cost_of(c.law, c.law.output).coupled},
+          {"candidates", candidates},
+          {"regimes", regimes_of(c)},
+          {"slip_laws", slip_laws_of(c)},
+          {"certificate", json_of(c.certificate)},
+          {"notes", notes_on_choice(c.decomposition)},
+          {"chosen", choice.name},
+          {"state_input", name_of(choice.state_input)},
+          {"reason", choice.reason + "; " + c.decomposition.reason}};
+  if (c.law.tunable) all["tunables"] = json_of(*c.law.tunable);
+  return all.dump(2) + "\n";
+}
+
+}  // namespace dashpot::compiler

@@ -1,25 +1,13 @@
 #include "certify/box_motor.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "certify/box_numbers.hpp"
+#include "certify/hold_bound.hpp"
 #include "discretise/rounding.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-// base + Σ factors[i] θ_i
-struct Affine {
-  double base = 0;
-  std::vector<double> factors;
-};
-
-Affine plus(Affine first, const Affine& second, double weight = 1) {
-  first.base += weight * second.base;
-  first.factors.resize(std::max(first.factors.size(), second.factors.size()), 0);
-  for (std::size_t i = 0; i < second.factors.size(); ++i) first.factors[i] += weight * second.factors[i];
-  return first;
-}
 
 // What a cut holds: springs' and modes' β, and b∞.
 struct BoxCut {
@@ -30,87 +18,47 @@ BoxCut plus(const BoxCut& first, const BoxCut& second) {
   return {plus(first.stiffness, second.stiffness), plus(first.damping, second.damping)};
 }
 
-class Box {
+class Box : private BoxNumbers {
  public:
-  Box(const UpdateLaw& law, const BoxLoop& loop) : tables_(*law.tunable), scalar_(law.scalar), period_(law.sample_period), loop_(loop) {}
+  Box(const UpdateLaw& law, const BoxLoop& loop) : BoxNumbers(*law.tunable), scalar_(law.scalar), period_(law.sample_period), loop_(loop) {}
 
   BoxMotor motor() const {
-    BoxMotor result;
-    if (tables_.head.contact.is_there) return {0, 0, 0, "a contact, and parameters that change"};
+    if (tables_.head.contact.is_there) return nothing_for("a contact, and parameters that change");
     const std::vector<Affine> brakes = brake_choices();
-    const double behind_slips = largest_behind_slips(), made_up = make_up(brakes, behind_slips);
-    if (made_up > 0 && !loop_.gain) return {0, 0, 0, "nothing is proved for the estimator in the motor"};
-    if (brakes.empty()) return {0, 0, 0, "the brake follows the viscosity of a mesh, which is not bounded over the box"};
-    result.least_brake = std::max(0.0, least(brakes.front()));
+    const Rational behind_slips = largest_behind_slips(), made_up = make_up(brakes, behind_slips);
+    if (made_up > 0 && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
+    if (brakes.empty()) return nothing_for("the brake follows the viscosity of a mesh, which is not bounded over the box");
+    const Affine asked = needed();
+    Rational worst = 0, least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0;
     for (const Affine& brake : brakes) {
-      result.least_brake = std::min(result.least_brake, std::max(0.0, least(brake)));
-      result.largest_brake = std::max(result.largest_brake, most(brake));
+      least_brake = std::min(least_brake, std::max(Rational(0), least(brake)));
+      largest_brake = std::max(largest_brake, most(brake));
       for (const Affine& gain : gains(brake)) {
-        const bool is_rounding = most(gain) <= 1e-9 * (1 + std::abs(most(brake)));
-        if (!is_rounding && !loop_.gain) return {0, 0, 0, "nothing is proved for the estimator in the motor"};
-        Affine lacking = plus(plus({}, needed()), brake, -loop_.share);
-        if (loop_.gain) lacking = plus(lacking, gain, loop_.hold * *loop_.gain);
-        result.lacking = std::max(result.lacking, most(lacking) + (made_up > 0 ? loop_.hold * *loop_.gain * made_up : 0));
+        const bool is_rounding = most(gain) <= Rational(1e-9) * (1 + abs(most(brake)));
+        if (!is_rounding && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
+        Affine lacking = plus(asked, brake, -loop_.share);
+        if (loop_.gain) lacking = plus(lacking, gain, loop_.hold * Rational(*loop_.gain));
+        worst = std::max(worst, Rational(most(lacking) + (made_up > 0 ? Rational(loop_.hold * Rational(*loop_.gain) * made_up) : Rational(0))));
       }
     }
-    result.largest_brake = std::min(result.largest_brake + behind_slips, tables_.head.max_damping);
-    return result;
-  }
-
-  // Every relaxation gives no more work than its spring stores, wherever it is in the box.
-  bool relaxations_give_no_energy() const {
-    return std::all_of(tables_.parts.begin(), tables_.parts.end(), [&](const tunable_part<double>& part) {
-      if (part.kind == tunable_kind::fixed_relaxation) return gives_no_energy(part.loss, part.share);
-      if (part.kind != tunable_kind::relaxation || !tables_.head.is_exact) return true;  // (1 − φ)² + φ² ≤ 1, φ of 0 … 1
-      const Affine spring = stiffness(part.spring), damper = number(part.damping);
-      return exact_gives_no_energy(least(spring) * period_ / most(damper), most(spring) * period_ / least(damper));
-    });
+    largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.head.max_damping));
+    return {ceiling(worst), -ceiling(-least_brake), ceiling(largest_brake), "", quantisation_gain(brakes, made_up)};
   }
 
  private:
-  // a² + (1 − φ)² ≤ 1, with a = 1 − α; φ and α off by some 1e-15 or, in float, 1e-6 of themselves.
-  bool gives_no_energy(double loss, double share) const {
-    return loss * (2 - loss) * (1 + 64 * unit_roundoff(scalar_)) >= (1 - share) * (1 - share);
-  }
-  // α rises with x and φ falls: on a short interval the least α stands against the least φ. Below 1e-9, α > x/2 and
-  // 1 − φ < x; beyond 700, α = 1 in double.
-  bool exact_gives_no_energy(double low, double high) const {
-    for (double x = std::max(low, 1e-9); x < std::min(high, 700.0); x *= 1.05)
-      if (!gives_no_energy(-std::expm1(-x), -std::expm1(-1.05 * x) / (1.05 * x))) return false;
-    return true;
-  }
-
-  Affine number(int index) const {
-    const tunable_number<double>& n = tables_.numbers[static_cast<std::size_t>(index)];
-    Affine value{n.base, std::vector<double>(tables_.tunables.size(), 0)};
-    for (int i = n.first; i < n.first + n.count; ++i) value.factors[static_cast<std::size_t>(tables_.terms[static_cast<std::size_t>(i)])] += 1;
-    return value;
-  }
-
-  double extreme(const Affine& f, bool largest) const {
-    double value = f.base;
-    for (std::size_t i = 0; i < f.factors.size(); ++i) {
-      const tunable_range<double>& range = tables_.tunables[i].range;
-      value += f.factors[i] * ((f.factors[i] > 0) == largest ? range.max : range.min);
-    }
-    return value;
-  }
-  double most(const Affine& f) const { return extreme(f, true); }
-  double least(const Affine& f) const { return extreme(f, false); }
+  static BoxMotor nothing_for(std::string reason) { return {0, 0, 0, std::move(reason)}; }
 
   template <class Visit>
   void each_part(const tunable_block& block, Visit visit) const {
     for (int i = block.first_part; i < block.first_part + block.part_count; ++i) visit(tables_.parts[static_cast<std::size_t>(i)]);
   }
 
-  Affine stiffness(int spring) const { return number(tables_.springs[static_cast<std::size_t>(spring)]); }
-
   BoxCut cut_of(const tunable_part<double>& part) const {
     switch (part.kind) {
       case tunable_kind::damper: return {{}, number(part.damping)};
-      case tunable_kind::spring: return {plus({}, stiffness(part.spring), 0.5), {}};
-      case tunable_kind::relaxation: return {plus({}, stiffness(part.spring), tables_.head.is_exact ? largest_relaxation_hold : 0.5), {}};
-      case tunable_kind::fixed_relaxation: return {plus({}, stiffness(part.spring), relaxation_hold(part.share, part.loss)), {}};
+      case tunable_kind::spring: return {plus({}, stiffness(part.spring), half_), {}};
+      case tunable_kind::relaxation: return {plus({}, stiffness(part.spring), tables_.head.is_exact ? Rational(largest_relaxation_hold) : half_), {}};
+      case tunable_kind::fixed_relaxation: return {plus({}, stiffness(part.spring), Rational(relaxation_hold(part.share, part.loss))), {}};
       case tunable_kind::mesh: break;
     }
     return cut_at_port(part);
@@ -122,7 +70,7 @@ class Box {
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
       const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(i)];
       if ((edge.from == mesh_port) == (edge.to == mesh_port)) continue;
-      if (edge.spring != no_index) cut.stiffness = plus(cut.stiffness, stiffness(edge.spring), 0.5);
+      if (edge.spring != no_index) cut.stiffness = plus(cut.stiffness, stiffness(edge.spring), half_);
       else cut.damping = plus(cut.damping, number(edge.damping));
     }
     return cut;
@@ -134,12 +82,13 @@ class Box {
     return cut;
   }
 
-  double cost(const BoxCut& cut) const { return most(cut.stiffness) * period_ * loop_.lateness * loop_.lateness + most(cut.damping); }
+  Rational squared_lateness() const { return Rational(loop_.lateness) * Rational(loop_.lateness); }
+  Rational cost(const BoxCut& cut) const { return most(cut.stiffness) * period_ * squared_lateness() + most(cut.damping); }
 
   // No softer than the law makes blocks behind slips.
   BoxCut bounded_cut(int block) const {
     BoxCut cut = cut_of(tables_.blocks[static_cast<std::size_t>(block)]);
-    cut.stiffness.base += tables_.head.least_share * 2 * (most(cut.stiffness) + most(cut.damping) / period_);
+    cut.stiffness.base += Rational(tables_.head.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) / period_);
     return cut;
   }
 
@@ -167,11 +116,11 @@ class Box {
       return is_at_tool(ends.from) != is_at_tool(ends.to);
     };
     std::optional<unsigned> least;
-    double least_cost = 0;
+    Rational least_cost = 0;
     for (unsigned at_tool = 0; at_tool < 1u << graph.end_count; ++at_tool) {
       bool is_crossed = false;
       for (int k = graph.first_slip; k < graph.first_slip + graph.link_count; ++k) is_crossed |= separates(at_tool, tables_.links[static_cast<std::size_t>(k)]);
-      double sum = 0;
+      Rational sum = 0;
       for (std::size_t i = 0; i < cuts.size(); ++i)
         if (separates(at_tool, tie(graph, i))) sum += cost(cuts[i]);
       if (is_crossed || (least && sum >= least_cost)) continue;
@@ -195,8 +144,8 @@ class Box {
     });
     for (const tunable_coupling& coupling : tables_.couplings) cut = plus(cut, least_cut(coupling, 0).value());
     for (const tunable_graph& graph : tables_.graphs) cut = plus(cut, least_cut(graph));
-    const double margin = 1 + 64 * unit_roundoff(scalar_);
-    const Affine all = plus(plus({}, cut.stiffness, period_ * loop_.lateness * loop_.lateness), cut.damping);
+    const Rational margin = 1 + 64 * Rational(unit_roundoff(scalar_));  // of the numbers that set() works out
+    const Affine all = plus(plus({}, cut.stiffness, period_ * squared_lateness()), cut.damping);
     return plus({}, all, loop_.hold * margin);
   }
 
@@ -231,41 +180,136 @@ class Box {
   }
 
   // No regime has more b∞ than all dampers behind slips, and meshes theirs at the port.
-  double largest_behind_slips() const {
-    double sum = 0;
+  Rational largest_behind_slips() const {
+    Rational sum = 0;
     for (std::size_t i = 1; tables_.head.slip_rule.takes_part && i < tables_.blocks.size(); ++i)
       each_part(tables_.blocks[i], [&](const tunable_part<double>& part) { sum += most(cut_of(part).damping); });
     return sum;
   }
 
   // Of a brake on its way, what the motor makes up at most.
-  double make_up(const std::vector<Affine>& brakes, double behind_slips) const {
-    double largest = 0;
+  Rational make_up(const std::vector<Affine>& brakes, const Rational& behind_slips) const {
+    Rational largest = 0;
     for (const Affine& brake : brakes) largest = std::max(largest, most(brake));
     const tunable_slip_rule<double>& rule = tables_.head.slip_rule;
-    return rule.coil_share < 1 ? std::min(behind_slips, rule.assured_share * largest) : 0;
+    return rule.coil_share < 1 ? std::min(behind_slips, Rational(Rational(rule.assured_share) * largest)) : Rational(0);
   }
 
   // The rule's functions, and the brake's reach. Empty where the rule looks into a mesh.
   std::vector<Affine> brake_choices() const {
     const tunable_tables<double>& head = tables_.head;
     std::vector<Affine> choices;
-    const Affine constant{head.damping, {}};
+    const Affine constant{Rational(head.damping), {}};
     switch (head.rule) {
       case brake_rule::constant: choices = {constant}; break;
       case brake_rule::observed: choices = {number(head.observed)}; break;
       case brake_rule::feedthrough: choices = {feedthrough()}; break;
       case brake_rule::zero_frequency: choices = {zero_frequency()}; break;
-      case brake_rule::half_zero_frequency: choices = {plus({}, zero_frequency(), 0.5), feedthrough()}; break;
+      case brake_rule::half_zero_frequency: choices = {plus({}, zero_frequency(), half_), feedthrough()}; break;
       case brake_rule::within_viscosity: choices = {constant, zero_frequency()}; break;
     }
+    const Rational reach(head.max_damping);
     const bool looks_into_mesh = head.rule != brake_rule::constant && head.rule != brake_rule::observed;
     if (looks_into_mesh && has_meshes()) return {};
-    if (std::any_of(choices.begin(), choices.end(), [&](const Affine& b) { return most(b) > head.max_damping; })) {
-      std::erase_if(choices, [&](const Affine& b) { return least(b) >= head.max_damping; });
-      choices.push_back({head.max_damping, {}});
+    if (std::any_of(choices.begin(), choices.end(), [&](const Affine& b) { return most(b) > reach; })) {
+      std::erase_if(choices, [&](const Affine& b) { return least(b) >= reach; });
+      choices.push_back({reach, {}});
     }
     return choices;
+  }
+
+  // Σ|h_j| of a block: k, 2 c ≤ 2 k of a relaxation, and of a mesh no more than twice what its edges at the port answer within a
+  // sample, as its inner nodes held fast would.
+  Affine gain_of(const tunable_block& block, bool with_dampers) const {
+    Affine sum;
+    each_part(block, [&](const tunable_part<double>& part) {
+      switch (part.kind) {
+        case tunable_kind::spring: sum = plus(sum, stiffness(part.spring)); break;
+        case tunable_kind::relaxation: sum = plus(sum, stiffness(part.spring), 2); break;
+        case tunable_kind::fixed_relaxation: sum = plus(sum, stiffness(part.spring), 2 * Rational(part.share)); break;
+        case tunable_kind::damper: sum = with_dampers ? plus(sum, number(part.damping), 2 / period_) : sum; break;
+        case tunable_kind::mesh: {
+          const BoxCut cut = cut_at_port(part);
+          sum = plus(plus(sum, cut.stiffness, 4), cut.damping, 2 / period_);
+        }
+      }
+    });
+    return sum;
+  }
+
+  const slip_node<double>& node_of(const tunable_coupling& coupling, int index) const {
+    return tables_.nodes[static_cast<std::size_t>(coupling.first_node + index)];
+  }
+
+  // What one of its slips alone holds while none gives way: the least yield force over the box, of the strongest such slip. Empty
+  // where it does not hold rigidly.
+  std::optional<Rational> hold_of(const tunable_coupling& coupling, int index) const {
+    const slip_node<double>& node = node_of(coupling, index);
+    if (node.kind == slip_part::block) return std::nullopt;
+    if (node.kind == slip_part::slip) {
+      const tunable_yield& yield = tables_.yields[static_cast<std::size_t>(coupling.first_slip + node.place)];
+      std::optional<Rational> least_cut;
+      for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i) {
+        const Rational cut = least(number(tables_.cuts[static_cast<std::size_t>(i)]));
+        if (!least_cut || cut < *least_cut) least_cut = cut;
+      }
+      return least_cut;
+    }
+    std::optional<Rational> strongest, weakest;
+    bool all_hold = true;
+    for (int i = node.first_child; i < node.first_child + node.child_count; ++i) {
+      const std::optional<Rational> child = hold_of(coupling, i);
+      all_hold = all_hold && child;
+      if (child && (!strongest || *child > *strongest)) strongest = child;
+      if (child && (!weakest || *child < *weakest)) weakest = child;
+    }
+    if (node.kind == slip_part::parallel) return strongest;
+    return all_hold ? weakest : std::nullopt;
+  }
+
+  // Of one block in series with what holds rigidly; empty for anything else, and where the encoder's step makes a slip give way.
+  std::optional<Rational> gain_of(const tunable_coupling& coupling) const {
+    const slip_node<double>& root = node_of(coupling, 0);
+    if (root.kind != slip_part::series) return std::nullopt;
+    int blocks = 0, block = 0;
+    for (int i = root.first_child; i < root.first_child + root.child_count; ++i)
+      if (const slip_node<double>& child = node_of(coupling, i); child.kind == slip_part::block) {
+        block = coupling.first_block + child.place;
+        ++blocks;
+      }
+    if (blocks != 1) return std::nullopt;
+    const tunable_block& only = tables_.blocks[static_cast<std::size_t>(block)];
+    const Rational largest = most(gain_of(only, true)) * (1 + 2 * Rational(tables_.head.least_share)), of_step = largest * Rational(loop_.encoder_step) / 2;
+    bool carried_by_slip = false, holds = true;
+    for (int i = root.first_child; i < root.first_child + root.child_count; ++i) {
+      const slip_part kind = node_of(coupling, i).kind;
+      if (kind == slip_part::block) continue;
+      const std::optional<Rational> hold = hold_of(coupling, i);
+      if (!hold) return std::nullopt;
+      carried_by_slip = carried_by_slip || kind == slip_part::slip;
+      holds = holds && *hold >= of_step;
+    }
+    // At places of the box where a slip in series yields within a step, no more is left than that; with one such slip alone.
+    const bool is_motors = !tables_.head.slip_rule.takes_part || most(cut_of(only).damping) == 0;
+    return holds || (carried_by_slip && root.child_count == 2 && is_motors) ? std::optional(largest) : std::nullopt;
+  }
+
+  // K at the worst place of the box, between changes. Not bounded where slips meet in no tree.
+  std::optional<double> quantisation_gain(const std::vector<Affine>& brakes, const Rational& made_up) const {
+    if (!tables_.graphs.empty()) return std::nullopt;
+    Rational sum = most(gain_of(tables_.blocks.front(), false));
+    for (const tunable_coupling& coupling : tables_.couplings) {
+      const std::optional<Rational> gain = gain_of(coupling);
+      if (!gain) return std::nullopt;
+      sum += *gain;
+    }
+    Rational follows = 0;
+    for (const Affine& brake : brakes)
+      for (const Affine& gain : gains(brake)) follows = std::max(follows, most(gain));
+    follows += made_up;
+    if (follows > 0 && !loop_.pulse) return std::nullopt;
+    if (follows > 0) sum += follows * Rational(*loop_.pulse);
+    return ceiling(sum * (1 + 64 * Rational(unit_roundoff(scalar_))));
   }
 
   // |b∞ − b| is one of these or less.
@@ -274,31 +318,23 @@ class Box {
     return {plus(difference, of_meshes()), plus({}, difference, -1)};
   }
 
-  const TunableTables& tables_;
   ScalarType scalar_;
-  double period_;
+  Rational period_;
+  Rational half_{1, 2};
   const BoxLoop& loop_;
 };
 
 }  // namespace
 
 double relaxation_hold(double share, double loss) {
-  const double a = 1 - loss, A = loss * (2 - loss) / 2, B = a * (1 - share), C = share - share * share / 2;
-  const double determinant = A * C - B * B / 4;
+  const Rational phi(share), alpha(loss);
+  const Rational a = 1 - alpha, A = alpha * (2 - alpha) / 2, B = a * (1 - phi), C = phi - phi * phi / 2;
+  const Rational determinant = A * C - B * B / 4;
   // What vanishes within a sample answers once, with k φ.
-  if (!(determinant > 0)) return std::max(share, 0.57);
-  return (loss * loss * C + loss * share * B + share * share * A) / (4 * determinant) * (1 + 1e-9);
+  if (!(determinant > 0)) return std::max(share, largest_relaxation_hold);
+  return ceiling((alpha * alpha * C + alpha * phi * B + phi * phi * A) / (4 * determinant));
 }
 
 BoxMotor box_motor(const UpdateLaw& law, const BoxLoop& loop) { return Box(law, loop).motor(); }
-
-EnergyLemma check_energy_lemma_over_box(const UpdateLaw& law) {
-  const BoxLoop unused{1, 1, std::nullopt, 1};
-  EnergyLemma lemma;
-  lemma.applies = lemma.over_box = true;
-  lemma.with_slips = !law.tunable->yields.empty();
-  lemma.holds = Box(law, unused).relaxations_give_no_energy();
-  return lemma;
-}
 
 }  // namespace dashpot::compiler

@@ -8,7 +8,8 @@
 // (tunable_law.hpp) is one jump of the force, held for one sample.
 //
 // b, and with it b∞ − b, is at every point of the box one of a few affine functions: those that the brake's rule and reach
-// choose from. Of affine functions the largest over a box is exact.
+// choose from. Of affine functions the largest over a box is exact, and worked out in rational numbers: from the numbers of the
+// law's tables, rounded once, outward, at the end. The margin is that of the numbers that set() works out from them.
 #pragma once
 
 #include <optional>
@@ -25,14 +26,18 @@ struct BoxMotor {
   double least_brake = 0;  // min b over the box [N·s/m], not above it
   double largest_brake = 0;
   std::string hindrance;   // why nothing is proved; empty where something is
+  std::optional<double> quantisation_gain = {};  // K over the box, not below it (quantisation.hpp) [N/m]
 };
 
 // `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty where nothing is known of it; `share`:
 // of the brake's command that is assured.
 struct BoxLoop {
-  double hold, lateness;
+  Rational hold;
+  double lateness;
   std::optional<double> gain;
-  double share;
+  Rational share;
+  std::optional<double> pulse = {};  // Σ|h_j| of the estimate [1/s]
+  double encoder_step = 0;           // [m]
 };
 
 // Of a law with tunables.

@@ -168,8 +168,9 @@ PassivityBound bound_of(const UpdateLaw& law, const SampledLoop& loop, const std
 }
 
 BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
-  const double hold = loop.amplifier_lag > 0 ? 1 : loop.longest_hold() / loop.sample_period;
-  return box_motor(law, {hold, lateness(loop), estimate_gain(loop), assured_share(loop).convert_to<double>() * (1 - 1e-15)});
+  const Rational period(loop.sample_period);
+  const Rational hold = loop.amplifier_lag > 0 ? Rational(1) : Rational((period + Rational(loop.jitter)) / period);
+  return box_motor(law, {hold, lateness(loop), estimate_gain(loop), assured_share(loop), estimate_pulse(loop), loop.encoder_step});
 }
 
 // A brake that changes is told a sum, of whose rounding nothing is promised.
@@ -211,6 +212,7 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
   }
   if (is_proved) result.minimum_damping = missing();
   result.added_damping = law.tunable->added_damping = added;
+  result.quantisation_gain = box.quantisation_gain;
   law.damping = box.least_brake + added;
   law.largest_damping = box.largest_brake + added;
 }
@@ -235,6 +237,7 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
   result.bound.any_regime = slips.has_value();
   if (slips && !law.tunable) result.energy = check_energy_lemma_with_slips(linear_motor_constants(law), parts_behind_slips(law));
   if (motor) result.quantisation_gain = quantisation_gain(*motor, loop);
+  else if (slips && !law.tunable) result.quantisation_gain = quantisation_gain(linear_motor_constants(law), *slips, loop);
   if (!motor) result.energy.rounding_share = rounding_of_step(law);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;

@@ -41,6 +41,8 @@ std::string quantisation_text(const Certificate& c, const PortUnits& units) {
   std::string text = "quantisation: ";
   if (c.quantisation_gain)
     text += fmt::format("an error of the encoder reaches the motor with at most {:.6g} {}; ", *c.quantisation_gain, units.stiffness);
+  else
+    text += "what an error of the encoder does to the motor is not bounded; ";
   if (c.quantisation_stiffness > 0)
     text += fmt::format("friction pays for up to {:.6g} {} (2 f_c/step), no brake does", c.quantisation_stiffness, units.stiffness);
   else

@@ -105,4 +105,18 @@ std::optional<double> quantisation_gain(const MotorConstants& motor, const Sampl
   return sum_of_pulse(position_driven, loop, {}) + 2 * std::abs(motor.velocity_gain) / loop.sample_period;
 }
 
+std::optional<double> estimate_pulse(const SampledLoop& loop) {
+  MotorConstants estimate;
+  estimate.velocity_gain = 1;
+  return quantisation_gain(estimate, loop);
+}
+
+std::optional<double> quantisation_gain(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop) {
+  const double compensation = slips.compensation + slips.held_compensation;
+  const std::optional<double> pulse = compensation > 0 ? estimate_pulse(loop) : 0;
+  const std::optional<double> beside = slips.behind_contact ? 0 : quantisation_gain(linear, loop);
+  if (!pulse || !beside || slips.slides_within_step) return std::nullopt;
+  return *beside + slips.held_gain + compensation * *pulse;
+}
+
 }  // namespace dashpot::compiler

@@ -9,14 +9,33 @@
 //     energy taken up by motor, brake and mechanics ≥ −(K Δ/2 − f_c)⁺ ∫|u̇| dt − K Δ²/8
 // where the last term is the static spring's tension under half a step with which a flooring encoder starts, at most, and
 // is not there for a rounding one. For K ≤ 2 f_c/Δ friction pays for all of it; no brake does, which is off at rest.
+//
+// Slips. Beside the tool that goes y = u + q and moves the slips by p, think of one that goes u while the slips move by the same p.
+// Between the two the law is linear: its motor's force differs by w, |w| ≤ K Δ/2, with K of the network in which every slip
+// holds, and what a slip holds by |w_s| ≤ K_s Δ/2 (held_slips.hpp). The second tool's slips take up (Y ± w_s)|Δp|, which is not
+// below zero where Y ≥ K_s Δ/2, for then the encoder's step alone makes no slip give way; and the certificate's cut (cut.hpp) speaks
+// of the second tool as it stands. So energy and K are bounded as above. A slip with all of the tool's force, Y < K Δ/2, leaves
+// a force below K Δ/2 in any case. A brake's share x of some regime and an estimate that is compensated, κ v̂, are part of the
+// law: the worst x counts, and κ Σ|pulse of v̂|.
+// A contact. With the kernel g s_k − Σ w_j s_{k−j}, w_j ≥ 0 and Σ w_j ≤ g, of what is behind it, its surface s = max(u, Σ w_j s_{k−j}/g)
+// differs by no more than u does: K is that of what is behind it.
+// Parameters: K at the worst place of the box, between changes.
 #pragma once
 
 #include "certify/estimator_factors.hpp"
+#include "certify/slip_motor.hpp"
 
 namespace dashpot::compiler {
 
 // K [N/m], to rounding; empty where the motor follows an estimate that nothing is known of. For FOAW the sum of both
 // parts' bounds: whatever window it chooses, v̂ is off by at most Δ/T.
 std::optional<double> quantisation_gain(const MotorConstants& motor, const SampledLoop& loop);
+
+// The same of a law with slips or a contact, not below it; `linear` is what reaches ground without a slip. Empty also where the
+// encoder's step alone can make a slip give way.
+std::optional<double> quantisation_gain(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop);
+
+// Σ|h_j| of the velocity estimate itself [1/s]; empty where nothing is known of it.
+std::optional<double> estimate_pulse(const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "certify/cut.hpp"
+#include "certify/held_slips.hpp"
+#include "discretise/mode_coefficients.hpp"
 #include "discretise/rounding.hpp"
 
 namespace dashpot::compiler {
@@ -29,16 +31,26 @@ double largest_behind_slips(const SlipDecomposition& slips) {
 
 class Sum {
  public:
-  Sum(const Network& network, const CutSettings& settings, ScalarType scalar)
-      : network_(network), settings_(settings), margin_(1 + 16 * unit_roundoff(scalar)) {}
+  Sum(const Network& network, const CutSettings& settings, double encoder_step, ScalarType scalar)
+      : network_(network), settings_(settings), half_step_(encoder_step / 2), margin_(1 + 16 * unit_roundoff(scalar)) {}
 
   // Every part has a cut: where slips alone join tool and ground the force is not unique, and the network was refused.
   void add(const ComponentSplit& split) {
     cut_ += least_cut(split.rendered, settings_).value();
     add_brake(split);
+    add_held(held_slips(split.rendered, feedthroughs(split), settings_), feedthroughs(split));
   }
-  void add(const NormalTree& component) { cut_ += least_cut(component, settings_).value(); }
-  void add(const std::vector<std::size_t>& elements) { cut_ += least_cut(network_, elements, settings_).value(); }
+  void add(const NormalTree& component) {
+    cut_ += least_cut(component, settings_).value();
+    add_held(held_slips(component, {Real(0)}, settings_), {Real(0)});
+  }
+  // `split`: none behind a contact, where the brake has some of the dampers, and none of them is the worst.
+  void add(const std::vector<std::size_t>& elements, const ComponentSplit* split) {
+    cut_ += least_cut(network_, elements, settings_).value();
+    const std::vector<Real> shares = split ? feedthroughs(*split) : std::vector<Real>{0};
+    add_held(held_slips(network_, elements, shares, settings_), shares);
+    if (split) add_brake(*split);
+  }
 
   void add_brake(const ComponentSplit& split) {
     cut_.damping -= least_feedthrough(split);
@@ -57,6 +69,9 @@ class Sum {
   // The brake has the dampers while the tool touches, and not while it is free.
   void add_behind_contact(const LinearForm& linear, double brake, double behind_slips) {
     cut_ += cut_of(linear, settings_);
+    held_gain_ += linear.static_stiffness;
+    for (const Mode& mode : linear.modes)
+      held_gain_ += 2 * mode_coefficients(mode, settings_.scheme, StateInput::position, settings_.sample_period).position_gain;
     motor_.behind_contact = true;
     const double feedthrough = to_double(linear.feedthrough_damping);
     motor_.lets_go_by_estimate = feedthrough + behind_slips > 0;
@@ -70,14 +85,31 @@ class Sum {
   SlipMotor result() {
     motor_.stiffness = to_double(cut_.stiffness) * margin_;
     motor_.damping = std::max(to_double(cut_.damping), 0.0) * margin_;
+    motor_.held_gain = to_double(held_gain_) * margin_;
     return motor_;
   }
 
  private:
+  static std::vector<Real> feedthroughs(const ComponentSplit& split) {
+    std::vector<Real> all;
+    for (const BrakeShare& share : split.shares) all.push_back(share.feedthrough);
+    return all.empty() ? std::vector<Real>{0} : all;
+  }
+
+  // Where the slip that holds all of the tool's force yields within a step, so little is left that K counts for more.
+  void add_held(const HeldSlips& held, const std::vector<Real>& shares) {
+    held_gain_ += held.gain;
+    const bool is_motors = std::all_of(shares.begin(), shares.end(), [](const Real& x) { return x == 0; });
+    if (is_motors && held.series_yield >= 0 && held.series_yield <= held.gain * half_step_) return;
+    for (const HeldSlip& slip : held.slips) motor_.slides_within_step = motor_.slides_within_step || slip.yield_force < slip.gain * half_step_;
+  }
+
   const Network& network_;
   CutSettings settings_;
+  Real half_step_;  // Δ/2 [m]
   double margin_;
   Cut cut_;
+  Real held_gain_ = 0;
   SlipMotor motor_;
 };
 
@@ -93,16 +125,14 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
                                     const Choices& choices, const SampledLoop& loop) {
   if (!form.has_slips() && !network.contact) return std::nullopt;
   const SlipDecomposition& slips = decomposition.slips;
-  Sum sum(network, {choices.scheme, Real(loop.sample_period), lateness(loop)}, choices.scalar);
+  Sum sum(network, {choices.scheme, Real(loop.sample_period), lateness(loop)}, loop.encoder_step, choices.scalar);
   for (std::size_t i = 0; i < form.components.size(); ++i)
     if (i < slips.components.size() && !network.contact)
       sum.add(slips.components[i]);
     else
       sum.add(form.components[i]);
-  for (std::size_t i = 0; i < form.networks.size(); ++i) {
-    sum.add(form.networks[i]);
-    if (i < slips.networks.size() && !network.contact) sum.add_brake(slips.networks[i]);
-  }
+  for (std::size_t i = 0; i < form.networks.size(); ++i)
+    sum.add(form.networks[i], i < slips.networks.size() && !network.contact ? &slips.networks[i] : nullptr);
   if (network.contact)
     sum.add_behind_contact(form.linear, decomposition.choice().damping, largest_behind_slips(slips));
   else

@@ -26,6 +26,8 @@ struct SlipMotor {
   double held_compensation = 0;  // β v̂ that a finite memory and the brake's own share have earned [N·s/m]
   double compensation = 0;       // of any other estimate of the velocity [N·s/m]
   bool lets_go_by_estimate = false;  // of a contact: the command ends where f′ + b∞ v̂ < 0
+  double held_gain = 0;          // Σ|h_j| of what is behind slips or a contact, every slip holding (held_slips.hpp) [N/m]
+  bool slides_within_step = false;  // the encoder's step alone can make a slip give way
   double least_brake = 0;        // of what is behind slips, in every regime [N·s/m]
   double largest_brake = 0;
 };

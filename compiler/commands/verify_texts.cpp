@@ -82,11 +82,7 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
     diagnostics.report<DiagnosticCode::no_certificate>({}, network_file.path(), "its network does not compile");
     return std::nullopt;
   }
-  if (!is_linear) {
-    const auto found = verify_constants(*certificate, *constants, *compiled, diagnostics);
-    if (!found) return std::nullopt;
-    count = *found;
-  }
+  if (!is_linear) count = verify_constants(*certificate, *port, *constants, *compiled, diagnostics);
   compare_code(*compiled, header.text(), diagnostics);
   if (!diagnostics.has_errors()) verify_bounds(*certificate, *port, *constants, *compiled, diagnostics);
   if (diagnostics.has_errors()) return std::nullopt;

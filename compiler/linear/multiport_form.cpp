@@ -10,6 +10,8 @@
 namespace dashpot::compiler {
 namespace {
 
+const Real same_rate{"1e-25"};
+
 struct Values {
   Real stiffness = 0, damping = 0;
 };
@@ -112,6 +114,7 @@ class Block {
     const Pencil pencil = solve_pencil(inner_stiffness_, inner_damping_);
     const Eigen::Index by_dampers = floating_groups([](const Values& values) { return values.stiffness > 0; });
     const Eigen::Index by_springs = floating_groups([](const Values& values) { return values.damping > 0; });
+    std::vector<Relaxation> relaxations;
     for (Eigen::Index i = 0; i < inner_count(); ++i) {
       const RealVector p = drive_stiffness_.transpose() * pencil.vectors.col(i), q = drive_damping_.transpose() * pencil.vectors.col(i);
       if (i < by_dampers) {
@@ -123,9 +126,38 @@ class Block {
         const RealVector drive = p - q * rate;
         damping_ -= q * q.transpose() / d;
         stiffness_ -= (p * q.transpose() + q * p.transpose() - q * q.transpose() * rate) / d + drive * drive.transpose() / m;
-        add_mode(form, drive, rate, m);
+        relaxations.push_back({rate, drive, m});
       }
     }
+    for (const Relaxation& relaxation : taken_apart(std::move(relaxations))) add_mode(form, relaxation.drive, relaxation.rate, relaxation.m);
+  }
+
+  struct Relaxation {
+    Real rate;
+    RealVector drive;
+    Real m;
+  };
+
+  // Modes of one rate are any of many: their sum is taken apart terminal by terminal, so that equal parts give equal laws.
+  std::vector<Relaxation> taken_apart(std::vector<Relaxation> all) const {
+    std::vector<Relaxation> result;
+    for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
+      while (last < all.size() && all[last].rate - all[first].rate <= same_rate * all[last].rate) ++last;
+      if (last == first + 1) {
+        result.push_back(std::move(all[first]));
+        continue;
+      }
+      RealMatrix sum = all[first].drive * all[first].drive.transpose() / all[first].m;
+      for (std::size_t i = first + 1; i < last; ++i) sum += all[i].drive * all[i].drive.transpose() / all[i].m;
+      const Real largest = sum.diagonal().head(sum.rows() - 1).maxCoeff();
+      for (Eigen::Index terminal = 0; terminal + 1 < sum.rows(); ++terminal) {
+        if (sum(terminal, terminal) <= negligible_share * largest) continue;
+        const RealVector drive = sum.col(terminal) / sqrt(sum(terminal, terminal));
+        result.push_back({all[first].rate, drive, 1});
+        sum -= drive * drive.transpose();
+      }
+    }
+    return result;
   }
 
   void add_mode(MultiportForm& form, const RealVector& drive, const Real& rate, const Real& m) const {

@@ -143,6 +143,7 @@ CertificateFile file_of(const Json& json) {
   file.needed_damping = passivity.at("needed_damping").get<double>();
   file.assured_damping = passivity.at("assured_damping").get<double>();
   file.certified = passivity.at("certified").get<bool>();
+  if (const Json& gain = passivity.at("quantisation_gain"); !gain.is_null()) file.quantisation_gain = gain.get<double>();
   for (const auto& [name, values] : json.at("constants").items()) file.constants[name] = values.get<std::vector<double>>();
   return file;
 }

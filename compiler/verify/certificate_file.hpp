@@ -22,6 +22,7 @@ struct CertificateFile {
   double needed_damping = 0;    // [N·s/m]
   double assured_damping = 0;   // [N·s/m]
   bool certified = false;
+  std::optional<double> quantisation_gain;  // K [N/m]
   std::map<std::string, std::vector<double>> constants;  // as in the header
 };
 

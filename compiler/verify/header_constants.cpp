@@ -1,5 +1,7 @@
 #include "verify/header_constants.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -22,27 +24,46 @@ std::optional<double> number(std::string_view text, ScalarType scalar) {
   return value;
 }
 
-// "{1.0, 2.0}" or "1.0"
-bool read_values(std::string_view text, ScalarType scalar, std::vector<double>& values) {
-  if (!text.empty() && text.front() == '{') text = text.substr(1, text.find('}') - 1);
-  for (std::size_t start = 0; start <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', start), text.size());
-    const std::optional<double> value = number(text.substr(start, comma - start), scalar);
-    if (!value) return false;
-    values.push_back(*value);
-    start = comma + 1;
+// What is no code, replaced by as many blanks: comments and what stands in quotes.
+std::string without_remarks(std::string_view header) {
+  std::string code(header);
+  for (std::size_t at = 0; at < code.size(); ++at) {
+    const bool is_remark = code.compare(at, 2, "//") == 0;
+    if (!is_remark && code[at] != '"') continue;
+    const std::size_t end = std::min(code.find(is_remark ? '\n' : '"', at + 1), code.size());
+    std::fill(code.begin() + std::ptrdiff_t(at), code.begin() + std::ptrdiff_t(end + (is_remark || end == code.size() ? 0 : 1)), ' ');
+    at = end;
   }
-  return true;
+  return code;
 }
 
-// The scalars of a table, which alone have a point or an exponent.
-bool read_table(std::string_view text, ScalarType scalar, std::vector<double>& values) {
-  constexpr std::string_view between = "{}, \n";
-  for (std::size_t start = text.find_first_not_of(between); start != text.npos;) {
-    const std::size_t end = std::min(text.find_first_of(between, start), text.size());
-    const std::string_view word = text.substr(start, end - start);
-    start = text.find_first_not_of(between, end);
-    if (word.find('.') == word.npos && (word.find('e') == word.npos || word.find(':') != word.npos)) continue;
+bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == ':'; }
+
+// The next number or name from `at` on, which is then behind it. An exponent's sign is part of a number, and so is one in
+// front of it that has nothing to its left.
+std::string_view next_word(std::string_view code, std::size_t& at) {
+  while (at < code.size() && !is_of_word(code[at])) ++at;
+  std::size_t start = at;
+  const auto digit_at = [&](std::size_t i) { return i < code.size() && std::isdigit(static_cast<unsigned char>(code[i])) != 0; };
+  const bool is_number = digit_at(at);
+  while (at < code.size() && (is_of_word(code[at]) || (is_number && (code[at] == '-' || code[at] == '+') && code[at - 1] == 'e' && digit_at(at + 1)))) ++at;
+  if (is_number && start > 0 && code[start - 1] == '-' && code.substr(0, start - 1).find_last_not_of(" \n") != code.npos &&
+      std::string_view("{(,=").find(code[code.find_last_not_of(" \n", start - 2)]) != code.npos)
+    --start;
+  return code.substr(start, at - start);
+}
+
+bool is_scalar_literal(std::string_view word) {
+  const char first = word.empty() ? ' ' : word[word.front() == '-' ? 1 : 0];
+  return std::isdigit(static_cast<unsigned char>(first)) != 0 && word.find_first_of(".e") != word.npos;
+}
+
+// All numbers of the scalar's type in a piece of code, which alone have a point or an exponent.
+bool read_literals(std::string_view code, ScalarType scalar, std::vector<double>& values) {
+  for (std::size_t at = 0; at < code.size();) {
+    const std::string_view word = next_word(code, at);
+    if (word == "inf" || word == "nan") return false;
+    if (!is_scalar_literal(word)) continue;
     const std::optional<double> value = number(word, scalar);
     if (!value) return false;
     values.push_back(*value);
@@ -50,16 +71,33 @@ bool read_table(std::string_view text, ScalarType scalar, std::vector<double>& v
   return true;
 }
 
-// What is declared with the words of `opening`: a number or a list of numbers, or a table.
-bool read_declared(std::string_view header, std::string_view opening, bool is_table, HeaderConstants& result) {
-  for (std::size_t at = header.find(opening); at != header.npos; at = header.find(opening, at)) {
-    at += opening.size();
-    const std::size_t equals = header.find(" = ", at), end = header.find(';', at);
-    if (equals == header.npos || end == header.npos || end < equals) return false;
-    const std::string_view name = header.substr(at, equals - at), text = header.substr(equals + 3, end - equals - 3);
-    HeaderConstant constant{std::string(name.substr(0, name.find('['))), {}};
-    if (!(is_table ? read_table : read_values)(text, result.scalar, constant.values)) return false;
-    result.all.push_back(std::move(constant));
+// The name in front of "= …" or "[2] = …", without what a state ends with.
+std::string name_before(std::string_view code, std::size_t end) {
+  std::size_t stop = code.find_last_not_of(" \n", end - 1) + 1;
+  if (stop > 0 && code[stop - 1] == ']') stop = code.rfind('[', stop);
+  std::size_t start = stop;
+  while (start > 0 && is_of_word(code[start - 1])) --start;
+  return std::string(code.substr(start, stop - start));
+}
+
+// One constant: a scalar, a list or a table of any type over scalars. Others, of whole numbers and words, are code.
+bool read_declared(std::string_view declaration, HeaderConstants& result) {
+  const std::size_t equals = declaration.find(" = ");
+  if (equals == declaration.npos || declaration.substr(0, equals).find("scalar") == declaration.npos) return true;
+  HeaderConstant constant{name_before(declaration, equals), {}};
+  if (!read_literals(declaration.substr(equals), result.scalar, constant.values)) return false;
+  if (!constant.values.empty()) result.all.push_back(std::move(constant));
+  return true;
+}
+
+// Declarations are blanked once they are read, so that what is left are the numbers within functions.
+bool read_all_declared(std::string& code, HeaderConstants& result) {
+  constexpr std::string_view opening = "static constexpr ";
+  for (std::size_t at = code.find(opening); at != code.npos; at = code.find(opening, at)) {
+    const std::size_t start = at + opening.size(), end = code.find(';', at);
+    if (end == code.npos) return false;
+    if (!read_declared(std::string_view(code).substr(start, end - start), result)) return false;
+    std::fill(code.begin() + std::ptrdiff_t(at), code.begin() + std::ptrdiff_t(end), ' ');
   }
   return true;
 }
@@ -77,8 +115,12 @@ std::optional<HeaderConstants> header_constants(std::string_view header) {
   HeaderConstants result;
   if (header.find("using scalar = float;") != header.npos) result.scalar = ScalarType::float32;
   else if (header.find("using scalar = double;") == header.npos) return std::nullopt;
-  if (!read_declared(header, "static constexpr scalar ", false, result)) return std::nullopt;
-  if (!read_declared(header, "static constexpr dashpot::slip_node<scalar> ", true, result)) return std::nullopt;
+  std::string code = without_remarks(header);
+  if (!read_all_declared(code, result)) return std::nullopt;
+  HeaderConstant others{literals_in_code, {}};
+  if (!read_literals(code, result.scalar, others.values)) return std::nullopt;
+  std::erase(others.values, 0);
+  if (!others.values.empty()) result.all.push_back(std::move(others));
   return result;
 }
 

@@ -20,7 +20,12 @@ struct HeaderConstants {
   std::vector<HeaderConstant> all;  // in the order of the text
 };
 
-// Empty where a constant's value is no finite number, or the scalar is neither double nor float.
+// The name under which the numbers come that stand in no constant's declaration: what begins a state or a parameter, or is
+// an argument. Zeros are left out.
+inline constexpr const char* literals_in_code = "literals";
+
+// Every number of the scalar's type that is code. Empty where a constant's value is no finite number, or the scalar is neither
+// double nor float.
 std::optional<HeaderConstants> header_constants(std::string_view header);
 
 // The header without what is not code: the banner before "#pragma once", and the digests.

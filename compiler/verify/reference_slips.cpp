@@ -1,7 +1,11 @@
 #include "verify/reference_slips.hpp"
 
 #include <algorithm>
+#include <limits>
 
+#include "decompose/regimes.hpp"
+#include "verify/header_constants.hpp"
+#include "verify/reference_network.hpp"
 #include "verify/slip_rows.hpp"
 
 namespace dashpot::compiler {
@@ -13,6 +17,16 @@ Reference companion(const ReferenceForm& form, const LawFacts& facts) {
   Reference g = form.static_stiffness + form.feedthrough_damping * Reference(facts.rate);
   for (const ReferenceMode& mode : form.modes) g += mode_factors(mode, facts).gain;
   return g;
+}
+
+// All that is behind a contact as one tree.
+ReferencePart whole_of(const ReferenceTree& tree) {
+  ReferencePart whole{Kind::parallel, {}, {}, 0, tree.components};
+  const ReferenceForm& f = tree.linear;
+  if (f.static_stiffness > 0 || f.feedthrough_damping > 0 || !f.modes.empty())
+    whole.children.insert(whole.children.begin(), {Kind::block, {}, f, 0, {}});
+  if (whole.children.size() != 1) return whole;
+  return ReferencePart(std::move(whole.children.front()));
 }
 
 class Constants {
@@ -83,6 +97,46 @@ class Constants {
     if (const auto b = feedthrough_in(component, ~std::size_t{0})) pool_["feedthrough_by_regime"].push_back(*b * Reference(facts_.rate));
   }
 
+  // The same of a part that is no tree.
+  void add_regimes(const RegimeList& list, const Network& network, const std::vector<std::size_t>& elements) {
+    for (const Regime& regime : list.regimes) {
+      const ReferenceForm form = reference_form(network_in_regime(network, elements, list.slips, regime.slides));
+      pool_["feedthrough_by_regime"].push_back(form.feedthrough_damping * Reference(facts_.rate));
+    }
+  }
+
+  void add_contact(const ReferenceTree& tree, const Network& network) {
+    add("feedthrough", tree.linear.feedthrough_damping);
+    add("feedthrough_stiffness", -tree.linear.feedthrough_damping * Reference(facts_.rate));
+    add(literals_in_code, network.contact->at);
+    if (!tree.has_slips()) add("recovery_compliance", -1 / companion(tree.linear, facts_));
+    else if (tree.networks.empty()) add_table(whole_of(tree));
+    else add_network(reference_network(network, elements_behind_slips(tree)), &tree.linear);
+  }
+
+  // What joins the ends over one sample, k + b/h − Σ c w wᵀ. `beside`: behind a contact, whose surface stands in the tool's place
+  // and has it to the ground.
+  void add_network(const ReferenceNetwork& form, const ReferenceForm* beside) {
+    const std::size_t count = form.ends.size();
+    add("tie", 0);
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = a + 1; b < count; ++b) {
+        Reference tie = form.springs[a][b] + form.dampers[a][b] * Reference(facts_.rate);
+        for (const ReferenceNetworkMode& mode : form.modes) tie -= mode_factors(plain(mode), facts_).gain * mode.weights[a] * mode.weights[b];
+        const bool joins_ends = a + 2 == count && b + 1 == count;
+        if (beside != nullptr && joins_ends) tie += companion(*beside, facts_);
+        add(joins_ends && beside == nullptr ? literals_in_code : "tie", tie);
+        if (form.springs[a][b] > 0) add_form({form.springs[a][b], 0, {}});
+      }
+    for (const ReferenceNetworkMode& mode : form.modes) {
+      add_form({0, 0, {plain(mode)}});
+      for (const Reference& weight : mode.weights) add("weight", abs(weight));
+    }
+    add("links", facts_.scalar == ScalarType::float64 ? Reference(std::numeric_limits<double>::max()) : Reference(std::numeric_limits<float>::max()));
+    add("links", 0);
+    for (const Reference& yield : form.yield_forces) add("links", yield), add("links", -yield);
+  }
+
   // What the brake could not give: a choice.
   void add_capped(const ComponentSplit& split) {
     for (std::size_t i = 0; i < split.shares.size() && i < split.regimes.regimes.size(); ++i)
@@ -112,6 +166,8 @@ class Constants {
     for (const ReferencePart& child : part.children) add_slip(child, trial_by_change);
   }
 
+  static ReferenceMode plain(const ReferenceNetworkMode& mode) { return {mode.stiffness, mode.relaxation_rate, 1}; }
+
   const LawFacts& facts_;
   double hysteresis_;
   Pool pool_;
@@ -120,16 +176,6 @@ class Constants {
 ReferencePart rendered(const ReferencePart& component, const SlipDecomposition& slips, std::size_t index) {
   const bool is_gated = index < slips.components.size() && slips.components[index].law == SlipLaw::gated;
   return is_gated ? without_dampers_beside_slips(component) : component;
-}
-
-// All that is behind a contact as one tree.
-ReferencePart whole_of(const ReferenceTree& tree) {
-  ReferencePart whole{Kind::parallel, {}, {}, 0, tree.components};
-  const ReferenceForm& f = tree.linear;
-  if (f.static_stiffness > 0 || f.feedthrough_damping > 0 || !f.modes.empty())
-    whole.children.insert(whole.children.begin(), {Kind::block, {}, f, 0, {}});
-  if (whole.children.size() != 1) return whole;
-  return ReferencePart(std::move(whole.children.front()));
 }
 
 ReferenceCut cut_of(const ReferenceForm& form, const LawFacts& facts) {
@@ -156,54 +202,102 @@ std::optional<ReferenceCut> least_cut(const ReferencePart& part, const LawFacts&
   return part.kind == Kind::series ? least : sum;
 }
 
-}  // namespace
-
-std::string_view kind_behind_slips(std::string_view name) {
-  if (name.ends_with("feedthrough_by_regime")) return "feedthrough_by_regime";
-  if (name.find("_by_regime") != name.npos) return "";  // b, which is chosen
-  if (name.find("_by_") != name.npos) return "row";
-  for (const std::string_view kind : {"feedthrough_stiffness", "recovery_compliance", "energy_weight", "compliance", "stiffness", "yield", "leave", "gain",
-                                      "decay", "loss"})
-    if (name.ends_with(kind) && name != "velocity_gain") return kind;
-  if (name == "slips_feedthrough") return "";
-  if (name.ends_with("_feedthrough")) return "feedthrough_by_regime";
-  return name == "feedthrough" ? "feedthrough" : name.starts_with("coupled_") ? "table" : "";
+// The same of a part that is no tree: all ways to part its ends that no slip crosses.
+ReferenceCut least_cut(const Network& network, const std::vector<std::size_t>& elements, const LawFacts& facts, const Reference& weight) {
+  const ReferenceNetwork form = reference_network(network, elements);
+  const std::size_t inner = form.ends.size() - 2;
+  std::optional<ReferenceCut> least;
+  for (std::size_t pattern = 0; pattern < std::size_t{1} << inner; ++pattern) {
+    const auto at_tool = [&](std::size_t end) { return end < inner ? (pattern >> end & 1u) != 0 : end == inner; };
+    const auto place = [&](NodeIndex node) { return std::size_t(std::find(form.ends.begin(), form.ends.end(), node) - form.ends.begin()); };
+    const bool is_crossed = std::any_of(elements.begin(), elements.end(), [&](std::size_t i) {
+      const Element& e = network.elements[i];
+      return std::holds_alternative<Slip>(e.law) && at_tool(place(e.a)) != at_tool(place(e.b));
+    });
+    if (is_crossed) continue;
+    ReferenceCut cut{0, 0};
+    for (std::size_t a = 0; a < form.ends.size(); ++a)
+      for (std::size_t b = 0; b < form.ends.size(); ++b)
+        if (at_tool(a) && !at_tool(b)) cut = {cut.stiffness + form.springs[a][b] / 2, cut.damping + form.dampers[a][b]};
+    for (const ReferenceNetworkMode& mode : form.modes) {
+      Reference pull = 0;
+      for (std::size_t a = 0; a < form.ends.size(); ++a) pull += at_tool(a) ? mode.weights[a] : Reference(0);
+      const ModeFactors f = mode_factors({mode.stiffness, mode.relaxation_rate, 1}, facts);
+      cut.stiffness += pull * pull * f.gain / (1 + f.decay);
+    }
+    if (!least || cut.stiffness * weight + cut.damping < least->stiffness * weight + least->damping) least = cut;
+  }
+  return least.value();
 }
 
-Pool constants_behind_slips(const ReferenceTree& tree, bool with_contact, const SlipDecomposition& slips, const LawFacts& facts) {
+}  // namespace
+
+std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree) {
+  std::vector<std::size_t> elements;
+  for (const ReferencePart& component : tree.components) {
+    const std::vector<std::size_t> of_component = elements_of(component);
+    elements.insert(elements.end(), of_component.begin(), of_component.end());
+  }
+  for (const std::vector<std::size_t>& part : tree.networks) elements.insert(elements.end(), part.begin(), part.end());
+  return elements;
+}
+
+std::vector<std::string_view> kinds_behind_slips(std::string_view name) {
+  std::vector<std::string_view> kinds;
+  if (name == "velocity_gain" || name == "slips_feedthrough") return kinds;
+  const bool is_picked = name.ends_with("_by_regime") && !name.ends_with("feedthrough_by_regime");  // b, which is chosen
+  if (name.find("_by_") != name.npos && !is_picked) kinds.push_back("row");
+  if (name.find("_weight_") != name.npos) kinds.push_back("weight");
+  if (name.ends_with("_feedthrough")) kinds.push_back("feedthrough_by_regime");
+  if (name.starts_with("coupled_")) kinds.push_back("table");
+  if (name.ends_with("_between") || name.ends_with("_to_tool") || name.ends_with("_to_ground")) kinds.push_back("tie");
+  for (const std::string_view kind : {"feedthrough_by_regime", "feedthrough_stiffness", "recovery_compliance", "energy_weight", "compliance", "stiffness", "yield",
+                                      "leave", "gain", "decay", "loss", "velocity_drive", "links"})
+    if (name.ends_with(kind)) kinds.push_back(kind);
+  return kinds;
+}
+
+Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts) {
   Constants constants(facts, slips.hysteresis);
   constants.add_form(tree.linear);
-  if (with_contact) {
-    constants.add("feedthrough", tree.linear.feedthrough_damping);
-    constants.add("feedthrough_stiffness", -tree.linear.feedthrough_damping * Reference(facts.rate));
-    if (tree.components.empty()) constants.add("recovery_compliance", -1 / companion(tree.linear, facts));
-    else constants.add_table(whole_of(tree));
-    for (const ReferencePart& component : tree.components) constants.add_regimes(component);
-    for (const ComponentSplit* split : slips.all()) constants.add_capped(*split);
-    return constants.take();
+  if (network.contact) {
+    constants.add_contact(tree, network);
+  } else {
+    for (std::size_t i = 0; i < tree.components.size(); ++i) {
+      const ReferencePart component = rendered(tree.components[i], slips, i);
+      const std::vector<BrakeShare> none;
+      if (slip_count(component) == 1) constants.add_single_slip(component, i < slips.components.size() ? slips.components[i].shares : none);
+      else constants.add_table(component);
+    }
+    for (const std::vector<std::size_t>& part : tree.networks) constants.add_network(reference_network(network, part), nullptr);
   }
-  for (std::size_t i = 0; i < tree.components.size(); ++i) {
-    const ReferencePart component = rendered(tree.components[i], slips, i);
-    const std::vector<BrakeShare> none;
-    if (slip_count(component) == 1) constants.add_single_slip(component, i < slips.components.size() ? slips.components[i].shares : none);
-    else constants.add_table(component);
-    constants.add_regimes(component);
-  }
+  for (std::size_t i = 0; i < tree.components.size(); ++i) constants.add_regimes(network.contact ? tree.components[i] : rendered(tree.components[i], slips, i));
+  for (std::size_t i = 0; i < slips.networks.size(); ++i)
+    constants.add_regimes(slips.networks[i].regimes, network, network.contact ? elements_behind_slips(tree) : tree.networks[i]);
   for (const ComponentSplit* split : slips.all()) constants.add_capped(*split);
   return constants.take();
 }
 
-ReferenceCut reference_cut(const ReferenceTree& tree, bool with_contact, const SlipDecomposition& slips, const LawFacts& facts,
+ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts,
                            double lateness) {
   const Reference weight = Reference(lateness) * Reference(lateness) / Reference(facts.rate);
+  const bool with_contact = network.contact.has_value();
   ReferenceCut sum{0, 0};
+  const auto less_the_brake = [&](const std::vector<BrakeShare>& shares) {
+    if (with_contact || shares.empty()) return;
+    Reference least = Reference(shares.front().feedthrough);
+    for (const BrakeShare& share : shares) least = std::min(least, Reference(share.feedthrough));
+    sum.damping -= least;
+  };
   for (std::size_t i = 0; i < tree.components.size(); ++i) {
     const ReferenceCut cut = least_cut(with_contact ? tree.components[i] : rendered(tree.components[i], slips, i), facts, weight).value();
     sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping};
-    if (with_contact || i >= slips.components.size() || slips.components[i].shares.empty()) continue;
-    Reference least = Reference(slips.components[i].shares.front().feedthrough);
-    for (const BrakeShare& share : slips.components[i].shares) least = std::min(least, Reference(share.feedthrough));
-    sum.damping -= least;
+    if (i < slips.components.size()) less_the_brake(slips.components[i].shares);
+  }
+  for (std::size_t i = 0; i < tree.networks.size(); ++i) {
+    const ReferenceCut cut = least_cut(network, tree.networks[i], facts, weight);
+    sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping};
+    if (i < slips.networks.size()) less_the_brake(slips.networks[i].shares);
   }
   if (!with_contact) return sum;
   const ReferenceCut linear = cut_of(tree.linear, facts);

@@ -15,18 +15,22 @@ namespace dashpot::compiler {
 
 using Pool = std::map<std::string, std::vector<Reference>, std::less<>>;
 
-// "gain", "row", "yield", "table", …; empty for what is chosen, and no function of the network alone.
-std::string_view kind_behind_slips(std::string_view name);
+// What a constant may be by its name: "gain", "row", "yield", "table", …. None for what is chosen, and no function of the
+// network alone; several where an element's name looks like a kind.
+std::vector<std::string_view> kinds_behind_slips(std::string_view name);
 
 // `slips`: what the brake was given in every regime, and the encoder's step; a choice.
-Pool constants_behind_slips(const ReferenceTree& tree, bool with_contact, const SlipDecomposition& slips, const LawFacts& facts);
+Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts);
+
+// Of all components and networks.
+std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree);
 
 // The least cut through springs, dampers and modes, each side of which no slip crosses (certify/cut.hpp): Σ k0/2 + Σ c/(1 + a)
 // and Σ b∞.
 struct ReferenceCut {
   Reference stiffness, damping;
 };
-ReferenceCut reference_cut(const ReferenceTree& tree, bool with_contact, const SlipDecomposition& slips, const LawFacts& facts,
+ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts,
                            double lateness);
 
 // False where the brake was given more of some regime's dampers than there are in it.

@@ -42,7 +42,7 @@ class Chain {
 // Children of one node, sorted into what is linear, what is slip and what is neither.
 struct Gathered {
   Kind kind;
-  std::vector<Tree> linear;
+  std::vector<Tree> linear, slips;
   std::optional<Reference> yield_force;
   std::vector<ReferencePart> others;
 
@@ -50,9 +50,10 @@ struct Gathered {
     if (part.kind == kind) {
       for (ReferencePart& child : part.children) take(std::move(child));
     } else if (part.kind == Kind::block) {
-      linear.push_back(std::move(part.linear));
+      linear.push_back(std::move(part.elements));
     } else if (part.kind == Kind::slip) {
       const bool is_series = kind == Kind::series;
+      slips.push_back(std::move(part.elements));
       yield_force = !yield_force ? part.yield_force : is_series ? std::min(*yield_force, part.yield_force) : Reference(*yield_force + part.yield_force);
     } else {
       others.push_back(std::move(part));
@@ -61,48 +62,108 @@ struct Gathered {
 
   ReferencePart part() {
     ReferencePart whole{kind, {}, {}, 0, std::move(others)};
-    const Tree::Kind like = kind == Kind::series ? Tree::Kind::series : Tree::Kind::parallel;
-    if (linear.size() == 1) whole.children.push_back({Kind::block, std::move(linear.front()), {}, 0, {}});
-    if (linear.size() > 1) whole.children.push_back({Kind::block, Tree{like, 0, std::move(linear)}, {}, 0, {}});
-    if (yield_force) whole.children.push_back({Kind::slip, {}, {}, *yield_force, {}});
+    if (!linear.empty()) whole.children.push_back({Kind::block, together(std::move(linear)), {}, 0, {}});
+    if (yield_force) whole.children.push_back({Kind::slip, together(std::move(slips)), {}, *yield_force, {}});
     if (whole.children.size() != 1) return whole;
     return ReferencePart(std::move(whole.children.front()));
+  }
+
+ private:
+  Tree together(std::vector<Tree> trees) const {
+    if (trees.size() == 1) return std::move(trees.front());
+    return {kind == Kind::series ? Tree::Kind::series : Tree::Kind::parallel, 0, std::move(trees)};
   }
 };
 
 ReferencePart part_of(const Tree& tree, const Network& network) {
   if (tree.kind == Tree::Kind::leaf) {
     const Slip* slip = std::get_if<Slip>(&network.elements[tree.element].law);
-    return slip ? ReferencePart{Kind::slip, {}, {}, slip->yield_force, {}} : ReferencePart{Kind::block, tree, {}, 0, {}};
+    return slip ? ReferencePart{Kind::slip, tree, {}, slip->yield_force, {}} : ReferencePart{Kind::block, tree, {}, 0, {}};
   }
-  Gathered gathered{tree.kind == Tree::Kind::series ? Kind::series : Kind::parallel, {}, {}, {}};
+  Gathered gathered{tree.kind == Tree::Kind::series ? Kind::series : Kind::parallel, {}, {}, {}, {}};
   for (const Tree& child : tree.children) gathered.take(part_of(child, network));
   return gathered.part();
 }
 
 void fill_forms(ReferencePart& part, const Network& network) {
-  if (part.kind == Kind::block) part.form = reference_form(Chain(network).of(part.linear));
+  if (part.kind == Kind::block) part.form = reference_form(laid_out(part.elements, network));
   for (ReferencePart& child : part.children) fill_forms(child, network);
 }
 
 bool is_slip(const ReferencePart& part) { return part.kind == Kind::slip; }
 
+void collect(const Tree& tree, std::vector<std::size_t>& elements) {
+  if (tree.kind == Tree::Kind::leaf) elements.push_back(tree.element);
+  for (const Tree& child : tree.children) collect(child, elements);
+}
+
+void collect(const ReferencePart& part, std::vector<std::size_t>& elements) {
+  if (part.children.empty()) collect(part.elements, elements);
+  for (const ReferencePart& child : part.children) collect(child, elements);
+}
+
+Network only(const std::vector<std::size_t>& elements, Network network) {
+  for (Element& element : network.elements) element.has_effect = false;
+  for (std::size_t i : elements) network.elements[i].has_effect = true;
+  return network;
+}
+
 }  // namespace
 
-std::optional<ReferenceTree> reference_tree(const Network& network) {
-  const std::optional<Tree> tree = series_parallel_tree(network);
-  if (!tree) return std::nullopt;
-  ReferencePart whole = part_of(*tree, network);
-  fill_forms(whole, network);
-  if (whole.kind == Kind::block) return ReferenceTree{whole.form, {}};
-  if (whole.kind == Kind::series) return ReferenceTree{{}, {whole}};
+std::vector<std::vector<std::size_t>> parts_between_ends(const Network& network) {
+  std::vector<std::vector<std::size_t>> parts;
+  std::vector<NodeIndex> leader(network.nodes.size());
+  for (NodeIndex i = 0; i < leader.size(); ++i) leader[i] = i;
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Element& e : network.elements) {
+      if (!e.has_effect || std::min(e.a, e.b) <= tool || leader[e.a] == leader[e.b]) continue;
+      leader[e.a] = leader[e.b] = std::min(leader[e.a], leader[e.b]);
+      changed = true;
+    }
+  }
+  std::vector<NodeIndex> leader_of_part;
+  for (std::size_t i = 0; i < network.elements.size(); ++i) {
+    const Element& e = network.elements[i];
+    if (!e.has_effect) continue;
+    const NodeIndex first = std::max(e.a, e.b) <= tool ? network.nodes.size() + i : leader[std::max(e.a, e.b)];
+    const auto known = std::find(leader_of_part.begin(), leader_of_part.end(), first);
+    if (known == leader_of_part.end()) {
+      leader_of_part.push_back(first);
+      parts.push_back({i});
+    } else {
+      parts[std::size_t(known - leader_of_part.begin())].push_back(i);
+    }
+  }
+  return parts;
+}
+
+ReferenceTree reference_tree(const Network& network) {
   ReferenceTree result;
-  for (ReferencePart& child : whole.children)
-    if (child.kind == Kind::block)
-      result.linear = child.form;
+  result.linear_network = network;
+  for (Element& element : result.linear_network.elements) element.has_effect = false;
+  for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
+    const Network alone = only(part, network);
+    const bool slips = std::any_of(part.begin(), part.end(), [&](std::size_t i) { return std::holds_alternative<Slip>(network.elements[i].law); });
+    const std::optional<Tree> tree = series_parallel_tree(alone);
+    if (!slips)
+      for (std::size_t i : part) result.linear_network.elements[i].has_effect = true;
+    else if (tree)
+      result.components.push_back(part_of(*tree, network));
     else
-      result.components.push_back(std::move(child));
+      result.networks.push_back(part);
+  }
+  for (ReferencePart& component : result.components) fill_forms(component, network);
+  result.linear = reference_form(result.linear_network);
   return result;
+}
+
+Network laid_out(const Tree& tree, const Network& network) { return Chain(network).of(tree); }
+
+std::vector<std::size_t> elements_of(const ReferencePart& part) {
+  std::vector<std::size_t> elements;
+  collect(part, elements);
+  return elements;
 }
 
 std::size_t slip_count(const ReferencePart& part) {

@@ -13,22 +13,32 @@ namespace dashpot::compiler {
 struct ReferencePart {
   enum class Kind { block, slip, series, parallel };
   Kind kind;
-  Tree linear = {};           // of a block
+  Tree elements = {};         // of a block, or of slips that act as one
   ReferenceForm form;         // of a block
   Reference yield_force = 0;  // of a slip
   std::vector<ReferencePart> children;
 };
 
-// What reaches ground without a slip, and the components with slips beside it.
+// What reaches ground without a slip, and the parts with slips beside it: trees, and others by their elements.
 struct ReferenceTree {
+  Network linear_network;  // with all else marked as without effect
   ReferenceForm linear;
   std::vector<ReferencePart> components;
+  std::vector<std::vector<std::size_t>> networks;
+
+  bool has_slips() const { return !components.empty() || !networks.empty(); }
 };
 
-// Empty for a network that is no tree.
-std::optional<ReferenceTree> reference_tree(const Network& network);
+ReferenceTree reference_tree(const Network& network);
+
+// Elements that share inner nodes, each part in the order of its first element.
+std::vector<std::vector<std::size_t>> parts_between_ends(const Network& network);
+
+// The elements of a tree between a tool and a ground of their own.
+Network laid_out(const Tree& tree, const Network& network);
 
 std::size_t slip_count(const ReferencePart& part);
+std::vector<std::size_t> elements_of(const ReferencePart& part);
 
 // The same component without the dampers that lie beside its slips.
 ReferencePart without_dampers_beside_slips(ReferencePart part);

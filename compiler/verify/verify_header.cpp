@@ -2,9 +2,12 @@
 
 #include <algorithm>
 
-#include "decompose/observer.hpp"
+#include "certify/quantisation.hpp"
+#include "verify/realised_network.hpp"
 #include "verify/reference_constants.hpp"
+#include "verify/reference_gain.hpp"
 #include "verify/verify_slips.hpp"
+#include "verify/verify_tunables.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -61,15 +64,6 @@ MotorConstants motor_of(const Groups& groups) {
   return motor;
 }
 
-// For nodal states, the network rewired so that the observed elements are next to the tool.
-Network realised(const Network& network, const CertificateFile& certificate, const PortDevice& device) {
-  const std::optional<Tree> tree = series_parallel_tree(network);
-  if (certificate.choices.state_input != StateInput::nodal || !tree) return network;
-  const auto* name = std::get_if<std::string>(&certificate.choices.decomposition);
-  const ObserverRule rule = name && *name == "largest-observer" ? ObserverRule::largest : ObserverRule::most_dissipative;
-  return observe(*tree, network, rule, device.reference_frequency()).realisation;
-}
-
 class Verification {
  public:
   Verification(const CertificateFile& certificate, const HeaderConstants& header, Diagnostics& diagnostics)
@@ -123,6 +117,9 @@ class Verification {
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed bound", "proof");
     expect("brake command", certificate_.brake_command, expected);
     expect("added damping", certificate_.added_damping, of_it);
+    const MotorConstants motor = motor_of(groups_);
+    if (!agrees(certificate_.quantisation_gain, quantisation_gain(motor, loop), reference_gain(motor, loop), header_.scalar))
+      diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");
   }
 
   std::size_t constants() const {
@@ -147,14 +144,6 @@ class Verification {
   Diagnostics& diagnostics_;
 };
 
-// Empty where the constants can be recomputed.
-std::string hindrance(const Compilation& compiled) {
-  if (compiled.law.tunable) return "tunable parameters";
-  if (!series_parallel_tree(compiled.network)) return "slips or a contact beside what is no tree";
-  const bool is_nodal = compiled.decomposition.choice().state_input == StateInput::nodal;
-  return compiled.form.has_slips() && is_nodal ? "nodal states beside slips" : "";
-}
-
 }  // namespace
 
 bool is_plainly_linear(const Network& network) {
@@ -170,15 +159,12 @@ std::size_t verify_linear_constants(const CertificateFile& certificate, const Ne
   return verification.constants();
 }
 
-std::optional<std::size_t> verify_constants(const CertificateFile& certificate, const HeaderConstants& header,
-                                            const Compilation& compiled, Diagnostics& diagnostics) {
-  if (const std::string what = hindrance(compiled); !what.empty()) {
-    diagnostics.report<DiagnosticCode::not_recomputed>({}, compiled.network.name, what);
-    return std::nullopt;
-  }
+std::size_t verify_constants(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
+                             const Compilation& compiled, Diagnostics& diagnostics) {
   Verification verification(certificate, header, diagnostics);
   verification.compare_with_certificate();
-  SlipVerification(certificate, header, compiled, diagnostics).recompute_constants();
+  if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_constants();
+  else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_constants();
   return verification.constants();
 }
 
@@ -186,8 +172,10 @@ void verify_bounds(const CertificateFile& certificate, const PortDevice& device,
                    const Compilation& compiled, Diagnostics& diagnostics) {
   if (is_plainly_linear(compiled.network))
     Verification(certificate, header, diagnostics).recompute_bounds(device);
+  else if (compiled.law.tunable)
+    TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
   else
-    SlipVerification(certificate, header, compiled, diagnostics).recompute_bounds();
+    SlipVerification(certificate, header, device, compiled, diagnostics).recompute_bounds();
 }
 
 }  // namespace dashpot::compiler

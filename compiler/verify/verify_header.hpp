@@ -19,11 +19,10 @@ bool is_plainly_linear(const Network& network);
 std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network, const PortDevice& device,
                                     const HeaderConstants& header, Diagnostics& diagnostics);
 
-// The same of a network with slips or a contact, from what it compiles to: what is chosen, as what the brake is given of a
-// slip's dampers, must be as it compiles. Empty where the constants cannot be recomputed: of slips outside trees, and of
-// tunable parameters.
-std::optional<std::size_t> verify_constants(const CertificateFile& certificate, const HeaderConstants& header,
-                                            const Compilation& compiled, Diagnostics& diagnostics);
+// The same of a network with slips, a contact or tunable parameters, from what it compiles to: what is chosen, as what the
+// brake is given of a slip's dampers, must be as it compiles.
+std::size_t verify_constants(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
+                             const Compilation& compiled, Diagnostics& diagnostics);
 
 // The bounds in the certificate, recomputed from the header's constants. Those must have been found right, and so must
 // the code around them: there are no bounds of any numbers whatever.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "certify/slip_motor.hpp"
+#include "verify/realised_network.hpp"
+#include "verify/reference_gain.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -16,12 +18,14 @@ LawFacts facts_of(const CertificateFile& certificate) {
 }  // namespace
 
 SlipVerification::SlipVerification(const CertificateFile& certificate, const HeaderConstants& header,
-                                   const Compilation& compiled, Diagnostics& diagnostics)
+                                   const PortDevice& device, const Compilation& compiled, Diagnostics& diagnostics)
     : certificate_(certificate), header_(header), compiled_(compiled), diagnostics_(diagnostics), facts_(facts_of(certificate)),
-      tree_(reference_tree(compiled.network).value()) {
-  const bool with_contact = compiled.network.contact.has_value();
-  pool_ = constants_behind_slips(tree_, with_contact, compiled.decomposition.slips, facts_);
-  for (const auto& [kind, values] : reference_constants(tree_.linear, facts_)) {
+      tree_(reference_tree(compiled.network)) {
+  pool_ = constants_behind_slips(tree_, compiled.network, compiled.decomposition.slips, facts_);
+  for (const Variable& variable : compiled.law.variables)
+    if (variable.rest_value != 0) pool_[literals_in_code].push_back(variable.rest_value);  // of the brake, a choice
+  linear_ = reference_form(realised(tree_.linear_network, certificate, device));
+  for (const auto& [kind, values] : reference_constants(linear_, facts_)) {
     std::vector<Reference>& all = pool_[kind];
     all.insert(all.end(), values.begin(), values.end());
   }
@@ -34,22 +38,22 @@ void SlipVerification::recompute_constants() {
 }
 
 void SlipVerification::look_at(const HeaderConstant& constant) {
-  if (pool_.count(constant.name) > 0) return compare_with_pool(constant, constant.name);
-  const std::string_view kind = constant.name.ends_with("velocity_drive") ? "velocity_drive" : kind_behind_slips(constant.name);
-  if (!kind.empty()) return compare_with_pool(constant, kind);
-  compare_with_choice(constant);
+  std::vector<std::string_view> kinds = kinds_behind_slips(constant.name);
+  if (pool_.count(constant.name) > 0 && std::find(kinds.begin(), kinds.end(), constant.name) == kinds.end()) kinds.push_back(constant.name);
+  if (kinds.empty()) return compare_with_choice(constant);
+  for (std::size_t i = 0; i < constant.values.size(); ++i)
+    if (std::none_of(kinds.begin(), kinds.end(), [&](std::string_view kind) { return is_in_pool(kind, constant.values[i]); }))
+      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
 }
 
-// One of the pool's, the nearest number; rows may have been written as what is taken away.
-void SlipVerification::compare_with_pool(const HeaderConstant& constant, std::string_view kind) {
+// One of the pool's, the nearest number; rows may have been written as what is taken away, and a mode's weights are known
+// but for their common sign.
+bool SlipVerification::is_in_pool(std::string_view kind, double constant) const {
   const auto pool = pool_.find(kind);
-  for (std::size_t i = 0; i < constant.values.size(); ++i) {
-    const double value = kind == "row" ? std::abs(constant.values[i]) : constant.values[i];
-    const bool is_there = pool != pool_.end() && std::any_of(pool->second.begin(), pool->second.end(), [&](const Reference& exact) {
-      return is_correctly_rounded(value, exact, header_.scalar);
-    });
-    if (!is_there) diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
-  }
+  const double value = kind == "row" || kind == "weight" ? std::abs(constant) : constant;
+  return pool != pool_.end() && std::any_of(pool->second.begin(), pool->second.end(), [&](const Reference& exact) {
+    return is_correctly_rounded(value, exact, header_.scalar);
+  });
 }
 
 void SlipVerification::compare_with_choice(const HeaderConstant& constant) {
@@ -68,15 +72,17 @@ void SlipVerification::compare_with_choice(const HeaderConstant& constant) {
 // The cut once more, of which the certificate may ask no less, and, but for its margin, no more.
 void SlipVerification::recompute_bounds() {
   const Certificate& again = compiled_.certificate;
-  const bool with_contact = compiled_.network.contact.has_value();
   const auto motor = slip_motor(compiled_.network, compiled_.form, compiled_.decomposition, certificate_.choices, again.loop);
-  const ReferenceCut cut = reference_cut(tree_, with_contact, compiled_.decomposition.slips, facts_, lateness(again.loop));
+  const ReferenceCut cut = reference_cut(tree_, compiled_.network, compiled_.decomposition.slips, facts_, lateness(again.loop));
   const double margin = 1 + (header_.scalar == ScalarType::float64 ? 1e-12 : 1e-4);
   const auto covers = [&](double stated, const Reference& found) {
-    return Reference(stated) >= found && Reference(stated) <= found * Reference(margin) + Reference("1e-300");
+    return Reference(stated) >= found && Reference(stated) <= found * Reference(margin) + Reference("1e-60");
   };
   if (!motor || !covers(motor->stiffness, cut.stiffness) || !covers(motor->damping, std::max(cut.damping, Reference(0))))
     diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed cut", "needed damping");
+  const auto gain = motor ? reference_gain(tree_, linear_, compiled_.network, compiled_.decomposition.slips, *motor, facts_, again.loop) : std::nullopt;
+  if (!agrees(certificate_.quantisation_gain, again.quantisation_gain, gain, header_.scalar))
+    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");
   expect("needed damping", certificate_.needed_damping, again.bound.needed);
   expect("assured damping", certificate_.assured_damping, again.assured);
   expect("brake command", certificate_.brake_command, compiled_.law.damping);

@@ -9,8 +9,8 @@ namespace dashpot::compiler {
 
 class SlipVerification {
  public:
-  SlipVerification(const CertificateFile& certificate, const HeaderConstants& header, const Compilation& compiled,
-                   Diagnostics& diagnostics);
+  SlipVerification(const CertificateFile& certificate, const HeaderConstants& header, const PortDevice& device,
+                   const Compilation& compiled, Diagnostics& diagnostics);
 
   // Both report every disagreement.
   void recompute_constants();
@@ -18,7 +18,7 @@ class SlipVerification {
 
  private:
   void look_at(const HeaderConstant& constant);
-  void compare_with_pool(const HeaderConstant& constant, std::string_view kind);
+  bool is_in_pool(std::string_view kind, double constant) const;
   void compare_with_choice(const HeaderConstant& constant);
   void expect(const char* what, double stated, double found);
 
@@ -28,6 +28,7 @@ class SlipVerification {
   Diagnostics& diagnostics_;
   LawFacts facts_;
   ReferenceTree tree_;
+  ReferenceForm linear_;  // with the states that the law has
   Pool pool_;
 };
 

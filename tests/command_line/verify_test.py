@@ -37,11 +37,55 @@ SLIP_LAWS = [
     [PAPER / "visco_elasto_plastic_organ.json", "--scalar", "float", "--decomposition", "compensated"],
 ]
 
+# Slips in no tree: with a mode that two of them share, and such a part behind a contact, beside a tree, and with modes of one rate.
+LOOP = """{"spring": 5, "nodes": ["tool", "p"], "name": "a"}, {"spring": 7, "nodes": ["tool", "q"], "name": "b"},
+    {"spring": 3, "nodes": ["p", "q"], "name": "c"}, {"slip": 1, "nodes": ["p", "ground"], "name": "d"},
+    {"slip": 2, "nodes": ["q", "ground"], "name": "e"}, {"spring": 11, "nodes": ["p", "r"], "name": "f"},
+    {"damper": 13, "nodes": ["r", "q"], "name": "g"}, {"spring": 1.5, "nodes": ["r", "tool"], "name": "h"}"""
+BESIDE = """{"spring": 3, "nodes": ["tool", "w"], "name": "i"}, {"damper": 0.5, "nodes": ["w", "ground"], "name": "j"},
+    {"spring": 90, "nodes": ["tool", "x"], "name": "k"}, {"slip": 0.4, "nodes": ["x", "ground"], "name": "l"},
+    {"spring": 8, "nodes": ["tool", "ground"], "name": "m"}, {"damper": 0.7, "nodes": ["tool", "ground"], "name": "n"}"""
+STAR = ", ".join([f'{{"spring": 10, "nodes": ["tool", "p{i}"], "name": "s{i}"}}, {{"slip": {i}, "nodes": ["p{i}", "ground"], "name": "y{i}"}},'
+                  f'{{"spring": 5, "nodes": ["p{i}", "q{i}"], "name": "t{i}"}}, {{"damper": 2, "nodes": ["q{i}", "c"], "name": "b{i}"}},'
+                  f'{{"spring": 1, "nodes": ["q{i}", "c"], "name": "u{i}"}}' for i in (1, 2, 3)])
+
+# Parameters of every place: in slips' yield forces and springs, in Maxwell elements, in a mesh, beside fixed modes, behind a contact.
+TUNED = """{"spring": "k", "nodes": ["tool", "p"], "name": "a"}, {"damper": "b", "nodes": ["p", "ground"], "name": "c"},
+    {"spring": 60, "nodes": ["tool", "q"], "name": "d"}, {"damper": "b", "nodes": ["tool", "q"], "name": "e"},
+    {"damper": 2.5, "nodes": ["q", "r"], "name": "f"}, {"spring": "k", "nodes": ["r", "ground"], "name": "g"},
+    {"spring": 7, "nodes": ["r", "ground"], "name": "h"}, {"spring": 31, "nodes": ["tool", "w"], "name": "i"},
+    {"damper": 0.9, "nodes": ["w", "ground"], "name": "j"}, {"spring": 440, "nodes": ["tool", "x"], "name": "l"},
+    {"slip": "y", "nodes": ["x", "z"], "name": "m"}, {"slip": 0.3, "nodes": ["x", "z"], "name": "n"},
+    {"slip": 1.1, "nodes": ["z", "ground"], "name": "o"}, {"damper": 0.2, "nodes": ["x", "ground"], "name": "s"}"""
+BOX = """{"k": {"value": 120, "min": 10, "max": 400, "tunable": true}, "b": {"value": 1.5, "min": 0.25, "max": 6, "tunable": true},
+    "y": {"value": 0.7, "min": 0.1, "max": 2, "tunable": true}}"""
+
+
+def of_elements(elements, name, more=""):
+    return f'{{"dashpot": 1, "name": "{name}", "motion": "translation", {more} "elements": [{elements}]}}'
+
+
+OTHER_LAWS = [
+    ["loop.json"], ["loop.json", "--scheme", "backward-euler", "--device", PANTOGRAPH], ["loop.json", "--scalar", "float"],
+    ["loops.json", "--device", BOARD], ["pushed_loop.json"], ["star.json"],
+    [PAPER / "visco_elasto_plastic_organ.json", "--scheme", "backward-euler", "--state-input", "nodal"],
+    ["loops.json", "--scheme", "backward-euler", "--state-input", "nodal"],
+    [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD], [SOURCE / "networks/tunable/second_order_maxwell_tunable.json"],
+    [SOURCE / "networks/tunable/standard_solid_tunable.json", "--device", PANTOGRAPH, "--scalar", "float"],
+    ["tuned.json", "--device", BOARD, "--decomposition", "1.25"], ["tuned.json", "--scheme", "backward-euler"], ["pushed_tuned.json"],
+]
+
 
 def changed_digit(text, place, chance):
     """The text with the digit at `place` changed to another one."""
     others = [digit for digit in "0123456789" if digit != text[place]]
     return text[:place] + chance.choice(others) + text[place + 1:]
+
+
+def numbers_of(text):
+    """Where the numbers of the scalar's type stand in a constant's values, without float's suffix."""
+    text = re.sub(r"//.*", lambda remark: " " * len(remark.group()), text)
+    return [(m.start(), m.end()) for m in re.finditer(r"(?<![\w.])-?\d+(?:\.\d*(?:e[-+]?\d+)?|e[-+]?\d+)", text)]
 
 
 def digits_of_code(header):
@@ -55,10 +99,17 @@ class Verify(CommandTest):
     def setUp(self):
         super().setUp()
         self.write("coupled.json", network(COUPLED, "coupled"))
+        contact = '"contact": { "at": 0.0125 },'
+        self.write("loop.json", of_elements(LOOP, "loop"))
+        self.write("loops.json", of_elements(f"{LOOP}, {BESIDE}", "loops"))
+        self.write("pushed_loop.json", of_elements(f"{LOOP}, {BESIDE}", "pushed_loop", contact))
+        self.write("star.json", of_elements(STAR, "star"))
+        self.write("tuned.json", of_elements(TUNED, "tuned", f'"parameters": {BOX},'))
+        self.write("pushed_tuned.json", of_elements(TUNED, "pushed_tuned", f'{contact} "parameters": {BOX},'))
 
     def emitted(self, law, folder):
         """Header and certificate of a law, as text."""
-        self.dashpot("compile", *law, "-o", folder, "--certificate", self.folder / folder / "certificate.json")
+        self.dashpot("compile", *law, "--uncertified", "-o", folder, "--certificate", self.folder / folder / "certificate.json")
         header = next((self.folder / folder).glob("*.hpp"))
         return header.read_text(), (self.folder / folder / "certificate.json").read_text()
 
@@ -69,7 +120,7 @@ class Verify(CommandTest):
 
     def test_every_shape_of_law(self):
         """Fails if a sound header is refused, or one is passed whose constants are another network's."""
-        for i, law in enumerate(LAWS + SLIP_LAWS):
+        for i, law in enumerate(LAWS + SLIP_LAWS + OTHER_LAWS):
             with self.subTest(law=law):
                 header, certificate = self.emitted(law, f"law_{i}")
                 self.assertIn("nearest", self.verify(header, certificate, f"sound_{i}").stdout)
@@ -88,13 +139,15 @@ class Verify(CommandTest):
             if not consistently:
                 yield number, changed_digit(header, chance.choice(digits_of_code(header)), chance), certificate
                 continue
-            constants = list(re.finditer(r"static constexpr scalar (\w+) = ([^;]*);", header))
+            constants = [c for c in re.finditer(r"static constexpr [^;=]*\bscalar>? (\w+)(?:\[\d*\])? = ([^;]*);", header) if numbers_of(c.group(2))]
             constant = chance.choice(constants)
-            places = [i for i in range(constant.start(2), constant.end(2)) if header[i].isdigit()]
+            start, end = chance.choice(numbers_of(constant.group(2)))
+            places = [i for i in range(constant.start(2) + start, constant.start(2) + end) if header[i].isdigit()]
             changed = changed_digit(header, chance.choice(places), chance)
-            value = float(re.search(rf"scalar {constant.group(1)} = ([^;]*?)f?;", changed).group(1))
+            text = changed[constant.start(2):constant.end(2)]
             told = json.loads(certificate)
-            told["constants"][constant.group(1)] = [value]
+            told["constants"][constant.group(1)] = [float(text[start:end]) for start, end in numbers_of(text)]
+            value = told["constants"][constant.group(1)][0]
             if constant.group(1) == "damping":
                 told["law"]["brake_command"] = value
             if constant.group(1) == "added_damping":
@@ -123,6 +176,24 @@ class Verify(CommandTest):
         """Fails if one of 100 wrong constants of such laws passes because the certificate has the same mistake."""
         self.expect_all_found(self.mutants(100, random.Random(SEED + 3), True, SLIP_LAWS))
 
+    def test_single_digits_of_headers_with_loops_and_tunables(self):
+        """Fails if one of 200 headers with a single digit changed passes, of slips in no tree, of nodal states beside slips, or of
+        tunable parameters."""
+        self.expect_all_found(self.mutants(200, random.Random(SEED + 4), False, OTHER_LAWS))
+
+    def test_single_digits_of_header_and_certificate_with_loops_and_tunables(self):
+        """Fails if one of 100 wrong constants of such laws passes because the certificate has the same mistake."""
+        self.expect_all_found(self.mutants(100, random.Random(SEED + 5), True, OTHER_LAWS))
+
+    def test_constants_are_recomputed_apart_from_the_code(self):
+        """Fails if wrong constants of any law are found only because compiling once more gives others."""
+        for laws in (SLIP_LAWS, OTHER_LAWS):
+            found = 0
+            for number, header, certificate in self.mutants(40, random.Random(SEED + 6), True, laws):
+                told = self.verify(header, certificate, f"apart_{number}", INPUT_REFUSED).stderr
+                found += any(code in told for code in ["constant-of-nothing", "constant-wrong", "unknown-constant"])
+            self.assertGreaterEqual(found, 36)  # a digit may make it another of the network's own constants
+
     def test_what_is_no_certificate(self):
         """Fails if another file in the place of a certificate or a header is taken for one."""
         header, certificate = self.emitted([FIG_5], "law")
@@ -145,6 +216,22 @@ class Verify(CommandTest):
         self.write("slips.json", certificate)
         self.refused("verify", "slips.json", "soft.hpp", code="constant-of-nothing")
 
+    def test_the_gain_of_the_encoders_error(self):
+        """Fails if another gain than that of the law passes, or none where there is one: linear, with an estimate, slips, a contact,
+        slips in no tree, parameters."""
+        laws = [[FIG_5], [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH, "--decomposition", "2.5"], [PAPER / "maxwell_slip_ten.json", "--device", PANTOGRAPH],
+                [PAPER / "virtual_wall.json", "--device", BOARD], ["loops.json", "--device", PANTOGRAPH],
+                [SOURCE / "networks/tunable/second_order_maxwell_tunable.json", "--device", PANTOGRAPH]]
+        for i, law in enumerate(laws):
+            with self.subTest(law=law):
+                header, certificate = self.emitted(law, f"law_{i}")
+                for wrong in (1 - 1e-7, 1 + 1e-7, None):
+                    told = json.loads(certificate)
+                    gain = told["passivity"]["quantisation_gain"]
+                    self.assertGreater(gain, 0)
+                    told["passivity"]["quantisation_gain"] = gain and wrong and gain * wrong
+                    self.assertIn("quantisation", self.verify(header, json.dumps(told), f"gain_{i}", INPUT_REFUSED).stderr)
+
     def test_numbers_of_which_nothing_follows(self):
         """Fails if a header or certificate of absurd numbers ends `verify` by itself, in place of a refusal."""
         header, certificate = self.emitted([FIG_5, "--device", PANTOGRAPH], "law")
@@ -166,16 +253,6 @@ class Verify(CommandTest):
         told["network_file"] = json.dumps({"dashpot": 1, "name": "second_order_maxwell", "elements": rungs})
         refusal = self.verify(header, json.dumps(told), "large", INPUT_REFUSED).stderr
         self.assertIn("has 201 inner nodes; at most 200 are eliminated together [part-too-large]", refusal)
-
-    def test_what_is_not_recomputed(self):
-        """Fails if slips outside a tree, or tunable parameters, are said to be verified."""
-        parts = [("spring", 5, "tool", "p"), ("spring", 7, "tool", "q"), ("spring", 3, "p", "q"), ("slip", 1, "p", "ground"), ("slip", 2, "q", "ground")]
-        self.write("loop.json", json.dumps({
-            "dashpot": 1, "name": "loop", "motion": "translation",
-            "elements": [{kind: value, "nodes": [a, b], "name": f"e{i}"} for i, (kind, value, a, b) in enumerate(parts)]}))
-        for path, name in [("loop.json", "loop"), (SOURCE / "networks/tunable/friction_tunable.json", "friction_tunable")]:
-            self.dashpot("compile", path, "--certificate", f"{name}.certificate.json")
-            self.refused("verify", f"{name}.certificate.json", f"{name}.hpp", code="not-recomputed")
 
     def test_one_network_a_certificate(self):
         """Fails if a certificate is written that speaks of the last of several networks only."""

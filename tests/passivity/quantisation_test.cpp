@@ -6,6 +6,7 @@
 
 #include "certified_loop.hpp"
 #include "discretise/evaluate.hpp"
+#include "support/random_network.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -47,6 +48,51 @@ TEST(QuantisationGain, IsThatOfTheLaw) {
     EXPECT_GE(measured, stated * (1 - 1e-9));
   }
   EXPECT_GE(died_away, 10);
+}
+
+// Slips, and all of the force left to the motor.
+std::optional<Compilation> held_case(std::uint64_t seed, SourceFile& source) {
+  NetworkRecipe recipe;
+  recipe.topology = seed % 4 == 0 ? Topology::tree : Topology::graph;
+  recipe.most_nodes = 7;
+  recipe.most_slips = 5;
+  recipe.smallest_value = 1e-1;
+  recipe.largest_value = 1e3;
+  source = SourceFile("held.json", json_text(random_network(seed, recipe)));
+  Choices choices;
+  choices.decomposition = "virtual";
+  choices.scheme = seed % 3 == 0 ? Scheme::backward_euler : Scheme::exact;
+  Diagnostics diagnostics;
+  return compile(source, choices, std::nullopt, diagnostics);
+}
+
+// What is stated for slips would be below what an error of the encoder does while they hold, or above it once that has died
+// away, in trees and in others.
+TEST(QuantisationGain, OfSlipsIsThatOfAllThatHold) {
+  int compared = 0, died_away = 0, networks = 0;
+  for (std::uint64_t seed = 1; compared < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    SourceFile source("", "");
+    const std::optional<Compilation> one = held_case(seed, source);
+    if (!one || !one->form.has_slips()) continue;
+    ASSERT_TRUE(one->certificate.quantisation_gain);
+    const double stated = *one->certificate.quantisation_gain, period = one->law.sample_period;
+    Evaluation<double> law(one->law);
+    law.reset(0);
+    constexpr double pulse = 1e-9;  // [m]: no slip gives way
+    double measured = std::abs(law.step(pulse, pulse / period).force) / pulse;
+    double last = std::abs(law.step(0, -pulse / period).force) / pulse;
+    measured += last;
+    for (int k = 0; k < 20000; ++k) measured += last = std::abs(law.step(0, 0).force) / pulse;
+    ++compared;
+    networks += one->form.networks.empty() ? 0 : 1;
+    EXPECT_LE(measured, stated * (1 + 1e-9));
+    if (last > 1e-14 * stated) continue;
+    ++died_away;
+    EXPECT_GE(measured, stated * (1 - 1e-9));
+  }
+  EXPECT_GE(died_away, 20);
+  EXPECT_GE(networks, 10);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // What the encoder's step can stir up in the motor, where it is known in closed form.
 #include <gtest/gtest.h>
 
+#include "certify/held_slips.hpp"
 #include "certify/quantisation.hpp"
 #include "motors.hpp"
 
@@ -62,6 +63,62 @@ TEST(Quantisation, FrictionPays) {
   EXPECT_NEAR(unpaid_force(certificate), 0.005, 1e-15);
   certificate.loop.coulomb_friction = 0.02;
   EXPECT_EQ(unpaid_force(certificate), 0);
+}
+
+using Tree = NormalTree;
+
+Tree spring(double stiffness) {
+  Tree block{Tree::Kind::block, {}, 0, {}, {}};
+  block.form.static_stiffness = stiffness;
+  return block;
+}
+Tree damper(double damping) {
+  Tree block{Tree::Kind::block, {}, 0, {}, {}};
+  block.form.feedthrough_damping = damping;
+  return block;
+}
+Tree slip(double yield_force) { return {Tree::Kind::slip, {}, yield_force, {}, {}}; }
+Tree series(std::vector<Tree> children) { return {Tree::Kind::series, {}, 0, {}, std::move(children)}; }
+Tree parallel(std::vector<Tree> children) { return {Tree::Kind::parallel, {}, 0, {}, std::move(children)}; }
+
+const CutSettings settings = {Scheme::exact, Real(T), 1};
+
+// A spring in front of a slip would not pass on an error as itself, to the tool and to the slip; or a slip beside which
+// dampers lie would not hold them fast.
+TEST(Quantisation, OfASlipBehindASpringIsTheSpring) {
+  for (const Tree& rest : {slip(2), parallel({slip(2), damper(7)})}) {
+    const HeldSlips held = held_slips(series({spring(300), rest}), {Real(0)}, settings);
+    EXPECT_EQ(held.gain, 300);
+    ASSERT_EQ(held.slips.size(), 1u);
+    EXPECT_EQ(held.slips.front().gain, 300);
+    EXPECT_EQ(held.series_yield, rest.kind == Tree::Kind::slip ? 2 : -1);
+  }
+}
+
+// A damper in front of a slip would not pass on twice what it answers within a sample; or the brake's part of it would count.
+TEST(Quantisation, OfASlipBehindADamperIsWhatTheBrakeLeaves) {
+  const Tree component = series({damper(3), slip(1)});
+  EXPECT_NEAR(to_double(held_slips(component, {Real(0)}, settings).gain), 2 * 3 / T, 1e-9);
+  EXPECT_NEAR(to_double(held_slips(component, {Real(3)}, settings).gain), 0, 1e-9);
+  EXPECT_NEAR(to_double(held_slips(component, {Real(3), Real(1)}, settings).gain), 2 * 2 / T, 1e-9);
+}
+
+// Behind a damper an error that jumps is felt twice, once as it comes and once as it has died away: 2/(1 + λh) of its spring by a
+// slip whose own spring lies beside another.
+TEST(Quantisation, OfASlipDeeperInsideHasTermsOfEitherSign) {
+  const Tree component = series({damper(4), parallel({spring(50), series({spring(30), slip(1)})})});
+  const HeldSlips held = held_slips(component, {Real(0)}, settings);
+  EXPECT_NEAR(to_double(held.slips.front().gain), 2 * 30 / (1 + 80.0 / 4 * T), 1e-9);
+  EXPECT_NEAR(to_double(held.gain), 2 * 80 / (1 + 80.0 / 4 * T), 1e-9);
+}
+
+// A slip that gives way within the encoder's step would have a gain, though nothing is known of the sum; or one that holds none.
+TEST(Quantisation, OfSlipsThatGiveWayWithinAStepIsNotKnown) {
+  SlipMotor slips;
+  slips.held_gain = 40;
+  EXPECT_EQ(quantisation_gain(spring_motor(100), slips, plain_loop(T)), 140);
+  slips.slides_within_step = true;
+  EXPECT_FALSE(quantisation_gain(spring_motor(100), slips, plain_loop(T)));
 }
 
 }  // namespace

@@ -1,0 +1,36 @@
+// The numbers of a law with tunable parameters as affine functions of them, in rational numbers.
+#pragma once
+
+#include <vector>
+
+#include "certify/motor_constants.hpp"
+
+namespace dashpot::compiler {
+
+// base + Σ factors[i] θ_i, exactly
+struct Affine {
+  Rational base = 0;
+  std::vector<Rational> factors;
+};
+
+Affine plus(Affine first, const Affine& second, const Rational& weight = 1);
+
+class BoxNumbers {
+ public:
+  explicit BoxNumbers(const TunableTables& tables) : tables_(tables) {}
+
+  Affine number(int index) const;
+  Affine stiffness(int spring) const { return number(tables_.springs[static_cast<std::size_t>(spring)]); }
+
+  // Over the box.
+  Rational most(const Affine& f) const { return extreme(f, true); }
+  Rational least(const Affine& f) const { return extreme(f, false); }
+
+ protected:
+  const TunableTables& tables_;
+
+ private:
+  Rational extreme(const Affine& f, bool largest) const;
+};
+
+}  // namespace dashpot::compiler

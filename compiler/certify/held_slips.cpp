@@ -1,0 +1,234 @@
+#include "certify/held_slips.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "discretise/mode_coefficients.hpp"
+#include "linear/pencil.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+const Real negligible{"1e-30"};
+
+struct HeldTie {
+  std::size_t a, b;
+  Real yield_force;
+};
+
+// Ends by number: 0 is the ground, 1 the tool. A mode is one more node, which its spring joins to the ends by their weights and
+// a damper to the ground.
+class HeldNetwork {
+ public:
+  explicit HeldNetwork(const CutSettings& settings) : settings_(settings) {}
+
+  std::size_t new_end() { return ends_++; }
+  void add_slip(std::size_t a, std::size_t b, const Real& yield_force) { slips_.push_back({a, b, yield_force}); }
+  void add_spring(std::size_t a, std::size_t b, const Real& stiffness) { add(springs_, {{a, 1}, {b, -1}}, stiffness); }
+  void add_damper(std::size_t a, std::size_t b, const Real& damping) { add(dampers_, {{a, 1}, {b, -1}}, damping); }
+
+  // By backward Euler: k = c/a, λ = (1 − a)/(a h). What vanishes within a sample is a damper c h.
+  void add_mode(std::vector<std::pair<std::size_t, Real>> weights, const Real& stiffness, const Real& relaxation_rate) {
+    const ModeCoefficients c = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings_.scheme, StateInput::position, settings_.sample_period);
+    const Real period = settings_.sample_period;
+    if (c.decay < negligible) return add(dampers_, weights, c.position_gain * period);
+    const std::size_t node = new_end();
+    weights.emplace_back(node, -1);
+    add(springs_, weights, c.position_gain / c.decay);
+    add(dampers_, {{node, 1}}, c.position_gain * period / c.loss);
+  }
+
+  HeldSlips gains(const std::vector<Real>& feedthroughs) {
+    join_slips();
+    eliminate();
+    HeldSlips result{gain_of(side_of_tool(), feedthroughs), -1, {}};
+    for (std::size_t i = 0; i < slips_.size(); ++i) {
+      const Real gain = is_in_forest_[i] ? gain_of(side_of(i), {Real(0)}) : Real(0);
+      result.slips.push_back({gain, slips_[i].yield_force});
+    }
+    return result;
+  }
+
+ private:
+  struct Term {
+    std::vector<std::pair<std::size_t, Real>> weights;
+    Real value;
+  };
+
+  static void add(std::vector<Term>& terms, std::vector<std::pair<std::size_t, Real>> weights, const Real& value) {
+    if (value > 0) terms.push_back({std::move(weights), value});
+  }
+
+  std::size_t leader(std::size_t end) const {
+    while (leader_[end] != end) end = leader_[end];
+    return end;
+  }
+
+  // The least number stands for all, so that tool and ground stay what they are. A slip that closes a ring of slips needs to hold
+  // none of a change: the others can.
+  void join_slips() {
+    leader_.resize(ends_);
+    std::iota(leader_.begin(), leader_.end(), std::size_t{0});
+    for (const HeldTie& slip : slips_) {
+      const std::size_t a = leader(slip.a), b = leader(slip.b);
+      is_in_forest_.push_back(a != b);
+      leader_[std::max(a, b)] = std::min(a, b);
+    }
+    place_.assign(ends_, -1);
+    for (std::size_t end = 2; end < ends_; ++end)
+      if (leader(end) == end && is_pulled(end)) place_[end] = inner_++;
+  }
+
+  bool is_pulled(std::size_t end) const {
+    const auto pulls = [&](const Term& term) {
+      return std::any_of(term.weights.begin(), term.weights.end(), [&](const auto& weight) { return leader(weight.first) == end; });
+    };
+    return std::any_of(springs_.begin(), springs_.end(), pulls) || std::any_of(dampers_.begin(), dampers_.end(), pulls);
+  }
+
+  // Weights over the inner places, and of the tool behind them.
+  RealVector row(const Term& term) const {
+    RealVector weights = RealVector::Zero(inner_ + 1);
+    for (const auto& [end, weight] : term.weights) {
+      const std::size_t first = leader(end);
+      if (first == 1) weights(inner_) += weight;
+      else if (first > 1) weights(place_[first]) += weight;
+    }
+    return weights;
+  }
+
+  RealMatrix matrix(const std::vector<Term>& terms) const {
+    RealMatrix sum = RealMatrix::Zero(inner_ + 1, inner_ + 1);
+    for (const Term& term : terms) sum += row(term) * row(term).transpose() * term.value;
+    return sum;
+  }
+
+  // What terms pull a set of ends with, for displacements of all places.
+  RealVector pull(const std::vector<Term>& terms, const std::vector<bool>& set) const {
+    RealVector sum = RealVector::Zero(inner_ + 1);
+    for (const Term& term : terms) {
+      Real weight = 0;
+      for (const auto& [end, of_end] : term.weights)
+        if (set[end]) weight += of_end;
+      sum += row(term) * (weight * term.value);
+    }
+    return sum;
+  }
+
+  void eliminate() {
+    const RealMatrix k = matrix(springs_), b = matrix(dampers_);
+    if (inner_ == 0) return;
+    pencil_ = solve_pencil(k.topLeftCorner(inner_, inner_), b.topLeftCorner(inner_, inner_));
+    p_ = pencil_.vectors.transpose() * k.col(inner_).head(inner_);
+    q_ = pencil_.vectors.transpose() * b.col(inner_).head(inner_);
+  }
+
+  std::vector<bool> side_of_tool() const {
+    std::vector<bool> set(ends_, false);
+    for (std::size_t end = 0; end < ends_; ++end) set[end] = leader(end) == 1;
+    return set;
+  }
+
+  // Ends that slips join to one end of a slip, but for that slip; of its two sides the one without tool and ground.
+  std::vector<bool> side_of(std::size_t slip) const {
+    for (const std::size_t start : {slips_[slip].a, slips_[slip].b}) {
+      std::vector<bool> set(ends_, false);
+      set[start] = true;
+      for (bool grows = true; grows;) {
+        grows = false;
+        for (std::size_t i = 0; i < slips_.size(); ++i) {
+          if (i == slip || !is_in_forest_[i] || set[slips_[i].a] == set[slips_[i].b]) continue;
+          set[slips_[i].a] = set[slips_[i].b] = grows = true;
+        }
+      }
+      if (!set[0] && !set[1]) return set;
+    }
+    return std::vector<bool>(ends_, false);
+  }
+
+  // (K + sB) of the set less Σ (p′ + s q′)(p + s q)/(m + s d), with m = μ, d = (1 − μ)/ω0 (theory, section 2).
+  Real gain_of(const std::vector<bool>& set, const std::vector<Real>& feedthroughs) const {
+    const RealVector k = pull(springs_, set), b = pull(dampers_, set);
+    Real stiffness = k(inner_), damping = b(inner_), relaxing = 0;
+    for (Eigen::Index i = 0; i < inner_; ++i) {
+      const Real pull_p = k.head(inner_).dot(pencil_.vectors.col(i)), pull_q = b.head(inner_).dot(pencil_.vectors.col(i));
+      const Real m = pencil_.mu(i), d = (1 - m) / pencil_.shift;
+      if (m < negligible) {
+        damping -= pull_q * q_(i) / d;
+      } else if (1 - m < negligible) {
+        stiffness -= pull_p * p_(i) / m;
+      } else {
+        const Real rate = m / d, residue = (pull_p - pull_q * rate) * (p_(i) - q_(i) * rate) / m;
+        damping -= pull_q * q_(i) / d;
+        stiffness -= (pull_p * q_(i) + pull_q * p_(i) - pull_q * q_(i) * rate) / d + residue;
+        relaxing += abs(residue) / (1 + rate * settings_.sample_period);
+      }
+    }
+    Real left = 0;
+    for (const Real& x : feedthroughs) left = std::max(left, Real(abs(damping - x)));
+    return abs(stiffness) + 2 * left / settings_.sample_period + 2 * relaxing;
+  }
+
+  CutSettings settings_;
+  std::size_t ends_ = 2;
+  std::vector<Term> springs_, dampers_;
+  std::vector<HeldTie> slips_;
+  std::vector<std::size_t> leader_;
+  std::vector<bool> is_in_forest_;
+  std::vector<Eigen::Index> place_;
+  Eigen::Index inner_ = 0;
+  Pencil pencil_;
+  RealVector p_, q_;
+};
+
+void lay(const NormalTree& tree, std::size_t from, std::size_t to, HeldNetwork& network) {
+  if (tree.kind == NormalTree::Kind::slip) return network.add_slip(from, to, tree.yield_force);
+  if (tree.kind == NormalTree::Kind::block) {
+    network.add_spring(from, to, tree.form.static_stiffness);
+    network.add_damper(from, to, tree.form.feedthrough_damping);
+    for (const Mode& mode : tree.form.modes) network.add_mode({{from, 1}, {to, -1}}, mode.stiffness, mode.relaxation_rate);
+    return;
+  }
+  std::size_t here = from;
+  for (const NormalTree& child : tree.children) {
+    const bool is_last = tree.kind == NormalTree::Kind::parallel || &child == &tree.children.back();
+    const std::size_t next = is_last ? to : network.new_end();
+    lay(child, here, next, network);
+    if (tree.kind == NormalTree::Kind::series) here = next;
+  }
+}
+
+}  // namespace
+
+HeldSlips held_slips(const NormalTree& component, const std::vector<Real>& feedthroughs, const CutSettings& settings) {
+  HeldNetwork network(settings);
+  lay(component, 1, 0, network);
+  HeldSlips result = network.gains(feedthroughs);
+  if (component.kind != NormalTree::Kind::series) return result;
+  for (const NormalTree& child : component.children)
+    if (child.kind == NormalTree::Kind::slip) result.series_yield = child.yield_force;
+  return result;
+}
+
+HeldSlips held_slips(const Network& whole, const std::vector<std::size_t>& elements, const std::vector<Real>& feedthroughs,
+                     const CutSettings& settings) {
+  const MultiportForm form = multiport_form_at_slips(whole, elements);
+  HeldNetwork network(settings);
+  std::vector<std::size_t> ends;
+  for (const NodeIndex node : form.terminals) ends.push_back(node == tool ? 1 : network.new_end());
+  ends.push_back(0);
+  const auto end_of = [&](NodeIndex node) {
+    return ends[std::size_t(std::find(form.terminals.begin(), form.terminals.end(), node) - form.terminals.begin())];
+  };
+  for (const Tie& tie : form.springs) network.add_spring(ends[tie.a], ends[tie.b], tie.value);
+  for (const Tie& tie : form.dampers) network.add_damper(ends[tie.a], ends[tie.b], tie.value);
+  for (const MultiportMode& mode : form.modes) {
+    std::vector<std::pair<std::size_t, Real>> weights;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) weights.emplace_back(ends[i], mode.weights[i]);
+    network.add_mode(std::move(weights), mode.stiffness, mode.relaxation_rate);
+  }
+  for (const auto& [between, yield] : slips_between(whole, elements)) network.add_slip(end_of(between.first), end_of(between.second), yield);
+  return network.gains(feedthroughs);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,29 @@
+// What a law with tunable parameters asks for over its declared box once more (certify/box_motor.hpp), from the network's own
+// parts and in 100 digits.
+#pragma once
+
+#include <optional>
+
+#include "discretise/tunable_network.hpp"
+#include "verify/reference_gain.hpp"
+
+namespace dashpot::compiler {
+
+struct ReferenceBox {
+  Reference lacking;  // what is needed less the assured share of b, at most [N·s/m]
+  Reference least_brake, largest_brake;
+  std::optional<ReferenceGain> gain;  // K, that no slip gives way within a step not looked at [N/m]
+};
+
+// `hold`: T_max/h; `gain`: γ of the estimate, if there is one; `share`: of the brake's command that is assured.
+struct ReferenceLoop {
+  Reference hold, lateness, share;
+  std::optional<Reference> gain;
+  std::optional<ReferenceGain> pulse;  // Σ|h_j| of the estimate [1/s]
+};
+
+// `tables`: what the brake's rule is, and what it reaches; choices. Empty where nothing is proved.
+std::optional<ReferenceBox> reference_box(const ReferenceTunables& tunables, const TunableTables& tables, const ReferenceLoop& loop,
+                                          const LawFacts& facts);
+
+}  // namespace dashpot::compiler

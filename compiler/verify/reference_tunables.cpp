@@ -1,0 +1,299 @@
+#include "verify/reference_tunables.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "network/law.hpp"
+#include "verify/header_constants.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Kind = ReferencePart::Kind;
+
+bool is_spring(const Element& e) { return std::holds_alternative<Spring>(e.law); }
+
+Reference value_in_100_digits(const Element& e) { return value_of(e.law); }
+
+class Blocks {
+ public:
+  Blocks(const Network& network, const LawFacts& facts) : facts_(facts) {
+    int next = 0;
+    for (const Parameter& parameter : network.parameters) place_.push_back(parameter.tunable ? next++ : -1);
+  }
+
+  bool is_tunable(const Element& e) const { return e.parameter && place_[*e.parameter] >= 0; }
+
+  ReferenceSum value(const Element& e) const {
+    ReferenceSum sum;
+    if (!is_tunable(e)) return {value_in_100_digits(e), {}};
+    sum.factors.assign(std::size_t(place_[*e.parameter]) + 1, 0);
+    sum.factors.back() = 1;
+    return sum;
+  }
+
+  ReferenceBlock block(const Network& network) const {
+    ReferenceBlock block;
+    Network fixed = network;
+    for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
+      if (std::none_of(part.begin(), part.end(), [&](std::size_t i) { return is_tunable(network.elements[i]); })) continue;
+      for (std::size_t i : part) fixed.elements[i].has_effect = false;
+      add_part(network, part, block);
+    }
+    add_fixed(reference_form(fixed), block);
+    return block;
+  }
+
+  // Every way to cut through slips that act as one.
+  std::vector<ReferenceSum> cuts(const Tree& tree, const Network& network) const {
+    if (tree.kind == Tree::Kind::leaf) return {value(network.elements[tree.element])};
+    std::vector<ReferenceSum> all;
+    if (tree.kind == Tree::Kind::parallel) all.emplace_back();
+    for (const Tree& child : tree.children) {
+      const std::vector<ReferenceSum> of_child = cuts(child, network);
+      if (tree.kind == Tree::Kind::series) {
+        all.insert(all.end(), of_child.begin(), of_child.end());
+        continue;
+      }
+      std::vector<ReferenceSum> both;
+      for (const ReferenceSum& cut : all)
+        for (const ReferenceSum& more : of_child) both.push_back(added(cut, more));
+      all = std::move(both);
+    }
+    return all;
+  }
+
+ private:
+  static bool is_inner(NodeIndex node) { return node > tool; }
+
+  void add_part(const Network& network, const std::vector<std::size_t>& part, ReferenceBlock& block) const {
+    const Element& first = network.elements[part.front()];
+    if (!is_inner(first.a) && !is_inner(first.b)) {
+      (is_spring(first) ? block.has_spring : block.has_damper) = true;
+      ReferenceSum& sum = is_spring(first) ? block.stiffness : block.damping;
+      sum = added(sum, value(first));
+      return;
+    }
+    is_relaxation(network, part) ? add_relaxation(network, part, block) : add_mesh(network, part, block);
+  }
+
+  // One inner node with all springs on one side of it and all dampers on the other.
+  static bool is_relaxation(const Network& network, const std::vector<std::size_t>& part) {
+    NodeIndex node = 0;
+    std::optional<bool> springs_at_tool;
+    for (std::size_t i : part) {
+      const Element& e = network.elements[i];
+      const NodeIndex inner = std::max(e.a, e.b), other = std::min(e.a, e.b);
+      if (is_inner(other) || (node != 0 && inner != node)) return false;
+      node = inner;
+      const bool this_way = is_spring(e) == (other == tool);
+      if (springs_at_tool && *springs_at_tool != this_way) return false;
+      springs_at_tool = this_way;
+    }
+    return true;
+  }
+
+  void add_relaxation(const Network& network, const std::vector<std::size_t>& part, ReferenceBlock& block) const {
+    ReferenceRelaxation relaxation{{}, {}, false, {}};
+    for (std::size_t i : part) {
+      ReferenceSum& sum = is_spring(network.elements[i]) ? relaxation.stiffness : relaxation.damping;
+      sum = added(sum, value(network.elements[i]));
+    }
+    block.relaxations.push_back(std::move(relaxation));
+  }
+
+  void add_mesh(const Network& network, const std::vector<std::size_t>& part, ReferenceBlock& block) const {
+    std::map<std::tuple<NodeIndex, NodeIndex, bool>, ReferenceSum> edges;
+    for (std::size_t i : part) {
+      const Element& e = network.elements[i];
+      ReferenceSum& sum = edges[{std::min(e.a, e.b), std::max(e.a, e.b), is_spring(e)}];
+      sum = added(sum, value(e));
+    }
+    block.meshes.emplace_back();
+    for (auto& [place, sum] : edges) block.meshes.back().push_back({std::get<0>(place) == tool, std::get<2>(place), std::move(sum)});
+  }
+
+  void add_fixed(const ReferenceForm& form, ReferenceBlock& block) const {
+    block.stiffness.base += form.static_stiffness;
+    block.damping.base += form.feedthrough_damping;
+    block.has_spring = block.has_spring || form.static_stiffness > 0;
+    block.has_damper = block.has_damper || form.feedthrough_damping > 0;
+    for (const ReferenceMode& mode : form.modes)
+      block.relaxations.push_back({{mode.stiffness, {}}, {mode.stiffness / mode.relaxation_rate, {}}, true, mode_factors(mode, facts_)});
+  }
+
+  const LawFacts& facts_;
+  std::vector<int> place_;
+};
+
+void add_blocks(const ReferencePart& part, const Network& network, const Blocks& blocks, std::vector<ReferenceBlock>& all,
+                std::vector<std::vector<ReferenceSum>>& yields) {
+  if (part.kind == Kind::block) all.push_back(blocks.block(laid_out(part.elements, network)));
+  if (part.kind == Kind::slip) yields.push_back(blocks.cuts(part.elements, network));
+  for (const ReferencePart& child : part.children) add_blocks(child, network, blocks, all, yields);
+}
+
+// Between two nodes, as tool and ground; inner nodes are its own.
+Network between(NodeIndex from, NodeIndex to, const std::vector<std::size_t>& elements, const Network& network) {
+  Network part;
+  part.nodes = {"ground", "tool"};
+  std::map<NodeIndex, NodeIndex> place = {{from, tool}, {to, ground}};
+  for (std::size_t i : elements) {
+    part.elements.push_back(network.elements[i]);
+    for (NodeIndex* node : {&part.elements.back().a, &part.elements.back().b}) {
+      if (place.count(*node) == 0) place[*node] = part.nodes.size(), part.nodes.push_back("");
+      *node = place[*node];
+    }
+  }
+  return part;
+}
+
+// The tool's side first.
+std::pair<NodeIndex, NodeIndex> towards_ground(NodeIndex a, NodeIndex b) {
+  if (a == tool || b == ground) return {a, b};
+  if (b == tool || a == ground) return {b, a};
+  return std::minmax(a, b);
+}
+
+// Springs and dampers that share nodes at which no slip ends: a block where they have two ends, else each by itself.
+void add_graph(const std::vector<std::size_t>& elements, const Network& network, const Blocks& blocks, ReferenceTunables& result) {
+  std::set<NodeIndex> ends;
+  std::map<std::pair<NodeIndex, NodeIndex>, ReferenceSum> yields;
+  std::map<NodeIndex, NodeIndex> leader;
+  const auto is_slip = [&](std::size_t i) { return std::holds_alternative<Slip>(network.elements[i].law); };
+  for (std::size_t i : elements) {
+    const Element& e = network.elements[i];
+    for (NodeIndex node : {e.a, e.b}) leader[node] = node;
+    if (!is_slip(i)) continue;
+    ends.insert({e.a, e.b});
+    ReferenceSum& yield = yields[std::minmax(e.a, e.b)];
+    yield = added(yield, blocks.value(e));
+  }
+  ends.insert({tool, ground});
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t i : elements) {
+      const Element& e = network.elements[i];
+      if (is_slip(i) || ends.count(e.a) + ends.count(e.b) > 0 || leader[e.a] == leader[e.b]) continue;
+      leader[e.a] = leader[e.b] = std::min(leader[e.a], leader[e.b]);
+      changed = true;
+    }
+  }
+  std::map<NodeIndex, std::vector<std::size_t>> by_leader;
+  std::map<std::pair<NodeIndex, NodeIndex>, std::vector<std::size_t>> ports;
+  for (std::size_t i : elements) {
+    const Element& e = network.elements[i];
+    if (is_slip(i)) continue;
+    if (ends.count(e.a) + ends.count(e.b) == 2) ports[towards_ground(e.a, e.b)].push_back(i);
+    else by_leader[leader[ends.count(e.a) > 0 ? e.b : e.a]].push_back(i);
+  }
+  std::set<NodeIndex> opened;
+  for (const auto& [first, group] : by_leader) {
+    std::set<NodeIndex> touched, inner;
+    for (std::size_t i : group)
+      for (NodeIndex node : {network.elements[i].a, network.elements[i].b}) (ends.count(node) > 0 ? touched : inner).insert(node);
+    std::vector<std::size_t>& port = ports[towards_ground(*touched.begin(), *touched.rbegin())];
+    if (touched.size() == 2) {
+      port.insert(port.end(), group.begin(), group.end());
+      continue;
+    }
+    opened.insert(inner.begin(), inner.end());
+    for (std::size_t i : group) ports[towards_ground(network.elements[i].a, network.elements[i].b)].push_back(i);
+  }
+  ReferenceGraph graph;
+  ends.insert(opened.begin(), opened.end());
+  for (NodeIndex node : ends)
+    if (node > tool) graph.ends.push_back(node);
+  for (auto& [nodes, port] : ports) {
+    std::sort(port.begin(), port.end());
+    if (!port.empty()) graph.ties.push_back({nodes.first, nodes.second, blocks.block(between(nodes.first, nodes.second, port, network))});
+  }
+  for (const auto& [nodes, yield] : yields) {
+    graph.slips.push_back(nodes);
+    result.yield_forces.push_back({yield});
+  }
+  result.graphs.push_back(std::move(graph));
+}
+
+Network at_largest(Network network) {
+  for (Element& e : network.elements) {
+    if (!e.parameter || !network.parameters[*e.parameter].tunable) continue;
+    const double most = network.parameters[*e.parameter].max;
+    if (Spring* spring = std::get_if<Spring>(&e.law)) spring->stiffness = most;
+    if (Damper* damper = std::get_if<Damper>(&e.law)) damper->damping = most;
+    if (Slip* slip = std::get_if<Slip>(&e.law)) slip->yield_force = most;
+  }
+  return network;
+}
+
+void add_block(const ReferenceBlock& block, Pool& pool) {
+  std::vector<Reference>& numbers = pool["numbers"];
+  if (block.has_spring) numbers.push_back(block.stiffness.base);
+  if (block.has_damper) numbers.push_back(block.damping.base);
+  for (const ReferenceRelaxation& r : block.relaxations) {
+    numbers.push_back(r.stiffness.base);
+    numbers.push_back(r.damping.base);
+    if (!r.is_fixed) continue;
+    pool["parts"].push_back(r.factors.gain / r.stiffness.base);
+    pool["parts"].push_back(r.factors.loss);
+  }
+  for (const std::vector<ReferenceEdge>& mesh : block.meshes)
+    for (const ReferenceEdge& edge : mesh) numbers.push_back(edge.value.base);
+}
+
+}  // namespace
+
+ReferenceSum added(ReferenceSum first, const ReferenceSum& second, const Reference& weight) {
+  first.base += weight * second.base;
+  first.factors.resize(std::max(first.factors.size(), second.factors.size()), 0);
+  for (std::size_t i = 0; i < second.factors.size(); ++i) first.factors[i] += weight * second.factors[i];
+  return first;
+}
+
+ReferenceTunables reference_tunables(const Network& network, const LawFacts& facts) {
+  ReferenceTunables result;
+  for (const Parameter& parameter : network.parameters)
+    if (parameter.tunable) result.parameters.push_back(&parameter);
+  const Network largest = at_largest(network);
+  const Blocks blocks(network, facts);
+  result.tree = reference_tree(largest);
+  // What stands in series has any order: in a tree that of the file.
+  const bool is_tree = result.tree.has_slips() && series_parallel_tree(largest);
+  const std::optional<Tree> linear = is_tree ? series_parallel_tree(result.tree.linear_network) : std::nullopt;
+  result.linear = blocks.block(linear ? laid_out(*linear, network) : result.tree.linear_network);
+  if (network.contact && !result.tree.networks.empty()) {
+    add_graph(elements_behind_slips(result.tree), largest, blocks, result);
+    return result;
+  }
+  for (const ReferencePart& component : result.tree.components) {
+    result.blocks.emplace_back();
+    add_blocks(component, largest, blocks, result.blocks.back(), result.yield_forces);
+  }
+  for (const std::vector<std::size_t>& part : result.tree.networks) add_graph(part, largest, blocks, result);
+  return result;
+}
+
+Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& network, const LawFacts& facts) {
+  Pool pool;
+  pool["parts"] = {0};
+  for (const Parameter* parameter : tunables.parameters) {
+    pool["tunables"].insert(pool["tunables"].end(), {parameter->value, parameter->min, parameter->max});
+    pool[literals_in_code].push_back(parameter->value);
+  }
+  add_block(tunables.linear, pool);
+  for (const std::vector<ReferenceBlock>& component : tunables.blocks)
+    for (const ReferenceBlock& block : component) add_block(block, pool);
+  for (const ReferenceGraph& graph : tunables.graphs)
+    for (const ReferenceTie& tie : graph.ties) add_block(tie.block, pool);
+  for (const std::vector<ReferenceSum>& cuts : tunables.yield_forces)
+    for (const ReferenceSum& cut : cuts) pool["numbers"].push_back(cut.base);
+  const Reference offset_time("0.1");  // [s], in which a rest length goes home
+  const bool is_double = facts.scalar == ScalarType::float64;
+  const Reference period = 1 / Reference(facts.rate);
+  pool["tables"] = {period, facts.rate, exp(-period / offset_time), is_double ? 0x1p-200 : 0x1p-60, is_double ? 0x1p-24 : 0x1p-10, 0};
+  if (network.contact) pool["tables"].push_back(network.contact->at), pool[literals_in_code].push_back(network.contact->at);
+  return pool;
+}
+
+}  // namespace dashpot::compiler

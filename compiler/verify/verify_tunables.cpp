@@ -1,0 +1,89 @@
+#include "verify/verify_tunables.hpp"
+
+#include <algorithm>
+
+#include "certify/estimator_factors.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+LawFacts facts_of(const CertificateFile& certificate) {
+  const Choices& c = certificate.choices;
+  return {*c.rate, c.scheme, c.scalar, *c.state_input, certificate.damping};
+}
+
+}  // namespace
+
+TunableVerification::TunableVerification(const CertificateFile& certificate, const HeaderConstants& header,
+                                         const Compilation& compiled, Diagnostics& diagnostics)
+    : certificate_(certificate), header_(header), compiled_(compiled), diagnostics_(diagnostics), facts_(facts_of(certificate)),
+      tunables_(reference_tunables(compiled.network, facts_)), pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
+  const TunableTables& tables = *compiled.law.tunable;
+  const tunable_tables<double>& head = tables.head;
+  for (const double chosen : {head.damping, head.max_damping, head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share, head.slip_rule.assured_share})
+    pool_["tables"].push_back(chosen);
+  pool_["numbers"].push_back(tables.numbers[std::size_t(head.observed)].base);
+  pool_["sample_period"] = {1 / Reference(facts_.rate)};
+  pool_["added_damping"] = {tables.added_damping};
+}
+
+void TunableVerification::recompute_constants() {
+  for (const HeaderConstant& constant : header_.all) {
+    const auto pool = pool_.find(constant.name);
+    if (pool == pool_.end()) diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+    else if (constant.name == "tunables") compare_ranges(constant);
+    else compare_with_pool(constant, pool->second);
+  }
+}
+
+// In the order of the network's parameters: value, least and largest.
+void TunableVerification::compare_ranges(const HeaderConstant& constant) {
+  const std::vector<Reference>& expected = pool_["tunables"];
+  if (constant.values.size() != expected.size()) return diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    if (!is_correctly_rounded(constant.values[i], expected[i], header_.scalar))
+      diagnostics_.report<DiagnosticCode::constant_wrong>({}, constant.name, i + 1, constant.values[i], expected[i].str(25));
+}
+
+void TunableVerification::compare_with_pool(const HeaderConstant& constant, const std::vector<Reference>& pool) {
+  for (std::size_t i = 0; i < constant.values.size(); ++i)
+    if (std::none_of(pool.begin(), pool.end(), [&](const Reference& exact) { return is_correctly_rounded(constant.values[i], exact, header_.scalar); }))
+      diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
+}
+
+// What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has.
+bool TunableVerification::covers(double stated, const ReferenceBox& box, const Reference& share) const {
+  const bool is_double = header_.scalar == ScalarType::float64;
+  const Reference found = share * box.least_brake + box.lacking, size = found + box.largest_brake;
+  const Reference rounding = is_double ? 0x1p-49 : 0x1p-20, margin = is_double ? Reference("1e-12") : Reference("1e-4");
+  return Reference(stated) >= found - rounding * size && Reference(stated) <= found + margin * size + Reference("1e-60");
+}
+
+// The certificate asks for no less than the box once more, but for rounding, and, but for its margin, no more.
+void TunableVerification::recompute_bounds() {
+  const Certificate& again = compiled_.certificate;
+  const SampledLoop& loop = again.loop;
+  const auto expect = [&](const char* what, double stated, double found) {
+    if (stated != found) diagnostics_.report<DiagnosticCode::bound_wrong>({}, what, stated, found);
+  };
+  const auto gain = estimate_gain(loop);
+  const Rational exact_share = assured_share(loop);
+  const Reference share = Reference(numerator(exact_share)) / Reference(denominator(exact_share));
+  const Reference hold = loop.amplifier_lag > 0 ? Reference(1) : Reference(Reference(loop.longest_hold()) / Reference(loop.sample_period));
+  const ReferenceLoop around{hold, lateness(loop), share, gain ? std::optional(Reference(*gain)) : std::nullopt, reference_pulse(loop)};
+  const auto box = compiled_.network.contact ? std::nullopt : reference_box(tunables_, *compiled_.law.tunable, around, facts_);
+  const bool is_proved = certificate_.proof != name_of(Proof::none);
+  if (is_proved && !box) diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed box", "proof");
+  if (is_proved && box && !covers(certificate_.needed_damping, *box, share))
+    expect("needed damping", certificate_.needed_damping, (share * box->least_brake + box->lacking).convert_to<double>());
+  if (!agrees(certificate_.quantisation_gain, again.quantisation_gain, box ? box->gain : std::nullopt, header_.scalar))
+    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");
+  expect("needed damping", certificate_.needed_damping, again.bound.needed);
+  expect("assured damping", certificate_.assured_damping, again.assured);
+  expect("brake command", certificate_.brake_command, compiled_.law.damping);
+  expect("added damping", certificate_.added_damping, again.added_damping);
+  if (certificate_.proof != name_of(again.bound.proof) || certificate_.certified != again.certified)
+    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed bound", "proof");
+}
+
+}  // namespace dashpot::compiler

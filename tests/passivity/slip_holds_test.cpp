@@ -8,9 +8,8 @@
 #include <dashpot/estimators/any_estimator.hpp>
 #include <deque>
 
-#include "certified_loop.hpp"
 #include "discretise/evaluate.hpp"
-#include "support/random_network.hpp"
+#include "random_cases.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -18,36 +17,6 @@ namespace {
 using namespace dashpot::compiler;
 
 int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 3000 : 150; }
-
-std::string with_contact(std::string text) { return text.insert(1, "\n  \"contact\": { \"at\": 0 },"); }
-
-// Trees and others, some behind a contact.
-CompiledCase slip_case(std::uint64_t seed, bool lags = false) {
-  Random random(seed);
-  CompiledCase one;
-  one.device = random_device(random);
-  device_description& d = one.device.description;
-  d.motor.amplifier_lag = lags ? random.log_uniform(0.05, 2) * d.loop.sample_period : 0;
-  d.velocity.estimator = random.chance(0.5) ? estimator_kind::backward_difference : estimator_kind::butterworth;
-  d.brake.coil_lag = lags || random.chance(0.5) ? 0 : random.log_uniform(0.1, 10) * d.loop.sample_period;
-  const bool touches = !lags && random.chance(0.3);
-  if (touches) d.loop.delay_samples = random.chance(0.7) ? 0 : 1;
-  d.mechanics.damping = touches ? 1e7 : d.mechanics.damping;
-  NetworkRecipe recipe;
-  recipe.topology = random.chance(0.7) ? Topology::tree : Topology::graph;
-  recipe.most_nodes = 6;
-  recipe.most_slips = recipe.topology == Topology::tree ? 6 : 5;
-  recipe.smallest_value = 1e-1;
-  recipe.largest_value = 1e3;
-  const std::string text = json_text(random_network(seed, recipe));
-  one.source = std::make_unique<SourceFile>("random.json", touches ? with_contact(text) : text);
-  const char* laws[] = {"most-dissipative", "velocity-free", "gated", "compensated", "virtual"};
-  one.choices.decomposition = laws[random.index(5)];
-  one.choices.scheme = random.chance(0.7) ? Scheme::exact : Scheme::backward_euler;
-  Diagnostics diagnostics;
-  one.compilation = compile(*one.source, one.choices, one.device, diagnostics);
-  return one;
-}
 
 struct Exchange {
   double energy = 0, least = 0, largest = 0;  // [J]

@@ -1,6 +1,8 @@
 #include "insist.hpp"
 
 #include "certify/settle.hpp"
+#include "certify/slip_motor.hpp"
+#include "decompose/slip_laws.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler {
@@ -31,6 +33,49 @@ std::optional<double> rate_that_would_do(const Compilation& c, const Choices& ch
   return std::nullopt;
 }
 
+// The same network with tunable parameters on another device: what its brake is told at most, and whether it is certified.
+struct OtherDevice {
+  bool certified = false;
+  double largest_damping = 0;  // [N·s/m]
+};
+
+OtherDevice on_another(const Compilation& c, const Choices& asked, const Device& device) {
+  Diagnostics unheard;
+  Choices choices = asked;
+  choices.state_input = StateInput::position;
+  const double period = device.description.loop.sample_period;
+  const auto port = PortDevice::of(device, c.network, unheard);
+  const auto decomposition = decompose(at_default(c.network), c.form, choices, &device, unheard);
+  if (!port || !decomposition) return {};
+  auto law = discretise_tunable(c.network, c.form, *decomposition, choices, 1 / period, &device, unheard);
+  if (!law) return {};
+  const SampledLoop loop = sampled_loop(*port, period);
+  const Certificate certificate = certify(*law, loop, slip_motor(c.network, c.form, *decomposition, choices, loop));
+  return {certificate.certified, law->largest_damping};
+}
+
+// A brake with room for all that it would be told; a network that asks for so much less of it; a faster loop.
+void say_what_would_do_for_tunables(const Compilation& c, const Choices& choices, const std::string& unit, Diagnostics& diagnostics) {
+  const double has = c.certificate.loop.max_damping, scale = has > 0 ? c.device->description.brake.max_damping / has : 0;
+  Device stronger = *c.device;
+  stronger.description.brake.max_damping = 1e30;
+  if (const OtherDevice unlimited = on_another(c, choices, stronger); unlimited.certified && scale > 0) {
+    const double enough = unlimited.largest_damping * (1 + 1e-6);
+    stronger.description.brake.max_damping = enough * scale;
+    if (on_another(c, choices, stronger).certified) {
+      diagnostics.note<DiagnosticCode::brake_that_would_do>({}, enough, unit, has);
+      diagnostics.note<DiagnosticCode::scale_that_would_do>({}, has / enough);
+    }
+  }
+  Device faster = *c.device;
+  for (int doubling = 1; doubling <= 10; ++doubling) {
+    faster.description.loop.sample_period /= 2;
+    if (!on_another(c, choices, faster).certified) continue;
+    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, 1 / faster.description.loop.sample_period);
+    return;
+  }
+}
+
 }  // namespace
 
 bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
@@ -44,6 +89,7 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   const std::string unit = port_units(c.network.port_motion).damping;
   if (c.law.tunable) {
     diagnostics.report<DiagnosticCode::not_certified>({}, name, certificate.bound.needed, unit, c.device->name, certificate.assured);
+    say_what_would_do_for_tunables(c, choices, unit, diagnostics);
     diagnostics.note<DiagnosticCode::compile_uncertified>({});
     return false;
   }

@@ -278,6 +278,36 @@ class Certified(CommandTest):
         done = self.refused("compile", "stiff.json", "--device", BOARD, code="not-certified")
         self.assertIn("a loop at ", done.stderr)
 
+    def test_what_would_do_for_tunables(self):
+        """Fails if a box that its device cannot hold is refused without a brake, a share and a rate that would do, or if one of them
+        would not."""
+        elements = """{"spring": "k", "nodes": ["tool", "p"]}, {"damper": "b", "nodes": ["p", "ground"]}, {"spring": SCALE, "nodes": ["tool", "ground"]}"""
+        box = """{"k": {"value": FIRST, "min": 0, "max": SECOND, "tunable": true}, "b": {"value": THIRD, "min": 0, "max": FOURTH, "tunable": true}}"""
+
+        def written(share):
+            text = of_elements(elements, "tuned", f'"parameters": {box},')
+            for word, value in [("SCALE", 3000), ("FIRST", 2000), ("SECOND", 90000), ("THIRD", 20), ("FOURTH", 60)]:
+                text = text.replace(word, repr(value * share))
+            self.write("tuned.json", text)
+
+        punctual = json.loads(BOARD.read_text())
+        punctual["loop"].update(jitter="0 s", delay_samples=0)
+        self.write("punctual.json", json.dumps(punctual))
+        written(1)
+        done = self.refused("compile", "tuned.json", "--device", "punctual.json", code="not-certified").stderr
+        brake, unit = re.search(r"a brake of ([0-9.e+]+) (N s/m) at the tool", done).groups()
+        share, rate = [float(re.search(words, done).group(1)) for words in (r"with ([0-9.e-]+) of its stiffness", r"a loop at ([0-9.e+]+) Hz")]
+        told = json.loads(json.dumps(punctual))
+        told["brake"]["max_damping"] = f"{float(brake) * 1.001} {unit}"
+        self.write("stronger.json", json.dumps(told))
+        self.dashpot("compile", "tuned.json", "--device", "stronger.json")
+        told = json.loads(json.dumps(punctual))
+        told["loop"]["rate"] = f"{rate} Hz"
+        self.write("faster.json", json.dumps(told))
+        self.dashpot("compile", "tuned.json", "--device", "faster.json")
+        written(share * 0.99)
+        self.dashpot("compile", "tuned.json", "--device", "punctual.json")
+
     def test_estimators_without_proof(self):
         """Fails if a law whose motor follows a sliding mode is called certified, or refused."""
         self.write("kelvin.json", KELVIN)

@@ -191,7 +191,7 @@ std::string explain_json(const Compilation& c) {
           {"regimes", regimes_of(c)},
           {"slip_laws", slip_laws_of(c)},
           {"certificate", json_of(c.certificate)},
-          {"notes", notes_on_choice(c.decomposition)},
+          {"notes", notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)},
           {"chosen", choice.name},
           {"state_input", name_of(choice.state_input)},
           {"reason", choice.reason + "; " + c.decomposition.reason}};

@@ -52,7 +52,7 @@ std::string valid_text(const Validity& valid, const PortUnits& units) {
 
 std::string notes_text(const Compilation& c) {
   std::string text;
-  for (const std::string& note : notes_on_choice(c.decomposition)) text += "note: " + note + "\n";
+  for (const std::string& note : notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)) text += "note: " + note + "\n";
   return text;
 }
 

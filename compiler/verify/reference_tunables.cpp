@@ -157,64 +157,92 @@ std::pair<NodeIndex, NodeIndex> towards_ground(NodeIndex a, NodeIndex b) {
 }
 
 // Springs and dampers that share nodes at which no slip ends: a block where they have two ends, else each by itself.
-void add_graph(const std::vector<std::size_t>& elements, const Network& network, const Blocks& blocks, ReferenceTunables& result) {
-  std::set<NodeIndex> ends;
-  std::map<std::pair<NodeIndex, NodeIndex>, ReferenceSum> yields;
-  std::map<NodeIndex, NodeIndex> leader;
-  const auto is_slip = [&](std::size_t i) { return std::holds_alternative<Slip>(network.elements[i].law); };
-  for (std::size_t i : elements) {
-    const Element& e = network.elements[i];
-    for (NodeIndex node : {e.a, e.b}) leader[node] = node;
-    if (!is_slip(i)) continue;
-    ends.insert({e.a, e.b});
-    ReferenceSum& yield = yields[std::minmax(e.a, e.b)];
-    yield = added(yield, blocks.value(e));
+class GraphBuilder {
+ public:
+  GraphBuilder(const std::vector<std::size_t>& elements, const Network& network, const Blocks& blocks)
+      : elements_(elements), network_(network), blocks_(blocks), ends_{tool, ground} {}
+
+  void add_to(ReferenceTunables& result) {
+    find_ends();
+    sort_into_ports();
+    ReferenceGraph graph;
+    for (NodeIndex node : ends_)
+      if (node > tool) graph.ends.push_back(node);
+    for (auto& [nodes, port] : ports_) {
+      std::sort(port.begin(), port.end());
+      graph.ties.push_back({nodes.first, nodes.second, blocks_.block(between(nodes.first, nodes.second, port, network_))});
+    }
+    for (const auto& [nodes, yield] : yields_) {
+      graph.slips.push_back(nodes);
+      result.yield_forces.push_back({yield});
+    }
+    result.graphs.push_back(std::move(graph));
   }
-  ends.insert({tool, ground});
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t i : elements) {
-      const Element& e = network.elements[i];
-      if (is_slip(i) || ends.count(e.a) + ends.count(e.b) > 0 || leader[e.a] == leader[e.b]) continue;
-      leader[e.a] = leader[e.b] = std::min(leader[e.a], leader[e.b]);
-      changed = true;
+
+ private:
+  bool is_end(NodeIndex node) const { return ends_.count(node) > 0; }
+  const Element& element(std::size_t i) const { return network_.elements[i]; }
+  bool is_slip(std::size_t i) const { return std::holds_alternative<Slip>(element(i).law); }
+
+  void find_ends() {
+    for (std::size_t i : elements_) {
+      if (!is_slip(i)) continue;
+      ends_.insert({element(i).a, element(i).b});
+      ReferenceSum& yield = yields_[std::minmax(element(i).a, element(i).b)];
+      yield = added(yield, blocks_.value(element(i)));
     }
   }
-  std::map<NodeIndex, std::vector<std::size_t>> by_leader;
-  std::map<std::pair<NodeIndex, NodeIndex>, std::vector<std::size_t>> ports;
-  for (std::size_t i : elements) {
-    const Element& e = network.elements[i];
-    if (is_slip(i)) continue;
-    if (ends.count(e.a) + ends.count(e.b) == 2) ports[towards_ground(e.a, e.b)].push_back(i);
-    else by_leader[leader[ends.count(e.a) > 0 ? e.b : e.a]].push_back(i);
-  }
-  std::set<NodeIndex> opened;
-  for (const auto& [first, group] : by_leader) {
-    std::set<NodeIndex> touched, inner;
-    for (std::size_t i : group)
-      for (NodeIndex node : {network.elements[i].a, network.elements[i].b}) (ends.count(node) > 0 ? touched : inner).insert(node);
-    std::vector<std::size_t>& port = ports[towards_ground(*touched.begin(), *touched.rbegin())];
-    if (touched.size() == 2) {
-      port.insert(port.end(), group.begin(), group.end());
-      continue;
+
+  // By the least of the inner nodes that they share.
+  std::map<NodeIndex, std::vector<std::size_t>> groups() const {
+    std::map<NodeIndex, NodeIndex> leader;
+    for (std::size_t i : elements_)
+      for (NodeIndex node : {element(i).a, element(i).b}) leader[node] = node;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t i : elements_) {
+        const Element& e = element(i);
+        if (is_slip(i) || is_end(e.a) || is_end(e.b) || leader[e.a] == leader[e.b]) continue;
+        leader[e.a] = leader[e.b] = std::min(leader[e.a], leader[e.b]);
+        changed = true;
+      }
     }
-    opened.insert(inner.begin(), inner.end());
-    for (std::size_t i : group) ports[towards_ground(network.elements[i].a, network.elements[i].b)].push_back(i);
+    std::map<NodeIndex, std::vector<std::size_t>> all;
+    for (std::size_t i : elements_)
+      if (!is_slip(i) && !(is_end(element(i).a) && is_end(element(i).b))) all[leader[is_end(element(i).a) ? element(i).b : element(i).a]].push_back(i);
+    return all;
   }
-  ReferenceGraph graph;
-  ends.insert(opened.begin(), opened.end());
-  for (NodeIndex node : ends)
-    if (node > tool) graph.ends.push_back(node);
-  for (auto& [nodes, port] : ports) {
-    std::sort(port.begin(), port.end());
-    if (!port.empty()) graph.ties.push_back({nodes.first, nodes.second, blocks.block(between(nodes.first, nodes.second, port, network))});
+
+  void sort_into_ports() {
+    for (std::size_t i : elements_)
+      if (!is_slip(i) && is_end(element(i).a) && is_end(element(i).b)) add_to_port(element(i).a, element(i).b, {i});
+    std::set<NodeIndex> opened;
+    for (const auto& [first, group] : groups()) {
+      std::set<NodeIndex> touched, inner;
+      for (std::size_t i : group)
+        for (NodeIndex node : {element(i).a, element(i).b}) (is_end(node) ? touched : inner).insert(node);
+      if (touched.size() == 2) {
+        add_to_port(*touched.begin(), *touched.rbegin(), group);
+        continue;
+      }
+      opened.insert(inner.begin(), inner.end());
+      for (std::size_t i : group) add_to_port(element(i).a, element(i).b, {i});
+    }
+    ends_.insert(opened.begin(), opened.end());
   }
-  for (const auto& [nodes, yield] : yields) {
-    graph.slips.push_back(nodes);
-    result.yield_forces.push_back({yield});
+
+  void add_to_port(NodeIndex a, NodeIndex b, const std::vector<std::size_t>& more) {
+    std::vector<std::size_t>& port = ports_[towards_ground(a, b)];
+    port.insert(port.end(), more.begin(), more.end());
   }
-  result.graphs.push_back(std::move(graph));
-}
+
+  const std::vector<std::size_t>& elements_;
+  const Network& network_;
+  const Blocks& blocks_;
+  std::set<NodeIndex> ends_;
+  std::map<std::pair<NodeIndex, NodeIndex>, ReferenceSum> yields_;
+  std::map<std::pair<NodeIndex, NodeIndex>, std::vector<std::size_t>> ports_;
+};
 
 Network at_largest(Network network) {
   for (Element& e : network.elements) {
@@ -263,14 +291,15 @@ ReferenceTunables reference_tunables(const Network& network, const LawFacts& fac
   const std::optional<Tree> linear = is_tree ? series_parallel_tree(result.tree.linear_network) : std::nullopt;
   result.linear = blocks.block(linear ? laid_out(*linear, network) : result.tree.linear_network);
   if (network.contact && !result.tree.networks.empty()) {
-    add_graph(elements_behind_slips(result.tree), largest, blocks, result);
+    const std::vector<std::size_t> behind_slips = elements_behind_slips(result.tree);
+    GraphBuilder(behind_slips, largest, blocks).add_to(result);
     return result;
   }
   for (const ReferencePart& component : result.tree.components) {
     result.blocks.emplace_back();
     add_blocks(component, largest, blocks, result.blocks.back(), result.yield_forces);
   }
-  for (const std::vector<std::size_t>& part : result.tree.networks) add_graph(part, largest, blocks, result);
+  for (const std::vector<std::size_t>& part : result.tree.networks) GraphBuilder(part, largest, blocks).add_to(result);
   return result;
 }
 

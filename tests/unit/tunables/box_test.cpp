@@ -126,5 +126,23 @@ TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {
   EXPECT_NEAR(relaxation_hold(-std::expm1(-1e-6) / 1e-6, -std::expm1(-1e-6)), 0.5, 1e-6);
 }
 
+// Of a relaxation's emitted constants, one in the last place that makes it give more work than it stores would pass.
+TEST(Box, EnergyOfEmittedConstantsIsLookedAtExactly) {
+  const TunableLaw compiled(R"({ "dashpot": 1, "name": "fixed", "parameters": { "k": { "value": 3, "min": 0, "max": 9, "tunable": true } },
+    "elements": [ { "spring": "k", "nodes": ["tool", "ground"] }, { "spring": 40, "nodes": ["tool", "p"] }, { "damper": 2, "nodes": ["p", "ground"] } ] })");
+  UpdateLaw law = compiled.law();
+  EXPECT_TRUE(check_energy_lemma_over_box(law).holds);
+  auto& parts = law.tunable->parts;
+  const auto fixed = std::find_if(parts.begin(), parts.end(), [](const auto& part) { return part.kind == tunable_kind::fixed_relaxation; });
+  ASSERT_NE(fixed, parts.end());
+  fixed->loss = 0.5;  // (1 − φ)² ≤ ¾
+  fixed->share = 1 - std::sqrt(0.75);
+  const double above = fixed->share + 1e-16, below = fixed->share - 1e-16;
+  fixed->share = above;
+  EXPECT_TRUE(check_energy_lemma_over_box(law).holds);
+  fixed->share = below;
+  EXPECT_FALSE(check_energy_lemma_over_box(law).holds);
+}
+
 }  // namespace
 }  // namespace dashpot::testing

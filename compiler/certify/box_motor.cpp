@@ -110,19 +110,23 @@ class Box : private BoxNumbers {
   // of slips alone joins tool and ground.
   BoxCut least_cut(const tunable_graph& graph) const {
     std::vector<BoxCut> cuts;
-    for (int i = 0; i < graph.tie_count; ++i) cuts.push_back(bounded_cut(graph.first_block + i));
+    std::vector<double> costs;  // rounded: any cut will do, if not quite the least
+    for (int i = 0; i < graph.tie_count; ++i) {
+      cuts.push_back(bounded_cut(graph.first_block + i));
+      costs.push_back(cost(cuts.back()).convert_to<double>());
+    }
     const auto separates = [&](unsigned at_tool, const tunable_ends& ends) {
       const auto is_at_tool = [&](int end) { return end == graph.end_count || (end < graph.end_count && (at_tool >> end & 1u) != 0); };
       return is_at_tool(ends.from) != is_at_tool(ends.to);
     };
     std::optional<unsigned> least;
-    Rational least_cost = 0;
+    double least_cost = 0;
     for (unsigned at_tool = 0; at_tool < 1u << graph.end_count; ++at_tool) {
       bool is_crossed = false;
       for (int k = graph.first_slip; k < graph.first_slip + graph.link_count; ++k) is_crossed |= separates(at_tool, tables_.links[static_cast<std::size_t>(k)]);
-      Rational sum = 0;
+      double sum = 0;
       for (std::size_t i = 0; i < cuts.size(); ++i)
-        if (separates(at_tool, tie(graph, i))) sum += cost(cuts[i]);
+        if (separates(at_tool, tie(graph, i))) sum += costs[i];
       if (is_crossed || (least && sum >= least_cost)) continue;
       least = at_tool;
       least_cost = sum;

@@ -108,21 +108,32 @@ class Box {
 
   // Of slips in no tree: every way to take ends to the tool's side that no slip crosses.
   SumCut least_cut(const ReferenceGraph& graph) const {
-    std::optional<SumCut> best;
+    std::optional<std::size_t> best;
+    Reference least = 0;
     std::vector<SumCut> cuts;
-    for (const ReferenceTie& tie : graph.ties) cuts.push_back(cut_of(tie.block));
-    for (std::size_t pattern = 0; pattern < std::size_t{1} << graph.ends.size(); ++pattern) {
-      const auto at_tool = [&](NodeIndex node) {
-        const auto place = std::find(graph.ends.begin(), graph.ends.end(), node);
-        return place == graph.ends.end() ? node == tool : (pattern >> (place - graph.ends.begin()) & 1u) != 0;
-      };
-      if (std::any_of(graph.slips.begin(), graph.slips.end(), [&](const auto& slip) { return at_tool(slip.first) != at_tool(slip.second); })) continue;
-      SumCut cut;
-      for (std::size_t i = 0; i < cuts.size(); ++i)
-        if (at_tool(graph.ties[i].from) != at_tool(graph.ties[i].to)) cut = added(cut, cuts[i]);
-      if (!best || cost(cut) < cost(*best)) best = cut;
+    std::vector<Reference> costs;
+    for (const ReferenceTie& tie : graph.ties) {
+      cuts.push_back(cut_of(tie.block));
+      costs.push_back(cost(cuts.back()));
     }
-    return best.value();
+    const auto is_at_tool = [&](std::size_t pattern, NodeIndex node) {
+      const auto place = std::find(graph.ends.begin(), graph.ends.end(), node);
+      return place == graph.ends.end() ? node == tool : (pattern >> (place - graph.ends.begin()) & 1u) != 0;
+    };
+    for (std::size_t pattern = 0; pattern < std::size_t{1} << graph.ends.size(); ++pattern) {
+      const auto at_tool = [&](NodeIndex node) { return is_at_tool(pattern, node); };
+      if (std::any_of(graph.slips.begin(), graph.slips.end(), [&](const auto& slip) { return at_tool(slip.first) != at_tool(slip.second); })) continue;
+      Reference sum = 0;
+      for (std::size_t i = 0; i < cuts.size(); ++i)
+        if (at_tool(graph.ties[i].from) != at_tool(graph.ties[i].to)) sum += costs[i];
+      if (best && sum >= least) continue;
+      best = pattern;
+      least = sum;
+    }
+    SumCut cut;
+    for (std::size_t i = 0; i < cuts.size(); ++i)
+      if (is_at_tool(best.value(), graph.ties[i].from) != is_at_tool(best.value(), graph.ties[i].to)) cut = added(cut, cuts[i]);
+    return cut;
   }
 
   ReferenceSum needed() const {

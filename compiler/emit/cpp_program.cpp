@@ -52,8 +52,10 @@ class CppPrinter {
 
   void check_and_return(CppProgram& program) const {
     program.command = law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
-    check_by_jumps(program, checked_numbers(law_), law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}");
+    check_by_jumps(program, checked_numbers(law_), safe_command());
   }
+
+  std::string safe_command() const { return law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}"; }
 
   // What is kept of a sample that is no number is what was there before.
   void check_by_masks(CppProgram& program) const {
@@ -73,16 +75,17 @@ class CppPrinter {
                                                     law_.register_bytes > 0 ? fmt::format(", {}", law_.register_bytes) : ""));
   }
 
-  // What output() finds, update() uses at once.
+  // What output() finds, update() uses at once. That nothing is left to update() is stored last: before, it would hold up the states.
   std::vector<std::string> fused(const CppProgram& program) {
     const std::map<VariableId, VariableId> carried = carried_numbers(law_);
     std::vector<Statement> kept = law_.keep;
     std::erase_if(kept, [&](const Statement& statement) { return carried.count(statement.target) != 0; });
     std::vector<std::string> lines = program.output;
-    lines.insert(lines.end(), program.check.begin(), program.check.end() - 1);  // but for the promise to update()
-    for (const auto& more : {statements_.lines_of(kept), statements_.lines_of(law_.update, carried)})
+    const std::vector<std::string> check = {fmt::format("if (!dashpot::all_finite({})) {{", checked_numbers(law_)), "  sampled_ = false;",
+                                            fmt::format("  return {};", safe_command()), "}"};
+    const std::vector<std::string> end = {"sampled_ = false;", fmt::format("return {};", program.command)};
+    for (const auto& more : {check, statements_.lines_of(kept), statements_.lines_of(law_.update, carried), end})
       lines.insert(lines.end(), more.begin(), more.end());
-    lines.push_back(fmt::format("return {};", program.command));
     put_alias_before(lines);
     return lines;
   }

@@ -95,8 +95,10 @@ class bridge {
     // m = f − b u̇
     const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     // K1, B1, K2, B2 and 1 more
     K1_to_K3_force_ = dashpot::relaxed(threshold, K1_to_K3_decay, K1_to_K3_force_, K1_to_K3_gain * position_change);
@@ -107,6 +109,7 @@ class bridge {
     relaxed_force_ = K1_to_K3_force_ + K1_to_K3_2_force_;
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

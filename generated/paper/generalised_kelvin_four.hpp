@@ -100,8 +100,10 @@ class generalised_kelvin_four {
     // m = f − b u̇
     const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     // K1, B1, K2, B2 and 4 more
     K1_to_B4_force_ = dashpot::relaxed(threshold, K1_to_B4_decay, K1_to_B4_force_, K1_to_B4_gain * position_change);
@@ -115,6 +117,7 @@ class generalised_kelvin_four {
     relaxed_force_ = K1_to_B4_force_ + K1_to_B4_2_force_ + K1_to_B4_3_force_;
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

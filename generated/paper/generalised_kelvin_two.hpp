@@ -87,13 +87,16 @@ class generalised_kelvin_two {
     // m = f − b u̇
     const scalar force = K1_B1_K2_B2_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     K1_B1_K2_B2_force_ = dashpot::relaxed(threshold, K1_B1_K2_B2_decay, K1_B1_K2_B2_force_,
         K1_B1_K2_B2_gain * position_change);
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

@@ -83,12 +83,15 @@ class maxwell_reversal {
     const scalar position_change = position - last_position_;
     // m = f − b u̇
     const scalar force = B_K_force_ + (step_stiffness * position_change + velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     B_K_force_ = dashpot::relaxed(threshold, B_K_decay, B_K_force_, B_K_gain * position_change);
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

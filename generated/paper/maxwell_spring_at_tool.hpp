@@ -83,12 +83,15 @@ class maxwell_spring_at_tool {
     const scalar position_change = position - last_position_;
     // m = f − b u̇
     const scalar force = K_B_force_ + (step_stiffness * position_change + velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     K_B_force_ = dashpot::relaxed(threshold, K_B_decay, K_B_force_, K_B_gain * position_change);
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

@@ -93,8 +93,10 @@ class second_order_maxwell {
     // m = f − b u̇
     const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     B2_K2_force_ = dashpot::relaxed(threshold, B2_K2_decay, B2_K2_force_, B2_K2_gain * position_change);  // B2, K2
     B1_K1_force_ = dashpot::relaxed(threshold, B1_K1_decay, B1_K1_force_, B1_K1_gain * position_change);  // B1, K1
@@ -102,6 +104,7 @@ class second_order_maxwell {
     relaxed_force_ = B2_K2_force_ + B1_K1_force_;
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

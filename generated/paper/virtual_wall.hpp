@@ -116,11 +116,14 @@ class virtual_wall {
     const scalar brake = released > 0 ? none : contact_damping;
     // m = f − b u̇ of a tool that touches
     const scalar force = released > 0 ? none : opposing;
-    sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {sampled_brake_, 0};
+    if (!dashpot::all_finite(position, velocity, force)) {
+      sampled_ = false;
+      return {sampled_brake_, 0};
+    }
     sampled_brake_ = brake;
     // s₋ = s
     surface_ = surface_now;
+    sampled_ = false;
     return {brake, force};
   }
 

@@ -108,13 +108,16 @@ class visco_elasto_plastic {
     const scalar damping = Y_damping + steady_damping;
     // m = f − b u̇
     const scalar force = Y_slip;
-    sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
+    if (!dashpot::all_finite(position, velocity, force)) {
+      sampled_ = false;
+      return {last_damping_, 0};
+    }
     last_damping_ = damping;
     // F ← F + k δ
     K_spring_force_ = dashpot::flush_below(threshold, Y_slip);
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

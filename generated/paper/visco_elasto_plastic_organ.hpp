@@ -158,8 +158,10 @@ class visco_elasto_plastic_organ {
     const scalar damping = Y_damping;
     // m = f − b u̇
     const scalar force = Y_force - Y_compensation * velocity;
-    sampled_ = false;
-    if (!dashpot::all_finite(position, force)) return {last_damping_, 0};
+    if (!dashpot::all_finite(position, force)) {
+      sampled_ = false;
+      return {last_damping_, 0};
+    }
     last_damping_ = damping;
     // δ of the block
     const scalar K3_B3_K4_B4_elongation = Y_K3_B3_K4_B4_elongation_by_change *
@@ -181,6 +183,7 @@ class visco_elasto_plastic_organ {
     Y_samples_ = Y_sliding_samples;
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

@@ -114,8 +114,10 @@ class heel_fat_pad {
     // m = f − b u̇
     const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // y = (a c Δu − α F) + e
     // B3, K3
     const scalar B3_K3_increment = B3_K3_gain * position_change - B3_K3_loss * B3_K3_force_ + B3_K3_error_;
@@ -139,6 +141,7 @@ class heel_fat_pad {
     relaxed_force_ = B3_K3_force_ + B2_K2_force_ + B1_K1_force_;
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

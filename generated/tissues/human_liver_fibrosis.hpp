@@ -89,12 +89,15 @@ class human_liver_fibrosis {
     // m = f − b u̇
     const scalar force = B2_K2_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     B2_K2_force_ = dashpot::relaxed(threshold, B2_K2_decay, B2_K2_force_, B2_K2_gain * position_change);
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

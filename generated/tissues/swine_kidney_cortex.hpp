@@ -76,10 +76,13 @@ class swine_kidney_cortex {
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = static_stiffness * position;
-    sampled_ = false;
-    if (!dashpot::all_finite(velocity, force)) return {damping, 0};
+    if (!dashpot::all_finite(velocity, force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

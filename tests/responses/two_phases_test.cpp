@@ -1,6 +1,8 @@
 // output() gives the command, update() follows once it has left: called otherwise, they do no harm.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "emitted_laws.hpp"
 #include "motion.hpp"
 
@@ -62,6 +64,22 @@ TEST(TwoPhases, output_may_be_asked_again) {
       ASSERT_EQ(once->numbers(), twice->numbers()) << law.title();
     }
   }
+}
+
+// Fails if a step, of a number or of none, leaves a sample of an output() before it to the next update().
+TEST(TwoPhases, a_step_drops_the_sample_that_waits) {
+  for (const EmittedLaw& law : all_laws())
+    for (const double position : {0.001, std::numeric_limits<double>::quiet_NaN()}) {
+      const std::shared_ptr<Model> plain = law.make(), mixed = law.make();
+      for (const Sample& sample : some_samples(law)) {
+        plain->step(position, 0.1);
+        mixed->output(sample.position, sample.velocity);
+        mixed->step(position, 0.1);
+        mixed->update();
+        ASSERT_EQ(mixed->stored_energy(), plain->stored_energy()) << law.title();
+        expect_equal(mixed->output(sample.position, sample.velocity), plain->output(sample.position, sample.velocity), law);
+      }
+    }
 }
 
 }  // namespace

@@ -104,8 +104,10 @@ class second_order_maxwell {
     // m = f − b u̇
     const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // y = (a c Δu − α F) + e
     // B2, K2
     const scalar B2_K2_increment = B2_K2_gain * position_change - B2_K2_loss * B2_K2_force_ + B2_K2_error_;
@@ -124,6 +126,7 @@ class second_order_maxwell {
     relaxed_force_ = B2_K2_force_ + B1_K1_force_;
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

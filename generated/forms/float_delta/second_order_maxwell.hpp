@@ -95,8 +95,10 @@ class second_order_maxwell {
     // m = f − b u̇
     const scalar force = relaxed_force_ + static_stiffness * position + (step_stiffness * position_change +
         velocity_gain * velocity);
-    sampled_ = false;
-    if (!dashpot::all_finite(force)) return {damping, 0};
+    if (!dashpot::all_finite(force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← F + (a c Δu − α F)
     // B2, K2
     B2_K2_force_ = dashpot::flush_below(threshold, B2_K2_force_ +
@@ -108,6 +110,7 @@ class second_order_maxwell {
     relaxed_force_ = B2_K2_force_ + B1_K1_force_;
     // u₋ = u
     last_position_ = position;
+    sampled_ = false;
     return {damping, force};
   }
 

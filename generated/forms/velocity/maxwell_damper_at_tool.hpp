@@ -73,10 +73,13 @@ class maxwell_damper_at_tool {
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = B_K_force_ + velocity_gain * velocity;
-    sampled_ = false;
-    if (!dashpot::all_finite(position, force)) return {damping, 0};
+    if (!dashpot::all_finite(position, force)) {
+      sampled_ = false;
+      return {damping, 0};
+    }
     // F ← a (F + c Δu)
     B_K_force_ = dashpot::relaxed(threshold, B_K_decay, B_K_force_, B_K_velocity_drive * velocity);
+    sampled_ = false;
     return {damping, force};
   }
 

@@ -58,12 +58,11 @@ constexpr Scalar flush_below(Scalar threshold, Scalar value) noexcept {
 // it; on processors that predict jumps, nothing ever waits at all.
 template <class Scalar>
 constexpr Scalar relaxed(Scalar threshold, Scalar decay, Scalar force, Scalar drive) noexcept {
-  const Scalar next = drive + decay * force;
 #if defined(__GNUC__) && !defined(__arm__)
-  if (__builtin_expect(is_beyond(threshold, force), true)) return next;
+  if (__builtin_expect(is_beyond(threshold, force), true)) return drive + decay * force;
   return drive + Scalar(0);
 #else
-  return is_beyond(threshold, force) ? next : drive + Scalar(0);
+  return is_beyond(threshold, force) ? drive + decay * force : drive + Scalar(0);
 #endif
 }
 

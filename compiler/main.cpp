@@ -1,5 +1,6 @@
 // The command line of dashpot: architecture, section 4.
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <charconv>
 #include <cstdio>
@@ -7,6 +8,7 @@
 #include <iostream>
 
 #include "commands/commands.hpp"
+#include "network/rate_limits.hpp"
 #include "source/render.hpp"
 
 namespace {
@@ -41,7 +43,7 @@ std::optional<double> decimal(const std::string& text) {
 std::string check_rate(const std::string& text) {
   const std::optional<double> rate = decimal(text);
   const bool ok = rate && *rate >= lowest_rate && *rate <= highest_rate;
-  return ok ? "" : "'" + text + "' is no rate; a number of hertz from 1e-6 to 1e9 is expected";
+  return ok ? "" : fmt::format("'{}' is no rate; a number of hertz from {:g} to {:g} is expected", text, lowest_rate, highest_rate);
 }
 
 std::string check_duration(const std::string& text) {

@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "decompose/choices.hpp"
+#include "network/rate_limits.hpp"
 
 namespace dashpot::compiler {
 namespace {

@@ -31,7 +31,5 @@ struct Choices {
 };
 
 inline constexpr double default_rate = 1000;  // [Hz]
-inline constexpr double lowest_rate = 1e-6;   // [Hz]
-inline constexpr double highest_rate = 1e9;   // [Hz], beyond any loop: a period stays a normal number in float
 
 }  // namespace dashpot::compiler

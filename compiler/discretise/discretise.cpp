@@ -12,6 +12,7 @@
 #include "discretise/slip_group.hpp"
 #include "discretise/unread_locals.hpp"
 #include "discretise/update_law.hpp"
+#include "network/rate_limits.hpp"
 
 namespace dashpot::compiler {
 namespace {

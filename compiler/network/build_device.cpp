@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "network/device.hpp"
+#include "network/rate_limits.hpp"
 #include "network/read_motion.hpp"
 #include "network/read_value.hpp"
 #include "network/section_reader.hpp"
@@ -17,8 +18,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double lowest_rate = 1e-6, highest_rate = 1e9;  // [Hz], as on the command line
-constexpr unsigned most_delay_samples = 64;               // the bounds of a certificate take longer with each
+constexpr unsigned most_delay_samples = 64;  // the bounds of a certificate take longer with each
 // Far beyond any machine: so that what a certificate multiplies stays finite.
 constexpr double lowest_speed = 1e-9, highest_speed = 1e9;  // [m/s] or [rad/s]
 constexpr double longest_lag = 1e6;                         // [s]

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "network/rate_limits.hpp"
 #include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {

@@ -11,6 +11,7 @@
 
 #include "compile.hpp"
 #include "discretise/evaluate.hpp"
+#include "network/rate_limits.hpp"
 #include "source/render.hpp"
 #include "verify/certificate_file.hpp"
 

@@ -70,7 +70,7 @@ bool SectionReader::is_within(std::string_view key, double value, double low, do
   if (value >= low && value <= high) return true;
   const ValueDecl* decl = find_single(key);
   if (decl == nullptr) return true;
-  diagnostics_.report<DiagnosticCode::estimator_setting>(decl->span, name_ + "." + std::string(key), excerpt(decl->text),
+  diagnostics_.report<DiagnosticCode::device_limit>(decl->span, name_ + "." + std::string(key), excerpt(decl->text),
                                                          fmt::format("{} to {} {}", low, high, unit));
   return false;
 }

@@ -60,9 +60,8 @@ std::string program_of(const std::vector<std::string>& files) {
          "  return failed;\n}\n";
 }
 
-void expect_agreement(const std::string& choices) {
-  const TemporaryFolder folder;
-  const std::vector<std::string> files = networks(folder.path());
+// Of `files`, compiled into `folder`.
+void expect_agreement(const TemporaryFolder& folder, const std::vector<std::string>& files, const std::string& choices) {
   std::string all;
   for (const std::string& file : files) all += fmt::format(" '{}'", file);
   const std::string compile = fmt::format("'{}' compile {}{} -o '{}/", DASHPOT_EXECUTABLE, choices, all, folder.path().string());
@@ -79,6 +78,11 @@ void expect_agreement(const std::string& choices) {
   }
 }
 
+void expect_agreement(const std::string& choices) {
+  const TemporaryFolder folder;
+  expect_agreement(folder, networks(folder.path()), choices);
+}
+
 // Fails if a point's force, damping or energy differs in any bit from the single class's, at any sample, finite or not, in the
 // fused step or in two phases, or if masks give other bits than jumps.
 TEST(Points, are_single_networks_in_double) { expect_agreement("--scheme exact"); }
@@ -88,6 +92,18 @@ TEST(Points, are_single_networks_in_float) { expect_agreement("--scalar float --
 
 // Fails likewise where rounding is carried along.
 TEST(Points, are_single_networks_with_compensation) { expect_agreement("--scalar float --rate 100000"); }
+
+// Fails likewise where the brake's coil needs twenty samples from one regime to another, and the motor makes up for it on its way.
+TEST(Points, are_single_networks_behind_a_slow_coil) {
+  const TemporaryFolder folder;
+  const std::string device = (folder.path() / "coil.json").string();
+  write_text(device, R"({ "dashpot_device": 1, "name": "coil", "motion": "translation", "loop": { "rate": "1 kHz" },
+                          "encoder": { "resolution": "10 um" }, "velocity": { "estimator": "butterworth", "order": 2, "cutoff": "100 Hz" },
+                          "brake": { "kind": "shorted_motor", "max_damping": "50 N s/m", "coil_lag": "20 ms" } })");
+  const std::vector<std::string> files = {DASHPOT_NETWORKS "/paper/visco_elasto_plastic.json"};
+  expect_agreement(folder, files, fmt::format("--device '{}' --decomposition gated", device));
+  EXPECT_NE(text_of(folder.path() / "plain/visco_elasto_plastic_batch.hpp").find("coil_share"), std::string::npos) << "no command waits for the coil";
+}
 
 }  // namespace
 }  // namespace dashpot::testing

@@ -151,12 +151,21 @@ class Installed(Consumer, unittest.TestCase):
     # Fails if fused multiply-add could change the bits of a law in a user's build.
     def test_no_contraction(self):
         commands = (self.project.build_folder / "compile_commands.json").read_text()
-        self.assertEqual(commands.count("-ffp-contract=off"), 3)  # press, tissue_test, own_loop
+        self.assertEqual(commands.count("-ffp-contract=off"), 4)  # press, press_surface, tissue_test, own_loop
 
     # Fails if a servo loop cannot be linked, or if emitted tests are not built, not registered, or do not pass.
     def test_everything_else(self):
         self.project.build("all")
         self.assertRegex(self.project.run("ctest", "--test-dir", self.project.build_folder), "100% tests passed")
+
+    # Fails if registers, constant time or points are asked for in vain.
+    def test_options_of_the_law(self):
+        self.project.build("press_surface")
+        law = (self.project.build_folder / "surface/surface.hpp").read_text()
+        self.assertIn("alignas(32) static constexpr scalar mode_gain[32]", law)  # whole registers, and rounds of four
+        self.assertIn("#include <dashpot/branch_free.hpp>", law)
+        self.assertIn("class surface_batch", (self.project.build_folder / "surface/surface_batch.hpp").read_text())
+        self.project.run(self.project.build_folder / "press_surface")
 
     # Fails if a change of the network's values does not reach the program.
     def test_changed_network(self):

@@ -27,9 +27,10 @@ TEST(CertifiedContacts, NeverGiveOutEnergy) {
   EXPECT_GT(with_slips, certified / 10);
 }
 
-// While parameters change at any time and as far as their ranges go, a certified law would give out energy in some passive hand.
+// While parameters change at any time and as far as their ranges go, a certified law would give out energy in some passive hand,
+// beyond what a jump of the force brings that a change could not keep; or such jumps would count for much.
 TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
-  int certified = 0, by_hold = 0, with_slips = 0;
+  int certified = 0, by_hold = 0, with_slips = 0, without_jumps = 0;
   for (std::uint64_t seed = 1; certified < cases(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = tunable_case(seed);
@@ -37,10 +38,11 @@ TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
     ++certified;
     by_hold += one.compilation->certificate.bound.proof == Proof::hold ? 1 : 0;
     with_slips += one.compilation->law.tunable->couplings.empty() ? 0 : 1;
-    expect_no_energy_given_out(one, Random(seed + 5'000'000), 0.02);
+    without_jumps += expect_no_energy_given_out(one, Random(seed + 5'000'000), 0.02) ? 1 : 0;
   }
   EXPECT_GT(by_hold, certified / 10);
   EXPECT_GT(with_slips, certified / 10);
+  EXPECT_GE(without_jumps, certified - certified / 50);
 }
 
 // A law with slips, a contact or parameters would give out more than its certificate states for an encoder with steps; or K

@@ -162,7 +162,7 @@ void describe(CLI::App& app, CommandLine& line) {
   add_choices(*run, line);
   run->get_option("--device")->required()->description("Device file");
   run->add_option("--for", options.duration, "How long [s], default until Ctrl-C")->check(check_duration)->option_text("SECONDS");
-  run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH, udp:HOST:PORT or pty:PATH")->option_text("URL");
+  run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH, udp:HOST:PORT or pty:")->option_text("URL");
   run->add_option("--hand", options.hand, "Who moves the simulated device")
       ->check(CLI::IsMember({"none", "relaxed", "firm", "stiff"}))
       ->option_text("none|relaxed|firm|stiff");
@@ -193,8 +193,10 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;
   const std::string command = app.get_subcommands().front()->get_name();
-  // `device` may fill in its own file.
-  if (contradicts_itself(line.options.choices, diagnostics) || (command != "device" && !spares_inputs(line.options, diagnostics)))
+  std::vector<std::string> outputs;
+  for (const std::optional<std::string>& output : {line.options.output, line.options.depfile})
+    if (output && command != "device") outputs.push_back(*output);  // `device` may fill in its own file
+  if (contradicts_itself(line.options.choices, diagnostics) || !spares_inputs(line.options, outputs, diagnostics))
     status = ExitStatus::command_line_wrong;
   else
     status = commands.at(command)(line.options, files, diagnostics);

@@ -31,7 +31,7 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
 ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnostics);
 
 // False, with a diagnostic, where what is to be written is one of the files that are read.
-bool spares_inputs(const Options& options, Diagnostics& diagnostics);
+bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics);
 
 // The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
 struct DeviceChoice {

@@ -62,9 +62,16 @@ std::vector<OutputFile> placed(std::vector<OutputFile> files, const Options& opt
 }
 
 void report_same_names(const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
+  const auto place = [](const OutputFile& file) { return std::filesystem::path(file.name).lexically_normal(); };
   for (std::size_t i = 0; i < files.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (files[i].name == files[j].name) diagnostics.report<DiagnosticCode::same_output>({}, files[i].name);
+      if (place(files[i]) == place(files[j])) diagnostics.report<DiagnosticCode::same_output>({}, files[i].name);
+}
+
+bool spares_inputs(const Options& options, const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  for (const OutputFile& file : files) names.push_back(file.name);
+  return spares_inputs(options, names, diagnostics);
 }
 
 ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& diagnostics, StageTimes& times) {
@@ -94,11 +101,13 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
     }
   }
   times.enter("files");
-  report_same_names(outputs, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.print) return write_standard_output(shown, diagnostics);
   std::vector<OutputFile> all = placed(std::move(outputs), options);
   if (options.certificate) all.push_back({*options.certificate, certificate});
+  report_same_names(all, diagnostics);
+  if (diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (!spares_inputs(options, all, diagnostics)) return ExitStatus::command_line_wrong;
   return write_files("", all, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }
 

@@ -32,16 +32,16 @@ DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics
   return {std::move(device), file->text(), ExitStatus::done};
 }
 
-bool spares_inputs(const Options& options, Diagnostics& diagnostics) {
+bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics) {
   std::vector<std::string> inputs = options.networks;
   if (options.device) inputs.push_back(*options.device);
   if (!options.input.empty()) inputs.push_back(options.input);
   bool spares = true;
-  for (const std::optional<std::string>& output : {options.output, options.depfile})
+  for (const std::string& output : outputs)
     for (const std::string& input : inputs) {
       std::error_code not_there;
-      if (!output || !std::filesystem::equivalent(*output, input, not_there)) continue;
-      diagnostics.report<DiagnosticCode::would_overwrite_input>({}, *output);
+      if (!std::filesystem::equivalent(output, input, not_there)) continue;
+      diagnostics.report<DiagnosticCode::would_overwrite_input>({}, output);
       spares = false;
     }
   return spares;

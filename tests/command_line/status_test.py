@@ -80,10 +80,16 @@ class WrongCommandLine(CommandTest):
         """Fails if a network, a device or a motion can be lost to the output of the same command."""
         self.write("n.json", KELVIN)
         self.write("m.csv", "time,position\n0,0\n0.001,0\n")
-        for arguments in [("compile", "n.json", "--depfile", "./n.json"), ("simulate", "n.json", "--input", "m.csv", "-o", "m.csv"),
+        self.write("kelvin.hpp", KELVIN)
+        for arguments in [("compile", "n.json", "--depfile", "./n.json"), ("compile", "n.json", "--certificate", "./n.json"),
+                          ("compile", "kelvin.hpp"), ("simulate", "n.json", "--input", "m.csv", "-o", "m.csv"),
                           ("run", "n.json", "--device", PANTOGRAPH, "--log", "n.json", "--for", "0.1")]:
             self.refused(*arguments, code="would-overwrite-input", status=COMMAND_LINE_WRONG)
-        self.assertEqual((self.folder / "n.json").read_text(), KELVIN)
+        for input in ["n.json", "kelvin.hpp"]:
+            self.assertEqual((self.folder / input).read_text(), KELVIN)
+        for second in ["--certificate", "--depfile"]:
+            self.refused("compile", "n.json", "-o", "out", second, "out/./kelvin.hpp", code="same-output")
+        self.assertFalse((self.folder / "out").exists())
 
     def test_of_choices_that_exclude_each_other(self):
         """Fails if nodal states are taken with the exact scheme, or refused without the remedy."""

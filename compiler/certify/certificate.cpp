@@ -24,6 +24,16 @@ std::string hindrance_to_hold(const MotorConstants& motor, const SampledLoop& lo
   return "";
 }
 
+PassivityBound not_proved(std::string reason) {
+  PassivityBound bound;
+  bound.reason = std::move(reason);
+  return bound;
+}
+
+PassivityBound within_range(PassivityBound bound) {
+  return std::isfinite(bound.needed) ? bound : not_proved("the damping that it needs is beyond what a double can hold");
+}
+
 // The bounds of two parts of a motor add up.
 PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator,
                                  double besides, std::size_t terms) {
@@ -33,17 +43,11 @@ PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop&
   bound.needed = found.needed + besides;
   bound.frequency = found.frequency;
   bound.reason = hindrance_to_hold(motor, loop);
-  return bound;
+  return within_range(bound);
 }
 
 std::string not_proved_for(const SampledLoop& loop) {
   return fmt::format("nothing is proved for the estimator {} in the motor", name_of(loop.velocity.estimator));
-}
-
-PassivityBound not_proved(std::string reason) {
-  PassivityBound bound;
-  bound.reason = std::move(reason);
-  return bound;
 }
 
 double nearest(double value, ScalarType scalar) {
@@ -71,7 +75,7 @@ PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const
   if (hindrance_to_hold(*motor, loop).empty()) {
     bound.proof = Proof::hold;
     bound.needed = ceiling(hold_stiffness(*motor) * (Rational(loop.sample_period) + Rational(loop.jitter)));
-    return bound;
+    return within_range(bound);
   }
   if (!motor->follows_estimate()) return sampled_statement(*motor, loop, {}, 0, terms);
   if (const auto linear = estimator_factors(loop)) return sampled_statement(*motor, loop, *linear, 0, terms);
@@ -106,6 +110,8 @@ PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& sl
   if (!gain) return not_proved(not_proved_for(loop));
   const double late = lateness(loop), needed = slips.stiffness * late * late * loop.sample_period + slips.damping;
   bound.needed += (needed * hold + compensation * *gain) * (1 + 1e-14);
+  bound = within_range(bound);
+  if (bound.proof == Proof::none) return bound;
   if (!slips.behind_contact || Rational(bound.needed) <= assured_damping(loop, 0)) return bound;
   PassivityBound beyond = not_proved("a free tool, which the brake leaves alone, touches late, and the device itself has less damping than that needs");
   beyond.needed = bound.needed;
@@ -156,6 +162,8 @@ double rounding_of_step(const UpdateLaw& law) {
 PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   if (!box.hindrance.empty()) return not_proved(box.hindrance);
   PassivityBound bound;
+  bound.needed = box.lacking + box.largest_brake;
+  if (!std::isfinite(bound.needed)) return within_range(bound);
   bound.proof = loop.amplifier_lag > 0 ? Proof::sampled : Proof::hold;
   if (loop.amplifier_lag > 0) bound.reason = "the amplifier lags";
   bound.needed = ceiling(assured_share(loop) * Rational(box.least_brake) + Rational(box.lacking));
@@ -187,7 +195,7 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   }
   const double missing = missing_damping(bound, loop, surely_told(law));
   if (!loop.has_device || missing == 0 || !std::isfinite(missing)) return 0;
-  const double added = sum_above(missing, 32 * unit_roundoff(law.scalar) * law.largest_damping, law.scalar);
+  const double added = sum_above(missing, 32 * unit_roundoff(law.scalar) * (law.largest_damping + missing), law.scalar);
   if (sum_above(law.largest_damping, added, law.scalar) > loop.max_damping) return 0;
   add_steady_damping(law, added);
   return added;
@@ -202,7 +210,7 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
   const bool is_proved = result.bound.proof != Proof::none;
   double added = 0;
   for (int round = 0; is_proved && loop.has_device && missing() > added; ++round) {
-    added = sum_above(missing(), 32 * unit_roundoff(law.scalar) * box.largest_brake, law.scalar);
+    added = sum_above(missing(), 32 * unit_roundoff(law.scalar) * (box.largest_brake + missing()), law.scalar);
     const bool is_beyond = round == 20 || !(added < loop.max_damping);
     if (is_beyond) added = 0;
     law.tunable->head.max_damping = is_beyond ? reach : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar));

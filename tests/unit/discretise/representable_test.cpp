@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "compile.hpp"
 #include "compiled.hpp"
+#include "source/render.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -26,6 +28,33 @@ TEST(Representable, refuses_constants_beyond_the_scalar) {
   EXPECT_FALSE(overflows(R"({ "spring": 1e38 })", in_float));
   in_float.decomposition = 1e300;
   EXPECT_TRUE(overflows(R"({ "spring": 1 })", in_float));
+}
+
+std::optional<Compilation> compiled_whole(const SourceFile& source, ScalarType scalar, Diagnostics& diagnostics) {
+  Choices choices;
+  choices.scalar = scalar;
+  return compile(source, choices, std::nullopt, diagnostics);
+}
+
+// Fails if a parameter may be set to what the scalar cannot hold.
+TEST(Representable, refuses_ranges_beyond_the_scalar) {
+  const SourceFile text("far.json", R"({"dashpot": 1, "name": "far", "parameters": {"K": {"value": 1, "tunable": true, "min": 0, "max": 1e39}},
+    "network": {"series": [{"damper": 1}, {"spring": "K"}]}})");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(compiled_whole(text, ScalarType::float32, diagnostics));
+  EXPECT_NE(render_text(diagnostics).find("'K'"), std::string::npos);
+  EXPECT_NE(render_text(diagnostics).find("[constant-overflows]"), std::string::npos);
+  EXPECT_TRUE(compiled_whole(text, ScalarType::float64, diagnostics));
+}
+
+// Fails if a law whose constants are finite, but not what is proved of it, ends in anything but words.
+TEST(Representable, is_not_certified_beyond_a_double) {
+  const SourceFile text("far.json", R"({"dashpot": 1, "name": "far", "network": {"series": [{"spring": 1e308}, {"damper": 1e308}]}})");
+  Diagnostics diagnostics;
+  const auto compilation = compiled_whole(text, ScalarType::float64, diagnostics);
+  ASSERT_TRUE(compilation);
+  EXPECT_FALSE(compilation->certificate.certified);
+  EXPECT_NE(compilation->certificate.bound.reason, "");
 }
 
 }  // namespace

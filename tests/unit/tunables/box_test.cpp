@@ -116,6 +116,19 @@ TEST(Box, IsNotCertifiedOnABrakeThatPromisesNothing) {
   EXPECT_GT(bounded, 0);
 }
 
+// What is added would fall short of itself, by a rounding, where the brake is told nothing else.
+TEST(Box, IsCertifiedByWhatIsAddedAlone) {
+  for (const double most : {100.0, 333.3, 1000.0}) {
+    const std::string text = R"({"dashpot": 1, "name": "lone", "parameters": {"K": {"value": )" + std::to_string(most / 2) +
+                             R"(, "tunable": true, "min": 0, "max": )" + std::to_string(most) + R"(}}, "network": {"spring": "K"}})";
+    Random random(1);
+    Diagnostics diagnostics;
+    const auto compilation = compile(SourceFile("lone.json", text), {}, punctual_device(random), diagnostics);
+    ASSERT_TRUE(compilation);
+    EXPECT_TRUE(compilation->certificate.certified) << most;
+  }
+}
+
 // A relaxation would be held for softer or stiffer than it is between samples: ½ k where it is slow or fast, most near
 // λh = 2.45, and never above the bound that stands for all of them.
 TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {

@@ -19,6 +19,12 @@ Real least_feedthrough(const ComponentSplit& split) {
          })->feedthrough;
 }
 
+double largest_compensation(const ComponentSplit& split) {
+  double largest = 0;
+  for (const BrakeShare& share : split.shares) largest = std::max(largest, share.compensation);
+  return largest;
+}
+
 double largest_behind_slips(const SlipDecomposition& slips) {
   double sum = 0;
   for (const ComponentSplit* split : slips.all()) {
@@ -29,44 +35,43 @@ double largest_behind_slips(const SlipDecomposition& slips) {
   return sum;
 }
 
+std::vector<Real> feedthroughs(const ComponentSplit& split) {
+  std::vector<Real> all;
+  for (const BrakeShare& share : split.shares) all.push_back(share.feedthrough);
+  return all.empty() ? std::vector<Real>{0} : all;
+}
+
 class Sum {
  public:
   Sum(const Network& network, const CutSettings& settings, double encoder_step, ScalarType scalar)
       : network_(network), settings_(settings), half_step_(encoder_step / 2), margin_(1 + 16 * unit_roundoff(scalar)) {}
 
   // Every part has a cut: where slips alone join tool and ground the force is not unique, and the network was refused.
-  void add(const ComponentSplit& split) {
-    cut_ += least_cut(split.rendered, settings_).value();
-    add_brake(split);
-    add_held(held_slips(split.rendered, feedthroughs(split), settings_), feedthroughs(split));
-  }
-  void add(const NormalTree& component) {
+  // `shares`: x of every regime; of a part behind a contact nothing, where the brake has some of the dampers, and none of them is
+  // the worst.
+  void add(const NormalTree& component, const std::vector<Real>& shares) {
     cut_ += least_cut(component, settings_).value();
-    add_held(held_slips(component, {Real(0)}, settings_), {Real(0)});
+    add_held(held_slips(component, shares, settings_), shares);
   }
-  // `split`: none behind a contact, where the brake has some of the dampers, and none of them is the worst.
-  void add(const std::vector<std::size_t>& elements, const ComponentSplit* split) {
+  void add(const std::vector<std::size_t>& elements, const std::vector<Real>& shares) {
     cut_ += least_cut(network_, elements, settings_).value();
-    const std::vector<Real> shares = split ? feedthroughs(*split) : std::vector<Real>{0};
     add_held(held_slips(network_, elements, shares, settings_), shares);
-    if (split) add_brake(*split);
   }
 
   void add_brake(const ComponentSplit& split) {
     cut_.damping -= least_feedthrough(split);
-    double least = 0, largest = 0, compensation = 0;
+    double least = 0, largest = 0;
     for (std::size_t i = 0; i < split.shares.size(); ++i) {
       const BrakeShare& share = split.shares[i];
       least = i == 0 ? share.damping : std::min(least, share.damping);
       largest = std::max(largest, share.damping);
-      compensation = std::max(compensation, share.compensation);
     }
     motor_.least_brake += least;
     motor_.largest_brake += largest;
-    motor_.held_compensation += compensation;
+    motor_.held_compensation += largest_compensation(split);
   }
 
-  // The brake has the dampers while the tool touches, and not while it is free.
+  // The brake has the dampers while the tool touches, and not while it is free. What it has earned it has earned since the touch.
   void add_behind_contact(const LinearForm& linear, double brake, double behind_slips) {
     cut_ += cut_of(linear, settings_);
     held_gain_ += linear.static_stiffness;
@@ -77,6 +82,10 @@ class Sum {
     motor_.lets_go_by_estimate = feedthrough + behind_slips > 0;
     motor_.compensation += feedthrough + behind_slips + std::abs(feedthrough - brake);
     motor_.largest_brake = brake + behind_slips;
+  }
+
+  void add_held_compensation(const SlipDecomposition& slips) {
+    for (const ComponentSplit* split : slips.all()) motor_.held_compensation += largest_compensation(*split);
   }
 
   // (b of the regime less b) v̂ while the coil is on its way, at most `most`.
@@ -90,12 +99,6 @@ class Sum {
   }
 
  private:
-  static std::vector<Real> feedthroughs(const ComponentSplit& split) {
-    std::vector<Real> all;
-    for (const BrakeShare& share : split.shares) all.push_back(share.feedthrough);
-    return all.empty() ? std::vector<Real>{0} : all;
-  }
-
   // Where the slip that holds all of the tool's force yields within a step, so little is left that K counts for more.
   void add_held(const HeldSlips& held, const std::vector<Real>& shares) {
     held_gain_ += held.gain;
@@ -126,17 +129,26 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
   if (!form.has_slips() && !network.contact) return std::nullopt;
   const SlipDecomposition& slips = decomposition.slips;
   Sum sum(network, {choices.scheme, Real(loop.sample_period), lateness(loop)}, loop.encoder_step, choices.scalar);
-  for (std::size_t i = 0; i < form.components.size(); ++i)
-    if (i < slips.components.size() && !network.contact)
-      sum.add(slips.components[i]);
-    else
-      sum.add(form.components[i]);
-  for (std::size_t i = 0; i < form.networks.size(); ++i)
-    sum.add(form.networks[i], i < slips.networks.size() && !network.contact ? &slips.networks[i] : nullptr);
-  if (network.contact)
+  const bool is_split = slips.components.size() == form.components.size();
+  const bool in_one = network.contact && !slips.networks.empty();  // all slips are in that network
+  const std::vector<Real> nothing = {Real(0)};
+  for (std::size_t i = 0; !in_one && i < form.components.size(); ++i) {
+    const bool is_braked = is_split && !network.contact;
+    sum.add(is_split ? slips.components[i].rendered : form.components[i], is_braked ? feedthroughs(slips.components[i]) : nothing);
+    if (is_braked) sum.add_brake(slips.components[i]);
+  }
+  if (slips.networks.empty())
+    for (const std::vector<std::size_t>& part : form.networks) sum.add(part, nothing);
+  for (const ComponentSplit& split : slips.networks) {
+    sum.add(split.rendered_elements, network.contact ? nothing : feedthroughs(split));
+    if (!network.contact) sum.add_brake(split);
+  }
+  if (network.contact) {
     sum.add_behind_contact(form.linear, decomposition.choice().damping, largest_behind_slips(slips));
-  else
+    sum.add_held_compensation(slips);
+  } else {
     sum.make_up(slips.coil_share < 1 ? slips.make_up : 0);
+  }
   return sum.result();
 }
 

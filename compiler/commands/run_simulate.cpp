@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <filesystem>
 
 #include "commands/commands.hpp"
@@ -62,14 +61,21 @@ class ValueColumns {
     for (std::size_t i = 0; i < tunables_.size(); ++i) {
       const tunable_range<double>& range = tunables_[i].range;
       const double value = columns_[i] == nullptr ? range.value : columns_[i]->values[row];
-      warn_once_outside(Range{range.min, range.max}, value, time, tunables_[i].name.c_str(), tunables_[i].unit.c_str(), warned_[i], network_,
-                        diagnostics);
+      warn_once_outside_range(i, value, time, diagnostics);
       values.push_back(static_cast<Scalar>(value));
     }
     law.set(values);
   }
 
  private:
+  void warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics) {
+    const Tunable& tunable = tunables_[i];
+    if (warned_[i] || (value >= tunable.range.min && value <= tunable.range.max)) return;
+    warned_[i] = true;
+    const auto parameter = std::find_if(network_.parameters.begin(), network_.parameters.end(), [&](const Parameter& p) { return p.name == tunable.name; });
+    diagnostics.report<DiagnosticCode::outside_tunable_range>(parameter->span, tunable.name, value, tunable.unit, time, tunable.range.min, tunable.range.max);
+  }
+
   static const OtherColumn* column_of(const std::string& name, const Motion& motion, Diagnostics& diagnostics) {
     const auto found = std::find_if(motion.others.begin(), motion.others.end(), [&](const OtherColumn& c) { return c.name == name; });
     if (found == motion.others.end()) return nullptr;
@@ -82,7 +88,7 @@ class ValueColumns {
   const Network& network_;
   std::vector<Tunable> tunables_;
   std::vector<const OtherColumn*> columns_;
-  std::deque<bool> warned_;  // a vector of them has no bool&
+  std::vector<bool> warned_;
   bool is_empty_ = true;
 };
 

@@ -13,8 +13,8 @@ namespace dashpot::compiler {
 enum class SlipLaw {
   by_motor,       // b = 0, m = f: everything computed
   velocity_free,  // b = b∞(regime), m = f′
-  gated,          // while sliding the observer's b; the dampers beside the slips are left out of m
-  compensated,    // while sliding the observer's b, m = f′ − β v̂ with a β that the brake has earned
+  gated,          // b = b∞ and the viscosity of the dampers beside the slips, which are left out of m
+  compensated,    // where any slip slides the observer's b, m = f′ − β v̂ with a β that the brake has earned
 };
 
 // What a component gives to the brake in one regime [N·s/m].
@@ -33,6 +33,7 @@ struct SlipLawMerit {
 
 struct ComponentSplit {
   NormalTree rendered;  // of a tree what the law computes; under the gated law without the dampers beside the slips
+  std::vector<std::size_t> rendered_elements;  // the same of a part that is no tree
   RegimeList regimes;
   std::vector<BrakeShare> shares;  // one a listed regime; where none is listed, one for all of them
   std::vector<SlipLawMerit> merits;
@@ -44,7 +45,7 @@ struct SlipDecomposition {
   std::vector<ComponentSplit> components;  // in the order of NormalForm::components; none where a contact makes one of all
   std::vector<ComponentSplit> networks;    // in the order of NormalForm::networks; behind a contact one for all slips
   double hysteresis = 0;         // displacement that does not end a slide for the command [m]
-  unsigned hold_samples = 0;     // a slide's samples before it is compensated
+  unsigned hold_samples = 0;     // a regime's samples before it is compensated
   double coil_share = 1;         // κ: of what is missing from √b, that the coil makes up in a sample at least [1]
   double assured_share = 0;      // of a damping that no slip changes, what an estimate may make up for; 0 for none [1]
   double make_up = 0;            // what the motor may add or take of a brake on its way, β at most [N·s/m]

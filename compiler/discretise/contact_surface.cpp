@@ -62,7 +62,12 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
   if (slips.steady > 0)
     felt = writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(), "b∞ behind slips", slips.steady), writer_.read(law.velocity)));
   if (slips.changing != nothing) felt = writer_.add(felt, writer_.multiply(slips.changing, writer_.read(law.velocity)));
-  const VariableId released = writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
+  if (slips.compensation != nothing) {
+    const ExpressionId taken_back = writer_.multiply(slips.compensation, writer_.read(law.velocity));
+    felt = writer_.subtract(felt, taken_back);
+    motor = writer_.subtract(motor, taken_back);
+  }
+  const VariableId released = released_ = writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
   const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
   const ExpressionId release = release_of(opposing, felt, none);
   writer_.assign(law.output, released, release, "above 0 where the tool is free");

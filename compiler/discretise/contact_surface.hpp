@@ -12,6 +12,7 @@ namespace dashpot::compiler {
 // The brake's b of what is behind slips.
 struct BrakeBehindSlips {
   ExpressionId changing = nothing;  // nothing where it does not change
+  ExpressionId compensation = nothing;  // β, whose β v̂ the motor takes back; nothing without
   Real steady = 0;                  // of what does not [N·s/m]
   Real largest = 0;                 // of both together [N·s/m]
 };
@@ -27,6 +28,7 @@ class ContactSurface {
   VariableId approach() const { return approach_; }  // Δ
   VariableId change() const { return change_; }      // Δs
   VariableId now() const { return now_; }            // s
+  VariableId released() const { return released_; }  // above 0 where the tool is free
 
   void write_approach();
   // For p = g δ + π: the surface's change. `held` is π, no variable for 0.
@@ -42,7 +44,7 @@ class ContactSurface {
 
   LawWriter& writer_;
   double at_, encoder_step_;
-  VariableId surface_ = nothing, depth_ = nothing, approach_ = nothing, change_ = nothing, gap_ = nothing, now_ = nothing;
+  VariableId surface_ = nothing, depth_ = nothing, approach_ = nothing, change_ = nothing, gap_ = nothing, now_ = nothing, released_ = nothing;
 };
 
 }  // namespace dashpot::compiler

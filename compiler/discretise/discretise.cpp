@@ -1,15 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "discretise/contact_surface.hpp"
-#include "discretise/coupled_slips.hpp"
 #include "discretise/element_names.hpp"
+#include "discretise/law_brake.hpp"
 #include "discretise/mode_bank.hpp"
-#include "discretise/networked_slips.hpp"
-#include "discretise/regime_brake.hpp"
 #include "discretise/rounding.hpp"
-#include "discretise/slip_group.hpp"
+#include "discretise/slip_parts.hpp"
 #include "discretise/unread_locals.hpp"
 #include "discretise/update_law.hpp"
 #include "network/rate_limits.hpp"
@@ -59,36 +56,21 @@ class LawBuilder {
         writer_(law_, network.port_motion),
         network_(network),
         form_(form.linear),
-        settings_(decomposition.slips),
         linear_damping_(law_.damping),
         sample_period_(sample_period),
         registers_(choices.registers),
         modes_(writer_, form.linear.modes, law_.state_input, sample_period,
-               names_of_modes(form.linear.modes, network, writer_), "") {
+               names_of_modes(form.linear.modes, network, writer_), ""),
+        slips_(writer_, network, sample_period, form, decomposition.slips),
+        brake_(writer_, decomposition.slips, slips_, linear_damping_, sample_period) {
     if (network.contact) contact_.emplace(writer_, network.contact->at, decomposition.encoder_step);
-    if (contact_ && form.has_slips()) {
-      add_behind_contact(form);
-      for (const ComponentSplit* split : settings_.all()) add_brake(*split, coupled_.empty() ? nullptr : coupled_.front().get());
-      return;
-    }
-    for (std::size_t i = 0; i < form.components.size(); ++i) {
-      const ComponentSplit* split = i < settings_.components.size() ? &settings_.components[i] : nullptr;
-      add(split ? split->rendered : form.components[i], split, sample_period);
-    }
-    for (std::size_t i = 0; i < form.networks.size(); ++i) {
-      add(form.networks[i], false);
-      if (i < settings_.networks.size()) add_brake(settings_.networks[i], nullptr);
-    }
   }
 
   UpdateLaw build() {
     settle_form();
     declare_inputs();
     modes_.declare();
-    for (const auto& group : slips_) group->declare();
-    for (const auto& component : coupled_) component->declare();
-    for (const auto& network : networks_) network->declare();
-    for (BrakedPart& part : brakes_) declare(part);
+    slips_.declare();
     contact_ ? write_contact_output() : write_output();
     write_update();
     write_energy();
@@ -98,72 +80,10 @@ class LawBuilder {
   }
 
  private:
-  // Slips that are solved together and what they ask of the brake. Of the two that know the signs one is there.
-  struct BrakedPart {
-    std::unique_ptr<RegimeBrake> brake;
-    CoupledSlips* tree;
-    NetworkedSlips* network;
-    std::vector<VariableId> signs;
-  };
-
-  void add_brake(const ComponentSplit& split, CoupledSlips* tree) {
-    auto brake = std::make_unique<RegimeBrake>(writer_, split, settings_);
-    if (!brake->takes_part()) return;
-    if (tree != nullptr && brake->changes()) tree->follow_signs();
-    brakes_.push_back({std::move(brake), tree, tree == nullptr ? networks_.back().get() : nullptr, {}});
-  }
-
-  void declare(BrakedPart& part) {
-    Names names;
-    for (const SlipElements& slip : part.brake->slips()) {
-      names.push_back(writer_.unique(joined(name_of(slip, network_), "brake")));
-      if (part.brake->changes()) part.signs.push_back(part.tree ? part.tree->sign_of(slip) : part.network->sign_of(slip));
-    }
-    part.brake->declare(names.front(), names);
-  }
-
-  void add(const NormalTree& component, const ComponentSplit* split, const Real& sample_period) {
-    if (slip_count(component) > 1) {
-      coupled_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period, component));
-      if (split != nullptr) add_brake(*split, coupled_.back().get());
-      return;
-    }
-    const BrakePair pair = split ? brake_pair(*split) : BrakePair{};
-    const auto fitting = std::find_if(slips_.begin(), slips_.end(), [&](const auto& group) { return group->accepts(component, pair); });
-    if (fitting != slips_.end()) return (*fitting)->add(component, pair);
-    slips_.push_back(std::make_unique<SlipGroup>(writer_, network_, sample_period, settings_));
-    slips_.back()->add(component, pair);
-  }
-
-  void add(const std::vector<std::size_t>& elements, bool is_pushed) {
-    networks_.push_back(std::make_unique<NetworkedSlips>(writer_, network_, sample_period_, elements, is_pushed));
-  }
-
-  // Where the surface goes depends on all that is behind it: one tree, in which the states of the linear part at the tool
-  // stay where they are without slips.
-  void add_behind_contact(const NormalForm& form) {
-    if (!form.networks.empty()) {
-      std::vector<std::size_t> elements;
-      for (const NormalTree& component : form.components)
-        for (std::size_t element : elements_of(component)) elements.push_back(element);
-      for (const std::vector<std::size_t>& part : form.networks) elements.insert(elements.end(), part.begin(), part.end());
-      return add(elements, true);
-    }
-    whole_ = whole_tree(form, network_);
-    const bool has_linear = whole_.children.front().kind == NormalTree::Kind::block && whole_.kind == NormalTree::Kind::parallel;
-    coupled_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period_, whole_));
-    if (has_linear) coupled_.back()->keep_elsewhere(whole_.children.front());
-  }
-
-  bool has_slips() const { return !slips_.empty() || !coupled_.empty() || !networks_.empty(); }
-
   void settle_form() {
-    double smallest_loss = modes_.smallest_loss();
-    for (const auto& group : slips_) smallest_loss = std::min(smallest_loss, group->smallest_loss());
-    for (const auto& component : coupled_) smallest_loss = std::min(smallest_loss, component->smallest_loss());
-    for (const auto& network : networks_) smallest_loss = std::min(smallest_loss, network->smallest_loss());
+    const double smallest_loss = std::min(modes_.smallest_loss(), slips_.smallest_loss());
     law_.mode_form = cheapest_form(smallest_loss, law_.scalar);
-    if (!modes_.empty() || has_slips())
+    if (!modes_.empty() || !slips_.empty())
       law_.relative_error_bound = error_bound(law_.mode_form, smallest_loss, unit_roundoff(law_.scalar));
   }
 
@@ -177,7 +97,7 @@ class LawBuilder {
       change_ = contact_->change();
       return;
     }
-    const bool follows_change = modes_.follows_position() || has_slips();
+    const bool follows_change = modes_.follows_position() || !slips_.empty();
     if (follows_change || form_.static_stiffness > 0)
       law_.rest_position = writer_.scalar("last_position", writer_.length(), "u of the sample before", Role::state);
     if (follows_change)
@@ -199,13 +119,10 @@ class LawBuilder {
     const ExpressionId driven = plus_product(nothing, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
     ExpressionId sum = stepped == nothing ? writer_.plus(held, writer_.plus(placed, driven))
                                           : writer_.plus(writer_.plus(held, placed), writer_.plus(stepped, driven));
-    for (const auto& group : slips_) sum = writer_.plus(sum, group->write_output(change_));
-    for (const auto& component : coupled_) sum = writer_.plus(sum, component->write_output(change_));
-    for (const auto& network : networks_) sum = writer_.plus(sum, network->write_output(change_));
-    sum = without_feedthrough(sum, law_.position);
-    for (const auto& group : slips_) sum = compensated(sum, group->compensation());
-    sum = made_up(sum);
-    write_brake();
+    sum = slips_.write_output(sum, change_);
+    sum = brake_.without_feedthrough(sum, law_.position, change_);
+    sum = brake_.left_to_motor(sum);
+    brake_.write_command();
     if (sum == nothing) sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0);
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
   }
@@ -216,11 +133,11 @@ class LawBuilder {
     contact_->write_approach();
     const VariableId opposing = writer_.scalar("opposing", writer_.force(), "f′, the network's force but for b∞ Δs/h", Role::local);
     ExpressionId sum = nothing;
-    if (has_slips()) {
-      sum = write_push();
+    if (!slips_.empty()) {
+      sum = slips_.write_push(contact_->approach(), contact_->change(), {linear_stiffness(), write_held()});
       contact_->write_surface();
       sum = plus_product(sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h", -feedthrough / sample_period_, contact_->change());
-      sum = without_feedthrough(sum, contact_->now());
+      sum = brake_.without_feedthrough(sum, contact_->now(), contact_->change());
     } else {
       contact_->write_change(linear_stiffness(), write_held());
       contact_->write_surface();
@@ -231,30 +148,7 @@ class LawBuilder {
     }
     if (sum == nothing) sum = writer_.constant("none", writer_.force(), "of a free tool", 0);
     writer_.assign(law_.output, opposing, sum, "f′ = f − b∞ Δs/h", {effective_elements(network_)});
-    contact_->write_command(opposing, feedthrough, brake_behind_contact());
-  }
-
-  // f′ = f − Σ x Δu/h, x of every part's regime
-  ExpressionId without_feedthrough(ExpressionId force, VariableId position) {
-    for (const BrakedPart& part : brakes_) part.brake->write_output(part.signs, position);
-    for (const BrakedPart& part : brakes_) force = part.brake->without_feedthrough(force, change_, sample_period_);
-    return force;
-  }
-
-  BrakeBehindSlips brake_behind_contact() {
-    BrakeBehindSlips all;
-    for (const BrakedPart& part : brakes_) {
-      all.changing = writer_.plus(all.changing, part.brake->changing_damping());
-      all.steady += part.brake->steady_damping();
-      all.largest += part.brake->largest_damping();
-    }
-    return all;
-  }
-
-  ExpressionId write_push() {
-    if (!networks_.empty()) return networks_.front()->write_push(contact_->approach(), contact_->change(), {linear_stiffness(), write_held()});
-    coupled_.front()->set_held_elsewhere(write_held());
-    return coupled_.front()->write_output(contact_->approach(), contact_->change());
+    contact_->write_command(opposing, feedthrough, brake_.behind_contact());
   }
 
   // g = k0 + b∞/h + Σ c_i
@@ -270,51 +164,6 @@ class LawBuilder {
     return force;
   }
 
-  // m = f′ − β v̂
-  ExpressionId compensated(ExpressionId sum, ExpressionId compensation) {
-    if (compensation == nothing) return sum;
-    return writer_.subtract(sum, writer_.multiply(compensation, writer_.read(law_.velocity)));
-  }
-
-  // While the coil is on its way the motor makes up (b_regime − b) v̂, within what a brake that is always there covers.
-  ExpressionId made_up(ExpressionId sum) {
-    ExpressionId shortfall = nothing;
-    for (const auto& group : slips_) shortfall = writer_.plus(shortfall, group->shortfall());
-    for (const BrakedPart& part : brakes_) shortfall = writer_.plus(shortfall, part.brake->shortfall());
-    if (shortfall == nothing) return sum;
-    const ExpressionId most = writer_.constant("steady_make_up", writer_.damping(), "what the motor makes up at most", settings_.make_up);
-    return writer_.plus(sum, writer_.multiply(writer_.clamp(shortfall, most), writer_.read(law_.velocity)));
-  }
-
-  // b = b of what reaches ground without a slip + Σ b of every component's regime
-  void write_brake() {
-    Real steady = linear_damping_, least = linear_damping_, largest = linear_damping_, at_rest = linear_damping_;
-    ExpressionId changing = nothing;
-    for (const auto& group : slips_) {
-      changing = writer_.plus(changing, group->changing_damping());
-      steady += group->brake().steady_damping();
-      least += group->brake().least_damping();
-      largest += group->brake().largest_damping();
-      at_rest += group->brake().damping_at_rest();
-    }
-    for (const BrakedPart& part : brakes_) {
-      changing = writer_.plus(changing, part.brake->changing_damping());
-      steady += part.brake->steady_damping();
-      least += part.brake->least_damping();
-      largest += part.brake->largest_damping();
-      at_rest += part.brake->damping_at_rest();
-    }
-    law_.damping = rounded(least, law_.scalar);
-    law_.largest_damping = rounded(largest, law_.scalar);
-    if (changing == nothing) return;
-    if (steady > 0) changing = writer_.plus(changing, writer_.constant("steady_damping", writer_.damping(), "of what no slip changes", steady));
-    law_.brake = writer_.scalar("damping", writer_.damping(), "b, the brake's part", Role::local);
-    writer_.assign(law_.output, law_.brake, changing, "b of the regime");
-    law_.last_brake = writer_.scalar("last_damping", writer_.damping(), "b of the sample before", Role::state);
-    law_.variables[law_.last_brake].rest_value = rounded(at_rest, law_.scalar);
-    writer_.assign(law_.keep, law_.last_brake, writer_.read(law_.brake), "");
-  }
-
   // b∞ − b. Where the brake's number is b∞, rounded, nothing is left that a velocity estimate should be read for.
   Real feedthrough_of_motor() const {
     const bool all_in_brake = rounded(form_.feedthrough_damping, law_.scalar) == linear_damping_;
@@ -322,10 +171,8 @@ class LawBuilder {
   }
 
   void write_update() {
-    for (const auto& group : slips_) group->write_update(change_);
-    for (const auto& component : coupled_) component->write_update();
-    for (const auto& network : networks_) network->write_update();
-    for (const BrakedPart& part : brakes_) part.brake->write_update();
+    slips_.write_update(change_);
+    brake_.write_update(contact_ ? contact_->released() : no_variable);
     modes_.write_update(modes_.follows_position() ? writer_.kept(change_) : nothing,
                         modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing);
     if (law_.rest_position != no_variable)
@@ -349,9 +196,7 @@ class LawBuilder {
       sum = writer_.multiply(writer_.multiply(weight, writer_.read(law_.rest_position)), writer_.read(law_.rest_position));
     }
     sum = writer_.plus(sum, modes_.energy());
-    for (const auto& group : slips_) sum = writer_.plus(sum, group->energy());
-    for (const auto& component : coupled_) sum = writer_.plus(sum, component->energy());
-    for (const auto& network : networks_) sum = writer_.plus(sum, network->energy());
+    sum = slips_.energy(sum);
     if (sum == nothing) sum = writer_.constant("no_energy", "J", "no spring", 0);
     writer_.assign(law_.energy, law_.stored, sum, "V = ½ k0 u² + Σ F_i²/(2 k_i)", {effective_elements(network_)});
   }
@@ -367,17 +212,13 @@ class LawBuilder {
   LawWriter writer_;
   const Network& network_;
   const LinearForm& form_;
-  const SlipDecomposition& settings_;
   double linear_damping_;  // b of what reaches ground without a slip [N·s/m]
   Real sample_period_;
   VectorRegisters registers_;
   ModeBank modes_;
+  SlipParts slips_;
+  LawBrake brake_;
   std::optional<ContactSurface> contact_;
-  std::vector<std::unique_ptr<SlipGroup>> slips_;
-  std::vector<std::unique_ptr<CoupledSlips>> coupled_;
-  std::vector<std::unique_ptr<NetworkedSlips>> networks_;
-  std::vector<BrakedPart> brakes_;
-  NormalTree whole_{};  // behind a contact
   VariableId change_ = nothing;
 };
 

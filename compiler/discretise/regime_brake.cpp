@@ -15,7 +15,9 @@ Real root_of(double damping, ScalarType scalar) {
   return root;
 }
 
-bool same(const BrakeShare& x, const BrakeShare& y) { return x.damping == y.damping && x.feedthrough == y.feedthrough; }
+bool same(const BrakeShare& x, const BrakeShare& y) {
+  return x.damping == y.damping && x.feedthrough == y.feedthrough && x.compensation == y.compensation;
+}
 
 }  // namespace
 
@@ -44,21 +46,64 @@ void RegimeBrake::declare(const std::string& prefix, const Names& slip_names) {
                            writer_.scalar(joined(name, "slid_at"), writer_.length(), "where the tool was when it last slid", Role::state),
                            writer_.scalar(joined(name, "slides_now"), "1", "", Role::local),
                            writer_.scalar(joined(name, "slides_at"), writer_.length(), "", Role::local)});
+  if (compensates()) {
+    regime_before_ = writer_.scalar(joined(prefix_, "regime_before"), "1", "the command's regime of the sample before", Role::state);
+    samples_ = writer_.scalar(joined(prefix_, "samples"), "1", "for which it has been that", Role::state);
+  }
   if (!coil_lags()) return;
+  if (compensates()) {
+    earned_way_ = writer_.scalar(joined(prefix_, "earned_way"), "1", "of √b, what has been demanded at least", Role::state);
+    earned_ = writer_.scalar(joined(prefix_, "earned"), "1", "of √b, what the coil has reached at least", Role::state);
+  }
   root_ = writer_.scalar(joined(prefix_, "root"), "√(" + writer_.damping() + ")", "√b", Role::state);
   writer_.law().variables[root_].rest_value = rounded(root_of(split_.shares.front().damping, writer_.law().scalar), writer_.law().scalar);
 }
 
 void RegimeBrake::write_output(const std::vector<VariableId>& signs, VariableId position) {
   if (!changes()) return;
-  regime_ = write_regime("regime", signs);
-  if (memories_.empty()) return write_damping(regime_);
-  std::vector<VariableId> commanded;
-  for (std::size_t i = 0; i < memories_.size(); ++i) {
-    write_memory(i, signs[i], position);
-    commanded.push_back(memories_[i].slides_now);
+  commanded_ = regime_ = write_regime("regime", signs);
+  if (!memories_.empty()) {
+    std::vector<VariableId> commanded;
+    for (std::size_t i = 0; i < memories_.size(); ++i) {
+      write_memory(i, signs[i], position);
+      commanded.push_back(memories_[i].slides_now);
+    }
+    commanded_ = write_regime("commanded_regime", commanded);
   }
-  write_damping(write_regime("commanded_regime", commanded));
+  write_damping(commanded_);
+  if (compensates()) write_compensation(commanded_);
+}
+
+bool RegimeBrake::compensates() const {
+  return std::any_of(split_.shares.begin(), split_.shares.end(), [](const BrakeShare& share) { return share.compensation > 0; });
+}
+
+// q + κ (goal − q)
+ExpressionId RegimeBrake::nearer(VariableId from, ExpressionId goal) {
+  const ExpressionId share = writer_.constant(joined(prefix_, "coil_share"), "1", "κ of a sample", settings_.coil_share);
+  return writer_.add(writer_.read(from), writer_.multiply(share, writer_.subtract(goal, writer_.read(from))));
+}
+
+// β = β_most q₂², q₂ by a coil that lags behind a demand that lags, from the sample on in which all that the estimate knows of was
+// braked as this regime is. With another regime it begins anew.
+void RegimeBrake::write_compensation(VariableId regime) {
+  std::vector<Statement>& output = writer_.law().output;
+  const ExpressionId none = writer_.constant("held", "1", "a slip that holds", 0), one = writer_.constant("slid", "1", "a slip that gives way", 1);
+  const VariableId turned = local("regime_change", "1", "not 0 where the command's regime is another");
+  writer_.assign(output, turned, writer_.subtract(writer_.read(regime), writer_.read(regime_before_)), "");
+  samples_now_ = local("regime_samples", "1", "");
+  writer_.assign(output, samples_now_, writer_.where(writer_.multiply(writer_.read(turned), writer_.read(turned)), one, writer_.add(writer_.read(samples_), one)),
+                 "samples of this regime");
+  const ExpressionId hold = writer_.constant(joined(prefix_, "hold"), "1", "samples before a regime is compensated", settings_.hold_samples);
+  const ExpressionId long_enough = writer_.subtract(writer_.read(samples_now_), hold);
+  const ExpressionId most = by_regime(regime, "compensation_by_regime", writer_.damping(), "β at most", [](const BrakeShare& share) { return Real(share.compensation); });
+  compensation_ = local("compensation", writer_.damping(), "");
+  if (earned_ == nothing) return writer_.assign(output, compensation_, writer_.where(long_enough, most, none), "β, held");
+  earned_way_now_ = local("earned_way_now", "1", "");
+  earned_now_ = local("earned_now", "1", "");
+  writer_.assign(output, earned_now_, writer_.where(long_enough, nearer(earned_, writer_.read(earned_way_)), none), "q₂ ← q₂ + κ (q₁ - q₂)");
+  writer_.assign(output, earned_way_now_, writer_.where(long_enough, nearer(earned_way_, one), none), "q₁ ← q₁ + κ (1 - q₁)");
+  writer_.assign(output, compensation_, writer_.multiply(most, writer_.multiply(writer_.read(earned_now_), writer_.read(earned_now_))), "β = β_most q₂²");
 }
 
 // For the command a slide ends where the tool has gone 1.5 steps of the encoder, to either side, and the slip not with it.
@@ -121,7 +166,7 @@ ExpressionId RegimeBrake::without_feedthrough(ExpressionId force, VariableId cha
   return writer_.subtract(force, writer_.multiply(stiffness, writer_.read(change)));
 }
 
-void RegimeBrake::write_update() {
+void RegimeBrake::write_update(VariableId released) {
   std::vector<Statement>& update = writer_.law().update;
   const auto keep = [&](VariableId state, VariableId now) {
     if (state != nothing && now != nothing) writer_.assign(update, state, writer_.read(writer_.kept(now)), "");
@@ -131,8 +176,16 @@ void RegimeBrake::write_update() {
     keep(memory.at, memory.at_now);
   }
   keep(root_, root_now_);
+  keep(earned_way_, earned_way_now_);
+  keep(earned_, earned_now_);
+  keep(regime_before_, commanded_);
+  if (samples_ == nothing) return;
+  const ExpressionId samples = writer_.read(writer_.kept(samples_now_));
+  const ExpressionId none = writer_.constant("held", "1", "a slip that holds", 0);
+  writer_.assign(update, samples_, released == no_variable ? samples : writer_.where(writer_.read(writer_.kept(released)), none, samples), "");
 }
 
+ExpressionId RegimeBrake::compensation() const { return compensation_ == nothing ? nothing : writer_.read(compensation_); }
 ExpressionId RegimeBrake::changing_damping() const { return damping_ == nothing ? nothing : writer_.read(damping_); }
 ExpressionId RegimeBrake::shortfall() const { return shortfall_ == nothing ? nothing : writer_.read(shortfall_); }
 

@@ -1,5 +1,5 @@
 // What slips that are solved together ask of the brake, by the pattern in which they give way (theory, section 5, "Regimes"):
-// b = b∞ of the regime, and m = f′ = f − b∞ Δu/h.
+// b of the regime, m = f′ = f − x Δu/h with x ≤ b∞ of what is computed, less β v̂ where the brake has earned it.
 #pragma once
 
 #include <string>
@@ -26,8 +26,10 @@ class RegimeBrake {
   void write_output(const std::vector<VariableId>& signs, VariableId position);
   // f′ from f: what is taken is x Δu/h.
   ExpressionId without_feedthrough(ExpressionId force, VariableId change, const Real& sample_period);
-  void write_update();
+  // `released`: of a contact, above 0 where the tool is free, which ends what has been earned; else no variable.
+  void write_update(VariableId released);
 
+  ExpressionId compensation() const;      // β, whose β v̂ is to be taken from the force; nothing without
   ExpressionId changing_damping() const;  // nothing where it does not change
   ExpressionId shortfall() const;         // of b where the coil is on its way, nothing for none
   Real steady_damping() const { return changes() ? Real(0) : Real(split_.shares.front().damping); }
@@ -46,7 +48,10 @@ class RegimeBrake {
   void write_memory(std::size_t slip, VariableId sign, VariableId position);
   ExpressionId regime_of(const std::vector<VariableId>& slides);
   VariableId write_regime(const char* what, const std::vector<VariableId>& slides);
+  bool compensates() const;
   void write_damping(VariableId regime);
+  void write_compensation(VariableId regime);
+  ExpressionId nearer(VariableId from, ExpressionId goal);
   template <class ValueOf>
   ExpressionId by_regime(VariableId regime, const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
   VariableId local(const std::string& what, const std::string& unit, const std::string& meaning);
@@ -57,6 +62,8 @@ class RegimeBrake {
   std::string prefix_;
   std::vector<Memory> memories_;
   VariableId regime_ = nothing, damping_ = nothing, shortfall_ = nothing, root_ = nothing, root_now_ = nothing;
+  VariableId regime_before_ = nothing, samples_ = nothing, earned_way_ = nothing, earned_ = nothing;  // states
+  VariableId commanded_ = nothing, samples_now_ = nothing, earned_way_now_ = nothing, earned_now_ = nothing, compensation_ = nothing;
 };
 
 }  // namespace dashpot::compiler

@@ -232,6 +232,26 @@ ReferenceCut least_cut(const Network& network, const std::vector<std::size_t>& e
 
 }  // namespace
 
+ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const SlipDecomposition& slips) {
+  if (network.contact && !slips.networks.empty()) {  // all slips are solved together
+    tree.networks = {elements_behind_slips(tree)};
+    tree.components.clear();
+  }
+  for (std::size_t i = 0; i < tree.components.size(); ++i) tree.components[i] = rendered(tree.components[i], slips, i);
+  for (std::size_t i = 0; i < std::min(tree.networks.size(), slips.networks.size()); ++i) {
+    if (slips.networks[i].law != SlipLaw::gated) continue;
+    const std::vector<std::size_t> all = tree.networks[i];
+    std::erase_if(tree.networks[i], [&](std::size_t index) {
+      const Element& damper = network.elements[index];
+      return std::holds_alternative<Damper>(damper.law) && std::any_of(all.begin(), all.end(), [&](std::size_t other) {
+        const Element& slip = network.elements[other];
+        return std::holds_alternative<Slip>(slip.law) && std::minmax(slip.a, slip.b) == std::minmax(damper.a, damper.b);
+      });
+    });
+  }
+  return tree;
+}
+
 std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree) {
   std::vector<std::size_t> elements;
   for (const ReferencePart& component : tree.components) {
@@ -271,7 +291,7 @@ Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, c
     }
     for (const std::vector<std::size_t>& part : tree.networks) constants.add_network(reference_network(network, part), nullptr);
   }
-  for (std::size_t i = 0; i < tree.components.size(); ++i) constants.add_regimes(network.contact ? tree.components[i] : rendered(tree.components[i], slips, i));
+  for (std::size_t i = 0; i < tree.components.size(); ++i) constants.add_regimes(rendered(tree.components[i], slips, i));
   for (std::size_t i = 0; i < slips.networks.size(); ++i)
     constants.add_regimes(slips.networks[i].regimes, network, network.contact ? elements_behind_slips(tree) : tree.networks[i]);
   for (const ComponentSplit* split : slips.all()) constants.add_capped(*split);
@@ -290,7 +310,7 @@ ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, co
     sum.damping -= least;
   };
   for (std::size_t i = 0; i < tree.components.size(); ++i) {
-    const ReferenceCut cut = least_cut(with_contact ? tree.components[i] : rendered(tree.components[i], slips, i), facts, weight).value();
+    const ReferenceCut cut = least_cut(rendered(tree.components[i], slips, i), facts, weight).value();
     sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping};
     if (i < slips.components.size()) less_the_brake(slips.components[i].shares);
   }

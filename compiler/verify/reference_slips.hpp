@@ -22,6 +22,9 @@ std::vector<std::string_view> kinds_behind_slips(std::string_view name);
 // `slips`: what the brake was given in every regime, and the encoder's step; a choice.
 Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts);
 
+// As the laws compute it: under the gated law without the dampers beside slips; behind a contact slips outside a tree with all others.
+ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const SlipDecomposition& slips);
+
 // Of all components and networks.
 std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree);
 

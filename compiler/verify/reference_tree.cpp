@@ -172,11 +172,22 @@ std::size_t slip_count(const ReferencePart& part) {
   return count;
 }
 
+// In a chain of slips that would have no damper left only that which yields first is without one.
 ReferencePart without_dampers_beside_slips(ReferencePart part) {
+  const auto alone = [](const ReferencePart& child) {
+    return child.kind == Kind::parallel && without_dampers_beside_slips(child).kind == Kind::slip;
+  };
+  const auto yields_sooner = [](const ReferencePart& one, const ReferencePart& other) {
+    return without_dampers_beside_slips(one).yield_force < without_dampers_beside_slips(other).yield_force;
+  };
+  const ReferencePart* sole = nullptr;
+  if (part.kind == Kind::series && std::none_of(part.children.begin(), part.children.end(), is_slip))
+    for (const ReferencePart& child : part.children)
+      if (alone(child) && (sole == nullptr || yields_sooner(child, *sole))) sole = &child;
   const bool beside = part.kind == Kind::parallel && std::any_of(part.children.begin(), part.children.end(), is_slip);
   for (ReferencePart& child : part.children) {
-    if (child.kind != Kind::block) child = without_dampers_beside_slips(std::move(child));
-    else if (beside) child.form.feedthrough_damping = 0;
+    if (child.kind == Kind::block) child.form.feedthrough_damping = beside ? Reference(0) : child.form.feedthrough_damping;
+    else if (part.kind != Kind::series || &child == sole || !alone(child)) child = without_dampers_beside_slips(std::move(child));
   }
   std::erase_if(part.children, [](const ReferencePart& child) {
     return child.kind == Kind::block && child.form.static_stiffness == 0 && child.form.feedthrough_damping == 0 && child.form.modes.empty();

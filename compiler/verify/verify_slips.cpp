@@ -20,7 +20,7 @@ LawFacts facts_of(const CertificateFile& certificate) {
 SlipVerification::SlipVerification(const CertificateFile& certificate, const HeaderConstants& header,
                                    const PortDevice& device, const Compilation& compiled, Diagnostics& diagnostics)
     : certificate_(certificate), header_(header), compiled_(compiled), diagnostics_(diagnostics), facts_(facts_of(certificate)),
-      tree_(reference_tree(compiled.network)) {
+      tree_(rendered_tree(reference_tree(compiled.network), compiled.network, compiled.decomposition.slips)) {
   pool_ = constants_behind_slips(tree_, compiled.network, compiled.decomposition.slips, facts_);
   for (const Variable& variable : compiled.law.variables)
     if (variable.rest_value != 0) pool_[literals_in_code].push_back(variable.rest_value);  // of the brake, a choice

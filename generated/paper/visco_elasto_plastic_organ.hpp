@@ -3,7 +3,7 @@
 // source: Gosline & Hayward 2009, end of 6.3.3; the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 0 N·s/m: dampers at the tool in parallel add
-// behind Y: compensated, the gated law errs by 70.1 % in the band; b = 1.6216216216216217 N·s/m stuck, 3.3
+// behind Y: compensated, the gated law errs by 25.9 % in the band; b = 1.6216216216216217 N·s/m stuck, 3.3
 //   sliding
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive

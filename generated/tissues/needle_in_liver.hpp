@@ -9,7 +9,7 @@
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 5 N·s/m: in series B2 dissipates 100 % at low frequency and is observed;
 //   with the contact no more than the feedthrough damping, so that the motor compensates nothing
-// behind friction: velocity-free, slips are behind a contact; b = 0 N·s/m stuck, 0 sliding
+// behind friction: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck, 0 sliding
 // states: position driven by definition
 // contact: at 0 m; brake and motor 0 while the tool is free
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive

@@ -2,7 +2,8 @@
 //
 // scheme: exact at 1000 Hz, double
 // decomposition: most-dissipative, b = 3 N·s/m: dampers at the tool in parallel add
-// behind skin_grip, muscle_grip, fascia: velocity-free, 3 slips in no tree
+// behind skin_grip, muscle_grip, fascia: velocity-free, parameters change while it runs; b is that of their
+//   default values
 // states: position driven, so that a change of parameters injects no energy
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their

@@ -237,7 +237,8 @@ class Tunables(SimulateTest):
         """Fails if a value beyond its range is taken as it is, or clamped in silence, or warned of in every row."""
         self.write("motion.csv", table([(0, 0, 1000), (0.001, 0.01, 1000), (0.002, 0.01, 1)], "time,position,K"))
         done = self.dashpot("simulate", "tuned.json", "--input", "motion.csv")
-        self.assertEqual(done.stderr.count("[outside-valid-range]"), 1)
+        self.assertEqual(done.stderr.count("[outside-tunable-range]"), 1)
+        self.assertIn("tunable 'K' is 1000 N/m at 0 s; its range is 10 to 400, and its bound is taken", done.stderr)
         forces = [float(row["motor_force"]) for row in csv.DictReader(io.StringIO(done.stdout))]
         self.assertAlmostEqual(forces[1], 400 * 0.01, delta=1e-14)
         self.assertGreaterEqual(forces[2], 10 * 0.01)

@@ -27,6 +27,11 @@ PAPER = SOURCE / "networks/paper"
 COUPLED = """{ "parallel": [ { "spring": 40 }, { "series": [ { "spring": 300 }, { "damper": 4 }, { "parallel": [ { "slip": 0.3 },
     { "series": [ { "spring": 120 }, { "slip": 0.1 } ] }, { "damper": 0.7 } ] } ] } ] }"""
 
+# Slips with dampers beside them, coupled and in a chain.
+DAMPED = """{ "parallel": [ { "damper": 0.5 }, { "series": [ { "parallel": [ { "damper": 2 }, { "series": [ { "spring": 300 }, { "slip": 1 } ] } ] },
+    { "parallel": [ { "slip": 0.4 }, { "damper": 3 } ] } ] },
+    { "series": [ { "spring": 1000 }, { "parallel": [ { "slip": 0.4 }, { "damper": 3 } ] }, { "parallel": [ { "slip": 0.2 }, { "damper": 5 } ] } ] } ] }"""
+
 # One law of each shape with slips or a contact: closed form, rolled, with modes, gated, compensated, coupled, pushed.
 SLIP_LAWS = [
     [PAPER / "visco_elasto_plastic.json"], [PAPER / "visco_elasto_plastic_organ.json"], [PAPER / "maxwell_slip_ten.json"],
@@ -35,6 +40,9 @@ SLIP_LAWS = [
     [PAPER / "visco_elasto_plastic_organ.json", "--device", BOARD], [PAPER / "virtual_wall.json", "--device", BOARD],
     ["coupled.json", "--scheme", "backward-euler"], ["coupled.json", "--scalar", "float"],
     [PAPER / "visco_elasto_plastic_organ.json", "--scalar", "float", "--decomposition", "compensated"],
+    *[[file, "--decomposition", law] for file in ("damped.json", "touched.json") for law in ("gated", "compensated")],
+    ["damped_loop.json", "--decomposition", "gated"], ["damped_loop.json", "--decomposition", "compensated"],
+    ["damped.json", "--device", BOARD, "--decomposition", "compensated"], ["damped.json", "--device", BOARD, "--decomposition", "gated"],
 ]
 
 # Slips in no tree: with a mode that two of them share, and such a part behind a contact, beside a tree, and with modes of one rate.
@@ -107,6 +115,9 @@ class Verify(CommandTest):
         self.write("star.json", of_elements(STAR, "star"))
         self.write("tuned.json", of_elements(TUNED, "tuned", f'"parameters": {BOX},'))
         self.write("pushed_tuned.json", of_elements(TUNED, "pushed_tuned", f'{contact} "parameters": {BOX},'))
+        self.write("damped_loop.json", of_elements(f'{LOOP}, {{ "damper": 0.5, "nodes": ["p", "ground"] }}', "damped_loop"))
+        self.write("damped.json", network(DAMPED, "damped"))
+        self.write("touched.json", network(DAMPED, "touched", '"contact": { "at": 0 },'))
 
     def emitted(self, law, folder):
         """Header and certificate of a law, as text."""

@@ -94,10 +94,19 @@ compiler::Device random_device(double rate, Random& random) {
   return device;
 }
 
+bool is_refused_law(const compiler::Diagnostics& diagnostics) {
+  return compiler::render_text(diagnostics).find("[no-such-slip-law]") != std::string::npos;
+}
+
 compiler::Compilation compiled_text(const std::string& text, const Choices& choices, const std::optional<compiler::Device>& device) {
   const compiler::SourceFile file("random.json", text);
   compiler::Diagnostics diagnostics;
   std::optional<compiler::Compilation> compilation = compiler::compile(file, choices, device, diagnostics);
+  if (!compilation && is_refused_law(diagnostics)) {  // of slips that have no other
+    Choices other = choices;
+    other.decomposition = "velocity-free";
+    return compiled_text(text, other, device);
+  }
   if (!compilation) throw std::runtime_error(compiler::render_text(diagnostics) + text);
   return std::move(*compilation);
 }

@@ -29,8 +29,8 @@ struct Exchange {
 };
 
 bool is_compensated(const CompiledCase& one) {
-  const auto& components = one.compilation->decomposition.slips.components;
-  return std::any_of(components.begin(), components.end(), [](const ComponentSplit& split) { return split.law == SlipLaw::compensated; });
+  const std::vector<const ComponentSplit*> splits = one.compilation->decomposition.slips.all();
+  return std::any_of(splits.begin(), splits.end(), [](const ComponentSplit* split) { return split->law == SlipLaw::compensated; });
 }
 
 // The hold's physical damping: a share of what the certificate asks for, and under the compensated law, which has to earn

@@ -1,6 +1,7 @@
 // Commands of laws with slips along written motions, for devices that are given here.
 #pragma once
 
+#include <dashpot/brake_coil.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -60,6 +61,39 @@ inline std::size_t toggles(const std::vector<command<double>>& commands, std::si
     if (commands[i].damping != commands[i - 1].damping) ++count;
   return count;
 }
+
+// A coil that lags, a brake that is weaker than it says, an estimate of five samples.
+struct SlowBrake {
+  compiler::Device device = device_with(0);
+
+  SlowBrake() {
+    device.description.velocity.window = 5;
+    device.description.brake.coil_lag = 0.02;
+    device.description.brake.tolerance = 0.1;
+  }
+
+  // The least of V and of what has gone in, Σ (m + b v) Δu, over the motion: below zero, energy was made.
+  // The coil begins at `root`, √b, and the count behind `begin` samples.
+  double least_balance(const compiler::UpdateLaw& law, const std::vector<double>& motion, double root = 0, std::size_t begin = 0) const {
+    compiler::Evaluation<double> evaluation(law);
+    evaluation.reset(0);
+    brake_coil<double> coil(device.description.brake);
+    coil.reset(root);
+    double work = 0, last = 0, least = 0, start = 0;
+    for (std::size_t i = 0; i < motion.size(); ++i) {
+      const double change = motion[i] - last;
+      last = motion[i];
+      const command<double> now = evaluation.step(motion[i], difference(motion, i, device.description.velocity.window));
+      const double before = coil.damping();
+      coil.advance(std::sqrt(now.damping), slip_period);
+      const double certain = (1 - device.description.brake.tolerance) * std::min(before, coil.damping());
+      work += (now.force + certain * change / slip_period) * change;
+      if (i < begin) start = work - evaluation.stored_energy();
+      least = std::min(least, work - evaluation.stored_energy() - start);
+    }
+    return least;
+  }
+};
 
 // V_k − V_{k−1} ≤ m_k Δu_k whatever the brake does: it takes no part, but is commanded no more than `most_damping`. Empty, or
 // where that fails. Rounding: 1e-13 of the largest energy, `shared(damping, change)` [J] among them, and `rounding` [N/m] Δu².

@@ -59,7 +59,7 @@ std::string gain_without_brake(const compiler::Network& network) {
 
 // The brake would keep the damping of slips that hold, or make another than b∞ = 1/(1/2 + 1/3) when one slides.
 TEST(CoupledRegimes, FollowTheSlipsThatSlide) {
-  const compiler::Compilation c = decided(written_network(two_slips), "most-dissipative");
+  const compiler::Compilation c = decided(written_network(two_slips), "velocity-free");
   ASSERT_TRUE(c.law.networks.empty());
   ASSERT_EQ(c.law.couplings.size(), 1u);
   const auto slow = commands_along(c.law, slide(0.1, 400)), fast = commands_along(c.law, slide(0.5, 400));
@@ -75,7 +75,7 @@ TEST(CoupledRegimes, FollowTheSlipsThatSlide) {
 
 // A bridge of dampers would be taken for one that its slip always closes, or never.
 TEST(CoupledRegimes, FollowSlipsOutsideATree) {
-  const compiler::Compilation c = decided(written_network(bridge), "most-dissipative");
+  const compiler::Compilation c = decided(written_network(bridge), "velocity-free");
   ASSERT_EQ(c.law.networks.size(), 1u);
   const auto commands = commands_along(c.law, [] {
     std::vector<double> motion = slide(0.1, 10);
@@ -91,7 +91,7 @@ TEST(CoupledRegimes, FollowSlipsOutsideATree) {
 TEST(CoupledRegimes, FollowTheSlipsBehindAContact) {
   compiler::Network network = written_network(two_slips);
   network.contact = compiler::Contact{0, {}};
-  const compiler::Compilation c = decided(network, "most-dissipative");
+  const compiler::Compilation c = decided(network, "velocity-free");
   std::vector<double> motion = slide(0.1, 100);
   for (int i = 0; i < 20; ++i) motion.push_back(-1e-3);
   const auto commands = commands_along(c.law, motion);
@@ -104,7 +104,7 @@ TEST(CoupledRegimes, FollowTheSlipsBehindAContact) {
 TEST(CoupledRegimes, ManySlipsLeaveWhatHoldsInAllRegimes) {
   std::string branches = R"({"damper": 2})";
   for (int i = 1; i <= 7; ++i) branches += fmt::format(", {{\"series\": [{{\"spring\": {}}}, {{\"slip\": {}}}]}}", 100 * i, 0.1 * i);
-  const compiler::Compilation c = decided(written_network("{\"series\": [{\"parallel\": [" + branches + R"(]}, {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})"), "most-dissipative");
+  const compiler::Compilation c = decided(written_network("{\"series\": [{\"parallel\": [" + branches + R"(]}, {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})"), "velocity-free");
   EXPECT_TRUE(c.decomposition.slips.components.front().regimes.regimes.empty());
   for (const auto& now : commands_along(c.law, slide(0.2, 50))) EXPECT_DOUBLE_EQ(now.damping, both);
 }
@@ -123,8 +123,8 @@ TEST(CoupledRegimes, DoNotToggleOverAnEncoder) {
     const double u = speed * slip_period * (within < 2000 ? within : 4000 - within);
     motion.push_back(std::floor(u / step) * step);
   }
-  const auto calm = commands_along(decided(network, "most-dissipative", &device).law, motion);
-  const auto literal = commands_along(decided(network, "most-dissipative", &blind).law, motion);
+  const auto calm = commands_along(decided(network, "velocity-free", &device).law, motion);
+  const auto literal = commands_along(decided(network, "velocity-free", &blind).law, motion);
   EXPECT_EQ(toggles(calm, 1000, 2000), 0u);
   EXPECT_LE(toggles(calm, 2000, 3999), 2u);
   EXPECT_EQ(toggles(calm, 3000, 3999), 0u);

@@ -49,6 +49,14 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
   return result;
 }
 
+bool can_have(const compiler::Network& network, const std::string& law, const compiler::Device* device) {
+  compiler::Choices choices;
+  choices.decomposition = law;
+  compiler::Diagnostics diagnostics;
+  const std::optional<compiler::NormalForm> form = compiler::closed_normal_form(network, diagnostics);
+  return form && compiler::decompose(network, *form, choices, device, diagnostics).has_value();
+}
+
 double stiffest(const compiler::Network& network) {
   double most = 0;
   for (const compiler::Element& element : network.elements) {

@@ -21,6 +21,9 @@ compiler::Compilation compiled(const compiler::Network& network, compiler::Schem
 // The same with any choices but the rate, for a device or the ideal one.
 compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices, const compiler::Device* device);
 
+// True where some part of the network has that law of slips; with another it is refused.
+bool can_have(const compiler::Network& network, const std::string& law, const compiler::Device* device = nullptr);
+
 // Displacements [m]: rests, steps over many decades about what makes the slips give way, reversals, returns to where it
 // was before.
 std::vector<double> random_motion(const compiler::Network& network, std::uint64_t seed, std::size_t samples);

@@ -1,0 +1,266 @@
+// The gated and the compensated law of slips that are solved together: coupled ones, those outside trees, those behind a contact.
+#include <dashpot/brake_coil.hpp>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commanded.hpp"
+#include "decompose/slip_laws.hpp"
+#include "source/render.hpp"
+#include "support/shrink.hpp"
+#include "support/written_network.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using compiler::SlipLaw;
+
+// Two slips with a damper each beside a chain; the first is in series with a spring.
+const char* const two_slips = R"({"series": [
+    {"parallel": [{"damper": 2}, {"series": [{"spring": 300}, {"slip": 1}]}]},
+    {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})";
+
+// The same with next to no brake while both hold, so that what is taken back has to be earned.
+const char* const loose_slips = R"({"series": [
+    {"parallel": [{"damper": 0.01}, {"series": [{"spring": 300}, {"slip": 1}]}]},
+    {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})";
+
+// A ring of three slips, of which one has a damper beside it.
+const char* const ring = R"([
+    {"spring": 300, "nodes": ["tool", "a"]}, {"slip": 0.4, "nodes": ["a", "b"]}, {"damper": 3, "nodes": ["a", "b"]},
+    {"slip": 0.3, "nodes": ["b", "c"]}, {"slip": 0.5, "nodes": ["a", "c"]},
+    {"spring": 200, "nodes": ["b", "ground"]}, {"damper": 4, "nodes": ["b", "ground"]}, {"spring": 100, "nodes": ["c", "ground"]}])";
+
+compiler::Network touched(compiler::Network network) {
+  network.contact = compiler::Contact{0, {}};
+  return network;
+}
+
+compiler::Network pressed_slips() {
+  return touched(written_network(std::string("{\"parallel\": [{\"spring\": 500}, ") + loose_slips + "]}"));
+}
+
+compiler::Network pressed_ring() {
+  return touched(written_network(std::string(ring).insert(std::string(ring).rfind(']'), R"(, {"spring": 500, "nodes": ["tool", "ground"]})")));
+}
+
+constexpr std::size_t way_in = 2000;  // [samples]
+
+// Far behind the surface, so that the tool does not leave it, and for so long that all has relaxed.
+std::vector<double> deep(std::vector<double> motion) {
+  for (double& u : motion) u += 1;
+  motion.insert(motion.begin(), way_in, 1);
+  return motion;
+}
+
+struct Subject {
+  const char* name;
+  compiler::Network network;
+  std::vector<double> (*place)(std::vector<double>);
+};
+
+std::vector<double> here(std::vector<double> motion) { return motion; }
+
+std::vector<Subject> subjects() {
+  return {{"tree", written_network(loose_slips), here}, {"ring", written_network(ring), here}, {"contact", pressed_slips(), deep},
+          {"ring behind a contact", pressed_ring(), deep}};
+}
+
+NetworkRecipe recipe(Topology topology) {
+  NetworkRecipe recipe;
+  recipe.topology = topology;
+  recipe.most_nodes = 8;
+  recipe.most_slips = topology == Topology::tree ? 6 : 4;
+  return recipe;
+}
+
+std::string gain_without_brake(const compiler::Network& network, bool is_touched) {
+  const compiler::Network subject = is_touched ? touched(network) : network;
+  if (!can_have(subject, "gated")) return "";
+  compiler::Device device = device_with(1e-5);
+  device.description.brake.max_damping = 0.5;
+  device.description.brake.coil_lag = 0.01;
+  device.description.velocity.estimator = estimator_kind::super_twisting;  // so that nothing is made up
+  compiler::Choices choices;
+  choices.decomposition = "gated";
+  choices.state_input = compiler::StateInput::position;
+  const auto whole = [](double, double change) { return 0.5 * change * change / slip_period; };
+  return energy_from_motor(compiled(subject, choices, &device), random_motion(network, 11, 200), 0.5, whole, 0x1p-48 * stiffest(network));
+}
+
+std::string said_of(const compiler::Network& network, const char* law) {
+  compiler::Choices choices;
+  choices.decomposition = law;
+  compiler::Diagnostics diagnostics;
+  EXPECT_FALSE(compiler::decompose(network, compiler::normal_form(network), choices, nullptr, diagnostics));
+  return compiler::render_text(diagnostics);
+}
+
+}  // namespace
+
+// The motor would render the damper beside a slip that the brake makes already, or the brake not make it.
+TEST(CoupledLaws, GatedLeavesDampersBesideSlipsToTheBrake) {
+  const compiler::Compilation c = decided(written_network(two_slips), "gated");
+  ASSERT_EQ(c.decomposition.slips.components.front().law, SlipLaw::gated);
+  const auto commands = commands_along(c.law, slide(0.1, 400));
+  // 2·0.1 N at once; 300 u reaches the other 0.2 N in the seventh sample. Then 0.4 N, and 3 N·s/m at the whole speed.
+  for (std::size_t i = 0; i < 400; ++i) EXPECT_DOUBLE_EQ(commands[i].damping, i < 6 ? 2 : 3) << i;
+  for (std::size_t i = 6; i < 400; ++i) EXPECT_NEAR(commands[i].force, 0.4, 1e-15) << i;
+}
+
+// In a chain of slips without dampers only the weakest would ever give way: the others' dampers would be the brake's and never
+// asked for.
+TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
+  const compiler::Network chain = written_network(R"({"series": [{"spring": 1000},
+      {"parallel": [{"slip": 0.4}, {"damper": 3}]}, {"parallel": [{"slip": 0.2}, {"damper": 5}]}]})");
+  const compiler::Compilation c = decided(chain, "gated");
+  const compiler::NormalTree& rendered = c.decomposition.slips.components.front().rendered;
+  EXPECT_EQ(compiler::slip_count(rendered), 2u);
+  const auto bare = std::find_if(rendered.children.begin(), rendered.children.end(), [](const auto& child) { return child.kind == compiler::NormalTree::Kind::slip; });
+  ASSERT_NE(bare, rendered.children.end());
+  EXPECT_EQ(bare->yield_force, 0.2);
+  EXPECT_DOUBLE_EQ(commands_along(c.law, slide(0.05, 1000)).back().damping, 5);
+}
+
+// The motor alone would give more than it took, under whatever brake and coil.
+TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
+  for (const Topology topology : {Topology::tree, Topology::graph})
+    EXPECT_EQ(first_failure(1, repetitions(200, 20000), recipe(topology), [](const auto& network) { return gain_without_brake(network, false); }), "");
+}
+
+// The same behind a contact.
+TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergyBehindAContact) {
+  for (const Topology topology : {Topology::tree, Topology::graph})
+    EXPECT_EQ(first_failure(1, repetitions(200, 20000), recipe(topology), [](const auto& network) { return gain_without_brake(network, true); }), "");
+}
+
+// The random networks above would hardly ever have the law, and the tests prove nothing.
+TEST(CoupledLaws, RandomNetworksHaveTheGatedLaw) {
+  std::size_t trees = 0, graphs = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const compiler::Network tree = random_network(seed, recipe(Topology::tree)), graph = random_network(seed, recipe(Topology::graph));
+    if (compiler::normal_form(tree).has_slips() && most_coupled(compiled(tree, compiler::Scheme::exact)) > 1 && can_have(tree, "gated")) ++trees;
+    if (!compiler::normal_form(graph).networks.empty() && can_have(graph, "gated")) ++graphs;
+  }
+  EXPECT_GE(trees, 20u);
+  EXPECT_GE(graphs, 3u);
+}
+
+// The hold, the coil or the tolerance would not be allowed for in what the motor takes back of the brake.
+TEST(CoupledLaws, HeldCompensationNeverMakesEnergy) {
+  const SlowBrake slow;
+  for (const Subject& subject : subjects()) {
+    const compiler::Compilation held = decided(subject.network, "compensated", &slow.device);
+    for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+      const double least = slow.least_balance(held.law, subject.place(adversarial_motion(seed)), 0, subject.network.contact ? way_in : 0);
+      EXPECT_GE(least, -1e-9) << subject.name << " " << seed;
+    }
+  }
+}
+
+// The test above would prove nothing if compensation that is not held could not make energy.
+TEST(CoupledLaws, CompensationThatIsNotHeldMakesEnergy) {
+  const SlowBrake slow;
+  for (const Subject& subject : subjects()) {
+    const compiler::Compilation bold = decided(subject.network, "compensated");
+    double least = 0;
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) least = std::min(least, slow.least_balance(bold.law, subject.place(adversarial_motion(seed)), 0, subject.network.contact ? way_in : 0));
+    EXPECT_LT(least, -1e-3) << subject.name;
+  }
+}
+
+// Compensation would be held for ever: in a long slide the whole force is that of the network.
+TEST(CoupledLaws, LongSlidesAreCompensated) {
+  SlowBrake slow;
+  slow.device.description.brake.tolerance = 0;
+  for (const Subject& subject : subjects()) {
+    const std::vector<double> motion = subject.place(slide(0.1, 3000));
+    const auto commands = commands_along(decided(subject.network, "compensated", &slow.device).law, motion);
+    const auto plain = commands_along(decided(subject.network, "velocity-free").law, motion);
+    const double felt = commands.back().damping * 0.1 + commands.back().force, expected = plain.back().damping * 0.1 + plain.back().force;
+    EXPECT_NEAR(felt, expected, 1e-9 * (1 + expected)) << subject.name;
+    EXPECT_GT(commands.back().damping, plain.back().damping) << subject.name;
+  }
+}
+
+// A tool that leaves the tissue and comes back would be pushed by what the brake earned before.
+TEST(CoupledLaws, ATouchBeginsAnew) {
+  const SlowBrake slow;
+  const compiler::Compilation c = decided(pressed_slips(), "compensated", &slow.device);
+  std::vector<double> motion = slide(0.1, 1000);
+  for (int i = 0; i < 3; ++i) motion.push_back(-1);
+  for (double further : slide(0.1, 30)) motion.push_back(0.1 + further);
+  compiler::Evaluation<double> quick(c.law), still(c.law);
+  quick.reset(0), still.reset(0);
+  // What the estimate says changes the motor's part by β alone, b∞ of the linear part being none.
+  for (std::size_t i = 0; i < motion.size(); ++i) {
+    const double difference = still.step(motion[i], 0).force - quick.step(motion[i], 1).force;
+    const std::size_t touch = 1003, hold = 5 + 1;
+    if (i == 999) {
+      EXPECT_GT(difference, 0.5);
+    }
+    if (i >= touch && i < touch + hold) {
+      EXPECT_EQ(difference, 0) << i;
+    }
+  }
+}
+
+// The command would ask more of the coil than it can do in a period.
+TEST(CoupledLaws, TheCoilCanFollow) {
+  const SlowBrake slow;
+  for (const char* law : {"gated", "compensated"})
+    for (const Subject& subject : subjects()) {
+      if (subject.network.contact) continue;
+      const compiler::Compilation c = decided(subject.network, law, &slow.device);
+      for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        brake_coil<double> coil(slow.device.description.brake);
+        coil.reset(std::sqrt(compiler::Evaluation<double>(c.law).step(0, 0).damping));
+        for (const auto& now : commands_along(c.law, adversarial_motion(seed))) {
+          const double wanted = std::sqrt(now.damping), demand = coil.demand_to_reach(wanted, slip_period);
+          ASSERT_GE(demand, -1e-12) << subject.name;
+          ASSERT_LE(demand, std::sqrt(c.law.largest_damping) + 1e-12) << subject.name;
+          coil.advance(demand, slip_period);
+          ASSERT_NEAR(coil.root_damping(), wanted, 1e-12) << subject.name;
+        }
+      }
+    }
+}
+
+// A slow slide over a quantised encoder would make the brake toggle.
+TEST(CoupledLaws, DoNotToggleOverAnEncoder) {
+  const double step = 30e-6, speed = 0.01;
+  const compiler::Device device = device_with(step), blind = device_with(0);
+  std::vector<double> motion;
+  for (int i = 1; i <= 6000; ++i) {
+    const int within = i % 4000;
+    const double u = speed * slip_period * (within < 2000 ? within : 4000 - within);
+    motion.push_back(std::floor(u / step) * step);
+  }
+  std::size_t literal = 0;
+  for (const char* law : {"gated", "compensated"})
+    for (const Subject& subject : subjects()) {
+      const std::vector<double> placed = subject.place(motion);
+      const std::size_t begin = subject.network.contact ? way_in : 0;
+      const auto calm = commands_along(decided(subject.network, law, &device).law, placed);
+      EXPECT_EQ(toggles(calm, begin + 1000, begin + 2000), 0u) << law << " " << subject.name;
+      // Each slip once, where it holds and where it slides again.
+      EXPECT_LE(toggles(calm, begin + 2000, begin + 3999), 6u) << law << " " << subject.name;
+      literal = std::max(literal, toggles(commands_along(decided(subject.network, law, &blind).law, placed), begin + 1000, begin + 2000));
+    }
+  EXPECT_GT(literal, 300u);
+}
+
+// What cannot be would be something else in silence.
+TEST(CoupledLaws, WhatCannotBeIsRefused) {
+  const compiler::Network bare = written_network(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");
+  const std::string said = said_of(bare, "gated");
+  EXPECT_NE(said.find("no 'gated' law behind 'slip_3': what slides has no damping but at the tool [no-such-slip-law]"), std::string::npos) << said;
+  EXPECT_NE(said.find("'velocity-free' is always there"), std::string::npos) << said;
+  const compiler::Network relaxing = written_network(R"({"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"series": [{"spring": 10}, {"damper": 5}]}]}]})");
+  EXPECT_NE(said_of(relaxing, "gated").find("no damper lies beside a slip"), std::string::npos);
+  EXPECT_TRUE(can_have(relaxing, "compensated"));
+}
+
+}  // namespace dashpot::testing

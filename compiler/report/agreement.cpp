@@ -12,9 +12,9 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double most_samples = 50'000;
-constexpr std::size_t drawn_points = 200;
-constexpr std::size_t drawn_dots = 36;
+constexpr double agreement_samples = 50'000;
+constexpr std::size_t agreement_points = 200;
+constexpr std::size_t agreement_dots = 36;
 
 // Presses at `rate` for `samples` samples, then holds.
 struct RampAndHold {
@@ -35,7 +35,7 @@ RampAndHold motion_for(const Compilation& c) {
     for (const Mode& mode : c.form.linear.modes) logarithms -= std::log(to_double(mode.relaxation_rate));
     time = std::exp(logarithms / double(c.form.linear.modes.size()));
   }
-  const double samples = std::clamp(std::round(2 * time / c.law.sample_period), 20.0, most_samples / 4);
+  const double samples = std::clamp(std::round(2 * time / c.law.sample_period), 20.0, agreement_samples / 4);
   const double depth = c.network.port_motion == motion::rotation ? 0.1 : 0.001;
   return {c.law.sample_period, static_cast<std::size_t>(samples), depth / (samples * c.law.sample_period)};
 }
@@ -68,8 +68,8 @@ Comparison compare(const Compilation& c, const RampAndHold& press) {
   Comparison result;
   const std::size_t count = 4 * press.samples;
   result.run = run_law(c.law, count, [&](double t) { return press.position(t); }, [&](double t) { return press.velocity(t); });
-  for (std::size_t i = 0; i <= drawn_points; ++i) {
-    const std::size_t sample = i * count / drawn_points;
+  for (std::size_t i = 0; i <= agreement_points; ++i) {
+    const std::size_t sample = i * count / agreement_points;
     if (!result.shown.empty() && sample == result.shown.back()) continue;
     const Real closed = closed_form(c.form.linear, c.certificate.added_damping, press, result.run.time[sample]);
     result.shown.push_back(sample);
@@ -100,7 +100,7 @@ std::vector<double> at_shown(const Comparison& c, const std::vector<double>& all
 Plot forces(const Comparison& c, const PortUnits& units) {
   std::vector<double> total;
   for (const std::size_t sample : c.shown) total.push_back(c.run.force(sample));
-  Curve dots = of_samples("emitted code", Channel::total, c, total, std::max<std::size_t>(1, c.shown.size() / drawn_dots));
+  Curve dots = of_samples("emitted code", Channel::total, c, total, std::max<std::size_t>(1, c.shown.size() / agreement_dots));
   dots.dots = true;
   return {"Press and hold", {"time", "s"}, {"force", units.force}, AxisScale::linear, AxisScale::linear,
           {of_samples("brake b·v̂", Channel::brake, c, at_shown(c, c.run.brake), 1),

@@ -4,6 +4,11 @@
 
 namespace dashpot::compiler {
 
+LawFacts facts_of(const CertificateFile& certificate) {
+  const Choices& c = certificate.choices;
+  return {*c.rate, c.scheme, c.scalar, *c.state_input, certificate.damping};
+}
+
 Network realised(const Network& network, const CertificateFile& certificate, const PortDevice& device) {
   const std::optional<Tree> tree = series_parallel_tree(network);
   if (certificate.choices.state_input != StateInput::nodal || !tree) return network;

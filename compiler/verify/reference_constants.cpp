@@ -35,6 +35,12 @@ ModeFactors mode_factors(const ReferenceMode& mode, const LawFacts& facts) {
   return {decay, loss, mode.stiffness * loss / x};
 }
 
+Reference companion(const ReferenceForm& form, const LawFacts& facts) {
+  Reference g = form.static_stiffness + form.feedthrough_damping * Reference(facts.rate);
+  for (const ReferenceMode& mode : form.modes) g += mode_factors(mode, facts).gain;
+  return g;
+}
+
 std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts) {
   const Reference period = 1 / Reference(facts.rate);
   const double vanishing = facts.scalar == ScalarType::float64 ? 1e-100 : 1e-12;

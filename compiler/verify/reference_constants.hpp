@@ -25,6 +25,9 @@ struct ModeFactors {
 };
 ModeFactors mode_factors(const ReferenceMode& mode, const LawFacts& facts);
 
+// How stiff it is to a step within one sample: k0 + b∞/T + Σ c [N/m].
+Reference companion(const ReferenceForm& form, const LawFacts& facts);
+
 // Each kind of constant, as emitted names end: one value, or one a mode by ascending relaxation rate. Constants that a
 // law of this kind does not have are absent.
 std::map<std::string, std::vector<Reference>> reference_constants(const ReferenceForm& form, const LawFacts& facts);

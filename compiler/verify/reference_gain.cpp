@@ -92,12 +92,6 @@ std::optional<ReferenceGain> gain_of(PulseLaw law, const SampledLoop& loop) {
   return ReferenceGain{rest.least + Reference(widest), rest.most + Reference(widest)};
 }
 
-Reference companion(const ReferenceForm& form, const LawFacts& facts) {
-  Reference g = form.static_stiffness + form.feedthrough_damping * Reference(facts.rate);
-  for (const ReferenceMode& mode : form.modes) g += mode_factors(mode, facts).gain;
-  return g;
-}
-
 // What a part answers within a sample while its slips hold; empty where that is rigid.
 std::optional<Reference> held_companion(const ReferencePart& part, const LawFacts& facts) {
   if (part.kind == ReferencePart::Kind::block) return companion(part.form, facts);

@@ -24,9 +24,9 @@ double damping_of(const Element& e) {
 const Slip* slip_of(const Element& e) { return std::get_if<Slip>(&e.law); }
 
 // Nodes with the numbers they have in a matrix: those that are eliminated come first, then the ends.
-class Laplacian {
+class TerminalLaplacian {
  public:
-  Laplacian(std::size_t inner, std::size_t ends) : inner_(inner), all_(inner + ends, ReferenceVector(inner + ends, 0)) {}
+  TerminalLaplacian(std::size_t inner, std::size_t ends) : inner_(inner), all_(inner + ends, ReferenceVector(inner + ends, 0)) {}
 
   void stamp(std::size_t i, std::size_t j, double value) {
     all_[i][i] += value;
@@ -134,7 +134,7 @@ class Builder {
       const auto place = std::find(group.begin(), group.end(), node);
       return place != group.end() ? std::size_t(place - group.begin()) : group.size() + end_of(node);
     };
-    Laplacian springs(group.size(), count()), dampers = springs;
+    TerminalLaplacian springs(group.size(), count()), dampers = springs;
     for (std::size_t i : linear_) {
       const Element& e = network_.elements[i];
       const std::size_t a = row(e.a), b = row(e.b);

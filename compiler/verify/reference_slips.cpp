@@ -13,12 +13,6 @@ namespace {
 
 using Kind = ReferencePart::Kind;
 
-Reference companion(const ReferenceForm& form, const LawFacts& facts) {
-  Reference g = form.static_stiffness + form.feedthrough_damping * Reference(facts.rate);
-  for (const ReferenceMode& mode : form.modes) g += mode_factors(mode, facts).gain;
-  return g;
-}
-
 // All that is behind a contact as one tree.
 ReferencePart whole_of(const ReferenceTree& tree) {
   ReferencePart whole{Kind::parallel, {}, {}, 0, tree.components};

@@ -8,14 +8,6 @@
 #include "verify/reference_gain.hpp"
 
 namespace dashpot::compiler {
-namespace {
-
-LawFacts facts_of(const CertificateFile& certificate) {
-  const Choices& c = certificate.choices;
-  return {*c.rate, c.scheme, c.scalar, *c.state_input, certificate.damping};
-}
-
-}  // namespace
 
 SlipVerification::SlipVerification(const CertificateFile& certificate, const HeaderConstants& header,
                                    const PortDevice& device, const Compilation& compiled, Diagnostics& diagnostics)

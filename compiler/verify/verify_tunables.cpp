@@ -3,16 +3,9 @@
 #include <algorithm>
 
 #include "certify/estimator_factors.hpp"
+#include "verify/realised_network.hpp"
 
 namespace dashpot::compiler {
-namespace {
-
-LawFacts facts_of(const CertificateFile& certificate) {
-  const Choices& c = certificate.choices;
-  return {*c.rate, c.scheme, c.scalar, *c.state_input, certificate.damping};
-}
-
-}  // namespace
 
 TunableVerification::TunableVerification(const CertificateFile& certificate, const HeaderConstants& header,
                                          const Compilation& compiled, Diagnostics& diagnostics)

@@ -5,8 +5,8 @@
 namespace dashpot::compiler {
 namespace {
 
-// 3⁵ = 243 patterns; no bound is known that grows less.
-constexpr std::size_t most_slips_outside_tree = 5;
+// 3⁸ = 6,561 patterns; no bound is known that grows less. A step tries a few of them.
+constexpr std::size_t most_slips_outside_tree = 8;
 
 // Of the part that is no tree and has most; behind a contact all parts are one.
 std::size_t most_slips_together(const NormalForm& form, const Network& network) {

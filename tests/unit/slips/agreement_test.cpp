@@ -75,7 +75,7 @@ NetworkRecipe recipe(Topology topology = Topology::tree) {
   NetworkRecipe recipe;
   recipe.topology = topology;
   recipe.most_nodes = 9;
-  recipe.most_slips = topology == Topology::tree ? 6 : 5;
+  recipe.most_slips = 6;
   return recipe;
 }
 

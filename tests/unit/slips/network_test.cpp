@@ -69,10 +69,10 @@ TEST(SlipOutsideTree, BecomesTheLinearNetworkAtBothLimits) {
 }
 
 // A part whose step could take any time would be compiled.
-TEST(SlipOutsideTree, RefusesMoreThanFive) {
+TEST(SlipOutsideTree, RefusesMoreThanEight) {
   std::string text = bridge("");
   text.pop_back();
-  for (int i = 1; i <= 6; ++i)
+  for (int i = 1; i <= 9; ++i)
     text += ", {\"slip\": 1, \"nodes\": [\"left\", \"n" + std::to_string(i) + "\"]}, {\"spring\": 10, \"nodes\": [\"n" + std::to_string(i) + "\", \"right\"]}";
   compiler::Diagnostics diagnostics;
   EXPECT_FALSE(compiler::closed_normal_form(written_network(text + "]"), diagnostics));

@@ -46,7 +46,7 @@ Rational hold_stiffness(const MotorConstants& motor) {
   }
   beta += of_grid_steps(more);
   rest += of_grid_steps(less);
-  return beta + abs(rest) + Rational(mp::cpp_int(motor.modes.size()), mp::cpp_int(1) << 1200);
+  return beta + abs(rest) + of_grid_steps(mp::cpp_int(motor.modes.size()));
 }
 
 }  // namespace dashpot::compiler

@@ -68,6 +68,7 @@ class Builder {
         yields[std::minmax(e.a, e.b)] += slip->yield_force;
       } else {
         linear_.push_back(i);
+        widest_ = std::max({widest_, stiffness_of(e), damping_of(e)});
       }
     }
     slip_ends.erase(tool);
@@ -203,24 +204,21 @@ class Builder {
   void add_relaxation(const Reference& rate, const ReferenceVector& drive) {
     Reference largest = 0;
     for (std::size_t end = 0; end + 1 < drive.size(); ++end) largest = std::max(largest, Reference(abs(drive[end])));
-    Reference widest = 0;
-    for (std::size_t i : linear_) widest = std::max({widest, Reference(stiffness_of(network_.elements[i])), Reference(damping_of(network_.elements[i]))});
-    if (largest * largest <= negligible * widest) return;
+    if (largest * largest <= negligible * widest_) return;
     ReferenceNetworkMode mode{largest * largest, rate, {}};
     for (const Reference& pull : drive) mode.weights.push_back(abs(pull) <= negligible * largest ? Reference(0) : Reference(pull / largest));
     result_.modes.push_back(std::move(mode));
   }
 
   void drop_leftovers(ReferenceMatrix& ties) const {
-    Reference widest = 0;
-    for (std::size_t i : linear_) widest = std::max({widest, Reference(stiffness_of(network_.elements[i])), Reference(damping_of(network_.elements[i]))});
     for (ReferenceVector& row : ties)
       for (Reference& value : row)
-        if (abs(value) <= negligible * widest) value = 0;
+        if (abs(value) <= negligible * widest_) value = 0;
   }
 
   const Network& network_;
   std::vector<std::size_t> linear_;
+  double widest_ = 0;  // largest stiffness or damping, as numbers
   ReferenceNetwork result_;
 };
 

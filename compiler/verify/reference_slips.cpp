@@ -167,11 +167,6 @@ class Constants {
   Pool pool_;
 };
 
-ReferencePart rendered(const ReferencePart& component, const SlipDecomposition& slips, std::size_t index) {
-  const bool is_gated = index < slips.components.size() && slips.components[index].law == SlipLaw::gated;
-  return is_gated ? without_dampers_beside_slips(component) : component;
-}
-
 ReferenceCut cut_of(const ReferenceForm& form, const LawFacts& facts) {
   ReferenceCut cut{form.static_stiffness / 2, form.feedthrough_damping};
   for (const ReferenceMode& mode : form.modes) {
@@ -231,7 +226,8 @@ ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const Sl
     tree.networks = {elements_behind_slips(tree)};
     tree.components.clear();
   }
-  for (std::size_t i = 0; i < tree.components.size(); ++i) tree.components[i] = rendered(tree.components[i], slips, i);
+  for (std::size_t i = 0; i < std::min(tree.components.size(), slips.components.size()); ++i)
+    if (slips.components[i].law == SlipLaw::gated) tree.components[i] = without_dampers_beside_slips(std::move(tree.components[i]));
   for (std::size_t i = 0; i < std::min(tree.networks.size(), slips.networks.size()); ++i) {
     if (slips.networks[i].law != SlipLaw::gated) continue;
     const std::vector<std::size_t> all = tree.networks[i];
@@ -278,14 +274,14 @@ Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, c
     constants.add_contact(tree, network);
   } else {
     for (std::size_t i = 0; i < tree.components.size(); ++i) {
-      const ReferencePart component = rendered(tree.components[i], slips, i);
+      const ReferencePart& component = tree.components[i];
       const std::vector<BrakeShare> none;
       if (slip_count(component) == 1) constants.add_single_slip(component, i < slips.components.size() ? slips.components[i].shares : none);
       else constants.add_table(component);
     }
     for (const std::vector<std::size_t>& part : tree.networks) constants.add_network(reference_network(network, part), nullptr);
   }
-  for (std::size_t i = 0; i < tree.components.size(); ++i) constants.add_regimes(rendered(tree.components[i], slips, i));
+  for (const ReferencePart& component : tree.components) constants.add_regimes(component);
   for (std::size_t i = 0; i < slips.networks.size(); ++i)
     constants.add_regimes(slips.networks[i].regimes, network, network.contact ? elements_behind_slips(tree) : tree.networks[i]);
   for (const ComponentSplit* split : slips.all()) constants.add_capped(*split);
@@ -304,7 +300,7 @@ ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, co
     sum.damping -= least;
   };
   for (std::size_t i = 0; i < tree.components.size(); ++i) {
-    const ReferenceCut cut = least_cut(rendered(tree.components[i], slips, i), facts, weight).value();
+    const ReferenceCut cut = least_cut(tree.components[i], facts, weight).value();
     sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping};
     if (i < slips.components.size()) less_the_brake(slips.components[i].shares);
   }
@@ -323,7 +319,7 @@ bool are_within_regimes(const ReferenceTree& tree, const SlipDecomposition& slip
     const std::vector<BrakeShare>& shares = slips.components[i].shares;
     if (shares.size() != 2) continue;  // several slips: by the pool
     for (const bool slides : {false, true}) {
-      const std::optional<Reference> most = feedthrough_in(rendered(tree.components[i], slips, i), slides ? 1 : 0);
+      const std::optional<Reference> most = feedthrough_in(tree.components[i], slides ? 1 : 0);
       if (most && Reference(shares[slides ? 1 : 0].feedthrough) > *most * (1 + Reference("1e-40"))) return false;
     }
   }

@@ -19,7 +19,7 @@ using Pool = std::map<std::string, std::vector<Reference>, std::less<>>;
 // network alone; several where an element's name looks like a kind.
 std::vector<std::string_view> kinds_behind_slips(std::string_view name);
 
-// `slips`: what the brake was given in every regime, and the encoder's step; a choice.
+// `tree`: a rendered one, here and below. `slips`: what the brake was given in every regime, and the encoder's step; a choice.
 Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts);
 
 // As the laws compute it: under the gated law without the dampers beside slips; behind a contact slips outside a tree with all others.

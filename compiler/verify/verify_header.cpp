@@ -4,6 +4,7 @@
 
 #include "certify/quantisation.hpp"
 #include "verify/realised_network.hpp"
+#include "verify/recompiled.hpp"
 #include "verify/reference_constants.hpp"
 #include "verify/reference_gain.hpp"
 #include "verify/verify_slips.hpp"
@@ -134,9 +135,7 @@ class Verification {
     diagnostics_.report<DiagnosticCode::constant_wrong>({}, kind, place + 1, value, exact.str(20));
   }
 
-  void expect(const char* what, double stated, double found) {
-    if (stated != found) diagnostics_.report<DiagnosticCode::bound_wrong>({}, what, stated, found);
-  }
+  void expect(const char* what, double stated, double found) { expect_bound(what, stated, found, diagnostics_); }
 
   const CertificateFile& certificate_;
   const HeaderConstants& header_;

@@ -5,6 +5,7 @@
 
 #include "certify/slip_motor.hpp"
 #include "verify/realised_network.hpp"
+#include "verify/recompiled.hpp"
 #include "verify/reference_gain.hpp"
 
 namespace dashpot::compiler {
@@ -73,18 +74,7 @@ void SlipVerification::recompute_bounds() {
   if (!motor || !covers(motor->stiffness, cut.stiffness) || !covers(motor->damping, std::max(cut.damping, Reference(0))))
     diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed cut", "needed damping");
   const auto gain = motor ? reference_gain(tree_, linear_, compiled_.network, compiled_.decomposition.slips, *motor, facts_, again.loop) : std::nullopt;
-  if (!agrees(certificate_.quantisation_gain, again.quantisation_gain, gain, header_.scalar))
-    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");
-  expect("needed damping", certificate_.needed_damping, again.bound.needed);
-  expect("assured damping", certificate_.assured_damping, again.assured);
-  expect("brake command", certificate_.brake_command, compiled_.law.damping);
-  expect("added damping", certificate_.added_damping, again.added_damping);
-  if (certificate_.proof != name_of(again.bound.proof) || certificate_.certified != again.certified)
-    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed bound", "proof");
-}
-
-void SlipVerification::expect(const char* what, double stated, double found) {
-  if (stated != found) diagnostics_.report<DiagnosticCode::bound_wrong>({}, what, stated, found);
+  compare_with_recompiled(certificate_, compiled_, gain, header_.scalar, diagnostics_);
 }
 
 }  // namespace dashpot::compiler

@@ -20,7 +20,6 @@ class SlipVerification {
   void look_at(const HeaderConstant& constant);
   bool is_in_pool(std::string_view kind, double constant) const;
   void compare_with_choice(const HeaderConstant& constant);
-  void expect(const char* what, double stated, double found);
 
   const CertificateFile& certificate_;
   const HeaderConstants& header_;

@@ -4,6 +4,7 @@
 
 #include "certify/estimator_factors.hpp"
 #include "verify/realised_network.hpp"
+#include "verify/recompiled.hpp"
 
 namespace dashpot::compiler {
 
@@ -54,11 +55,7 @@ bool TunableVerification::covers(double stated, const ReferenceBox& box, const R
 
 // The certificate asks for no less than the box once more, but for rounding, and, but for its margin, no more.
 void TunableVerification::recompute_bounds() {
-  const Certificate& again = compiled_.certificate;
-  const SampledLoop& loop = again.loop;
-  const auto expect = [&](const char* what, double stated, double found) {
-    if (stated != found) diagnostics_.report<DiagnosticCode::bound_wrong>({}, what, stated, found);
-  };
+  const SampledLoop& loop = compiled_.certificate.loop;
   const auto gain = estimate_gain(loop);
   const Rational exact_share = assured_share(loop);
   const Reference share = Reference(numerator(exact_share)) / Reference(denominator(exact_share));
@@ -68,15 +65,8 @@ void TunableVerification::recompute_bounds() {
   const bool is_proved = certificate_.proof != name_of(Proof::none);
   if (is_proved && !box) diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed box", "proof");
   if (is_proved && box && !covers(certificate_.needed_damping, *box, share))
-    expect("needed damping", certificate_.needed_damping, (share * box->least_brake + box->lacking).convert_to<double>());
-  if (!agrees(certificate_.quantisation_gain, again.quantisation_gain, box ? box->gain : std::nullopt, header_.scalar))
-    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");
-  expect("needed damping", certificate_.needed_damping, again.bound.needed);
-  expect("assured damping", certificate_.assured_damping, again.assured);
-  expect("brake command", certificate_.brake_command, compiled_.law.damping);
-  expect("added damping", certificate_.added_damping, again.added_damping);
-  if (certificate_.proof != name_of(again.bound.proof) || certificate_.certified != again.certified)
-    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed bound", "proof");
+    expect_bound("needed damping", certificate_.needed_damping, (share * box->least_brake + box->lacking).convert_to<double>(), diagnostics_);
+  compare_with_recompiled(certificate_, compiled_, box ? box->gain : std::nullopt, header_.scalar, diagnostics_);
 }
 
 }  // namespace dashpot::compiler

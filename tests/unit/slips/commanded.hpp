@@ -11,6 +11,7 @@
 
 #include "slip_run.hpp"
 #include "support/random.hpp"
+#include "support/random_network.hpp"
 
 namespace dashpot::testing {
 
@@ -47,6 +48,17 @@ inline std::vector<command<double>> commands_along(const compiler::UpdateLaw& la
 inline std::vector<double> slide(double speed, std::size_t samples) {
   std::vector<double> motion;
   for (std::size_t i = 1; i <= samples; ++i) motion.push_back(speed * slip_period * double(i));
+  return motion;
+}
+
+// For 2,000 samples away, for 2,000 back, and away again, as an encoder of this step reads it.
+inline std::vector<double> there_and_back(double speed, double step) {
+  std::vector<double> motion;
+  for (int i = 1; i <= 6000; ++i) {
+    const int within = i % 4000;
+    const double u = speed * slip_period * (within < 2000 ? within : 4000 - within);
+    motion.push_back(std::floor(u / step) * step);
+  }
   return motion;
 }
 
@@ -116,6 +128,29 @@ std::string energy_from_motor(const compiler::Compilation& compilation, const st
     stored = after;
   }
   return "";
+}
+
+inline NetworkRecipe coupled_recipe(Topology topology) {
+  NetworkRecipe recipe;
+  recipe.topology = topology;
+  recipe.most_nodes = 8;
+  recipe.most_slips = topology == Topology::tree ? 6 : 4;
+  return recipe;
+}
+
+// energy_from_motor() of slips that are solved together. What the brake takes is capped, to be of another regime now and then, and
+// led to where the coil can be.
+inline std::string gain_of_coupled(const compiler::Network& network, const char* law, const std::vector<double>& motion) {
+  compiler::Device device = device_with(1e-5);
+  device.description.brake.max_damping = 0.5;
+  device.description.brake.coil_lag = 0.01;
+  device.description.velocity.estimator = estimator_kind::super_twisting;  // so that nothing is made up
+  compiler::Choices choices;
+  choices.decomposition = law;
+  choices.state_input = compiler::StateInput::position;
+  // f′ is what is left of a force that is rounded as a whole; outside a tree ends of stiff elements are, and these answer that.
+  const auto whole = [](double, double change) { return 0.5 * change * change / slip_period; };
+  return energy_from_motor(compiled(network, choices, &device), motion, 0.5, whole, 0x1p-48 * stiffest(network));
 }
 
 // To and fro by many times what makes the slip give way, at a pace that changes.

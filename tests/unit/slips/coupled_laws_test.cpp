@@ -68,26 +68,10 @@ std::vector<Subject> subjects() {
           {"ring behind a contact", pressed_ring(), deep}};
 }
 
-NetworkRecipe recipe(Topology topology) {
-  NetworkRecipe recipe;
-  recipe.topology = topology;
-  recipe.most_nodes = 8;
-  recipe.most_slips = topology == Topology::tree ? 6 : 4;
-  return recipe;
-}
-
 std::string gain_without_brake(const compiler::Network& network, bool is_touched) {
   const compiler::Network subject = is_touched ? touched(network) : network;
   if (!can_have(subject, "gated")) return "";
-  compiler::Device device = device_with(1e-5);
-  device.description.brake.max_damping = 0.5;
-  device.description.brake.coil_lag = 0.01;
-  device.description.velocity.estimator = estimator_kind::super_twisting;  // so that nothing is made up
-  compiler::Choices choices;
-  choices.decomposition = "gated";
-  choices.state_input = compiler::StateInput::position;
-  const auto whole = [](double, double change) { return 0.5 * change * change / slip_period; };
-  return energy_from_motor(compiled(subject, choices, &device), random_motion(network, 11, 200), 0.5, whole, 0x1p-48 * stiffest(network));
+  return gain_of_coupled(subject, "gated", random_motion(network, 11, 200));
 }
 
 std::string said_of(const compiler::Network& network, const char* law) {
@@ -127,20 +111,20 @@ TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
 // The motor alone would give more than it took, under whatever brake and coil.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(200, 20000), recipe(topology), [](const auto& network) { return gain_without_brake(network, false); }), "");
+    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology), [](const auto& network) { return gain_without_brake(network, false); }), "");
 }
 
 // The same behind a contact.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergyBehindAContact) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(200, 20000), recipe(topology), [](const auto& network) { return gain_without_brake(network, true); }), "");
+    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology), [](const auto& network) { return gain_without_brake(network, true); }), "");
 }
 
 // The random networks above would hardly ever have the law, and the tests prove nothing.
 TEST(CoupledLaws, RandomNetworksHaveTheGatedLaw) {
   std::size_t trees = 0, graphs = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const compiler::Network tree = random_network(seed, recipe(Topology::tree)), graph = random_network(seed, recipe(Topology::graph));
+    const compiler::Network tree = random_network(seed, coupled_recipe(Topology::tree)), graph = random_network(seed, coupled_recipe(Topology::graph));
     if (compiler::normal_form(tree).has_slips() && most_coupled(compiled(tree, compiler::Scheme::exact)) > 1 && can_have(tree, "gated")) ++trees;
     if (!compiler::normal_form(graph).networks.empty() && can_have(graph, "gated")) ++graphs;
   }
@@ -232,12 +216,7 @@ TEST(CoupledLaws, TheCoilCanFollow) {
 TEST(CoupledLaws, DoNotToggleOverAnEncoder) {
   const double step = 30e-6, speed = 0.01;
   const compiler::Device device = device_with(step), blind = device_with(0);
-  std::vector<double> motion;
-  for (int i = 1; i <= 6000; ++i) {
-    const int within = i % 4000;
-    const double u = speed * slip_period * (within < 2000 ? within : 4000 - within);
-    motion.push_back(std::floor(u / step) * step);
-  }
+  const std::vector<double> motion = there_and_back(speed, step);
   std::size_t literal = 0;
   for (const char* law : {"gated", "compensated"})
     for (const Subject& subject : subjects()) {

@@ -33,26 +33,8 @@ bool takes_part(const compiler::Compilation& c) {
   return false;
 }
 
-NetworkRecipe recipe(Topology topology) {
-  NetworkRecipe recipe;
-  recipe.topology = topology;
-  recipe.most_nodes = 8;
-  recipe.most_slips = topology == Topology::tree ? 6 : 4;
-  return recipe;
-}
-
-// What the brake takes is capped, to be of another regime now and then, and led to where the coil can be.
 std::string gain_without_brake(const compiler::Network& network) {
-  compiler::Device device = device_with(1e-5);
-  device.description.brake.max_damping = 0.5;
-  device.description.brake.coil_lag = 0.01;
-  device.description.velocity.estimator = estimator_kind::super_twisting;  // so that nothing is made up
-  compiler::Choices choices;
-  choices.decomposition = "velocity-free";
-  choices.state_input = compiler::StateInput::position;
-  // f′ is what is left of a force that is rounded as a whole; outside a tree ends of stiff elements are, and these answer that.
-  const auto whole = [](double, double change) { return 0.5 * change * change / slip_period; };
-  return energy_from_motor(compiled(network, choices, &device), random_motion(network, 11, 200), 0.5, whole, 0x1p-48 * stiffest(network));
+  return gain_of_coupled(network, "velocity-free", random_motion(network, 11, 200));
 }
 
 }  // namespace
@@ -171,15 +153,15 @@ TEST(CoupledRegimes, TheCoilCanFollow) {
 // The motor alone, under any switching of the brake, could give more than it took.
 TEST(CoupledRegimes, TheMotorAloneMakesNoEnergy) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(300, 20000), recipe(topology), gain_without_brake), "");
+    EXPECT_EQ(first_failure(1, repetitions(300, 20000), coupled_recipe(topology), gain_without_brake), "");
 }
 
 // The random networks above would leave nothing to the brake, and the test prove nothing.
 TEST(CoupledRegimes, OfRandomNetworksLeaveTheBrakeAPart) {
   std::size_t trees = 0, graphs = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    if (takes_part(compiled(random_network(seed, recipe(Topology::tree)), compiler::Scheme::exact))) ++trees;
-    const compiler::Compilation c = compiled(random_network(seed, recipe(Topology::graph)), compiler::Scheme::exact);
+    if (takes_part(compiled(random_network(seed, coupled_recipe(Topology::tree)), compiler::Scheme::exact))) ++trees;
+    const compiler::Compilation c = compiled(random_network(seed, coupled_recipe(Topology::graph)), compiler::Scheme::exact);
     if (!c.law.networks.empty() && takes_part(c)) ++graphs;
   }
   EXPECT_GE(trees, 40u);

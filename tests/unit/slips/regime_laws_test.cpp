@@ -125,12 +125,7 @@ TEST(RegimeLaws, EquationTwentyOneIsTheStiffLimit) {
 TEST(RegimeLaws, SlowSlidesOverAnEncoderDoNotToggle) {
   const double step = 30e-6, speed = 0.01;
   const compiler::Device device = device_with(step), blind = device_with(0);
-  std::vector<double> motion;
-  for (int i = 1; i <= 6000; ++i) {
-    const int within = i % 4000;
-    const double u = speed * slip_period * (within < 2000 ? within : 4000 - within);
-    motion.push_back(std::floor(u / step) * step);
-  }
+  const std::vector<double> motion = there_and_back(speed, step);
   for (const char* law : {"gated", "compensated"}) {
     const auto calm = commands_along(decided(FigureTen{}.network(), law, &device).law, motion);
     EXPECT_EQ(toggles(calm, 1000, 2000), 0u) << law;

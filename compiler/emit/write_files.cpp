@@ -2,9 +2,13 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
+
+#include "emit/unfinished_files.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -31,48 +35,64 @@ Pending pending(const fs::path& path) {
   return {target, target.string() + ".new" + std::to_string(::getpid())};
 }
 
-bool write_whole(const fs::path& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-  stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-  stream.close();
-  return stream.good();
+// What the system says where the text cannot be written; empty where all of it is.
+std::string fault_in_writing(const fs::path& path, const std::string& text) {
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) return std::strerror(errno);
+  int fault = std::fwrite(text.data(), 1, text.size(), file) == text.size() ? 0 : errno;
+  if (std::fclose(file) != 0 && fault == 0) fault = errno;
+  return fault == 0 ? "" : std::strerror(fault);
 }
 
-void remove_all(const std::vector<Pending>& files) {
-  std::error_code ignored;
-  for (const Pending& file : files)
-    if (!file.beside.empty()) fs::remove(file.beside, ignored);
+std::string fault_in_making_folder(const fs::path& folder) {
+  std::error_code error, ignored;
+  if (folder.empty() || fs::is_directory(folder, ignored)) return "";
+  fs::create_directories(folder, error);
+  return error ? error.message() : "";
 }
 
-std::string fault_of(bool is_done) { return is_done ? "" : "not a file that can be written"; }
-
-std::string put_in_place(const Pending& file, const std::string& text) {
-  if (file.beside.empty()) return fault_of(write_whole(file.target, text));
+std::string fault_in_renaming(const Pending& file) {
   std::error_code error;
   fs::rename(file.beside, file.target, error);
   return error ? error.message() : "";
 }
 
+std::vector<std::string> names_beside(const std::vector<Pending>& files) {
+  std::vector<std::string> names;
+  for (const Pending& file : files)
+    if (!file.beside.empty()) names.push_back(file.beside.string());
+  return names;
+}
+
+// In this order: what cannot be undone comes last.
+enum class Stage { text_beside, text_into_pipes, renames };
+
+std::string fault_of(const Pending& pending, const std::string& text, Stage stage) {
+  const bool is_file = !pending.beside.empty();
+  std::error_code ignored;
+  switch (stage) {
+    case Stage::text_beside:
+      if (fs::is_directory(pending.target, ignored)) return std::strerror(EISDIR);
+      if (const std::string fault = fault_in_making_folder(pending.target.parent_path()); !fault.empty()) return fault;
+      return is_file ? fault_in_writing(pending.beside, text) : "";
+    case Stage::text_into_pipes: return is_file ? "" : fault_in_writing(pending.target, text);
+    case Stage::renames: return is_file ? fault_in_renaming(pending) : "";
+  }
+  return "";
+}
+
 }  // namespace
 
 bool write_files(const std::string& folder, const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
-  std::vector<Pending> written;
-  const auto fail = [&](const fs::path& path, const std::string& fault) {
-    diagnostics.report<DiagnosticCode::cannot_write_file>({}, path.string(), fault);
-    remove_all(written);
-    return false;
-  };
-  for (const OutputFile& file : files) {
-    const fs::path path = fs::path(folder) / file.name;
-    std::error_code ignored;
-    fs::create_directories(path.parent_path(), ignored);
-    written.push_back(pending(path));
-    if (fs::is_directory(path, ignored)) return fail(path, fault_of(false));
-    if (!written.back().beside.empty() && !write_whole(written.back().beside, file.text)) return fail(path, fault_of(false));
-  }
-  for (std::size_t i = 0; i < files.size(); ++i)
-    if (const std::string fault = put_in_place(written[i], files[i].text); !fault.empty())
-      return fail(fs::path(folder) / files[i].name, fault);
+  std::vector<Pending> all;
+  for (const OutputFile& file : files) all.push_back(pending(fs::path(folder) / file.name));
+  const UnfinishedFiles unfinished(names_beside(all));
+  for (const Stage stage : {Stage::text_beside, Stage::text_into_pipes, Stage::renames})
+    for (std::size_t i = 0; i < files.size(); ++i)
+      if (const std::string fault = fault_of(all[i], files[i].text, stage); !fault.empty()) {
+        diagnostics.report<DiagnosticCode::cannot_write_file>({}, (fs::path(folder) / files[i].name).string(), fault);
+        return false;
+      }
   return true;
 }
 

@@ -1,11 +1,13 @@
 """What `dashpot compile` writes, and when it writes nothing."""
 import json
 import os
+import signal
 import subprocess
+import time
 import unittest
 
-from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE,
-                             CommandTest, network)
+from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH,
+                             SOURCE, CommandTest, network)
 
 # Two slips that meet at an inner node with the spring between them.
 COUPLED = """{ "series": [ { "parallel": [ { "slip": 1 }, { "spring": 50 } ] }, { "parallel": [ { "slip": 2 }, { "spring": 70 } ] },
@@ -131,6 +133,38 @@ class Files(CommandTest):
         """Fails if headers are written although the whole does not succeed."""
         self.refused("compile", "kelvin.json", "-o", "out", "--depfile", "kelvin.json/d", code="cannot-write-file")
         self.assertEqual(self.files("out"), [])
+
+    def test_what_the_system_says(self):
+        """Fails if a full disk, a file in the place of a folder or a folder in the place of a file are told alike."""
+        (self.folder / "folder").mkdir()
+        for target, reason in [("/dev/full", "No space left on device"), ("kelvin.json/c", "Not a directory"), ("folder", "Is a directory")]:
+            told = self.refused("compile", "kelvin.json", "-o", "out", "--certificate", target, code="cannot-write-file").stderr
+            self.assertIn(f"cannot write '{target}': {reason} [cannot-write-file]", told)
+
+    def test_a_certificate_that_cannot_be_written(self):
+        """Fails if a header is left whose certificate is not written, or takes the place of one that has its own."""
+        for target in ["/dev/full", "kelvin.json/c", "."]:
+            self.refused("compile", "kelvin.json", "-o", "out", "--certificate", target, code="cannot-write-file")
+            self.assertEqual(self.files("out"), [])
+        self.dashpot("compile", "kelvin.json", "-o", "out", "--certificate", "c.json")
+        before = (self.folder / "out/kelvin.hpp").read_bytes()
+        self.refused("compile", "kelvin.json", "-o", "out", "--rate", "4000", "--certificate", "/dev/full", code="cannot-write-file")
+        self.assertEqual((self.folder / "out/kelvin.hpp").read_bytes(), before)
+        self.assertEqual(self.files("out"), ["kelvin.hpp"])
+
+    def test_an_interrupt_leaves_nothing_unfinished(self):
+        """Fails if a file that nobody asked for stays behind where writing is interrupted."""
+        os.mkfifo(self.folder / "pipe")
+        for signal_number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
+            waiting = subprocess.Popen([DASHPOT, "compile", "kelvin.json", "-o", "out", "--certificate", "pipe"], cwd=self.folder)
+            self.addCleanup(waiting.kill)
+            while not self.files("out"):  # then the certificate waits for somebody who reads the pipe
+                self.assertIsNone(waiting.poll())
+                time.sleep(0.01)
+            self.assertEqual(self.files("out"), [f"kelvin.hpp.new{waiting.pid}"])
+            waiting.send_signal(signal_number)
+            self.assertEqual(waiting.wait(60), -signal_number)
+            self.assertEqual(self.files("out"), [])
 
     def test_two_networks_of_one_name(self):
         """Fails if one header silently takes the place of another."""

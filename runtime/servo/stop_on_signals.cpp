@@ -13,7 +13,7 @@ extern "C" void ask_to_stop(int) {
 
 }  // namespace
 
-stop_on_signals::stop_on_signals(servo_control& control) noexcept : before_interrupt_{}, before_terminate_{} {
+stop_on_signals::stop_on_signals(servo_control& control) noexcept : before_interrupt_{}, before_terminate_{}, before_hangup_{} {
   listener.store(&control);
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
@@ -21,11 +21,14 @@ stop_on_signals::stop_on_signals(servo_control& control) noexcept : before_inter
   action.sa_flags = SA_RESTART;
   sigaction(SIGINT, &action, &before_interrupt_);
   sigaction(SIGTERM, &action, &before_terminate_);
+  sigaction(SIGHUP, &action, &before_hangup_);
+  if (before_hangup_.sa_handler == SIG_IGN) sigaction(SIGHUP, &before_hangup_, nullptr);
 }
 
 stop_on_signals::~stop_on_signals() {
   sigaction(SIGINT, &before_interrupt_, nullptr);
   sigaction(SIGTERM, &before_terminate_, nullptr);
+  sigaction(SIGHUP, &before_hangup_, nullptr);
   listener.store(nullptr);
 }
 

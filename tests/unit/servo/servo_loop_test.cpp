@@ -317,11 +317,11 @@ TEST(ServoLoopFacts, ModelMayStateItsFactsAtRunTime) {
   EXPECT_EQ(servo_loop(model, device, estimator, options, simulated_clock{}).run().verdict, admission::other_rate);
 }
 
-// Broken, Ctrl-C would kill the process with the motor on, or go on asking a loop that is gone.
+// Broken, Ctrl-C or a closed terminal would kill the process with the motor on, or go on asking a loop that is gone.
 TEST(StopOnSignals, AsksTheLoopToStopAndGivesTheHandlersBack) {
   struct sigaction before {};
   sigaction(SIGINT, nullptr, &before);
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     servo_control control;
     const stop_on_signals guard(control);
     EXPECT_FALSE(control.stop_requested());
@@ -331,6 +331,18 @@ TEST(StopOnSignals, AsksTheLoopToStopAndGivesTheHandlersBack) {
   struct sigaction after {};
   sigaction(SIGINT, nullptr, &after);
   EXPECT_EQ(after.sa_handler, before.sa_handler);
+}
+
+// Broken, a loop that was started under nohup would end with its terminal.
+TEST(StopOnSignals, LeavesAHangupIgnored) {
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  servo_control control;
+  {
+    const stop_on_signals guard(control);
+    std::raise(SIGHUP);
+  }
+  EXPECT_FALSE(control.stop_requested());
+  EXPECT_EQ(std::signal(SIGHUP, before), SIG_IGN);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// While it lives, SIGINT (Ctrl-C) and SIGTERM ask a servo loop to stop, so that the device is left safe. The handlers
-// that were there before come back with its end. One at a time in a process.
+// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal is closed) ask a servo loop to stop, so that the device
+// is left safe; a SIGHUP that is ignored, as under nohup, stays so. The handlers that were there before come back with its
+// end. One at a time in a process.
 #pragma once
 
 #include <csignal>
@@ -18,6 +19,7 @@ class stop_on_signals {
  private:
   struct sigaction before_interrupt_;
   struct sigaction before_terminate_;
+  struct sigaction before_hangup_;
 };
 
 }  // namespace dashpot

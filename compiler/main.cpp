@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <sstream>
 
 #include "commands/commands.hpp"
 #include "network/rate_limits.hpp"
@@ -204,6 +205,16 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   return status;
 }
 
+// Help and version are asked for; what else ends parsing is a fault of the command line.
+ExitStatus answer(const CLI::App& app, const CLI::ParseError& error) {
+  std::ostringstream text;
+  if (app.exit(error, text, std::cerr) != 0) return ExitStatus::command_line_wrong;
+  Diagnostics diagnostics;
+  const ExitStatus status = write_standard_output(text.str(), diagnostics);
+  std::cerr << render_text(diagnostics);
+  return status;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -215,9 +226,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const bool was_help = error.get_exit_code() == 0;
-    app.exit(error);
-    return was_help ? 0 : static_cast<int>(ExitStatus::command_line_wrong);
+    return static_cast<int>(answer(app, error));
   }
   try {
     take_over_words(line);

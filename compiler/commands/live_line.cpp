@@ -4,6 +4,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <string>
 
 namespace dashpot::compiler {
 
@@ -26,15 +28,17 @@ void LiveLine::print(const telemetry_record& record) {
   const double rate = elapsed > 0 ? double(records_) / elapsed : 0;
   const char* force = rotary_ ? "N m" : "N";
   const char* damping = rotary_ ? "N m s/rad" : "N s/m";
-  fmt::print("{}{:7.1f} s  {:7.0f} Hz  late {:6.0f} us  motor {:9.4f} {}  brake {:8.4f} {}  energy {:9.5f} J  faults {}{}",
-             terminal_ ? "\r" : "", record.time, rate, double(latest_) * 1e-3, record.motor_force, force, record.damping,
-             damping, record.energy, faults_, terminal_ ? "" : "\n");
+  const std::string line = fmt::format(
+      "{}{:7.1f} s  {:7.0f} Hz  late {:6.0f} us  motor {:9.4f} {}  brake {:8.4f} {}  energy {:9.5f} J  faults {}{}",
+      terminal_ ? "\r" : "", record.time, rate, double(latest_) * 1e-3, record.motor_force, force, record.damping,
+      damping, record.energy, faults_, terminal_ ? "" : "\n");
+  std::fputs(line.c_str(), stdout);  // nobody has to read along
   std::fflush(stdout);
   shown_ = true;
 }
 
 void LiveLine::finish() {
-  if (terminal_ && shown_) fmt::print("\n");
+  if (terminal_ && shown_) std::fputs("\n", stdout);
 }
 
 }  // namespace dashpot::compiler

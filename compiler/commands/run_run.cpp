@@ -1,7 +1,6 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <memory>
 
@@ -72,6 +71,7 @@ std::optional<servo_summary> run_on(Port& device, LoadedModel& model, servo_opti
   any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   servo_loop<LoadedModel, Port, any_estimator<double>, Clock> loop(model, device, estimator, options, clock);
   const stop_on_signals ctrl_c(loop.control());
+  std::signal(SIGPIPE, SIG_IGN);  // who reads along may leave; the device is driven to the end, and left safe
   return loop.run();
 }
 
@@ -102,12 +102,11 @@ std::optional<servo_summary> run_simulated(const Options& options, const Compila
                       : run_on(device, model, loop, monotonic_clock{}, log, diagnostics);
 }
 
-ExitStatus conclude(const servo_summary& summary, const std::string& log) {
-  fmt::print("{}", to_text(summary));
-  if (!is_admitted(summary.verdict)) return ExitStatus::input_refused;
-  fmt::print("log: {}\n", log);
-  const bool sound = summary.left_safe && summary.faults.total() == 0 && summary.telemetry_error == 0;
-  return sound ? ExitStatus::done : ExitStatus::input_refused;
+ExitStatus conclude(const servo_summary& summary, const std::string& log, Diagnostics& diagnostics) {
+  const bool has_log = is_admitted(summary.verdict);
+  const bool sound = has_log && summary.left_safe && summary.faults.total() == 0 && summary.telemetry_error == 0;
+  const ExitStatus told = write_standard_output(to_text(summary) + (has_log ? "log: " + log + "\n" : ""), diagnostics);
+  return sound ? told : ExitStatus::input_refused;
 }
 
 }  // namespace
@@ -127,7 +126,7 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
                                                    ? run_on_board(options, *compilation, *model, loop, diagnostics)
                                                    : run_simulated(options, *compilation, *model, loop, diagnostics);
   live.finish();
-  return summary ? conclude(*summary, log_name(options, *compilation)) : ExitStatus::input_refused;
+  return summary ? conclude(*summary, log_name(options, *compilation), diagnostics) : ExitStatus::input_refused;
 }
 
 }  // namespace dashpot::compiler

@@ -181,11 +181,17 @@ class Diagnostics(CommandTest):
 class StandardOutput(CommandTest):
     def test_a_full_disk_is_reported(self):
         """Fails if results are lost without a word when standard output cannot take them."""
-        for command in [["explain", FIG_5], ["explain", FIG_5, "--json"], ["compile", FIG_5, "--print", "law"]]:
+        self.write("motion.csv", "time,position\n0,0\n0.001,0\n")
+        self.dashpot("compile", FIG_5, "--certificate", "c.json")
+        blade = ["--blade", "1 mm", "--pole-length", "20 mm", "--pole-width", "20 mm", "--field", "1 T"]
+        for command in [["explain", FIG_5], ["explain", FIG_5, "--json"], ["compile", FIG_5, "--print", "law"], ["--version"], ["--help"],
+                        ["compile", "--help"], ["simulate", FIG_5, "--input", "motion.csv"], ["verify", "c.json", "second_order_maxwell.hpp"],
+                        ["device", PANTOGRAPH, *blade], ["run", FIG_5, "--device", PANTOGRAPH, "--fast", "--for", "5"]]:
             with open("/dev/full", "w") as full:
-                done = subprocess.run([DASHPOT, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True)
-            self.assertEqual(done.returncode, INPUT_REFUSED, done.stderr)
-            self.assertIn("[cannot-write-file]", done.stderr)
+                done = subprocess.run([DASHPOT, *map(str, command)], stdout=full, stderr=subprocess.PIPE, text=True,
+                                      cwd=self.folder)
+            self.assertEqual(done.returncode, INPUT_REFUSED, (command, done.stderr))
+            self.assertIn("cannot write 'standard output': No space left on device [cannot-write-file]", done.stderr)
 
 
 if __name__ == "__main__":

@@ -79,6 +79,18 @@ class Run(unittest.TestCase):
         self.assertEqual(process.returncode, 0, output + errors)
         self.assertIn("device left safe", output)
 
+    def test_nobody_reads_along(self):
+        """Fails if the end of whoever reads what `run` prints ends the program before the device has the safe command."""
+        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
+                                    "--for", "3", "--fast", "--log", self.log], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process.stdout.close()
+        errors = process.stderr.read()
+        process.stderr.close()
+        self.assertEqual(process.wait(60), 1, errors)
+        self.assertIn("cannot write 'standard output': Broken pipe [cannot-write-file]", errors)
+        with open(self.log, newline="") as stream:
+            self.assertEqual(len(list(csv.DictReader(stream))), 3000)
+
     def test_compiler_that_fails_is_told_and_nothing_is_written(self):
         """Fails if a missing or failing system compiler is silent, or leaves a log behind."""
         for compiler in ("false", "/no/such/compiler"):

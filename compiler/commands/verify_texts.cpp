@@ -5,6 +5,7 @@
 #include "compile.hpp"
 #include "linear/reach.hpp"
 #include "syntax/parse_device.hpp"
+#include "verify/read_certificate.hpp"
 #include "verify/verify_header.hpp"
 
 namespace dashpot::compiler {
@@ -63,6 +64,7 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
   const std::optional<Network> network = check(network_file, of_network);
   const std::optional<Device> device = device_of(*certificate, files, diagnostics);
   const auto port = !network ? std::nullopt : device ? PortDevice::of(*device, *network, diagnostics) : PortDevice::ideal();
+  if (!network) check(network_file, diagnostics);
   if (!port || diagnostics.has_errors()) {
     diagnostics.report<DiagnosticCode::no_certificate>({}, certificate_file.path(), "its network or device is not read");
     return std::nullopt;
@@ -79,6 +81,7 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
   Diagnostics unheard;
   const std::optional<Compilation> compiled = compile(network_file, certificate->choices, device, unheard);
   if (!compiled) {
+    compile(network_file, certificate->choices, device, diagnostics);
     diagnostics.report<DiagnosticCode::no_certificate>({}, network_file.path(), "its network does not compile");
     return std::nullopt;
   }

@@ -3,9 +3,6 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <nlohmann/json.hpp>
 
-#include <limits>
-
-#include "network/rate_limits.hpp"
 #include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
@@ -98,57 +95,6 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
           {"added_damping", c.certificate.added_damping}};
 }
 
-// The value that is called so.
-template <class Value, std::size_t count>
-Value named(const Json& json, const char* key, const Value (&values)[count]) {
-  const std::string name = json.at(key);
-  for (const Value value : values)
-    if (name_of(value) == name) return value;
-  throw std::invalid_argument(key);
-}
-
-// A damping, or the rate, in its range.
-double number_within(const Json& json, const char* key, double low, double high) {
-  const double value = json.at(key).get<double>();
-  if (!(value >= low && value <= high)) throw std::invalid_argument(key);
-  return value;
-}
-
-constexpr double largest = std::numeric_limits<double>::max();
-
-Choices choices_of(const Json& json) {
-  Choices choices;
-  choices.rate = number_within(json, "rate", lowest_rate, highest_rate);
-  choices.scheme = named(json, "scheme", {Scheme::exact, Scheme::backward_euler});
-  choices.scalar = named(json, "scalar", {ScalarType::float64, ScalarType::float32});
-  if (json.contains("vector"))
-    choices.registers = named(json, "vector", {VectorRegisters::none, VectorRegisters::sse2, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon});
-  choices.state_input = named(json, "state_input", {StateInput::position, StateInput::velocity, StateInput::nodal});
-  if (json.at("decomposition").is_number()) choices.decomposition = number_within(json, "decomposition", 0, largest);
-  else choices.decomposition = json.at("decomposition").get<std::string>();
-  return choices;
-}
-
-CertificateFile file_of(const Json& json) {
-  CertificateFile file;
-  if (json.at("dashpot_certificate") != 1) throw std::invalid_argument("format 1 is expected");
-  file.network_text = json.at("network_file").get<std::string>();
-  if (!json.at("device_file").is_null()) file.device_text = json.at("device_file").get<std::string>();
-  const Json& law = json.at("law");
-  file.choices = choices_of(law);
-  file.damping = number_within(law, "damping", 0, largest);
-  file.brake_command = number_within(law, "brake_command", 0, largest);
-  file.added_damping = number_within(law, "added_damping", 0, largest);
-  const Json& passivity = json.at("passivity");
-  file.proof = passivity.at("proof").get<std::string>();
-  file.needed_damping = passivity.at("needed_damping").get<double>();
-  file.assured_damping = passivity.at("assured_damping").get<double>();
-  file.certified = passivity.at("certified").get<bool>();
-  if (const Json& gain = passivity.at("quantisation_gain"); !gain.is_null()) file.quantisation_gain = gain.get<double>();
-  for (const auto& [name, values] : json.at("constants").items()) file.constants[name] = values.get<std::vector<double>>();
-  return file;
-}
-
 }  // namespace
 
 std::string certificate_text(const Compilation& c, const Choices& choices, const std::string& network_text,
@@ -171,15 +117,6 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
                     {"network_file", network_text},
                     {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
   return all.dump(2) + "\n";
-}
-
-std::optional<CertificateFile> read_certificate(const SourceFile& file, Diagnostics& diagnostics) {
-  try {
-    return file_of(Json::parse(file.text()));
-  } catch (const std::exception& fault) {
-    diagnostics.report<DiagnosticCode::no_certificate>({}, file.path(), fault.what());
-    return std::nullopt;
-  }
 }
 
 }  // namespace dashpot::compiler

@@ -30,7 +30,4 @@ struct CertificateFile {
 std::string certificate_text(const Compilation& compilation, const Choices& choices, const std::string& network_text,
                              const std::optional<std::string>& device_text, const std::string& header);
 
-// Refuses: what is no certificate of this format.
-std::optional<CertificateFile> read_certificate(const SourceFile& file, Diagnostics& diagnostics);
-
 }  // namespace dashpot::compiler

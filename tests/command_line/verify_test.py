@@ -228,6 +228,35 @@ class Verify(CommandTest):
         self.write("slips.json", certificate)
         self.refused("verify", "slips.json", "soft.hpp", code="constant-of-nothing")
 
+    def test_where_a_certificate_is_none(self):
+        """Fails if what is wrong with a certificate has no place, no remedy, or the words of a library."""
+        header, certificate = self.emitted([FIG_5], "law")
+        for change, expected in [
+            (lambda text: text[:text.index('"scheme"')], "no certificate: the end of the file where"),
+            (lambda text: text.replace('"position"', "5"), "no certificate: 'state_input' is a number; a string is expected"),
+            (lambda text: text.replace('"exact"', '"exactly"'), "no certificate: 'scheme' is 'exactly'; one of exact, backward-euler is expected"),
+            (lambda text: text.replace('"rate"', '"rates"'), "no certificate: 'law' has no key 'rate'"),
+            (lambda text: re.sub('"rate": [^,]*', '"rate": 0', text), "no certificate: 'rate' is '0'; 1e-06 to 1000000000 is expected"),
+            (lambda text: text.replace('"passivity": {', '"passivity": 5, "other": {'), "no certificate: 'passivity' is a number; an object is expected"),
+            (lambda text: text.replace('"certified": ', '"certified": 0.'), "no certificate: "),
+            (lambda text: text.replace('"dashpot_certificate": 1', '"dashpot_certificate": 2'), "no certificate: format is 2; this compiler reads format 1"),
+            (lambda text: re.sub(r'"static_stiffness": \[[^]]*\]', '"static_stiffness": ["5"]', text), "no certificate: 'static_stiffness' is a string; a number is expected"),
+            (lambda text: "[]", "is a list; an object is expected"), (lambda text: "", "the end of the file where")]:
+            told = self.verify(header, change(certificate), "unclosed", INPUT_REFUSED).stderr
+            self.assertRegex(told, r"\Aunclosed\.json:\d+:\d+: error: .*\[no-certificate\]\n")
+            self.assertEqual(told.count("error:"), 1)
+            self.assertIn(expected, told)
+            self.assertIn("note: 'dashpot compile --certificate' writes one", told)
+
+    def test_what_is_wrong_with_the_network_in_a_certificate(self):
+        """Fails if a certificate is refused because of its network, and nothing says what is wrong with that."""
+        header, certificate = self.emitted([FIG_5], "law")
+        for network_text, told in [(network('{ "spring": -1 }'), "[negative-stiffness]"), ("{", "[unexpected-token]"),
+                                   (network('{ "parallel": [ { "spring": 1 }, { "spring": 1e-30 } ] }'), "[values-far-apart]")]:
+            changed = json.loads(certificate)
+            changed["network_file"] = network_text
+            self.assertIn(told, self.verify(header, json.dumps(changed), "changed", INPUT_REFUSED).stderr)
+
     def test_the_gain_of_the_encoders_error(self):
         """Fails if another gain than that of the law passes, or none where there is one: linear, with an estimate, slips, a contact,
         slips in no tree, parameters."""

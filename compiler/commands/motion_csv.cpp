@@ -6,12 +6,11 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "commands/uniform_period.hpp"
 #include "network/rate_limits.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-constexpr double uniformity = 1e-6;  // largest relative departure of a step from the median
 
 struct Cell {
   std::string_view text;
@@ -39,6 +38,7 @@ class Table {
     for (std::vector<Cell> row = next_row(); !row.empty(); row = next_row()) {
       if (!has_fields(row, header.size())) break;
       append(motion.time, row[*time], "time");
+      digits_.add(row[*time].text);
       append(motion.position, row[*position], "position");
       if (velocity) append(motion.velocity, row[*velocity], "velocity");
       for (std::size_t i = 0; i < motion.others.size(); ++i) append(motion.others[i], row[others[i]]);
@@ -132,29 +132,32 @@ class Table {
 
   bool find_period(Motion& motion) {
     if (motion.time.size() < 2) return true;
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < motion.time.size(); ++i) steps.push_back(motion.time[i] - motion.time[i - 1]);
-    std::vector<double> sorted = steps;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    const double median = sorted[sorted.size() / 2];
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      // Times are decimal numbers of limited length: their own rounding is allowed for.
-      const double rounding = 4 * 0x1p-52 * std::abs(motion.time[i + 1]);
-      if (median > 0 && std::abs(steps[i] - median) <= uniformity * median + rounding) continue;
-      diagnostics_.report<DiagnosticCode::csv_not_uniform>(row_spans_[i + 1], steps[i], median);
-      diagnostics_.note<DiagnosticCode::csv_uniform_remedy>({}, uniformity);
+    const auto found = uniform_period(motion.time, digits_);
+    if (const auto* irregular = std::get_if<Irregularity>(&found)) {
+      report(*irregular);
       return false;
     }
-    if (1 / median > highest_rate) fail<DiagnosticCode::csv_rate_too_high>(row_spans_[1], 1 / median, highest_rate);
-    // No step is far from the median, and the whole has less of the rounding of times than one step.
-    motion.period = (motion.time.back() - motion.time.front()) / static_cast<double>(steps.size());
+    const UniformPeriod uniform = std::get<UniformPeriod>(found);
+    if (1 / uniform.period > highest_rate) fail<DiagnosticCode::csv_rate_too_high>(row_spans_[1], 1 / uniform.period, highest_rate);
+    motion.period = uniform.period;
+    motion.period_error = uniform.error;
     return !failed_;
+  }
+
+  void report(const Irregularity& irregular) {
+    const Span row = row_spans_[irregular.row];
+    if (irregular.kind == Irregularity::Kind::step)
+      diagnostics_.report<DiagnosticCode::csv_not_uniform>(row, irregular.found, irregular.expected);
+    else
+      diagnostics_.report<DiagnosticCode::csv_drifts>(row, irregular.found, irregular.period, irregular.expected);
+    diagnostics_.note<DiagnosticCode::csv_uniform_remedy>({}, uniformity, irregular.unit, coarsest_share);
   }
 
   const SourceFile& file_;
   Diagnostics& diagnostics_;
   std::size_t place_ = 0;
   std::vector<Span> row_spans_;
+  TimeDigits digits_;
   bool failed_ = false;
 };
 

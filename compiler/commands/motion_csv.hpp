@@ -22,11 +22,12 @@ struct Motion {
   std::vector<double> velocity;  // [m/s] or [rad/s]; empty where the file has none
   std::vector<OtherColumn> others;
   std::optional<double> period;  // [s]; empty for a single row
+  double period_error = 0;       // what the rounding of the times leaves open [s]
 };
 
 // In: comma-separated text with a header that names `time` and `position`, optionally `velocity`, in any order among
 // other columns, alone or with units as in "time [s]"; blank lines do not count. Refuses: missing or repeated columns, rows of another length, cells that are
-// no finite numbers, a period that is not uniform to 1e-6.
+// no finite numbers, a period that is not uniform.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

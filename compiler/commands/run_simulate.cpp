@@ -15,10 +15,13 @@ namespace {
 
 constexpr double same_rate = 1e-6;  // relative: times in a file are decimal numbers of limited length
 
+// What rates may differ by, relative: the times' rounding leaves more of it open where they have few digits.
+double same_rate_of(const Motion& motion) { return std::max(same_rate, motion.period_error / *motion.period); }
+
 // The rate that the file means: a whole number of hertz, or a period with few digits, rather than the rounding of times.
-double rate_meant(double period) {
-  const double rate = 1 / period;
-  if (const double whole = std::round(rate); whole > 0 && std::abs(rate - whole) <= same_rate * rate) return whole;
+double rate_meant(const Motion& motion) {
+  const double period = *motion.period, rate = 1 / period;
+  if (const double whole = std::round(rate); whole > 0 && std::abs(rate - whole) <= same_rate_of(motion) * rate) return whole;
   return 1 / std::strtod(fmt::format("{:.7g}", period).c_str(), nullptr);
 }
 
@@ -27,8 +30,8 @@ bool settle_rate(const Motion& motion, const std::optional<Device>& device, Choi
                  Diagnostics& diagnostics) {
   if (!choices.rate && device) choices.rate = 1 / device->description.loop.sample_period;
   if (!motion.period) return true;
-  if (!choices.rate) choices.rate = rate_meant(*motion.period);
-  if (std::abs(*choices.rate * *motion.period - 1) <= same_rate) return true;
+  if (!choices.rate) choices.rate = rate_meant(motion);
+  if (std::abs(*choices.rate * *motion.period - 1) <= same_rate_of(motion)) return true;
   diagnostics.report<DiagnosticCode::csv_rate_contradicts>({&file, 0, 0}, 1 / *motion.period, *choices.rate);
   return false;
 }

@@ -139,6 +139,33 @@ class Rate(SimulateTest):
         answer = self.simulated("maxwell.json", table(rows))[-1]["force"]
         self.assertAlmostEqual(answer, 5 * (1 - math.exp(-10 * 2999 / 3000)), delta=1e-11)
 
+    def test_times_in_microseconds(self):
+        """Fails if times at 3 kHz, written in whole microseconds, are refused, or the law runs at another rate than they mean."""
+        answer = 5 * (1 - math.exp(-10 * 2999 / 3000))
+        for written in ["{:.6f}", "{:.6e}", "{:.7g}"]:
+            rows = [(written.format(n / 3000), f"{n / 3000:.17g}") for n in range(3000)]
+            self.assertAlmostEqual(self.simulated("maxwell.json", table(rows))[-1]["force"], answer, delta=1e-11)
+            self.assertEqual(len(self.simulated("maxwell.json", table(rows), "--rate", "3000")), 3000)
+            self.refuses(table(rows), "csv-rate-contradicts", "--rate", "3001", status=COMMAND_LINE_WRONG)
+        cut = [(f"{n * 1000000 // 44100 * 1e-6:.6f}", 0) for n in range(4410)]
+        self.assertEqual(len(self.simulated("maxwell.json", table(cut), "--rate", "44100")), 4410)
+
+    def test_rounding_hides_nothing_else(self):
+        """Fails if a missing row, a rate that changes, or a time that is off by more than its rounding passes for rounded times."""
+        micro = [round(n * 1e6 / 3000) for n in range(300)]
+
+        def refusal(times, code="csv-not-uniform"):
+            return self.refuses(table([(f"{time / 1e6:.6f}", 0) for time in times]), code).stderr
+
+        told = refusal(micro[:200] + micro[201:])
+        self.assertTrue(told.startswith("motion.csv:202:1: error: row follows after 0.000667 s; a uniform period of 0.000333 s"), told)
+        self.assertIn("times whose last digit, 1e-06 s here, is at most 0.1 of them", told)
+        refusal([time + 4 * (n == 150) for n, time in enumerate(micro)])
+        told = refusal([333 * n + max(0, n - 150) for n in range(300)], "csv-drifts")
+        self.assertRegex(told, r"motion\.csv:\d+:1: error: row is at 0\.\d+ s; rows at a uniform period of 0\.000333\d* s have it at 0\.")
+        told = self.refuses(table([(f"{n / 300:.3f}", 0) for n in range(30)]), "csv-not-uniform").stderr
+        self.assertIn("last digit, 0.001 s here", told)
+
     def test_times_since_an_epoch(self):
         """Fails if times so late that a double rounds them to 0.1 us make a law of another rate."""
         rows = [(f"{1_700_000_000 + n / 1000:.6f}", n / 1000) for n in range(5001)]

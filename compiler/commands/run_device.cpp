@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 #include "commands/commands.hpp"
 #include "commands/eddy_brake.hpp"
 #include "emit/write_files.hpp"
@@ -42,6 +44,20 @@ struct FilledBrake {
   std::optional<double> damping_per_current_squared;
 };
 
+const char* damping_unit(bool rotary) { return rotary ? "N m s/rad" : "N s/m"; }
+const char* current_unit(bool rotary) { return rotary ? "N m s/(rad A^2)" : "N s/(m A^2)"; }
+
+// The words may each be a quantity and yet make none.
+bool is_within_numbers(const FilledBrake& brake, bool rotary, Diagnostics& diagnostics) {
+  const auto is_quantity = [&](const char* what, double value, const char* unit) {
+    if (value > 0 && std::isfinite(value)) return true;
+    diagnostics.report<DiagnosticCode::blade_beyond_numbers>({}, what, value, unit);
+    return false;
+  };
+  return is_quantity("damping", brake.damping, damping_unit(rotary)) &&
+         is_quantity("damping per squared current", brake.damping_per_current_squared.value_or(1), current_unit(rotary));
+}
+
 std::optional<FilledBrake> fill_in(const Device& device, const BladeWords& blade, Words& words, Diagnostics& diagnostics) {
   const device_description& d = device.description;
   const bool rotary = d.motion == motion::rotation;
@@ -57,15 +73,16 @@ std::optional<FilledBrake> fill_in(const Device& device, const BladeWords& blade
   if (!words.sound() || diagnostics.has_errors()) return std::nullopt;
   const double alpha = blade.correction.value_or(return_path_correction(brake.pole_length, brake.pole_width));
   const double damping = linear_damping(brake, alpha) * (rotary ? radius * radius : 1);
-  return FilledBrake{damping, current > 0 ? std::optional(damping / (current * current)) : std::nullopt};
+  const FilledBrake filled{damping, current > 0 ? std::optional(damping / (current * current)) : std::nullopt};
+  return is_within_numbers(filled, rotary, diagnostics) ? std::optional(filled) : std::nullopt;
 }
 
 std::string filled_text(const SourceFile& file, const FilledBrake& brake, bool rotary) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(file.text());
-  json["brake"]["max_damping"] = fmt::format("{:.6g} {}", brake.damping, rotary ? "N m s/rad" : "N s/m");
+  json["brake"]["max_damping"] = fmt::format("{:.6g} {}", brake.damping, damping_unit(rotary));
   if (brake.damping_per_current_squared)
     json["brake"]["damping_per_current_squared"] =
-        fmt::format("{:.6g} {}", *brake.damping_per_current_squared, rotary ? "N m s/(rad A^2)" : "N s/(m A^2)");
+        fmt::format("{:.6g} {}", *brake.damping_per_current_squared, current_unit(rotary));
   return json.dump(2) + "\n";
 }
 

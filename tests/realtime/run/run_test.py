@@ -184,6 +184,15 @@ class Blade(unittest.TestCase):
         damping = 1.59e-3 * 0.02 * 0.02 / 1e-7 * 0.1**2
         self.assertTrue(math.isclose(float(filled["brake"]["max_damping"].split()[0]), damping, rel_tol=1e-5))
 
+    def test_numbers_that_make_no_brake(self):
+        """Fails if a file is written whose brake is infinite or none, which no command then reads."""
+        for words in (("--field", "1e200 T"), ("--field", "1e-200 T"), ("--field", "1 T", "--radius", "1e-200 m"),
+                      ("--field", "1 T", "--current", "1e-200 A"), ("--field", "1 T", "--current", "1e200 A")):
+            result = dashpot("device", device("pantograph_brake_2009"), *self.WORDS[:-2], *words)
+            self.assertEqual(result.returncode, 1, words)
+            self.assertIn("[blade-beyond-numbers]", result.stderr)
+            self.assertEqual(result.stdout, "")
+
     def test_wrong_unit_is_refused(self):
         """Fails if a quantity of another kind is taken for a thickness."""
         result = dashpot("device", device("pantograph_brake_2009"), "--blade", "1.59 N", *self.WORDS[2:])

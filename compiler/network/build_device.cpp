@@ -21,7 +21,7 @@ namespace {
 constexpr unsigned most_delay_samples = 64;  // the bounds of a certificate take longer with each
 // Far beyond any machine: so that what a certificate multiplies stays finite.
 constexpr double lowest_speed = 1e-9, highest_speed = 1e9;  // [m/s] or [rad/s]
-constexpr double longest_lag = 1e6;                         // [s]
+constexpr double longest_time = 1e6;                        // of lags and lateness [s]
 
 // The dimensions of the joint's own coordinate.
 struct JointDimensions {
@@ -84,7 +84,7 @@ class DeviceBuilder {
         due_(motion_ == motion::rotation ? rotation_dimensions : translation_dimensions) {}
 
   Device build() {
-    device_.name = decl_.name ? decl_.name->text : std::string();
+    read_name();
     device_.source = decl_.source ? decl_.source->text : std::string();
     device_.digest = decl_.digest;
     device_.description.motion = motion_;
@@ -103,6 +103,14 @@ class DeviceBuilder {
   const char* speed_unit() const { return motion_ == motion::rotation ? "rad/s" : "m/s"; }
 
   SectionReader section(const char* name) const { return {decl_, name, motion_, diagnostics_}; }
+
+  // It stands in messages and in emitted code.
+  void read_name() {
+    if (!decl_.name) return;
+    device_.name = decl_.name->text;
+    if (device_.name.find_first_not_of(" \t\r\n") == std::string::npos)
+      diagnostics_.report<DiagnosticCode::blank_device_name>(decl_.name->span);
+  }
 
   void read_arm_radius() {
     if (!decl_.arm_radius) return;
@@ -126,6 +134,7 @@ class DeviceBuilder {
     reader.read("rate", dimensions::frequency, Bound::above_zero, rate);
     if (reader.is_within("rate", rate, lowest_rate, highest_rate, "Hz")) loop.sample_period = 1 / rate;
     reader.read("jitter", dimensions::time, Bound::zero_or_more, loop.jitter);
+    reader.is_within("jitter", loop.jitter, 0, longest_time, "s");
     reader.read_count("delay_samples", 0, loop.delay_samples);
     if (!reader.is_within("delay_samples", loop.delay_samples, 0, most_delay_samples, "samples")) loop.delay_samples = 0;
     reader.read_pair("band", dimensions::frequency, Bound::above_zero, loop.band_low, loop.band_high);
@@ -226,7 +235,7 @@ class DeviceBuilder {
     reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
     reader.read("max_torque", due_.force, Bound::above_zero, motor.max_torque);
     reader.read("amplifier_lag", dimensions::time, Bound::zero_or_more, motor.amplifier_lag);
-    reader.is_within("amplifier_lag", motor.amplifier_lag, 0, longest_lag, "s");
+    reader.is_within("amplifier_lag", motor.amplifier_lag, 0, longest_time, "s");
     reader.read("saturation_allowed", dimensions::time, Bound::above_zero, motor.saturation_allowed);
   }
 
@@ -245,6 +254,7 @@ class DeviceBuilder {
     reader.read("residual_damping", due_.damping, Bound::zero_or_more, brake.residual_damping);
     reader.read("tolerance", dimensions::number, Bound::zero_or_more, brake.tolerance);
     reader.read("coil_lag", dimensions::time, Bound::zero_or_more, brake.coil_lag);
+    reader.is_within("coil_lag", brake.coil_lag, 0, longest_time, "s");
     reader.read("slew", dimensions::current_rate, Bound::above_zero, brake.slew);
     reader.read("critical_speed", due_.velocity, Bound::above_zero, brake.critical_speed);
     reader.is_within("critical_speed", brake.critical_speed, lowest_speed, highest_speed, speed_unit());

@@ -100,12 +100,13 @@ class Limits(CommandTest):
 
     def test_devices(self):
         """Fails if what a certificate multiplies can leave the doubles, or a bound takes minutes."""
-        within = {"loop": {"rate": 1000, "delay_samples": 64}, "encoder": {"resolution": 1e-5, "max_speed": 1e9}, "motor": {"amplifier_lag": 1e6},
+        within = {"loop": {"rate": 1000, "jitter": 1e6, "delay_samples": 64}, "encoder": {"resolution": 1e-5, "max_speed": 1e9}, "motor": {"amplifier_lag": 1e6},
                   "velocity": {"estimator": "least_squares", "window": 256},
-                  "brake": {"kind": "eddy_current", "max_damping": 1, "critical_speed": 1e-9}}
+                  "brake": {"kind": "eddy_current", "max_damping": 1, "coil_lag": 1e6, "critical_speed": 1e-9}}
         self.dashpot("check", "kelvin.json", "--device", self.write("within.json", device(**within)))
         for section, key, value, code in [("loop", "delay_samples", 65, "device-limit"), ("encoder", "max_speed", 1.1e9, "device-limit"),
-                                          ("motor", "amplifier_lag", 1.1e6, "device-limit"), ("velocity", "window", 257, "estimator-setting"),
+                                          ("motor", "amplifier_lag", 1.1e6, "device-limit"),
+                                          ("loop", "jitter", 1.1e6, "device-limit"), ("brake", "coil_lag", 1.1e6, "device-limit"), ("velocity", "window", 257, "estimator-setting"),
                                           ("brake", "critical_speed", 0.9e-9, "device-limit"), ("brake", "critical_speed", 1.1e9, "device-limit")]:
             with self.subTest(key=key, value=value):
                 beyond = self.write("beyond.json", device(**{**within, section: {**within[section], key: value}}))

@@ -107,4 +107,15 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   return false;
 }
 
+void warn_of_driving_uncertified(const Compilation& c, Diagnostics& diagnostics) {
+  const Certificate& certificate = c.certificate;
+  if (!c.device || certificate.certified) return;
+  const Span place = c.network.name_span;
+  if (certificate.bound.proof == Proof::none)
+    return diagnostics.report<DiagnosticCode::nothing_proved>(place, c.network.name, c.device->name, certificate.bound.reason);
+  diagnostics.report<DiagnosticCode::drives_uncertified>(place, c.network.name, c.device->name, certificate.bound.needed,
+                                                         port_units(c.network.port_motion).damping, certificate.assured);
+  diagnostics.note<DiagnosticCode::compile_says_what_would_do>({});
+}
+
 }  // namespace dashpot::compiler

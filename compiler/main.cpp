@@ -10,7 +10,6 @@
 
 #include "commands/commands.hpp"
 #include "network/rate_limits.hpp"
-#include "source/render.hpp"
 
 namespace {
 
@@ -174,6 +173,7 @@ void describe(CLI::App& app, CommandLine& line) {
 
 void take_over_words(CommandLine& line) {
   Choices& choices = line.options.choices;
+  line.options.json_diagnostics = line.diagnostics == "json";
   if (line.scheme == "backward-euler") choices.scheme = Scheme::backward_euler;
   if (line.scalar == "float") choices.scalar = ScalarType::float32;
   for (VectorRegisters registers : {VectorRegisters::none, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon})
@@ -201,7 +201,7 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
     status = ExitStatus::command_line_wrong;
   else
     status = commands.at(command)(line.options, files, diagnostics);
-  std::cerr << (line.diagnostics == "json" ? render_json(diagnostics) : render_text(diagnostics));
+  tell(line.options, diagnostics);
   return status;
 }
 
@@ -211,7 +211,7 @@ ExitStatus answer(const CLI::App& app, const CLI::ParseError& error) {
   if (app.exit(error, text, std::cerr) != 0) return ExitStatus::command_line_wrong;
   Diagnostics diagnostics;
   const ExitStatus status = write_standard_output(text.str(), diagnostics);
-  std::cerr << render_text(diagnostics);
+  tell({}, diagnostics);
   return status;
 }
 

@@ -27,6 +27,9 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
 ExitStatus run_verify(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 
+// Says on standard error what there is to say, and forgets it.
+void tell(const Options& options, Diagnostics& diagnostics);
+
 // Refuses, with a diagnostic, where standard output cannot take the text: a full disk must not pass for success.
 ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnostics);
 

@@ -13,6 +13,7 @@
 #include "commands/live_line.hpp"
 #include "commands/model_library.hpp"
 #include "compile.hpp"
+#include "insist.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -118,8 +119,10 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   const std::optional<Compilation> compilation =
       file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  warn_of_driving_uncertified(*compilation, diagnostics);
   std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);
   if (!model) return ExitStatus::input_refused;
+  if (!options.json_diagnostics) tell(options, diagnostics);  // before anything moves; a program reads one array, at the end
   LiveLine live(compilation->network.port_motion == motion::rotation);
   const servo_options loop = loop_options(options, *compilation, live);
   const std::optional<servo_summary> summary = options.port

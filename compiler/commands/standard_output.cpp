@@ -1,8 +1,10 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <iostream>
 
 #include "commands/commands.hpp"
+#include "source/render.hpp"
 
 namespace dashpot::compiler {
 
@@ -11,6 +13,11 @@ ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnosti
   if (written) return ExitStatus::done;
   diagnostics.report<DiagnosticCode::cannot_write_file>({}, "standard output", std::string(std::strerror(errno)));
   return ExitStatus::input_refused;
+}
+
+void tell(const Options& options, Diagnostics& diagnostics) {
+  std::cerr << (options.json_diagnostics ? render_json(diagnostics) : render_text(diagnostics));
+  diagnostics.forget();
 }
 
 }  // namespace dashpot::compiler

@@ -68,6 +68,8 @@ class Diagnostics {
   // Files read on the way, such as templates, then live as long as the diagnostics that point into them.
   const SourceFile& keep(SourceFile file);
 
+  void forget() { list_.clear(); }  // what has been told
+
   bool has_errors() const;
   std::size_t error_count() const;
   std::vector<Diagnostic> in_file_order() const;  // placed ones by file and place, the others first

@@ -67,6 +67,18 @@ class Run(unittest.TestCase):
         with open(logs[0], "rb") as first, open(logs[1], "rb") as second:
             self.assertEqual(first.read(), second.read())
 
+    def test_what_is_not_certified_is_said_before_it_is_driven(self):
+        """Fails if a law that its device may not hold is driven in silence, or one that it holds is warned of."""
+        for network_name, device_name, code in [("paper/kelvin", "phantom_single_motor", "drives-uncertified"), ("paper/virtual_wall", "pantograph_brake_2009", "nothing-proved"),
+                                                ("paper/kelvin", "board_mps2", None)]:
+            told = self.run_fast(network_name, device_name).stderr
+            self.assertEqual([found for found in ("drives-uncertified", "nothing-proved") if f"[{found}]" in told], [code] if code else [], told)
+            if code:
+                self.assertLess(told.index(f"[{code}]"), told.index(": running"))
+                self.assertEqual(told.count("warning:"), len(set(line for line in told.splitlines() if "warning:" in line)))
+        array = self.run_fast("paper/kelvin", "phantom_single_motor", "--diagnostics=json").stderr
+        self.assertIn("drives-uncertified", [found["code"] for found in json.loads(array[array.index("["):])])
+
     def test_interrupt_leaves_the_device_safe(self):
         """Fails if Ctrl-C ends the program before the device has the safe command."""
         process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device",

@@ -24,7 +24,7 @@ void settle_choice(Compilation& c, const Choices& choices, const PortDevice& dev
 bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diagnostics) {
   if (!has_tunables(network)) return true;
   const StateInput asked = choices.state_input.value_or(StateInput::position);
-  if (asked != StateInput::position) diagnostics.report<DiagnosticCode::tunable_needs_position>({}, name_of(asked));
+  if (asked != StateInput::position) diagnostics.report<DiagnosticCode::tunable_needs_position>(network.name_span, name_of(asked));
   choices.state_input = StateInput::position;
   return asked == StateInput::position;
 }
@@ -67,7 +67,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
   result.decomposition = std::move(*decomposition);
   const PortDevice port = device ? PortDevice::of(*device, result.network, diagnostics).value() : PortDevice::ideal();
   if (!is_tunable) settle_choice(result, choices, port);
-  warn_about_choice(result.decomposition, result.form.linear, diagnostics);
+  warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   if (is_tunable) {
     result.decomposition.reason = "position driven, so that a change of parameters injects no energy";

@@ -83,12 +83,12 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   if (!c.device || certificate.certified) return true;
   const std::string& name = c.network.name;
   if (certificate.bound.proof == Proof::none) {
-    diagnostics.report<DiagnosticCode::nothing_proved>({}, name, c.device->name, certificate.bound.reason);
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, name, c.device->name, certificate.bound.reason);
     return true;
   }
   const std::string unit = port_units(c.network.port_motion).damping;
   if (c.law.tunable) {
-    diagnostics.report<DiagnosticCode::not_certified>({}, name, certificate.bound.needed, unit, c.device->name, certificate.assured);
+    diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, certificate.bound.needed, unit, c.device->name, certificate.assured);
     say_what_would_do_for_tunables(c, choices, unit, diagnostics);
     diagnostics.note<DiagnosticCode::compile_uncertified>({});
     return false;
@@ -97,7 +97,7 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
   const double available = assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
   const double needed = least_need(c, choices, *c.device).needed;
-  diagnostics.report<DiagnosticCode::not_certified>({}, name, needed, unit, c.device->name, available);
+  diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed, unit, c.device->name, available);
   const double brake = missing_damping({Proof::sampled, needed, 0, ""}, loop, 0);
   if (brake < 1e300) diagnostics.note<DiagnosticCode::brake_that_would_do>({}, brake, unit, loop.max_damping);
   if (available > 0) diagnostics.note<DiagnosticCode::scale_that_would_do>({}, available / needed);

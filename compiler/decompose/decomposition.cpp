@@ -143,7 +143,7 @@ bool refuse_impossible_choices(const Network& network, const Choices& choices, c
     refused = true;
   }
   if (choices.state_input && *choices.state_input != StateInput::position && !device.estimate_sums_to_displacement()) {
-    diagnostics.report<DiagnosticCode::velocity_input_drifts>({}, name_of(*choices.state_input), network.name);
+    diagnostics.report<DiagnosticCode::velocity_input_drifts>(network.name_span, name_of(*choices.state_input), network.name);
     refused = true;
   }
   return refused;
@@ -151,28 +151,28 @@ bool refuse_impossible_choices(const Network& network, const Choices& choices, c
 
 constexpr double overwhelming = 1e4;  // a brake that is off by 1 % is then off by a hundred times the force
 
-void warn_about_share(const Candidate& chosen, const LinearForm& form, const PortDevice& device, Diagnostics& diagnostics) {
+void warn_about_share(const Candidate& chosen, const Network& network, const LinearForm& form, const PortDevice& device, Diagnostics& diagnostics) {
   const double share = largest_brake_share(form, chosen.damping, device);
   if (share <= overwhelming) return;
   constexpr double two_pi = 6.28318530717958647692;
-  diagnostics.report<DiagnosticCode::brake_dwarfs_network>({}, chosen.name, share, device.band_low() / two_pi,
+  diagnostics.report<DiagnosticCode::brake_dwarfs_network>(network.name_span, chosen.name, share, device.band_low() / two_pi,
                                                            device.band_high() / two_pi);
   diagnostics.note<DiagnosticCode::take_velocity_free>({});
 }
 
 }  // namespace
 
-void warn_about_choice(const Decomposition& all, const LinearForm& form, Diagnostics& diagnostics) {
+void warn_about_choice(const Decomposition& all, const Network& network, const LinearForm& form, Diagnostics& diagnostics) {
   const Candidate& chosen = all.choice();
   if (chosen.capped())
-    diagnostics.report<DiagnosticCode::damping_capped>({}, chosen.name, chosen.wanted_damping, chosen.damping);
+    diagnostics.report<DiagnosticCode::damping_capped>(network.name_span, chosen.name, chosen.wanted_damping, chosen.damping);
   const double viscosity = to_double(zero_frequency_damping(form));
   if (chosen.damping > viscosity * (1 + 1e-12))
-    diagnostics.report<DiagnosticCode::injects_power>({}, chosen.name, chosen.damping, viscosity);
+    diagnostics.report<DiagnosticCode::injects_power>(network.name_span, chosen.name, chosen.damping, viscosity);
   const auto is_virtual = [](const Candidate& candidate) { return candidate.name == "virtual"; };
   const auto single_motor = std::find_if(all.candidates.begin(), all.candidates.end(), is_virtual);
   if (chosen.largest_error > single_motor->largest_error * (1 + 1e-9))
-    diagnostics.report<DiagnosticCode::more_error_than_virtual>({}, chosen.name, 100 * chosen.largest_error,
+    diagnostics.report<DiagnosticCode::more_error_than_virtual>(network.name_span, chosen.name, 100 * chosen.largest_error,
                                                                 100 * single_motor->largest_error);
 }
 
@@ -209,12 +209,12 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
                                    [&](const Candidate& candidate) { return name && candidate.name == *name; });
   result.chosen = name ? static_cast<std::size_t>(chosen - result.candidates.begin()) : result.candidates.size() - 1;
   if (result.chosen == result.candidates.size()) {
-    diagnostics.report<DiagnosticCode::unknown_decomposition>({}, *name);
+    diagnostics.report<DiagnosticCode::unknown_decomposition>(network.name_span, *name);
     return std::nullopt;
   }
   result.encoder_step = port->encoder_step();
   result.reason = reason_for_input(result.choice(), choices, port->is_ideal(), port_units(network.port_motion).damping);
-  warn_about_share(result.choice(), form, *port, diagnostics);
+  warn_about_share(result.choice(), network, form, *port, diagnostics);
   return result;
 }
 

@@ -58,7 +58,7 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
                                        const Device* device, Diagnostics& diagnostics);
 
 // Warns: capping, b > Z_d(0), more error than `virtual`.
-void warn_about_choice(const Decomposition& decomposition, const LinearForm& form, Diagnostics& diagnostics);
+void warn_about_choice(const Decomposition& decomposition, const Network& network, const LinearForm& form, Diagnostics& diagnostics);
 
 // What decided between position, velocity and nodal.
 std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal, const std::string& damping_unit);

@@ -4,7 +4,7 @@ import re
 import subprocess
 import unittest
 
-from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, CommandTest, codes,
+from dashpot_command import (BROKEN, COMMAND_LINE_WRONG, DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, codes,
                              network)
 
 LINEAR_DEVICE = """{ "dashpot_device": 1, "name": "slide", "source": "none", "motion": "translation",
@@ -155,6 +155,22 @@ class Diagnostics(CommandTest):
         column = int(lines[0].split(":")[2])
         self.assertEqual(BROKEN[column - 1:column + 7], '"-1 N/m"')
         self.assertEqual(re.sub("[^~^]", "", lines[2]), "^" + "~" * 7)
+
+    def test_every_message_names_its_network(self):
+        """Fails if one cannot tell which of several networks a message is about."""
+        self.write("kelvin.json", KELVIN)
+        self.write("tuned.json", network('{ "spring": "K" }', "tuned", '"parameters": { "K": { "value": 1, "min": 0, "max": 2, "tunable": true } },'))
+        single = SOURCE / "runtime/devices/phantom_single_motor.json"
+        sliding = json.loads(PANTOGRAPH.read_text())
+        sliding["velocity"] = {"estimator": "super_twisting", "acceleration": "50 rad/s^2"}
+        self.write("sliding.json", json.dumps(sliding))
+        for code, arguments in [("damping-capped", ["kelvin.json", "--device", single]),
+                                ("injects-power", ["kelvin.json", "--decomposition", "9"]),
+                                ("tunable-needs-position", ["tuned.json", "--state-input", "velocity"]),
+                                ("velocity-input-drifts", ["kelvin.json", "--device", "sliding.json", "--state-input", "velocity"]),
+                                ("not-certified", ["kelvin.json", "--device", single])]:
+            done = subprocess.run([DASHPOT, "compile", FIG_5, *arguments], cwd=self.folder, capture_output=True, text=True)
+            self.assertRegex(done.stderr, rf"(?m)^{arguments[0]}:1:\d+: (error|warning): .* \[{code}\]$")
 
     def test_json_is_one_array(self):
         """Fails if --diagnostics=json mixes with text, misses a key or counts places from elsewhere than 1."""

@@ -32,7 +32,7 @@ inline Decomposed decomposed(Network network, const Choices& choices = {}, const
   Decomposed all{std::move(network), {}, {}, {}};
   all.form = linear_form(all.network);
   all.result = decompose(all.network, all.form, choices, device, all.diagnostics);
-  if (all.result) warn_about_choice(*all.result, all.form, all.diagnostics);
+  if (all.result) warn_about_choice(*all.result, all.network, all.form, all.diagnostics);
   return all;
 }
 

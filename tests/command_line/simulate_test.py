@@ -270,6 +270,16 @@ class Tunables(SimulateTest):
         self.assertAlmostEqual(forces[1], 400 * 0.01, delta=1e-14)
         self.assertGreaterEqual(forces[2], 10 * 0.01)
 
+    def test_a_slip_whose_yield_force_is_taken_away(self):
+        """Fails if a yield force may not be tuned down to zero, or there holds anything but the share of its greatest that is told."""
+        text = self.NETWORK.replace('{ "damper": "B" }', '{ "series": [ { "slip": "B" }, { "spring": 1000 } ] }').replace('{ "spring": "K" }, ', "")
+        self.write("friction.json", text)
+        for scalar, share in [("double", 2**-24), ("float", 2**-10)]:
+            rows = self.simulated("friction.json", table([(n / 1000, n / 1000, 0) for n in range(20)], "time,position,B"), "--scalar", scalar)
+            self.assertEqual(rows[-1]["force"], 5 * share)
+        self.write("never.json", text.replace('"min": 0, "max": 5', '"min": 0, "max": 0').replace('"value": 2', '"value": 0'))
+        self.refused("check", "never.json", code="zero-yield")
+
     def test_cells_that_are_no_numbers(self):
         """Fails if a value that is no finite number reaches the law, or the column of another network is asked for numbers."""
         for cell in ["stiff", "", "nan", "inf"]:

@@ -1,13 +1,15 @@
 // The system's compiler, for those commands that run what they emit.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace dashpot::compiler {
 
-// A folder of its own below the system's temporary one, removed with all that is in it.
+// A folder of its own below the system's temporary one, removed with all that is in it. A signal that ends the process,
+// Ctrl-C for one, waits until then.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -19,6 +21,7 @@ class TemporaryFolder {
 
  private:
   std::filesystem::path path_;
+  sigset_t blocked_before_;
 };
 
 // Where <dashpot/command.hpp> is: beside an installed compiler, else where this one was built from.
@@ -26,7 +29,7 @@ std::string runtime_headers();
 
 inline constexpr int program_not_found = 127;
 
-// Standard error goes to `log`. Returns the exit status, or program_not_found where it cannot be started.
+// Standard error goes to `log`. No signal waits there. Returns the exit status, or program_not_found where it cannot be started.
 int run_program(std::vector<std::string> words, const std::string& log);
 
 std::string contents_of(const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 """`dashpot run` and `dashpot device` as a user types them. No time is asserted: machines here are shared."""
 import argparse
 import csv
+import glob
 import json
 import math
 import os
@@ -102,6 +103,24 @@ class Run(unittest.TestCase):
         self.assertIn("cannot write 'standard output': Broken pipe [cannot-write-file]", errors)
         with open(self.log, newline="") as stream:
             self.assertEqual(len(list(csv.DictReader(stream))), 3000)
+
+    def test_interrupt_leaves_no_folder(self):
+        """Fails if Ctrl-C while the emitted code is compiled leaves the compiler at work, or its folder behind."""
+        slow, temporary = os.path.join(self.folder.name, "slow"), os.path.join(self.folder.name, "temporary")
+        with open(slow, "w") as script:
+            script.write("#!/bin/sh\nexec sleep 300\n")
+        os.chmod(slow, 0o755)
+        os.mkdir(temporary)
+        process = subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"),
+                                    "--for", "1", "--fast", "--log", self.log], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   start_new_session=True, env={**os.environ, "CXX": slow, "TMPDIR": temporary})
+        while not glob.glob(os.path.join(temporary, "*", "compiler.log")):  # there as soon as the compiler is
+            self.assertIsNone(process.poll())
+            time.sleep(0.01)
+        os.killpg(process.pid, signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertEqual(os.listdir(temporary), [])
 
     def test_compiler_that_fails_is_told_and_nothing_is_written(self):
         """Fails if a missing or failing system compiler is silent, or leaves a log behind."""

@@ -178,6 +178,7 @@ void take_over_words(CommandLine& line) {
   if (line.scalar == "float") choices.scalar = ScalarType::float32;
   for (VectorRegisters registers : {VectorRegisters::none, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon})
     if (line.vector == name_of(registers)) choices.registers = registers;
+  choices.guards_each_sample = line.options.emission.batch;
   if (line.state_input == "position") choices.state_input = StateInput::position;
   if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
   if (line.state_input == "nodal") choices.state_input = StateInput::nodal;

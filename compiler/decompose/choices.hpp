@@ -28,6 +28,7 @@ struct Choices {
   std::variant<std::string, double> decomposition = "most-dissipative";  // a name of theory, section 4, or a damping [SI]
   ScalarType scalar = ScalarType::float64;
   VectorRegisters registers = VectorRegisters::sse2;  // sixteen bytes: what every x86-64 and every AArch64 has
+  bool guards_each_sample = false;  // against subnormals, also where they could take turns: many points share no turn
 };
 
 inline constexpr double default_rate = 1000;  // [Hz]

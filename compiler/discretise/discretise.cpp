@@ -45,6 +45,7 @@ UpdateLaw blank_law(const Candidate& choice, const Choices& choices, const Real&
   law.sample_period = rounded(sample_period, choices.scalar);
   law.damping = law.largest_damping = rounded(Real(choice.damping), choices.scalar);
   law.flush_threshold = flush_threshold(choices.scalar);
+  law.guards_each_sample = choices.guards_each_sample;
   return law;
 }
 
@@ -67,6 +68,8 @@ class LawBuilder {
   }
 
   UpdateLaw build() {
+    law_.rolled_from = largest_straight_line + 1;
+    law_.lanes = lanes_for(registers_, law_.scalar);
     settle_form();
     declare_inputs();
     modes_.declare();
@@ -75,7 +78,7 @@ class LawBuilder {
     write_update();
     write_energy();
     drop_unread_locals(law_);
-    roll_large_vectors();
+    settle_loops();
     return std::move(law_);
   }
 
@@ -180,10 +183,9 @@ class LawBuilder {
                      contact_ ? "s₋ = s" : "u₋ = u");
   }
 
-  void roll_large_vectors() {
-    law_.rolled_from = largest_straight_line + 1;
-    for (const Variable& variable : law_.variables)
-      if (variable.size >= law_.rolled_from) law_.lanes = lanes_for(registers_, law_.scalar);
+  void settle_loops() {
+    const auto is_rolled = [&](const Variable& variable) { return law_.is_rolled(variable.size); };
+    if (std::none_of(law_.variables.begin(), law_.variables.end(), is_rolled)) law_.lanes = 1;
     if (law_.lanes > 1) law_.register_bytes = bytes_of(registers_);
   }
 

@@ -9,6 +9,7 @@ Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
     variables_.emplace_back(variable.size, static_cast<Scalar>(variable.rest_value));
   for (const Coefficient& coefficient : law.coefficients)
     coefficients_.emplace_back(coefficient.values.begin(), coefficient.values.end());
+  turns_.assign(law.guards.size(), 0);
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
   for (const SlipNetwork& network : law.networks) network_solvers_.push_back(solver_of(network));
 }
@@ -54,6 +55,7 @@ void Evaluation<Scalar>::reset(Scalar position) {
     std::fill(variables_[i].begin(), variables_[i].end(), static_cast<Scalar>(law_.variables[i].rest_value));
   if (law_.rest_position != no_variable && all_finite(position, position, position))
     variables_[law_.rest_position][0] = law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
+  std::fill(turns_.begin(), turns_.end(), 0);
   sampled_ = false;
 }
 
@@ -95,7 +97,17 @@ void Evaluation<Scalar>::update() {
   if (!sampled_) return;
   sampled_ = false;
   if (tunable_) return tunable_->update();
+  for (std::size_t i = 0; i < law_.guards.size(); ++i) take_turn(law_.guards[i], turns_[i]);
   run(law_.update);
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::take_turn(const GuardInTurn& guard, std::size_t& turn) {
+  std::vector<Scalar>& forces = variables_[guard.state];
+  for (std::size_t place = turn; place < std::min(turn + guard.places, forces.size()); ++place)
+    forces[place] = flush_below(static_cast<Scalar>(law_.flush_threshold), forces[place]);
+  turn += guard.places;
+  if (turn >= law_.padded(forces.size())) turn = 0;
 }
 
 template <class Scalar>

@@ -48,6 +48,7 @@ class Evaluation {
   static Solver solver_of(const Coupling& coupling);
   static NetworkSolver solver_of(const SlipNetwork& network);
   void run(const std::vector<Statement>& program);
+  void take_turn(const GuardInTurn& guard, std::size_t& turn);
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
   void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
   Scalar damping(VariableId changing) const;
@@ -60,6 +61,7 @@ class Evaluation {
   std::unique_ptr<TunableRun<Scalar>> tunable_;  // in place of all that follows
   std::vector<std::vector<Scalar>> variables_;
   std::vector<std::vector<Scalar>> coefficients_;
+  std::vector<std::size_t> turns_;  // of each guard, the first place that it takes next
   std::vector<Solver> solvers_;  // one a coupling
   std::vector<NetworkSolver> network_solvers_;
   bool sampled_ = false;  // a finite sample waits for update()

@@ -36,6 +36,7 @@ class ModeBank {
   ExpressionId drive(VariableId position_change, VariableId velocity);
   ExpressionId increment(ExpressionId drive);
   void write_compensated(ExpressionId drive);
+  bool guard_in_turn();
   std::vector<std::vector<std::size_t>> origins() const;
   template <class ValueOf>
   ExpressionId per_mode(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);

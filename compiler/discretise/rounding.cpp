@@ -1,5 +1,6 @@
 #include "discretise/rounding.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace dashpot::compiler {
@@ -30,6 +31,12 @@ ModeForm cheapest_form(double smallest_loss, ScalarType scalar) {
 }
 
 double flush_threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }
+
+std::size_t samples_without_guard(double decay, ScalarType scalar) {
+  if (scalar == ScalarType::float32 || decay <= 0) return 0;
+  const double samples = decay < 1 ? std::floor(200 / -std::log2(decay)) : std::numeric_limits<double>::infinity();
+  return samples < 1e6 ? std::size_t(samples) : 1000000;
+}
 
 double smallest_constant(ScalarType scalar) {
   const double smallest_normal = scalar == ScalarType::float64 ? 0x1p-1022 : 0x1p-126;

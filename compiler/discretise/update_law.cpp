@@ -136,6 +136,8 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
     if (statement.network != no_coupling)
       cost.coupled += static_cast<std::size_t>(law.networks[statement.network].operations());
   }
+  if (&program == &law.update)
+    for (const GuardInTurn& guard : law.guards) cost.guards += guard.places;
   for (const Variable& variable : law.variables)
     if (variable.role == Role::state) cost.states += variable.size;
   return cost;
@@ -173,6 +175,8 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
   }
   for (const Coupling& coupling : law.couplings) text += coupling_text(law, coupling);
   for (const SlipNetwork& part : law.networks) text += network_text(law, part);
+  for (const GuardInTurn& guard : law.guards)
+    text += fmt::format("  {} places of {} a sample, in turn, are zero below {}\n", guard.places, law.variables[guard.state].name, law.flush_threshold);
   return text + program_text(law, "output", law.output) + program_text(law, "keep", law.keep) +
          program_text(law, "update", law.update) + program_text(law, "energy", law.energy);
 }

@@ -123,6 +123,14 @@ struct SlipNetwork {
   int operations() const { return slip_network_operations(links.data(), slip_count(), node_count); }
 };
 
+// The guard of a rolled vector of forces that decay slowly: before an update, `places` of them in turn become zero below the
+// threshold. All at each sample would take three of the eight operations of a mode.
+struct GuardInTurn {
+  VariableId state;
+  std::size_t places;  // a sample; several lanes, and a part of the padded size
+  std::string name;    // of the emitted counter
+};
+
 // How one mode is advanced; chosen by the error bound.
 enum class ModeForm {
   product,      // G ← a G + …
@@ -144,6 +152,7 @@ struct UpdateLaw {
   double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
   std::size_t lanes = 1;        // partial sums of a rolled vector's `sum`, a power of two; 1 where nothing is rolled
   std::size_t rolled_from = 0;  // places of the smallest vector that is rolled
+  bool guards_each_sample = false;  // against subnormals, also where they could take turns
   std::size_t register_bytes = 0;  // of the machine that loops are laid out for; 0 where it has no vectors
 
   std::vector<Variable> variables;
@@ -154,6 +163,7 @@ struct UpdateLaw {
   std::vector<Statement> update;
   std::vector<Coupling> couplings;
   std::vector<SlipNetwork> networks;
+  std::vector<GuardInTurn> guards;  // before `update`
   std::vector<Statement> energy;  // ends with the assignment of `stored`
 
   std::optional<TunableTables> tunable;  // of a network with tunables: all of its law, the programs are then empty
@@ -168,6 +178,7 @@ struct UpdateLaw {
   VariableId stored = 0;    // [J]
 
   bool is_rolled(std::size_t size) const { return lanes > 1 && size > 1 && size >= rolled_from; }
+  std::size_t padded(std::size_t size) const { return (size + lanes - 1) / lanes * lanes; }  // of a rolled vector: whole rounds of its loop
   bool brake_changes() const { return brake != no_variable; }
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <stdexcept>
 
 #include "discretise/expression_text.hpp"
 #include "emit/cpp_lines.hpp"
@@ -187,6 +188,9 @@ class BatchPrinter {
 
 }  // namespace
 
-CppBatch cpp_batch(const UpdateLaw& law) { return BatchPrinter(law).print(); }
+CppBatch cpp_batch(const UpdateLaw& law) {
+  if (!law.guards.empty()) throw std::logic_error("many points of a law whose guards take turns");
+  return BatchPrinter(law).print();
+}
 
 }  // namespace dashpot::compiler

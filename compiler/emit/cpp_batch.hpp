@@ -21,7 +21,7 @@ struct CppBatch {
   std::vector<std::string> energy;
 };
 
-// Of laws without couplings, networks and tunables.
+// Of laws without couplings, networks and tunables, and whose guards take no turns.
 CppBatch cpp_batch(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

@@ -22,7 +22,8 @@ class CppPrinter {
     program.headers = headers();
     program.output = statements_.lines_of(law_.output);
     program.keep = statements_.kept_lines_of(law_.keep);
-    program.update = statements_.kept_lines_of(law_.update);
+    program.update = statements_.lines_of(law_.guards);
+    for (std::string& line : statements_.kept_lines_of(law_.update)) program.update.push_back(std::move(line));
     timing_ == Timing::constant ? check_by_masks(program) : check_and_return(program);
     program.step = timing_ == Timing::any && is_fusable(law_) ? fused(program) : two_phases();
     program.energy = statements_.lines_of(law_.energy);
@@ -113,7 +114,7 @@ class CppPrinter {
       return append(lines, table + "};");
     }
     if (!statements_.is_rolled(coefficient)) return append_constant_of_each(coefficient, law_.scalar, lines);
-    std::string table = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment(), coefficient.name, statements_.padded(coefficient.values.size()));
+    std::string table = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment(), coefficient.name, law_.padded(coefficient.values.size()));
     for (std::size_t place = 0; place < coefficient.values.size(); ++place)
       table += (place == 0 ? "" : ", ") + literal(coefficient.values[place]);
     lines.push_back("//" + note.substr(4));
@@ -136,6 +137,7 @@ class CppPrinter {
         for (const std::string& name : variable.element_names)
           lines.push_back(fmt::format("{}_ = {};", name, rest_value(variable)));
     }
+    for (const GuardInTurn& guard : law_.guards) lines.push_back(guard.name + "_ = 0;");
     return lines;
   }
 
@@ -167,11 +169,13 @@ class CppPrinter {
       if (variable.size == 1)
         lines.push_back(fmt::format("scalar {} = {};{}", CppStatements::scalar_name(variable), rest_value(variable), note));
       else if (statements_.is_rolled(variable))
-        lines.push_back(fmt::format("{}scalar {}_[{}] = {{}};{}", alignment(), variable.name, statements_.padded(variable.size), note));
+        lines.push_back(fmt::format("{}scalar {}_[{}] = {{}};{}", alignment(), variable.name, law_.padded(variable.size), note));
       else
         for (const std::string& name : variable.element_names)
           lines.push_back(fmt::format("scalar {}_ = {};{}", name, rest_value(variable), note));
     }
+    for (const GuardInTurn& guard : law_.guards)
+      lines.push_back(fmt::format("int {}_ = 0;  // first place of {}_ that is guarded next", guard.name, law_.variables[guard.state].name));
     return lines;
   }
 

@@ -54,6 +54,25 @@ std::vector<std::string> CppStatements::kept_lines_of(const std::vector<Statemen
   return lines;
 }
 
+std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>& guards) {
+  std::vector<std::string> lines;
+  uses_flush_ |= !guards.empty();
+  for (const GuardInTurn& guard : guards) {
+    const Variable& forces = law_.variables[guard.state];
+    const std::string force = fmt::format("vector::at({}, first + j)", array_name(forces));
+    std::string value = fmt::format("vector::flush_below(threshold, {})", force);
+    if (branch_free_) value = fmt::format("vector::chosen(sampled, {}, {})", value, force);
+    lines.push_back(fmt::format("// |F| below the threshold: F ← 0, of {} modes a sample in turn", guard.places));
+    lines.push_back("DASHPOT_UNROLL");
+    lines.push_back(fmt::format("for (int j = 0, first = {}_; j < {}; j += vector::width)", guard.name, guard.places));
+    append(lines, fmt::format("  vector::put({}, first + j, {});", array_name(forces), value));
+    const std::string taken = branch_free_ ? fmt::format("({} & static_cast<int>(sampled))", guard.places) : std::to_string(guard.places);
+    lines.push_back(fmt::format("{0}_ += {1};", guard.name, taken));
+    lines.push_back(fmt::format("{0}_ = {0}_ < {1} ? {0}_ : 0;", guard.name, law_.padded(forces.size)));
+  }
+  return lines;
+}
+
 void CppStatements::print_unrolled(const Statement& statement, std::vector<std::string>& lines) {
   const Variable& target = law_.variables[statement.target];
   if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
@@ -75,17 +94,22 @@ void CppStatements::print_loop(const std::vector<Statement>& program, std::size_
   const std::vector<Statement> body(program.begin() + static_cast<std::ptrdiff_t>(first), program.begin() + static_cast<std::ptrdiff_t>(last));
   for (const Statement& statement : body) {
     const Variable& vector = target(statement);
-    if (outlives_loop(vector)) lines.push_back(fmt::format("scalar {}[{}];", vector.name, padded(vector.size)));
+    if (outlives_loop(vector)) lines.push_back(fmt::format("scalar {}[{}];", vector.name, law_.padded(vector.size)));
     if (summed_.count(statement.target) != 0)
       lines.push_back(fmt::format("dashpot::partial_sums<vector, {}> {};", law_.lanes, lane(vector)));
   }
   for (const Statement& statement : body) hoist_scalars(statement.value, lines);
-  lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", padded(target(body.front()).size), law_.lanes));
+  lines.push_back(fmt::format("for (int i = 0; i < {}; i += {})", law_.padded(target(body.front()).size), law_.lanes));
   lines.push_back("  DASHPOT_UNROLL");
   lines.push_back(fmt::format("  for (int j = i; j < i + {}; j += vector::width) {{", law_.lanes));
   for (const Statement& statement : body) {
     const Variable& vector = target(statement);
+    if (vector.role == Role::state && reads_of(statement.value, statement.target) > 1) {
+      lines.push_back(fmt::format("    const vector {} = vector::in_register({});", vector.name, vector_name(vector, 0)));
+      in_register_ = &vector;
+    }
     std::string value = rolled_expression(statement.value);
+    in_register_ = nullptr;
     if (masks_states_ && vector.role == Role::state)
       value = fmt::format("vector::chosen(sampled, {}, {})", value, vector_name(vector, 0));
     append(lines, is_array(vector) ? fmt::format("    vector::put({}, j, {});", array_name(vector), value)
@@ -95,6 +119,24 @@ void CppStatements::print_loop(const std::vector<Statement>& program, std::size_
     if (summed_.count(statement.target) != 0)
       lines.push_back(fmt::format("    {}.add(j - i, {});", lane(target(statement)), vector_name(target(statement), 0)));
   lines.push_back("  }");
+}
+
+// How often an expression of a loop reads a vector at the loop's place.
+int CppStatements::reads_of(ExpressionId id, VariableId vector) const {
+  const Expression& e = law_.expressions[id];
+  switch (e.operation) {
+    case Operation::read: return e.left == vector;
+    case Operation::constant:
+    case Operation::sum: return 0;
+    case Operation::pick: return reads_of(e.right, vector);
+    case Operation::flush: return reads_of(e.left, vector);
+    case Operation::where: return reads_of(e.condition, vector) + reads_of(e.left, vector) + reads_of(e.right, vector);
+    case Operation::add:
+    case Operation::subtract:
+    case Operation::multiply:
+    case Operation::clamp: return reads_of(e.left, vector) + reads_of(e.right, vector);
+  }
+  return 0;
 }
 
 // Partial sums; called after their vector where a function has several.
@@ -191,7 +233,7 @@ std::string CppStatements::rolled_expression(ExpressionId id) {
   Spelling spelling;
   spelling.variable = [this](const Variable& variable) {
     const auto id_of = static_cast<VariableId>(&variable - law_.variables.data());
-    return hoisted_.count(id_of) != 0 ? variable.name : place_name(original(variable), 0);
+    return hoisted_.count(id_of) != 0 || &variable == in_register_ ? variable.name : place_name(original(variable), 0);
   };
   spelling.coefficient = [this](const Coefficient& coefficient) {
     used_coefficients_.insert(&coefficient);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "scalar_program.hpp"
 
 namespace dashpot::testing {
@@ -41,7 +43,9 @@ class CForm {
     text_ += fmt::format("  command_damping = {};\n  command_force = {};\n", law_.brake_changes() ? name(law_.brake) : "damping", name(law_.force));
     assignments(law_.keep);
     text_ += "  return 1;\n}\n\n";
-    function("static void update(void)", law_.update);
+    text_ += "static void update(void) {\n";
+    for (const compiler::GuardInTurn& guard : law_.guards) take_turn(guard);
+    assignments(law_.update);
     text_ += "}\n\n";
     proof();
     run();
@@ -72,12 +76,24 @@ class CForm {
     for (const Variable& v : law_.variables)
       for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)
         text_ += fmt::format("static scalar {} = {};\n", scalar_name(v, place), literal(v.rest_value));
+    for (const compiler::GuardInTurn& guard : law_.guards) text_ += fmt::format("static int {} = 0;\n", guard.name);
     text_ += "static scalar command_damping, command_force;\n\n";
   }
 
   void function(const std::string& declaration, const std::vector<compiler::Statement>& program) {
     text_ += declaration + " {\n";
     assignments(program);
+  }
+
+  void take_turn(const compiler::GuardInTurn& guard) {
+    const Variable& forces = law_.variables[guard.state];
+    for (std::size_t first = 0; first < forces.size; first += guard.places) {
+      text_ += fmt::format("  if ({} == {}) {{\n", guard.name, first);
+      for (std::size_t place = first; place < std::min(first + guard.places, forces.size); ++place)
+        text_ += fmt::format("    {0} = flush_below(threshold, {0});\n", scalar_name(forces, place));
+      text_ += "  }\n";
+    }
+    text_ += fmt::format("  {0} = {0} + {1} < {2} ? {0} + {1} : 0;\n", guard.name, guard.places, law_.padded(forces.size));
   }
 
   void assignments(const std::vector<compiler::Statement>& program) {
@@ -103,6 +119,8 @@ class CForm {
                              2 * bound / sliced->second, name_of(law_.scalar));
       }
     }
+    for (const compiler::GuardInTurn& guard : law_.guards)
+      text_ += fmt::format("  {0} = Frama_C_interval(0, {2}) * {1};\n", guard.name, guard.places, (law_.variables[guard.state].size - 1) / guard.places);
     text_ += fmt::format("  const scalar position = Frama_C_{0}_interval({1:#}, {2:#}), velocity = Frama_C_{0}_interval({3:#}, {4:#});\n",
                          name_of(law_.scalar), -box_.range.position, box_.range.position, -box_.range.velocity, box_.range.velocity);
     text_ += "  if (output(position, velocity)) update();\n"

@@ -8,6 +8,7 @@
 #include <xmmintrin.h>
 #endif
 
+#include "discretise/evaluate.hpp"
 #include "emit/emission.hpp"
 #include "emitted_laws.hpp"
 #include "motion.hpp"
@@ -84,6 +85,29 @@ TEST(Subnormal, is_forestalled_by_exactly_zero) {
     last = now;
   }
   EXPECT_LT(smallest, 1e-60);
+}
+
+// Fails if emitted code guards other places at a sample than `simulate` does, where guards take turns, or one of them never.
+TEST(Subnormal, is_forestalled_in_turn_as_in_simulate) {
+  int laws = 0;
+  for (const char* variant : {"exact_1khz", "euler_nodal"})
+    for (const EmittedLaw& law : laws_of_variant(variant)) {
+      if (law.compilation().law.guards.empty()) continue;
+      ++laws;
+      const std::shared_ptr<Model> model = law.make();
+      compiler::Evaluation<double> evaluated(law.compilation().law);
+      model->reset(0);
+      evaluated.reset(0);
+      std::vector<Sample> samples = samples_of(random_motion(16, 20), law.sample_period);
+      samples.resize(samples.size() + held, {});
+      double last = 1;
+      for (const Sample& sample : samples) {
+        last = model->step(sample.position, sample.velocity).force;
+        ASSERT_EQ(last, evaluated.step(sample.position, sample.velocity).force) << law.title();
+      }
+      EXPECT_EQ(last, 0) << law.title();
+    }
+  EXPECT_GT(laws, 0);
 }
 
 // Fails if a constant of any law is itself subnormal.

@@ -75,6 +75,15 @@ class vector {
     *reinterpret_cast<in_memory*>(values + i) = v.value_;
   }
 
+  // The same, read from memory once. Where an operation can read memory itself but overwrites its other operand, SSE2, compilers read
+  // anew for every use, and the reads are what a loop of many states waits for.
+  static vector in_register(vector v) noexcept {
+#if defined(__GNUC__) && defined(__SSE2__) && !defined(__AVX__)
+    __asm__("" : "+x"(v.value_));
+#endif
+    return v;
+  }
+
   friend vector operator+(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ + b.value_); }
   friend vector operator-(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ - b.value_); }
   friend vector operator*(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ * b.value_); }

@@ -1,6 +1,6 @@
 // The best that we can write by hand for one network: constants normalised, the command in two fused multiplications behind its
-// inputs, the subnormal guard on the old state, where it waits for nothing, and vectors of the target's width. `Lanes` is how many
-// doubles a vector holds.
+// inputs, the subnormal guard on the old state, where it waits for nothing, or of many states in turn, and vectors of the target's
+// width. `Lanes` is how many doubles a vector holds.
 #pragma once
 
 #include "guards.hpp"
@@ -15,13 +15,13 @@ struct vectors {
   using bits [[gnu::vector_size(8 * Lanes)]] = long long;
 };
 
-// a F, and 0 for a force below the threshold: (|F| > t ? a F : 0).
+// `product`, which has F for a factor, and 0 for a force F below the threshold.
 template <int Lanes>
-inline typename vectors<Lanes>::values relaxed(typename vectors<Lanes>::values force, typename vectors<Lanes>::values decay) noexcept {
+inline typename vectors<Lanes>::values guarded(typename vectors<Lanes>::values force, typename vectors<Lanes>::values product) noexcept {
   using values = typename vectors<Lanes>::values;
   using bits = typename vectors<Lanes>::bits;
   const values magnitude = values(bits(force) & 0x7fffffffffffffff);
-  return values((magnitude > threshold) & bits(decay * force));
+  return values((magnitude > threshold) & bits(product));
 }
 
 // a b + c, in one instruction where there is one: which product is fused decides what waits for what.
@@ -43,6 +43,7 @@ template <class Network, int Lanes>
 class hand_maxwell {
   static constexpr int size = Network::size;
   static constexpr int sums = size / Lanes < 4 ? size / Lanes : 4;  // in flight at a time
+  static constexpr bool takes_turns = size > 8;                     // a guard comes to each state in time, `sums` vectors a sample
   static_assert(size % (sums * Lanes) == 0);
   using values = typename vectors<Lanes>::values;
 
@@ -70,10 +71,15 @@ class hand_maxwell {
   void advance(double velocity) noexcept {
     const auto& decay = reinterpret_cast<const values(&)[size / Lanes]>(constants_of<Network>.decay);
     const auto& drive = reinterpret_cast<const values(&)[size / Lanes]>(constants_of<Network>.drive);
+    if (takes_turns) {
+      for (int j = 0; j < sums; ++j) force_[turn_ + j] = guarded<Lanes>(force_[turn_ + j], force_[turn_ + j]);
+      turn_ = turn_ + sums < size / Lanes ? turn_ + sums : 0;
+    }
     values sum[sums] = {};
     for (int i = 0; i < size / Lanes; i += sums)
       for (int j = 0; j < sums; ++j) {
-        force_[i + j] = relaxed<Lanes>(force_[i + j], decay[i + j]) + drive[i + j] * velocity;
+        const values product = decay[i + j] * force_[i + j];
+        force_[i + j] = (takes_turns ? product : guarded<Lanes>(force_[i + j], product)) + drive[i + j] * velocity;
         sum[j] += force_[i + j];
       }
     for (int j = 1; j < sums; ++j) sum[0] += sum[j];
@@ -84,6 +90,7 @@ class hand_maxwell {
   alignas(64) values force_[size / Lanes] = {};
   double relaxed_force_ = 0;  // S [N]
   double velocity_ = 0;       // v of the sample that waits for update() [m/s]
+  int turn_ = 0;              // first vector that is guarded next
   bool is_taken_ = false;
 };
 
@@ -96,7 +103,7 @@ class hand_fig_5 {
     const auto& k = constants_of<fig_5>;
     const double force = (force_[0] + force_[1]) + fig_5::static_stiffness * position + k.velocity_gain * velocity;
     if (!is_finite(force)) return {k.brake, 0};
-    force_ = relaxed<2>(force_, values{k.decay[0], k.decay[1]}) + values{k.drive[0], k.drive[1]} * velocity;
+    force_ = guarded<2>(force_, values{k.decay[0], k.decay[1]} * force_) + values{k.drive[0], k.drive[1]} * velocity;
     return {k.brake, force};
   }
 

@@ -44,8 +44,8 @@ std::string assembly_of_update(const std::filesystem::path& folder, const std::s
   return finished.output;
 }
 
-// A round of the loop: for every register of `lanes` sums two products, their sum, the guard and the partial sum; what is left is
-// the total of the partial sums.
+// A round of the loop: for every register of `lanes` sums two products, their sum and the partial sum, and before the loop as many
+// guards in turn, or in float a guard each; what is left is the total of the partial sums.
 void expect_full_registers(const char* scalar, const std::string& registers, int in_register, int lanes) {
   const TemporaryFolder folder;
   write_text(folder.path() / "many.json", parallel_branches("many", 64));

@@ -5,10 +5,11 @@
 
 Works on clones of the last commit in FOLDER, one for each job, never on this tree. A fault that does not compile, or that leaves the machine code
 as it was, is no fault: the next one takes its place. Tests of the room next to the fault come first, then all others; the
-first red one ends the search. What is found out is appended to the record, a JSON object a line, and a run that is
-started again goes on behind it."""
+first red one ends the search. Faults that the quick tests leave open are planted again at the end, for the slow ones. What is found out
+is appended to the record, a JSON object a line, and a run that is started again goes on behind it."""
 import argparse
 import concurrent.futures
+import dataclasses
 import hashlib
 import json
 import os
@@ -20,7 +21,7 @@ import sys
 import threading
 import time
 
-from faults import drawn
+from faults import Fault, drawn
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ["compiler", "runtime"]
@@ -50,7 +51,7 @@ NEAREST = {
 }
 # Of all tests, those that see the compiler's whole work in a second or two; and those that compile much of what it emits, or draw.
 FIRST = "^golden|^generated|^diagnostics|^command_line"
-LAST = "^Agreement|^Points|^StrictCompile|^TunableEmission|^Subnormal|^Firmware|^paper|^Eva|Differential|^SlipHolds|^run_command"
+SLOW = "^Agreement|^Points|^StrictCompile|^TunableEmission|^Subnormal|^Firmware|^paper|^Eva|Differential|^SlipHolds|^run_command"
 # Tests against the clock, which other work makes red; and those that build or draw everything once more, minutes each. What only
 # these would find counts as missed.
 LEFT_OUT = "RealClock|^package.In|^report.browser"
@@ -118,35 +119,46 @@ def first_failure(output):
     return lines[0].strip() if lines else "ended early or late"
 
 
-def judged(copy, fault):
-    """'found', 'missed' or why it is no fault; and by what it was found."""
+def judged(copy, fault, tests):
+    """What `tests` says of the copy with the fault in it."""
     path = copy.folder / fault.file
     sound = path.read_text()
     before = copy.machine_code(fault.file)
     path.write_text(fault.planted_in(sound))
     try:
-        near = nearest(fault.file)
-        if near and not copy.succeeds(*copy.building(near[0])):
-            return "does not compile", ""
-        if before is not None and copy.machine_code(fault.file) == before:
-            return "same machine code", ""
-        for name in near:
-            if not copy.succeeds(*copy.building(name)):
-                return "found", f"the build of {name}"
-            if not copy.succeeds(str(copy.program(name)), "--gtest_brief=1", "--gtest_fail_fast"):
-                return "found", f"{name}: {first_failure(copy.output)}"
-        if not copy.succeeds(*copy.building("dashpot", "generated_test", "diagnostics_test")):
-            return "found", "the build of the compiler"
-        if not copy.passes("-R", FIRST):
-            return "found", first_failure(copy.output)
-        if not copy.succeeds(*copy.building()):
-            return "found", "the build of all tests"
-        for chosen in (["-E", f"{FIRST}|{LAST}|{LEFT_OUT}"], ["-R", LAST]):
-            if not copy.passes(*chosen):
-                return "found", first_failure(copy.output)
-        return "missed", ""
+        return tests(copy, fault, before)
     finally:
         path.write_text(sound)
+
+
+def quick_tests(copy, fault, sound_code):
+    """'found' and by what, 'open', or why it is no fault."""
+    near = nearest(fault.file)
+    if near and not copy.succeeds(*copy.building(near[0])):
+        return "does not compile", ""
+    if sound_code is not None and copy.machine_code(fault.file) == sound_code:
+        return "same machine code", ""
+    for name in near:
+        if not copy.succeeds(*copy.building(name)):
+            return "found", f"the build of {name}"
+        if not copy.succeeds(str(copy.program(name)), "--gtest_brief=1", "--gtest_fail_fast"):
+            return "found", f"{name}: {first_failure(copy.output)}"
+    if not copy.succeeds(*copy.building("dashpot", "generated_test", "diagnostics_test")):
+        return "found", "the build of the compiler"
+    if not copy.passes("-R", FIRST):
+        return "found", first_failure(copy.output)
+    if not copy.succeeds(*copy.building()):
+        return "found", "the build of all tests"
+    if not copy.passes("-E", f"{FIRST}|{SLOW}|{LEFT_OUT}"):
+        return "found", first_failure(copy.output)
+    return "open", ""
+
+
+def slow_tests(copy, fault, sound_code):
+    """'found' and by what, or 'missed'."""
+    if not copy.succeeds(*copy.building()):
+        return "found", "the build of all tests"
+    return ("missed", "") if copy.passes("-R", SLOW) else ("found", first_failure(copy.output))
 
 
 class Search:
@@ -154,38 +166,47 @@ class Search:
 
     def __init__(self, count, record):
         self.count, self.record, self.lock = count, record, threading.Lock()
-        known = [json.loads(line) for line in record.read_text().splitlines()] if record.exists() else []
-        self.told = {(entry["file"], entry["line"], entry["column"], entry["after"]) for entry in known}
-        self.verdicts = [entry["verdict"] for entry in known]
-        self.planted = 0
+        self.verdicts, self.planted = {}, set()
+        for line in record.read_text().splitlines() if record.exists() else []:
+            entry = json.loads(line)
+            self.verdicts[Fault(*(entry[field.name] for field in dataclasses.fields(Fault)))] = entry["verdict"]
 
-    def judged(self):
-        return sum(verdict in ("found", "missed") for verdict in self.verdicts)
+    def judged(self, *verdicts):
+        return sum(verdict in verdicts for verdict in self.verdicts.values())
 
     def next_of(self, faults):
         with self.lock:
-            if self.judged() + self.planted >= self.count:
+            if self.judged("found", "missed", "open") + len(self.planted - self.verdicts.keys()) >= self.count:
                 return None
-            self.planted += 1
-            return next(fault for fault in faults if (fault.file, fault.line, fault.column, fault.after) not in self.told)
+            fault = next(fault for fault in faults if fault not in self.verdicts)
+            self.planted.add(fault)
+            return fault
+
+    def next_open(self):
+        with self.lock:
+            fault = next((fault for fault, verdict in self.verdicts.items() if verdict == "open" and fault not in self.planted), None)
+            if fault:
+                self.planted.add(fault)
+            return fault
 
     def tell(self, fault, verdict, by, seconds):
         with self.lock:
-            self.planted -= 1
-            self.verdicts.append(verdict)
+            self.planted.remove(fault)
+            self.verdicts[fault] = verdict
             with open(self.record, "a") as record:
                 record.write(json.dumps({**fault.__dict__, "verdict": verdict, "by": by, "seconds": seconds}) + "\n")
             print(f"{fault.file}:{fault.line}:{fault.column}: '{fault.before}' -> '{fault.after}': {verdict} {by}", flush=True)
 
     def run_in(self, copy, faults):
         copy.prepare()
-        while fault := self.next_of(faults):
-            start = time.monotonic()
-            self.tell(fault, *judged(copy, fault), round(time.monotonic() - start))
+        for next_fault, tests in ((lambda: self.next_of(faults), quick_tests), (self.next_open, slow_tests)):
+            while fault := next_fault():
+                start = time.monotonic()
+                self.tell(fault, *judged(copy, fault, tests), round(time.monotonic() - start))
 
     def summary(self):
-        found, missed = self.verdicts.count("found"), self.verdicts.count("missed")
-        return f"{found} of {found + missed} found, {missed} missed; {len(self.verdicts) - found - missed} were no faults"
+        found, missed, other = self.judged("found"), self.judged("missed"), self.judged("open")
+        return f"{found} of {found + missed + other} found, {missed} missed; {len(self.verdicts) - found - missed - other} were no faults"
 
 
 def main():

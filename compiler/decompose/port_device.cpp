@@ -12,16 +12,21 @@ namespace {
 
 using std::numbers::pi;
 
-// (1/2π) ∮ |E|² dθ: the variance that white noise of unit variance leaves in the estimate, by the trapezoidal rule, which
-// converges geometrically for a rational E.
-double noise_power_gain(const pulse_transfer<longest_window>& transfer, double sample_period) {
-  constexpr int points = 4096;
+// Σ h²: the variance that white noise of unit variance in the position leaves in the estimate. The estimator itself answers the
+// impulse: of a filter far below the rate the coefficients of a transfer function are mostly rounding. It is done where a whole
+// window changes the sum no more.
+double noise_power_gain(any_estimator<double> estimator) {
+  constexpr int most_samples = 1 << 22;  // beyond, a filter forgets more slowly than any loop runs
+  estimator.reset(0);
+  device_sample impulse;
+  impulse.position = 1;
   double sum = 0;
-  for (int i = 0; i < points; ++i) {
-    const double w = 2 * pi * i / points / sample_period;
-    sum += std::norm(position_response(transfer, w, sample_period));
+  for (int i = 0, unchanged = 0; i < most_samples && (sum == 0 || unchanged <= int(longest_window)); ++i, impulse.position = 0) {
+    const double answer = estimator.update(impulse), more = sum + answer * answer;
+    unchanged = more == sum ? unchanged + 1 : 0;
+    sum = more;
   }
-  return sum / points;
+  return sum;
 }
 
 }  // namespace
@@ -120,7 +125,7 @@ std::optional<double> PortDevice::velocity_noise() const {
   if (d.velocity.estimator == estimator_kind::sensor) return d.velocity.noise * position_scale_;
   if (!estimator_is_linear()) return std::nullopt;
   const double quantum = d.encoder.step / std::sqrt(12.0);
-  return quantum * position_scale_ * std::sqrt(noise_power_gain(estimator().transfer(), d.loop.sample_period));
+  return quantum * position_scale_ * std::sqrt(noise_power_gain(estimator()));
 }
 
 }  // namespace dashpot::compiler

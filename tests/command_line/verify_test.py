@@ -144,6 +144,18 @@ class Verify(CommandTest):
         header = re.sub(r'device_digest = "[0-9a-f]*"', 'device_digest = "0"', header)
         self.verify(header, certificate, "stripped")
 
+    def test_what_is_just_enough(self):
+        """Fails if a brake that gives exactly what is needed is found wanting, when compiling or when verifying."""
+        def kelvin(damping):
+            self.write("just.json", network(f'{{ "parallel": [ {{ "spring": 100 }}, {{ "damper": {damping!r} }} ] }}', "just"))
+            header, certificate = self.emitted(["just.json"], "just")
+            return header, certificate, json.loads(certificate)["passivity"]
+
+        needed = kelvin(1.0)[2]["needed_damping"]
+        header, certificate, passivity = kelvin(needed)
+        self.assertEqual((passivity["needed_damping"], passivity["assured_damping"], passivity["certified"]), (needed, needed, True))
+        self.verify(header, certificate, "just_enough")
+
     def mutants(self, count, chance, consistently, laws=LAWS):
         laws = [self.emitted(law, f"law_{i}") for i, law in enumerate(laws)]
         for number in range(count):

@@ -32,6 +32,11 @@ DAMPED = """{ "parallel": [ { "damper": 0.5 }, { "series": [ { "parallel": [ { "
     { "parallel": [ { "slip": 0.4 }, { "damper": 3 } ] } ] },
     { "series": [ { "spring": 1000 }, { "parallel": [ { "slip": 0.4 }, { "damper": 3 } ] }, { "parallel": [ { "slip": 0.2 }, { "damper": 5 } ] } ] } ] }"""
 
+# A damper beside a slip alone, and one more that the law keeps; and one beside a slip, a spring and a second slip.
+FREED = ['{"series": [{"spring": 1000}, {"parallel": [{"slip": 0.4}, {"damper": 3}]}, {"damper": 7}]}',
+         """{"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"series": [{"spring": 500}, {"slip": 0.1}]}, {"damper": 3},
+    {"spring": 20}]}]}"""]
+
 # One law of each shape with slips or a contact: closed form, rolled, with modes, gated, compensated, coupled, pushed.
 SLIP_LAWS = [
     [PAPER / "visco_elasto_plastic.json"], [PAPER / "visco_elasto_plastic_organ.json"], [PAPER / "maxwell_slip_ten.json"],
@@ -42,6 +47,7 @@ SLIP_LAWS = [
     [PAPER / "visco_elasto_plastic_organ.json", "--scalar", "float", "--decomposition", "compensated"],
     *[[file, "--decomposition", law] for file in ("damped.json", "touched.json") for law in ("gated", "compensated")],
     ["damped_loop.json", "--decomposition", "gated"], ["damped_loop.json", "--decomposition", "compensated"],
+    *[[f"freed_{i}.json", "--decomposition", "gated"] for i in range(len(FREED))],
     ["damped.json", "--device", BOARD, "--decomposition", "compensated"], ["damped.json", "--device", BOARD, "--decomposition", "gated"],
 ]
 
@@ -117,6 +123,8 @@ class Verify(CommandTest):
         self.write("pushed_tuned.json", of_elements(TUNED, "pushed_tuned", f'{contact} "parameters": {BOX},'))
         self.write("damped_loop.json", of_elements(f'{LOOP}, {{ "damper": 0.5, "nodes": ["p", "ground"] }}', "damped_loop"))
         self.write("damped.json", network(DAMPED, "damped"))
+        for i, freed in enumerate(FREED):
+            self.write(f"freed_{i}.json", network(freed, f"freed_{i}"))
         self.write("touched.json", network(DAMPED, "touched", '"contact": { "at": 0 },'))
 
     def emitted(self, law, folder):

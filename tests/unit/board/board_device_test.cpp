@@ -1,5 +1,6 @@
 #include <dashpot/board/board_device.hpp>
 
+#include <chrono>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -50,6 +51,16 @@ class session {
   board_device device;
   device_sample sample;
 };
+
+// A board that falls silent would be waited for as long as the host runs, or given up at once.
+TEST(MonotonicNanoseconds, are_those_of_the_steady_clock) {
+  const auto steady = [] {
+    return std::uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
+  };
+  const std::uint64_t before = steady(), between = monotonic_nanoseconds(), after = steady();
+  EXPECT_LE(before, between);
+  EXPECT_LE(between, after);
+}
 
 // Where both clocks pace, the numbers that the loop gets must be the board's.
 TEST(BoardDevice, hands_out_what_the_board_measured) {

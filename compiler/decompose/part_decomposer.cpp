@@ -113,10 +113,10 @@ SlipLawMerit PartDecomposer::merit(SlipLaw law) const {
 double PartDecomposer::error(SlipLaw law, std::size_t i, double w) const {
   const LinearForm& form = regime(i).form;
   const std::complex<double> whole = impedance(beside_, w) + impedance(form, w);
-  std::complex<double> error = 0;
-  if (law == SlipLaw::gated)
-    error = to_double(gated_brakes_[i]) + impedance(part_.gated[i], w) - to_double(part_.gated[i].feedthrough_damping) - impedance(form, w);
-  if (law == SlipLaw::compensated) error = excess_brake(i) - compensation(i) * device_.velocity_response(w);
+  const std::complex<double> error =
+      law == SlipLaw::gated
+          ? to_double(gated_brakes_[i]) + impedance(part_.gated[i], w) - to_double(part_.gated[i].feedthrough_damping) - impedance(form, w)
+          : excess_brake(i) - compensation(i) * device_.velocity_response(w);
   return std::abs(error) == 0 ? 0 : std::abs(error) / std::abs(whole);
 }
 

@@ -63,7 +63,7 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>&
     std::string value = fmt::format("vector::flush_below(threshold, {})", force);
     if (branch_free_) value = fmt::format("vector::chosen(sampled, {}, {})", value, force);
     lines.push_back(fmt::format("// |F| below the threshold: F ← 0, of {} modes a sample in turn", guard.places));
-    lines.push_back("DASHPOT_UNROLL");
+    if (guard.places <= 4 * law_.lanes) lines.push_back("DASHPOT_UNROLL");  // code that does not grow with the modes
     lines.push_back(fmt::format("for (int j = 0, first = {}_; j < {}; j += vector::width)", guard.name, guard.places));
     append(lines, fmt::format("  vector::put({}, first + j, {});", array_name(forces), value));
     const std::string taken = branch_free_ ? fmt::format("({} & static_cast<int>(sampled))", guard.places) : std::to_string(guard.places);

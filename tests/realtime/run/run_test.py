@@ -60,6 +60,14 @@ class Run(unittest.TestCase):
             made = stiffness * float(row["position [m]"]) + velocity_gain * float(row["velocity [m/s]"])
             self.assertAlmostEqual(float(row["motor_force [N]"]), made, delta=1e-12)
 
+    def test_who_reads_along_sees_no_fault_where_none_was(self):
+        """Fails if the line that is printed while the loop runs counts faults that nobody had."""
+        result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "2.5", "--fast", "--log", self.log)
+        lines = [line for line in result.stdout.splitlines() if " Hz  late " in line]
+        self.assertEqual([line.split(" s ")[0].strip() for line in lines], ["0.0", "1.0", "2.0"], result.stdout)
+        for line in lines:
+            self.assertTrue(line.endswith("faults 0"), line)
+
     def test_simulated_time_is_repeatable(self):
         """Fails if anything but the seed decides a simulated run."""
         logs = [os.path.join(self.folder.name, name) for name in ("a.csv", "b.csv")]

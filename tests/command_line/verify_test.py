@@ -13,13 +13,18 @@ TWENTY = SOURCE / "tests/responses/networks/twenty_branches.json"
 BRIDGE = SOURCE / "networks/paper/bridge.json"
 KELVINS = SOURCE / "networks/paper/generalised_kelvin_two.json"
 
-# One law of each shape: with and without a device, both schemes and scalars, every state input, rolled and straight.
+# Two relaxations of one rate, which are one mode, and a third.
+EQUAL = """{"parallel": [{"series": [{"spring": 10}, {"damper": 1}]}, {"series": [{"spring": 20}, {"damper": 2}]},
+    {"series": [{"spring": 5}, {"damper": 3}]}]}"""
+
+# One law of each shape: with and without a device, both schemes and scalars, every state input, rolled and straight, modes of one rate.
 LAWS = [
     [FIG_5], [BRIDGE, "--rate", "3000"], [TWENTY], [FIG_5, "--scalar", "float"],
     [FIG_5, "--scheme", "backward-euler"], [FIG_5, "--state-input", "velocity"],
     [KELVINS, "--scheme", "backward-euler", "--state-input", "nodal"],
     [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH], [FIG_5, "--device", BOARD, "--scalar", "float"],
     [FIG_5, "--decomposition", "2.5"], [FIG_5, "--scalar", "float", "--rate", "100000"], [TWENTY, "--vector", "avx512"],
+    ["equal.json"],
 ]
 
 PAPER = SOURCE / "networks/paper"
@@ -122,6 +127,7 @@ class Verify(CommandTest):
         self.write("tuned.json", of_elements(TUNED, "tuned", f'"parameters": {BOX},'))
         self.write("pushed_tuned.json", of_elements(TUNED, "pushed_tuned", f'{contact} "parameters": {BOX},'))
         self.write("damped_loop.json", of_elements(f'{LOOP}, {{ "damper": 0.5, "nodes": ["p", "ground"] }}', "damped_loop"))
+        self.write("equal.json", network(EQUAL, "equal"))
         self.write("damped.json", network(DAMPED, "damped"))
         for i, freed in enumerate(FREED):
             self.write(f"freed_{i}.json", network(freed, f"freed_{i}"))

@@ -64,6 +64,9 @@ LOOP = """{"spring": 5, "nodes": ["tool", "p"], "name": "a"}, {"spring": 7, "nod
 BESIDE = """{"spring": 3, "nodes": ["tool", "w"], "name": "i"}, {"damper": 0.5, "nodes": ["w", "ground"], "name": "j"},
     {"spring": 90, "nodes": ["tool", "x"], "name": "k"}, {"slip": 0.4, "nodes": ["x", "ground"], "name": "l"},
     {"spring": 8, "nodes": ["tool", "ground"], "name": "m"}, {"damper": 0.7, "nodes": ["tool", "ground"], "name": "n"}"""
+# More inner nodes between two slips than slips have ends.
+DEEP = ", ".join([f'{{"spring": {10 + 7 * i}, "nodes": ["d{i}", "d{i + 1}"], "name": "w{i}"}}, {{"damper": {1 + 0.3 * i}, "nodes": ["d{i}", "{end}"], "name": "v{i}"}}'
+                  for i, end in enumerate(("p", "tool", "q", "ground", "q"))] + ['{"spring": 17, "nodes": ["d5", "p"], "name": "w5"}'])
 STAR = ", ".join([f'{{"spring": 10, "nodes": ["tool", "p{i}"], "name": "s{i}"}}, {{"slip": {i}, "nodes": ["p{i}", "ground"], "name": "y{i}"}},'
                   f'{{"spring": 5, "nodes": ["p{i}", "q{i}"], "name": "t{i}"}}, {{"damper": 2, "nodes": ["q{i}", "c"], "name": "b{i}"}},'
                   f'{{"spring": 1, "nodes": ["q{i}", "c"], "name": "u{i}"}}' for i in (1, 2, 3)])
@@ -86,7 +89,7 @@ def of_elements(elements, name, more=""):
 
 OTHER_LAWS = [
     ["loop.json"], ["loop.json", "--scheme", "backward-euler", "--device", PANTOGRAPH], ["loop.json", "--scalar", "float"],
-    ["loops.json", "--device", BOARD], ["pushed_loop.json"], ["star.json"],
+    ["loops.json", "--device", BOARD], ["deep_loop.json"], ["pushed_loop.json"], ["star.json"],
     [PAPER / "visco_elasto_plastic_organ.json", "--scheme", "backward-euler", "--state-input", "nodal"],
     ["loops.json", "--scheme", "backward-euler", "--state-input", "nodal"],
     [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD], [SOURCE / "networks/tunable/second_order_maxwell_tunable.json"],
@@ -122,6 +125,7 @@ class Verify(CommandTest):
         contact = '"contact": { "at": 0.0125 },'
         self.write("loop.json", of_elements(LOOP, "loop"))
         self.write("loops.json", of_elements(f"{LOOP}, {BESIDE}", "loops"))
+        self.write("deep_loop.json", of_elements(f"{LOOP}, {DEEP}", "deep_loop"))
         self.write("pushed_loop.json", of_elements(f"{LOOP}, {BESIDE}", "pushed_loop", contact))
         self.write("star.json", of_elements(STAR, "star"))
         self.write("tuned.json", of_elements(TUNED, "tuned", f'"parameters": {BOX},'))

@@ -142,7 +142,7 @@ class Rate(SimulateTest):
     def test_times_in_microseconds(self):
         """Fails if times at 3 kHz, written in whole microseconds, are refused, or the law runs at another rate than they mean."""
         answer = 5 * (1 - math.exp(-10 * 2999 / 3000))
-        for written in ["{:.6f}", "{:.6e}", "{:.7g}"]:
+        for written in ["{:.6f}", "{:.6e}", "{:.5e}", "{:.7g}"]:
             rows = [(written.format(n / 3000), f"{n / 3000:.17g}") for n in range(3000)]
             self.assertAlmostEqual(self.simulated("maxwell.json", table(rows))[-1]["force"], answer, delta=1e-11)
             self.assertEqual(len(self.simulated("maxwell.json", table(rows), "--rate", "3000")), 3000)
@@ -161,6 +161,7 @@ class Rate(SimulateTest):
         self.assertTrue(told.startswith("motion.csv:202:1: error: row follows after 0.000667 s; a uniform period of 0.000333 s"), told)
         self.assertIn("times whose last digit, 1e-06 s here, is at most 0.1 of them", told)
         refusal([time + 4 * (n == 150) for n, time in enumerate(micro)])
+        self.refuses(table([(f"{(time + 4 * (n == 150)) / 1e6:.5e}", 0) for n, time in enumerate(micro)]), "csv-not-uniform")
         told = refusal([333 * n + max(0, n - 150) for n in range(300)], "csv-drifts")
         self.assertRegex(told, r"motion\.csv:\d+:1: error: row is at 0\.\d+ s; rows at a uniform period of 0\.000333\d* s have it at 0\.")
         told = self.refuses(table([(f"{n / 300:.3f}", 0) for n in range(30)]), "csv-not-uniform").stderr

@@ -4,12 +4,12 @@
 #include <charconv>
 #include <cmath>
 
+#include "network/decimal.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
 constexpr int farthest_exponent = 400;  // beyond any double's
-
-bool is_decimal(char c) { return c >= '0' && c <= '9'; }
 
 // A double's own rounding, of two times and of their difference.
 double rounding_at(double time) { return 4 * 0x1p-52 * std::abs(time); }
@@ -57,7 +57,7 @@ void TimeDigits::add(std::string_view number) {
   bool behind_point = false;
   for (const char c : number.substr(0, mantissa_end)) {
     if (c == '.') behind_point = true;
-    if (!is_decimal(c)) continue;
+    if (!is_digit(c)) continue;
     if (behind_point) ++decimals;
     if (significant > 0 || c != '0') ++significant;
   }

@@ -4,8 +4,8 @@
 
 #include <array>
 #include <charconv>
-#include <limits>
 
+#include "discretise/rounding.hpp"
 #include "network/rate_limits.hpp"
 #include "source/excerpt.hpp"
 #include "syntax/object_reader.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-constexpr double largest = std::numeric_limits<double>::max();
+const double largest = largest_finite(ScalarType::float64);
 
 // The parser has refused what no double holds.
 double number_in(const JsonValue& value) {

@@ -1,6 +1,7 @@
 #include "decompose/beside_slips.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace dashpot::compiler {
 namespace {
@@ -74,10 +75,10 @@ class RegimeForm {
     switch (tree.kind) {
       case NormalTree::Kind::block: return {Answer::Hold::form, tree.form};
       case NormalTree::Kind::slip: return {does_slide(tree) ? Answer::Hold::constant : Answer::Hold::rigid};
-      case NormalTree::Kind::series: return in_series(tree);
+      case NormalTree::Kind::series:
       case NormalTree::Kind::parallel: break;
     }
-    return beside_each_other(tree);
+    return joined(tree);
   }
 
  private:
@@ -85,26 +86,20 @@ class RegimeForm {
     return slides_[static_cast<std::size_t>(std::find(slips_.begin(), slips_.end(), slip.elements) - slips_.begin())];
   }
 
-  Answer beside_each_other(const NormalTree& tree) const {
-    Answer sum{Answer::Hold::constant};
+  // Beside each other forms add up, a constant force adds nothing to them, and what is rigid decides; in series their
+  // reciprocals do, and the other two change places.
+  Answer joined(const NormalTree& tree) const {
+    const bool in_series = tree.kind == NormalTree::Kind::series;
+    const auto [neutral, deciding] = in_series ? std::pair(Answer::Hold::rigid, Answer::Hold::constant)
+                                               : std::pair(Answer::Hold::constant, Answer::Hold::rigid);
+    Answer sum{neutral};
     for (const NormalTree& child : tree.children) {
       Answer answer = of(child);
-      if (answer.hold == Answer::Hold::rigid) return answer;
-      if (answer.hold == Answer::Hold::constant) continue;
-      sum = {Answer::Hold::form, in_parallel(std::move(sum.form), answer.form)};
+      if (answer.hold == deciding) return answer;
+      if (answer.hold == neutral) continue;
+      sum = {Answer::Hold::form, in_parallel(std::move(sum.form), in_series ? reciprocal(answer.form) : answer.form)};
     }
-    return sum;
-  }
-
-  Answer in_series(const NormalTree& tree) const {
-    Answer sum{Answer::Hold::rigid};
-    for (const NormalTree& child : tree.children) {
-      Answer answer = of(child);
-      if (answer.hold == Answer::Hold::constant) return answer;
-      if (answer.hold == Answer::Hold::rigid) continue;
-      sum = {Answer::Hold::form, in_parallel(std::move(sum.form), reciprocal(answer.form))};
-    }
-    if (sum.hold == Answer::Hold::form) sum.form = reciprocal(sum.form);
+    if (in_series && sum.hold == Answer::Hold::form) sum.form = reciprocal(sum.form);
     return sum;
   }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <regex>
 
 #include "network/tree.hpp"
@@ -48,6 +49,40 @@ void expect_tidy(const std::vector<Label>& all, const Inside& inside) {
   }
 }
 
+// All corners of paths, middles of circles, and places of words, where they come to lie on the paper.
+std::vector<Place> ink(const std::string& svg) {
+  static const std::regex tags("translate\\(([-0-9.]+) ([-0-9.]+)\\)|x=\"([-0-9.]+)\" c?y=\"([-0-9.]+)\"| d=\"([^\"]*)\"");
+  static const std::regex moves("([MLHVmlhv])([-0-9.]+)(?: ([-0-9.]+))?");
+  std::vector<Place> all;
+  Place moved{0, 0};
+  for (std::sregex_iterator tag(svg.begin(), svg.end(), tags), end; tag != end; ++tag) {
+    if ((*tag)[1].matched) moved = {std::stod((*tag)[1]), std::stod((*tag)[2])};
+    if ((*tag)[3].matched) all.push_back({moved.x + std::stod((*tag)[3]), moved.y + std::stod((*tag)[4])});
+    const std::string path = (*tag)[5];
+    Place pen{0, 0};
+    for (std::sregex_iterator move(path.begin(), path.end(), moves); move != end; ++move) {
+      const char kind = (*move)[1].str()[0];
+      const double first = std::stod((*move)[2]), from_x = std::islower(kind) ? pen.x : 0, from_y = std::islower(kind) ? pen.y : 0;
+      if (kind == 'H' || kind == 'h') pen.x = from_x + first;
+      else if (kind == 'V' || kind == 'v') pen.y = from_y + first;
+      else pen = {from_x + first, from_y + std::stod((*move)[3])};
+      all.push_back({moved.x + pen.x, moved.y + pen.y});
+    }
+  }
+  return all;
+}
+
+void expect_on_paper(const Network& network) {
+  const std::string svg = schematic(network);
+  static const std::regex pattern("viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"");
+  std::smatch paper;
+  ASSERT_TRUE(std::regex_search(svg, paper, pattern));
+  for (const Place& place : ink(svg)) {
+    EXPECT_TRUE(place.x > 0 && place.x < std::stod(paper[1])) << place.x;
+    EXPECT_TRUE(place.y > 0 && place.y < std::stod(paper[2])) << place.y;
+  }
+}
+
 std::size_t elements_with_effect(const Network& network) {
   std::size_t count = 0;
   for (const Element& element : network.elements) count += element.has_effect;
@@ -77,6 +112,7 @@ TEST(TreeLayout, DrawsEveryElementOnce) {
     const std::vector<Label> all = labels(inside.svg);
     EXPECT_EQ(all.size(), elements_with_effect(network));
     expect_tidy(all, inside);
+    expect_on_paper(network);
   }
 }
 
@@ -89,6 +125,22 @@ TEST(RailLayout, DrawsEveryElementOnce) {
     const std::vector<Label> all = labels(inside.svg);
     EXPECT_EQ(all.size(), elements_with_effect(network));
     expect_tidy(all, inside);
+    expect_on_paper(network);
+  }
+}
+
+// If this fails, a tree's drawing has empty paper above or below it.
+TEST(TreeLayout, TakesNoMoreRoomThanItNeeds) {
+  constexpr double lightest_drop = 9;  // a spring's, where a slip's symbol would reach further down [px]
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const Network network = testing::random_network(seed, {.most_nodes = 12, .most_slips = 3});
+    const Inside inside = tree_layout(*series_parallel_tree(network), network);
+    double highest = inside.height, lowest = 0;
+    for (const Place& place : ink(inside.svg)) highest = std::min(highest, place.y), lowest = std::max(lowest, place.y);
+    EXPECT_LE(highest, label_rise);
+    EXPECT_GE(lowest, inside.height - (symbol_drop - lightest_drop));
+    EXPECT_LE(lowest, inside.height);
   }
 }
 

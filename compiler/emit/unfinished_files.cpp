@@ -11,16 +11,10 @@ namespace {
 
 constexpr int ending_signals[] = {SIGHUP, SIGINT, SIGPIPE, SIGQUIT, SIGTERM, SIGXFSZ};
 
-std::atomic<const std::vector<std::string>*> unfinished{nullptr};
-
-// Calls nothing that a signal's handler may not: the list is complete before it is published.
-void remove_unfinished() {
-  if (const std::vector<std::string>* paths = unfinished.load())
-    for (const std::string& path : *paths) ::unlink(path.c_str());
-}
+std::atomic<const UnfinishedFiles*> unfinished{nullptr};  // whole before it is published
 
 extern "C" void remove_and_end(int signal) {
-  remove_unfinished();
+  if (const UnfinishedFiles* const all = unfinished.load()) all->remove();
   std::signal(signal, SIG_DFL);
   std::raise(signal);  // ends the process when this function returns
 }
@@ -32,8 +26,9 @@ bool would_end_the_process(int signal) {
 
 }  // namespace
 
-UnfinishedFiles::UnfinishedFiles(std::vector<std::string> paths) : paths_(std::move(paths)) {
-  unfinished = &paths_;
+UnfinishedFiles::UnfinishedFiles(std::vector<std::string> files, std::vector<std::string> folders)
+    : files_(std::move(files)), folders_(std::move(folders)) {
+  unfinished = this;
   for (const int signal : ending_signals) {
     if (!would_end_the_process(signal)) continue;
     watched_.push_back(signal);
@@ -42,9 +37,14 @@ UnfinishedFiles::UnfinishedFiles(std::vector<std::string> paths) : paths_(std::m
 }
 
 UnfinishedFiles::~UnfinishedFiles() {
-  remove_unfinished();
+  remove();
   for (const int signal : watched_) std::signal(signal, SIG_DFL);
   unfinished = nullptr;
+}
+
+void UnfinishedFiles::remove() const noexcept {
+  for (const std::string& file : files_) ::unlink(file.c_str());
+  for (const std::string& folder : folders_) ::rmdir(folder.c_str());  // which leaves one that holds anything
 }
 
 }  // namespace dashpot::compiler

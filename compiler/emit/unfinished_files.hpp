@@ -1,4 +1,4 @@
-// Files under names of their own, which are renamed when all of them are whole.
+// Files under names of their own, which are renamed when all of them are whole, and the folders made for them.
 #pragma once
 
 #include <string>
@@ -6,17 +6,20 @@
 
 namespace dashpot::compiler {
 
-// While it lives, a signal that would end the process removes the files first. Its own end removes those that have not
-// been renamed. One at a time.
+// While it lives, a signal that would end the process removes the files first, and then those of the folders, innermost
+// first, that hold nothing. Its own end removes what has not been renamed. One at a time.
 class UnfinishedFiles {
  public:
-  explicit UnfinishedFiles(std::vector<std::string> paths);
+  UnfinishedFiles(std::vector<std::string> files, std::vector<std::string> folders);
   ~UnfinishedFiles();
   UnfinishedFiles(const UnfinishedFiles&) = delete;
   UnfinishedFiles& operator=(const UnfinishedFiles&) = delete;
 
+  // Calls nothing that a signal's handler may not.
+  void remove() const noexcept;
+
  private:
-  std::vector<std::string> paths_;
+  const std::vector<std::string> files_, folders_;
   std::vector<int> watched_;  // signals that would have ended the process
 };
 

@@ -64,6 +64,16 @@ std::vector<std::string> names_beside(const std::vector<Pending>& files) {
   return names;
 }
 
+// The folders that must be made for the files, innermost first.
+std::vector<std::string> folders_to_make(const std::vector<Pending>& files) {
+  std::vector<std::string> folders;
+  std::error_code ignored;
+  for (const Pending& file : files)
+    for (fs::path folder = file.target.parent_path(); !folder.empty() && !fs::exists(folder, ignored); folder = folder.parent_path())
+      folders.push_back(folder.string());
+  return folders;
+}
+
 // In this order: what cannot be undone comes last.
 enum class Stage { text_beside, text_into_pipes, renames };
 
@@ -86,7 +96,7 @@ std::string fault_of(const Pending& pending, const std::string& text, Stage stag
 bool write_files(const std::string& folder, const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
   std::vector<Pending> all;
   for (const OutputFile& file : files) all.push_back(pending(fs::path(folder) / file.name));
-  const UnfinishedFiles unfinished(names_beside(all));
+  const UnfinishedFiles unfinished(names_beside(all), folders_to_make(all));
   for (const Stage stage : {Stage::text_beside, Stage::text_into_pipes, Stage::renames})
     for (std::size_t i = 0; i < files.size(); ++i)
       if (const std::string fault = fault_of(all[i], files[i].text, stage); !fault.empty()) {

@@ -54,6 +54,16 @@ TEST(WriteFiles, writes_none_where_one_cannot_be_written) {
   EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"bad.hpp", "good.hpp"}));
 }
 
+// Fails if folders that were made for files which cannot be written stay, or one that was there before goes.
+TEST(WriteFiles, leaves_no_folder_behind) {
+  const testing::TemporaryFolder folder;
+  fs::create_directory(folder.path() / "before");
+  fs::create_directory(folder.path() / "bad.hpp");
+  Diagnostics diagnostics;
+  EXPECT_FALSE(write_files(folder.path().string(), {{"a/b/good.hpp", "x\n"}, {"before/good.hpp", "x\n"}, {"bad.hpp", "x\n"}}, diagnostics));
+  EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"bad.hpp", "before"}));
+}
+
 // Fails if a link to a file becomes a file of its own.
 TEST(WriteFiles, follows_links) {
   const testing::TemporaryFolder folder;

@@ -132,6 +132,7 @@ void describe(CLI::App& app, CommandLine& line) {
   simulate->add_option("--input", options.input, "Motion: time,position[,velocity] at a uniform period")
       ->required()
       ->option_text("FILE.csv");
+  simulate->add_flag("--batch", options.emission.batch, "As what compile --batch writes, which keeps out of the subnormals at each sample");
   simulate->add_option("-o,--output", options.output, "File to write to, default standard output")->option_text("FILE.csv");
 
   CLI::App* report = add_command(app, line, "report", "Draw the network, its responses and the choice as one HTML page");

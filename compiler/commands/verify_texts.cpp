@@ -2,40 +2,62 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compile.hpp"
 #include "linear/reach.hpp"
+#include "source/excerpt.hpp"
 #include "syntax/parse_device.hpp"
+#include "verify/compare_certificates.hpp"
 #include "verify/read_certificate.hpp"
 #include "verify/verify_header.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-// The first line of `found` that is not that of `expected`.
-std::optional<std::string> first_difference(const std::string& found, const std::string& expected) {
-  if (found == expected) return std::nullopt;
-  std::size_t at = 0;
-  while (at < found.size() && at < expected.size() && found[at] == expected[at]) ++at;
-  const std::size_t start = at == 0 ? 0 : found.rfind('\n', at - 1) + 1;
-  return found.substr(start, found.find('\n', at) - start);
+std::string_view code_of(std::string_view header) { return header.substr(behind_banner(header)); }
+
+// What stands there, with some of its line in front of it.
+std::string excerpt_at(std::string_view text, std::size_t at) {
+  constexpr std::size_t most_in_front = 30;
+  const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+  std::size_t start = std::max(line, at - std::min(at, most_in_front));
+  while (start > line && (text[start] & 0xC0) == 0x80) --start;  // within a character
+  return excerpt(text.substr(start, std::min(text.find('\n', at), text.size()) - start));
 }
 
-// The code around the constants, which decides by jumps or in constant time.
-void compare_code(const Compilation& compiled, const std::string& header, Diagnostics& diagnostics) {
+bool is_of_many_points(const Network& network, const std::string& code) {
+  return code.find(fmt::format("\nclass {}_batch {{\n", network.name)) != code.npos;
+}
+
+// What is written of the network: the header that decides by jumps and the one in constant time, of one point or of many.
+std::vector<std::string> emitted(const Compilation& compiled, bool of_many_points) {
+  std::vector<std::string> texts;
   Diagnostics unheard;
-  const std::string found = without_banner_and_digest(header);
-  std::string by_jumps;
   for (const bool constant_time : {false, true}) {
     EmissionOptions options;
     options.constant_time = constant_time;
-    const auto emitted = emit_cpp(compiled, options, unheard);
-    if (!emitted) continue;
-    const std::string expected = without_banner_and_digest(emitted->front().text);
-    if (found == expected) return;
-    if (!constant_time) by_jumps = expected;
+    options.batch = of_many_points;
+    if (auto files = emit_cpp(compiled, options, unheard)) texts.push_back(std::move(files->at(of_many_points ? 1 : 0).text));
   }
-  if (const auto line = first_difference(found, by_jumps))
-    diagnostics.report<DiagnosticCode::code_differs>({}, *line);
+  return texts;
+}
+
+// The code around the constants.
+void compare_code(const std::vector<std::string>& written, const SourceFile& header, Diagnostics& diagnostics) {
+  const std::string_view found = code_of(header.text());
+  std::size_t furthest = 0;
+  std::string expected_there;
+  for (const std::string& text : written) {
+    const std::string_view expected = code_of(text);
+    if (found == expected) return;
+    const auto same = std::size_t(std::mismatch(found.begin(), found.end(), expected.begin(), expected.end()).first - found.begin());
+    if (expected_there.empty() || same > furthest) expected_there = excerpt_at(expected, same);
+    furthest = std::max(furthest, same);
+  }
+  const std::size_t start = behind_banner(header.text()) + furthest, end = std::min(header.text().find('\n', start), header.text().size());
+  diagnostics.report<DiagnosticCode::code_differs>({&header, start, end}, excerpt_at(found, furthest));
+  if (!written.empty()) diagnostics.note<DiagnosticCode::code_expected>({}, expected_there);
 }
 
 // A text of the certificate as a file that lives as long as diagnostics may point into it.
@@ -53,44 +75,91 @@ std::optional<Device> device_of(const CertificateFile& certificate, SourceFiles&
   return decl ? build_device(*decl, diagnostics) : std::nullopt;
 }
 
+class Verification {
+ public:
+  Verification(const SourceFile& certificate_file, const CertificateFile& certificate, SourceFiles& files, Diagnostics& diagnostics)
+      : certificate_file_(certificate_file), certificate_(certificate), files_(files), diagnostics_(diagnostics),
+        network_file_(kept(files, "network of the certificate", certificate.network_text)) {}
+
+  // Whether network and device are what they should be.
+  bool read_subject() {
+    Diagnostics of_network;  // its warnings were given when it was compiled
+    network_ = check(network_file_, of_network);
+    device_ = device_of(certificate_, files_, diagnostics_);
+    port_ = !network_ ? std::nullopt : device_ ? PortDevice::of(*device_, *network_, diagnostics_) : PortDevice::ideal();
+    if (!network_) check(network_file_, diagnostics_);
+    if (!port_ || diagnostics_.has_errors()) {
+      diagnostics_.report<DiagnosticCode::no_certificate>({}, certificate_file_.path(), "its network or device is not read");
+      return false;
+    }
+    return is_within_reach(*network_, diagnostics_, most_verified_nodes);
+  }
+
+  // How many constants are right; with errors where anything is not.
+  std::size_t verify(const SourceFile& header) {
+    if (!is_of_many_points(*network_, header.text())) return verify_one_point(header);
+    if (!recompile()) return 0;
+    compare_code(emitted(*compiled_, true), header, diagnostics_);
+    const std::vector<std::string> of_one = emitted(*compiled_, false);
+    return diagnostics_.has_errors() || of_one.empty() ? 0 : verify_one_point(kept(files_, "header of one point", of_one.front()));
+  }
+
+  const Network& network() const { return *network_; }
+
+ private:
+  std::size_t verify_one_point(const SourceFile& header) {
+    const std::optional<HeaderConstants> constants = header_constants(header.text());
+    if (!constants) {
+      diagnostics_.report<DiagnosticCode::no_emitted_header>({}, header.path());
+      return 0;
+    }
+    // What takes long is done last: many a wrong certificate is found out before.
+    const bool is_linear = is_plainly_linear(*network_);
+    std::size_t count = is_linear ? verify_linear_constants(certificate_, *network_, *port_, *constants, diagnostics_) : 0;
+    if (!recompile()) return 0;
+    if (!is_linear) count = verify_constants(certificate_, *port_, *constants, *compiled_, diagnostics_);
+    compare_code(emitted(*compiled_, false), header, diagnostics_);
+    if (!diagnostics_.has_errors()) verify_bounds(certificate_, *port_, *constants, *compiled_, diagnostics_);
+    if (!diagnostics_.has_errors()) {
+      const std::string again = certificate_text(*compiled_, certificate_.choices, certificate_.network_text, certificate_.device_text, header.text());
+      compare_certificates(certificate_file_, kept(files_, "certificate written again", again), diagnostics_);
+    }
+    return count;
+  }
+
+  bool recompile() {
+    if (compiled_) return true;
+    Diagnostics unheard;
+    compiled_ = compile(network_file_, certificate_.choices, device_, unheard);
+    if (compiled_) return true;
+    compile(network_file_, certificate_.choices, device_, diagnostics_);
+    diagnostics_.report<DiagnosticCode::no_certificate>({}, network_file_.path(), "its network does not compile");
+    return false;
+  }
+
+  const SourceFile& certificate_file_;
+  const CertificateFile& certificate_;
+  SourceFiles& files_;
+  Diagnostics& diagnostics_;
+  const SourceFile& network_file_;
+  std::optional<Network> network_;
+  std::optional<Device> device_;
+  std::optional<PortDevice> port_;
+  std::optional<Compilation> compiled_;
+};
+
 }  // namespace
 
 std::optional<std::string> verify_texts(const SourceFile& certificate_file, const SourceFile& header, SourceFiles& files,
                                         Diagnostics& diagnostics) {
   const std::optional<CertificateFile> certificate = read_certificate(certificate_file, diagnostics);
   if (!certificate) return std::nullopt;
-  const SourceFile& network_file = kept(files, "network of the certificate", certificate->network_text);
-  Diagnostics of_network;  // its warnings were given when it was compiled
-  const std::optional<Network> network = check(network_file, of_network);
-  const std::optional<Device> device = device_of(*certificate, files, diagnostics);
-  const auto port = !network ? std::nullopt : device ? PortDevice::of(*device, *network, diagnostics) : PortDevice::ideal();
-  if (!network) check(network_file, diagnostics);
-  if (!port || diagnostics.has_errors()) {
-    diagnostics.report<DiagnosticCode::no_certificate>({}, certificate_file.path(), "its network or device is not read");
-    return std::nullopt;
-  }
-  const std::optional<HeaderConstants> constants = header_constants(header.text());
-  if (!constants) {
-    diagnostics.report<DiagnosticCode::no_emitted_header>({}, header.path());
-    return std::nullopt;
-  }
-  if (!is_within_reach(*network, diagnostics, most_verified_nodes)) return std::nullopt;
-  // What takes long is done last: many a wrong certificate is found out before.
-  const bool is_linear = is_plainly_linear(*network);
-  std::size_t count = is_linear ? verify_linear_constants(*certificate, *network, *port, *constants, diagnostics) : 0;
-  Diagnostics unheard;
-  const std::optional<Compilation> compiled = compile(network_file, certificate->choices, device, unheard);
-  if (!compiled) {
-    compile(network_file, certificate->choices, device, diagnostics);
-    diagnostics.report<DiagnosticCode::no_certificate>({}, network_file.path(), "its network does not compile");
-    return std::nullopt;
-  }
-  if (!is_linear) count = verify_constants(*certificate, *port, *constants, *compiled, diagnostics);
-  compare_code(*compiled, header.text(), diagnostics);
-  if (!diagnostics.has_errors()) verify_bounds(*certificate, *port, *constants, *compiled, diagnostics);
+  Verification verification(certificate_file, *certificate, files, diagnostics);
+  if (!verification.read_subject()) return std::nullopt;
+  const std::size_t count = verification.verify(header);
   if (diagnostics.has_errors()) return std::nullopt;
   return fmt::format("{}: {} constants are the nearest to those of the network, recomputed in 100 digits; the code is that of the network; {}\n",
-                     network->name, count, certificate->certified ? "certified" : "not certified");
+                     verification.network().name, count, certificate->certified ? "certified" : "not certified");
 }
 
 }  // namespace dashpot::compiler

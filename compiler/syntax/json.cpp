@@ -1,5 +1,6 @@
 #include "syntax/json.hpp"
 
+#include <charconv>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <unordered_map>
@@ -155,6 +156,12 @@ class JsonBuilder {
 };
 
 }  // namespace
+
+double number_in(const JsonValue& value) {
+  double number = 0;
+  std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
+  return number;
+}
 
 std::string_view kind_name(JsonValue::Kind kind) {
   switch (kind) {

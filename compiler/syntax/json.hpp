@@ -28,6 +28,9 @@ struct JsonMember {
   JsonValue value;
 };
 
+// Of a number, which the parser has seen to fit.
+double number_in(const JsonValue& value);
+
 // "a string", "a list", …
 std::string_view kind_name(JsonValue::Kind kind);
 

@@ -89,6 +89,7 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
           {"scalar", name_of(c.law.scalar)},
           {"vector", name_of(choices.registers)},
           {"state_input", name_of(c.decomposition.choice().state_input)},
+          {"guards_each_sample", choices.guards_each_sample},
           {"decomposition", decomposition},
           {"damping", c.decomposition.choice().damping},
           {"brake_command", c.law.damping},

@@ -74,7 +74,7 @@ bool read_literals(std::string_view code, ScalarType scalar, std::vector<double>
 // The name in front of "= …" or "[2] = …", without what a state ends with.
 std::string name_before(std::string_view code, std::size_t end) {
   std::size_t stop = code.find_last_not_of(" \n", end - 1) + 1;
-  if (stop > 0 && code[stop - 1] == ']') stop = code.rfind('[', stop);
+  if (stop > 0 && code[stop - 1] == ']') stop = std::min(code.rfind('[', stop), stop);
   std::size_t start = stop;
   while (start > 0 && is_of_word(code[start - 1])) --start;
   return std::string(code.substr(start, stop - start));
@@ -102,13 +102,6 @@ bool read_all_declared(std::string& code, HeaderConstants& result) {
   return true;
 }
 
-std::string without_line_of(std::string text, std::string_view words) {
-  const std::size_t at = text.find(words);
-  if (at == std::string::npos) return text;
-  const std::size_t start = text.rfind('\n', at) + 1;
-  return text.erase(start, text.find('\n', at) - start);
-}
-
 }  // namespace
 
 std::optional<HeaderConstants> header_constants(std::string_view header) {
@@ -124,10 +117,17 @@ std::optional<HeaderConstants> header_constants(std::string_view header) {
   return result;
 }
 
-std::string without_banner_and_digest(std::string_view header) {
-  const std::size_t code = header.find("#pragma once");
-  std::string text(code == header.npos ? header : header.substr(code));
-  return without_line_of(std::move(text), " device_digest = ");
+std::size_t behind_banner(std::string_view header) {
+  std::size_t start = 0;
+  while (start < header.size()) {
+    const std::size_t stop = std::min(header.find('\n', start), header.size());
+    const std::string_view line = header.substr(start, stop - start);
+    // A backslash joins the next line to this one, or this one to the next; some compilers end a line at a carriage return.
+    const bool is_remark = line.starts_with("//") && !line.ends_with('\\') && !line.ends_with("?" "?/") && line.find('\r') == line.npos;
+    if (!is_remark && !line.empty()) return start;
+    start = stop + 1;
+  }
+  return header.size();
 }
 
 }  // namespace dashpot::compiler

@@ -28,7 +28,7 @@ inline constexpr const char* literals_in_code = "literals";
 // double nor float.
 std::optional<HeaderConstants> header_constants(std::string_view header);
 
-// The header without what is not code: the banner before "#pragma once", and the digests.
-std::string without_banner_and_digest(std::string_view header);
+// Where a header's code begins: at the first line that is no comment, or one that a compiler may not take as one.
+std::size_t behind_banner(std::string_view header);
 
 }  // namespace dashpot::compiler

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <array>
-#include <charconv>
 
 #include "discretise/rounding.hpp"
 #include "network/rate_limits.hpp"
@@ -16,13 +15,6 @@ namespace {
 using Kind = JsonValue::Kind;
 
 const double largest = largest_finite(ScalarType::float64);
-
-// The parser has refused what no double holds.
-double number_in(const JsonValue& value) {
-  double number = 0;
-  std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
-  return number;
-}
 
 // One object of the certificate. Every key that is read has to be there; where one is not what is due, that is reported, and
 // something harmless read in its place.
@@ -92,6 +84,7 @@ Choices choices_of(const Section& law) {
   choices.scalar = law.named("scalar", {ScalarType::float64, ScalarType::float32});
   if (law.has("vector"))
     choices.registers = law.named("vector", {VectorRegisters::none, VectorRegisters::sse2, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon});
+  choices.guards_each_sample = law.has("guards_each_sample") && law.flag("guards_each_sample");
   choices.state_input = law.named("state_input", {StateInput::position, StateInput::velocity, StateInput::nodal});
   if (law.is_of("decomposition", Kind::number))
     choices.decomposition = law.number("decomposition", 0, largest);

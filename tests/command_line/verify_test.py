@@ -3,9 +3,10 @@ import concurrent.futures
 import json
 import random
 import re
+import subprocess
 import unittest
 
-from dashpot_command import FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, network
+from dashpot_command import DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, network
 
 SEED = 20090911
 BOARD = SOURCE / "runtime/devices/board_mps2.json"
@@ -23,7 +24,7 @@ LAWS = [
     [FIG_5, "--scheme", "backward-euler"], [FIG_5, "--state-input", "velocity"],
     [KELVINS, "--scheme", "backward-euler", "--state-input", "nodal"],
     [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH], [FIG_5, "--device", BOARD, "--scalar", "float"],
-    [FIG_5, "--decomposition", "2.5"], [FIG_5, "--scalar", "float", "--rate", "100000"], [TWENTY, "--vector", "avx512"],
+    [FIG_5, "--decomposition", "2.5"], [FIG_5, "--scalar", "float", "--rate", "100000"], [TWENTY, "--vector", "avx512"], [TWENTY, "--batch"],
     ["equal.json"],
 ]
 
@@ -140,7 +141,7 @@ class Verify(CommandTest):
     def emitted(self, law, folder):
         """Header and certificate of a law, as text."""
         self.dashpot("compile", *law, "--uncertified", "-o", folder, "--certificate", self.folder / folder / "certificate.json")
-        header = next((self.folder / folder).glob("*.hpp"))
+        header = min((self.folder / folder).glob("*.hpp"), key=lambda path: len(path.name))  # NAME.hpp is before NAME_batch.hpp
         return header.read_text(), (self.folder / folder / "certificate.json").read_text()
 
     def verify(self, header, certificate, name, status=0):
@@ -155,12 +156,104 @@ class Verify(CommandTest):
                 header, certificate = self.emitted(law, f"law_{i}")
                 self.assertIn("nearest", self.verify(header, certificate, f"sound_{i}").stdout)
 
-    def test_banner_and_digest_take_no_part(self):
-        """Fails if a header is told by its digest rather than by its numbers."""
+    def test_banner_takes_no_part(self):
+        """Fails if a header is told by its banner rather than by its code."""
         header, certificate = self.emitted([FIG_5, "--device", BOARD], "law")
-        header = header[header.index("#pragma once"):]
-        header = re.sub(r'device_digest = "[0-9a-f]*"', 'device_digest = "0"', header)
-        self.verify(header, certificate, "stripped")
+        code = header[header.index("#pragma once"):]
+        self.verify(code, certificate, "stripped")
+        self.verify("// Another banner.\n\n// Of two remarks.\n" + code, certificate, "another")
+
+    def test_code_in_the_banner(self):
+        """Fails if code in front of a header's own is taken for a part of its banner, however it is written there."""
+        header, certificate = self.emitted([FIG_5], "law")
+        for i, line in enumerate(["#define relaxed(t, d, f, g) relaxed(t, d, f, -(g))", " int impostor;", "/**/ int impostor;", "// \\", "// ??/",
+                                  "// \r#define relaxed wrong", "//\r"]):
+            with self.subTest(line=line):
+                changed = header.replace("#pragma once", line + "\n#pragma once")
+                told = self.verify(changed, certificate, f"front_{i}", status=INPUT_REFUSED).stderr
+                self.assertIn("[code-differs]", told)
+                self.assertIn("here 'dashpot compile' writes '#pragma once'", told)
+
+    def test_code_that_is_none(self):
+        """Fails if a declaration without a name ends more than this header."""
+        header, certificate = self.emitted([FIG_5], "law")
+        for i, line in enumerate(["static constexpr scalar ] = 1.0;", "static constexpr scalar = 1.0;", "static constexpr scalar x[", "static constexpr  = scalar"]):
+            self.verify(header.replace("static constexpr scalar damping", line + "\n  static constexpr scalar damping"), certificate, f"none_{i}",
+                        status=INPUT_REFUSED)
+
+    def test_another_device(self):
+        """Fails if a header passes that tells the servo loop of another device, or says more in that line."""
+        header, certificate = self.emitted([FIG_5, "--device", BOARD], "law")
+        digest = re.search(r'device_digest = "[0-9a-f]+";', header).group()
+        for i, other in enumerate(['device_digest = "0123456789abcdef";', digest + " int impostor;"]):
+            self.verify(header.replace(digest, other), certificate, f"other_{i}", status=INPUT_REFUSED)
+
+    def test_place_of_other_code(self):
+        """Fails if code that differs is not shown in its place, in a header of either kind, with what belongs there."""
+        for kind in ([], ["--constant-time"]):
+            header, certificate = self.emitted([FIG_5, *kind], f"law_{len(kind)}")
+            told = self.verify(header.replace("B2_K2_force_ + B1_K1_force_", "B2_K2_force_ - B1_K1_force_"), certificate, f"minus_{len(kind)}",
+                               status=INPUT_REFUSED).stderr
+            line = 1 + header[:header.index("B2_K2_force_ + B1_K1_force_")].count("\n")
+            self.assertIn(f"minus_{len(kind)}.hpp:{line}:", told)
+            self.assertRegex(told, r"writes '.*B2_K2_force_ \+ B1_K1_force_")
+
+    def test_many_points(self):
+        """Fails if a sound header of many points is refused, or one passed whose code or constants are another's."""
+        header, certificate = self.emitted([TWENTY, "--batch"], "law")
+        points = (self.folder / "law" / "twenty_branches_batch.hpp").read_text()
+        self.assertIn("nearest", self.verify(points, certificate, "points").stdout)
+        place = numbers_of(points[:points.index("storage_size")])[-1][1] - 1
+        others = [points.replace(" + ", " - ", 1), changed_digit(points, place, random.Random(SEED)), points.replace("states = ", "states = 1", 1)]
+        for i, other in enumerate(others):
+            self.assertTrue(other != points, i)
+            self.assertIn("[code-differs]", self.verify(other, certificate, f"points_{i}", status=INPUT_REFUSED).stderr)
+        certificate = json.dumps(json.loads(certificate) | {"constants": json.loads(self.emitted([FIG_5], "other")[1])["constants"]})
+        self.verify(points, certificate, "another", status=INPUT_REFUSED)
+
+    def test_everything_that_is_told(self):
+        """Fails if a value of a certificate can be another one, or be missing, or one be there that means nothing."""
+        _, certificate = self.emitted([FIG_5, "--device", BOARD], "law")
+        header = (self.folder / "law" / "second_order_maxwell.hpp").read_text()
+        told = json.loads(certificate)
+
+        def leaves(value, path):
+            for key in value if isinstance(value, dict) else range(len(value)) if isinstance(value, list) else []:
+                yield from leaves(value[key], [*path, key])
+            if not isinstance(value, (dict, list)):
+                yield path, value
+
+        def others(value):
+            if isinstance(value, bool): return [not value]
+            if isinstance(value, str): return [value + "0"]
+            return [1] if value is None else [value * 1.0001 + (1e-6 if value == 0 else 0)]
+
+        # Of a law without a rolled loop there is nothing that a guard could be in turn.
+        free = ("version", "network_file", "device_file"), ("binding_frequency", "guards_each_sample")
+        places = [(path, value) for path, value in leaves(told, []) if path[0] not in free[0]]
+        self.assertGreater(len(places), 80)
+        changes = [(path, other) for path, value in places if path[-1] not in free[1] for other in others(value)]
+        changes += [(path, None) for path, _ in places if isinstance(path[-1], str) and path[-1] not in free[1]] + [(["loop", "more"], 1), (["elements", 0, "slip"], 1)]
+
+        def accepts(number):
+            path, other = changes[number]
+            changed = json.loads(certificate)
+            inside = changed
+            for key in path[:-1]:
+                inside = inside[key]
+            if other is None and path[-1] in inside: del inside[path[-1]]
+            else: inside[path[-1]] = other
+            self.write(f"told_{number}.json", json.dumps(changed))
+            return subprocess.run([DASHPOT, "verify", f"told_{number}.json", "law/second_order_maxwell.hpp"], cwd=self.folder,
+                                  capture_output=True).returncode != INPUT_REFUSED
+
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            passed = list(pool.map(accepts, range(len(changes))))
+        self.assertEqual([changes[i] for i in range(len(changes)) if passed[i]], [])
+        self.verify(header, certificate, "unchanged")
+        told["version"] = "0.0.1"
+        told["passivity"]["binding_frequency"] *= 1.5
+        self.verify(header, json.dumps(told), "elsewhere")
 
     def test_what_is_just_enough(self):
         """Fails if a brake that gives exactly what is needed is found wanting, when compiling or when verifying."""

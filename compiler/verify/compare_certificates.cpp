@@ -1,0 +1,86 @@
+#include "verify/compare_certificates.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "source/excerpt.hpp"
+#include "syntax/json.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+constexpr double closeness = 1e-9;
+constexpr std::string_view free_to_differ[] = {"version", "passivity.binding_frequency"};
+
+std::string shown(const JsonValue& value) {
+  switch (value.kind) {
+    case Kind::array: return fmt::format("a list of {}", value.items.size());
+    case Kind::string: return fmt::format("'{}'", excerpt(value.text));
+    case Kind::number:
+    case Kind::boolean: return value.text;
+    default: return std::string(kind_name(value.kind));
+  }
+}
+
+const JsonMember* member_of(const JsonValue& object, const std::string& key) {
+  const auto found = std::find_if(object.members.begin(), object.members.end(), [&](const JsonMember& member) { return member.key == key; });
+  return found == object.members.end() ? nullptr : &*found;
+}
+
+class Comparison {
+ public:
+  explicit Comparison(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  // Whether they agree; where they do not, that is reported.
+  bool agree(const std::string& path, const JsonValue& stated, const JsonValue& again) {
+    if (std::find(std::begin(free_to_differ), std::end(free_to_differ), path) != std::end(free_to_differ)) return true;
+    if (stated.kind == again.kind && stated.kind == Kind::object) return objects_agree(path, stated, again);
+    if (stated.kind == again.kind && stated.kind == Kind::array && stated.items.size() == again.items.size()) {
+      for (std::size_t i = 0; i < stated.items.size(); ++i)
+        if (!agree(fmt::format("{}[{}]", path, i), stated.items[i], again.items[i])) return false;
+      return true;
+    }
+    if (stated.kind == again.kind && stated.kind != Kind::array && values_agree(stated, again)) return true;
+    diagnostics_.report<DiagnosticCode::certificate_differs>(stated.span, path, shown(stated), shown(again));
+    return false;
+  }
+
+ private:
+  bool objects_agree(const std::string& path, const JsonValue& stated, const JsonValue& again) {
+    const std::string inside = path.empty() ? "" : path + ".";
+    for (const JsonMember& member : stated.members) {
+      const JsonMember* const other = member_of(again, member.key);
+      if (other == nullptr) diagnostics_.report<DiagnosticCode::certificate_differs>(member.key_span, inside + member.key, "there", "nothing of that name");
+      if (other == nullptr || !agree(inside + member.key, member.value, other->value)) return false;
+    }
+    for (const JsonMember& member : again.members)
+      if (member_of(stated, member.key) == nullptr) {
+        diagnostics_.report<DiagnosticCode::certificate_differs>(stated.span, inside + member.key, "missing", shown(member.value));
+        return false;
+      }
+    return true;
+  }
+
+  static bool values_agree(const JsonValue& stated, const JsonValue& again) {
+    if (stated.kind != Kind::number) return stated.text == again.text;
+    const double a = number_in(stated), b = number_in(again);
+    return std::abs(a - b) <= closeness * std::abs(b);
+  }
+
+  Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+void compare_certificates(const SourceFile& stated, const SourceFile& again, Diagnostics& diagnostics) {
+  Diagnostics unheard;  // both have been read before, or written just now
+  const std::optional<JsonValue> first = parse_json(stated, unheard), second = parse_json(again, unheard);
+  if (first && second) Comparison(diagnostics).agree("", *first, *second);
+}
+
+}  // namespace dashpot::compiler

@@ -117,7 +117,8 @@ class LawBuilder {
     const ExpressionId placed = plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
     const ExpressionId stepped = plus_product(nothing, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
                                               modes_.step_stiffness(), change_);
-    const Real velocity_gain = feedthrough_of_motor() + modes_.velocity_gain();
+    const Real of_motor = feedthrough_of_motor(), of_modes = modes_.velocity_gain(), together = of_motor + of_modes;
+    const Real velocity_gain = abs(together) <= negligible_share * abs(of_modes) ? Real(0) : together;
     const char* meaning = modes_.follows_velocity() ? "b∞ − b + h Σ c_i, what the estimate drives within a sample" : "b∞ − b";
     const ExpressionId driven = plus_product(nothing, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
     ExpressionId sum = stepped == nothing ? writer_.plus(held, writer_.plus(placed, driven))

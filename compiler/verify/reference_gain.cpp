@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dashpot/estimators/any_estimator.hpp>
+#include <limits>
 
 #include "decompose/regimes.hpp"
 #include "verify/reference_network.hpp"
@@ -47,13 +48,18 @@ struct PulseLaw {
 ReferenceGain pulse_of(const PulseLaw& law, const std::vector<double>& averages, long double period) {
   std::vector<long double> sums(law.modes.size(), 0);
   long double total = 0, modes_force = 0, last = 0, last_average = 0;
+  long double addends = 0, modes_addends = 0;  // their sizes, of which the doubles of a stated sum round off units
   for (std::size_t j = 0; j < std::max<std::size_t>(averages.size(), 2); ++j) {
     const long double q = j == 0 ? 1 : 0, average = j < averages.size() ? averages[j] : 0;
-    total += std::abs(law.static_stiffness * q + law.step_stiffness * (q - last) + law.velocity_gain * (average - last_average) / period + modes_force);
-    modes_force = 0;
+    const long double held = law.static_stiffness * q, stepped = law.step_stiffness * (q - last);
+    const long double estimated = law.velocity_gain * (average - last_average) / period;
+    total += std::abs(held + stepped + estimated + modes_force);
+    addends += std::abs(held) + std::abs(stepped) + std::abs(estimated) + modes_addends;
+    modes_force = modes_addends = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const long double drive = law.modes[i].drive * q + law.modes[i].velocity_drive / period * average;
       modes_force += drive - law.modes[i].loss * sums[i];
+      modes_addends += std::abs(drive) + std::abs(law.modes[i].loss * sums[i]);
       sums[i] = law.modes[i].decay * sums[i] + drive;
     }
     last = q;
@@ -61,7 +67,8 @@ ReferenceGain pulse_of(const PulseLaw& law, const std::vector<double>& averages,
   }
   long double to_come = std::abs(modes_force);
   for (const long double sum : sums) to_come += std::abs(sum);
-  return {Reference(total), Reference(total + to_come)};
+  const long double rounding = addends * std::numeric_limits<double>::epsilon() * static_cast<long double>(sums.size() + 4);
+  return {Reference(total - rounding), Reference(total + to_come + rounding)};
 }
 
 PulseLaw pulse_law(const ReferenceForm& form, const LawFacts& facts) {

@@ -103,7 +103,7 @@ class Constants {
     add("feedthrough", tree.linear.feedthrough_damping);
     add("feedthrough_stiffness", -tree.linear.feedthrough_damping * Reference(facts_.rate));
     add(literals_in_code, network.contact->at);
-    if (!tree.has_slips()) add("recovery_compliance", -1 / companion(tree.linear, facts_));
+    if (!tree.has_slips()) add_recovery(companion(tree.linear, facts_));
     else if (tree.networks.empty()) add_table(whole_of(tree));
     else add_network(reference_network(network, elements_behind_slips(tree)), &tree.linear);
   }
@@ -142,6 +142,8 @@ class Constants {
   void add(const char* kind, const Reference& value) { pool_[kind].push_back(value); }
 
  private:
+  // Nothing recovers behind a surface that gives no force.
+  void add_recovery(const Reference& stiffness) { add("recovery_compliance", stiffness == 0 ? Reference(0) : Reference(-1 / stiffness)); }
   void add_row_number(const Reference& value) { pool_["row"].push_back(abs(value)); }
   void add_row(const ReferenceRow& row) {
     add_row_number(row.change);
@@ -320,7 +322,7 @@ bool are_within_regimes(const ReferenceTree& tree, const SlipDecomposition& slip
     if (shares.size() != 2) continue;  // several slips: by the pool
     for (const bool slides : {false, true}) {
       const std::optional<Reference> most = feedthrough_in(tree.components[i], slides ? 1 : 0);
-      if (most && Reference(shares[slides ? 1 : 0].feedthrough) > *most * (1 + Reference("1e-40"))) return false;
+      if (most && Reference(shares[slides ? 1 : 0].feedthrough) > *most * (1 + Reference("1e-20"))) return false;
     }
   }
   return true;

@@ -100,6 +100,16 @@ OTHER_LAWS = [
 ]
 
 
+# A relaxation that is over within a sample, one of almost no force, a surface with nothing behind it, and dampers far apart.
+EXTREMES = {"quick": '{"series": [{"spring": 1}, {"damper": 2e-5}]}', "faint": '{"series": [{"spring": 1e-30}, {"damper": 1e-30}]}',
+            "nothing": '{"damper": 0}'}
+APART = """{"damper": 0.5915, "nodes": ["a", "ground"]}, {"damper": 703802019830.2926, "nodes": ["b", "tool"]}, {"damper": 0.8827, "nodes": ["c", "ground"]},
+    {"spring": 2541.0, "nodes": ["c", "b"]}, {"spring": 2.413, "nodes": ["tool", "a"]}, {"damper": 57.22, "nodes": ["ground", "b"]},
+    {"slip": 0.5, "nodes": ["tool", "b"]}, {"spring": 113.9, "nodes": ["tool", "a"]}"""
+EXTREME_LAWS = [["quick.json"], ["quick.json", "--state-input", "velocity"], ["quick.json", "--state-input", "velocity", "--rate", "0.1"],
+                ["faint.json", "--scalar", "float"], ["nothing.json"], ["apart.json", "--decomposition", "velocity-free"]]
+
+
 def changed_digit(text, place, chance):
     """The text with the digit at `place` changed to another one."""
     others = [digit for digit in "0123456789" if digit != text[place]]
@@ -136,6 +146,9 @@ class Verify(CommandTest):
         self.write("damped.json", network(DAMPED, "damped"))
         for i, freed in enumerate(FREED):
             self.write(f"freed_{i}.json", network(freed, f"freed_{i}"))
+        self.write("apart.json", of_elements(APART, "apart"))
+        for name, extreme in EXTREMES.items():
+            self.write(f"{name}.json", network(extreme, name, '"contact": { "at": -0.003 },' if name == "nothing" else ""))
         self.write("touched.json", network(DAMPED, "touched", '"contact": { "at": 0 },'))
 
     def emitted(self, law, folder):
@@ -151,7 +164,7 @@ class Verify(CommandTest):
 
     def test_every_shape_of_law(self):
         """Fails if a sound header is refused, or one is passed whose constants are another network's."""
-        for i, law in enumerate(LAWS + SLIP_LAWS + OTHER_LAWS):
+        for i, law in enumerate(LAWS + SLIP_LAWS + OTHER_LAWS + EXTREME_LAWS):
             with self.subTest(law=law):
                 header, certificate = self.emitted(law, f"law_{i}")
                 self.assertIn("nearest", self.verify(header, certificate, f"sound_{i}").stdout)

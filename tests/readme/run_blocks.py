@@ -73,7 +73,7 @@ def run_cpp(scratch, text):
         return
     source = scratch.save("main.cpp", text)
     libraries = sorted((scratch.prefix / "lib").glob("libdashpot_*.a"))
-    scratch.run(os.environ.get("CXX", "c++"), *STRICT, "-I", scratch.prefix / "include", "-I", "emitted", "-I", ".", source,
+    scratch.run(os.environ.get("CXX", "c++"), *STRICT, *os.environ.get("CXXFLAGS", "").split(), "-I", scratch.prefix / "include", "-I", "emitted", "-I", ".", source,
                 "-Wl,--start-group", *libraries, "-Wl,--end-group", "-pthread", "-o", "main")
     scratch.run("./main")
 

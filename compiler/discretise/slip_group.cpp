@@ -27,6 +27,11 @@ std::string kind_of(const Row& row) {
 }
 
 // A damper holds no force once the tool rests.
+bool has_modes(const NormalTree& component) {
+  const std::vector<const NormalTree*> blocks = blocks_of(component);
+  return std::any_of(blocks.begin(), blocks.end(), [](const NormalTree* block) { return !block->form.modes.empty(); });
+}
+
 bool holds_nothing(const LinearForm& form) { return form.static_stiffness == 0 && form.modes.empty(); }
 
 void forget(std::size_t block, SlipResponse& response) {
@@ -77,14 +82,13 @@ std::string SlipGroup::shape(const SlipResponse& response, const MotorForce& for
 }
 
 bool SlipGroup::accepts(const NormalTree& component, const BrakePair& pair) const {
-  if (responses_.empty() || brake_.shape(pair) != brake_.shape(brake_.pair(0))) return false;
+  if (responses_.empty() || has_modes_ || has_modes(component) || brake_.shape(pair) != brake_.shape(brake_.pair(0))) return false;
   const SlipResponse response = response_of(component);
-  const auto has_modes = [](const CompanionBlock& block) { return !block.block->form.modes.empty(); };
-  return shape(response, motor_force(response, pair)) == shape(responses_.front(), forces_.front()) &&
-         std::none_of(response.blocks.begin(), response.blocks.end(), has_modes);
+  return shape(response, motor_force(response, pair)) == shape(responses_.front(), forces_.front());
 }
 
 void SlipGroup::add(const NormalTree& component, const BrakePair& pair) {
+  has_modes_ = has_modes(component);
   responses_.push_back(response_of(component));
   const SlipResponse& response = responses_.back();
   forces_.push_back(motor_force(response, pair));

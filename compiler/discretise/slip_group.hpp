@@ -78,6 +78,7 @@ class SlipGroup {
   Real sample_period_;
   std::string prefix_;
   Names names_;  // of the slips
+  bool has_modes_ = false;  // then it has one component
   std::vector<SlipResponse> responses_;
   std::vector<MotorForce> forces_;
   SlipBrake brake_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "decompose/observer.hpp"
@@ -63,6 +64,57 @@ Regime regime_of(const Network& left, std::vector<bool> slides, double reference
   return regime;
 }
 
+// Some of a network's elements as a network of their own, so that what is done with them does not cost more the more there are
+// beside them.
+class PartOfNetwork {
+ public:
+  PartOfNetwork(const Network& whole, const std::vector<std::size_t>& elements) : elements_(elements) {
+    std::sort(elements_.begin(), elements_.end());
+    network_.port_motion = whole.port_motion;
+    network_.nodes = {whole.nodes[ground], whole.nodes[tool]};
+    std::map<NodeIndex, NodeIndex> places = {{ground, ground}, {tool, tool}};
+    for (const std::size_t i : elements_)
+      for (const NodeIndex node : {whole.elements[i].a, whole.elements[i].b}) places.emplace(node, 0);
+    for (auto& [node, place] : places) {
+      if (node == ground || node == tool) continue;
+      place = NodeIndex(network_.nodes.size());
+      network_.nodes.push_back(whole.nodes[node]);
+    }
+    for (const std::size_t i : elements_) {
+      network_.elements.push_back(whole.elements[i]);
+      network_.elements.back().a = places.at(whole.elements[i].a);
+      network_.elements.back().b = places.at(whole.elements[i].b);
+    }
+  }
+
+  const Network& network() const { return network_; }
+
+  std::vector<std::size_t> all() const {
+    std::vector<std::size_t> all(elements_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+  }
+  std::vector<std::size_t> here(const std::vector<std::size_t>& in_whole) const {
+    std::vector<std::size_t> places;
+    for (const std::size_t i : in_whole)
+      places.push_back(std::size_t(std::lower_bound(elements_.begin(), elements_.end(), i) - elements_.begin()));
+    return places;
+  }
+  LinearForm in_whole(LinearForm form) const {
+    const auto name_as_in_whole = [this](std::vector<std::size_t>& places) {
+      for (std::size_t& place : places) place = elements_[place];
+    };
+    for (Mode& mode : form.modes) name_as_in_whole(mode.elements);
+    name_as_in_whole(form.static_elements);
+    name_as_in_whole(form.feedthrough_elements);
+    return form;
+  }
+
+ private:
+  std::vector<std::size_t> elements_;  // of the whole, ascending
+  Network network_;
+};
+
 }  // namespace
 
 Network network_in_regime(const Network& network, const std::vector<std::size_t>& elements,
@@ -88,10 +140,14 @@ RegimeList regimes_of(const Network& network, const std::vector<std::size_t>& el
   RegimeList list{std::move(slips), {}, 0};
   list.count = std::exp2(static_cast<double>(list.slips.size()));
   if (list.slips.size() > most_listed_slips) return list;
+  const PartOfNetwork part(network, elements);
+  std::vector<SlipElements> slips_here;
+  for (const SlipElements& slip : list.slips) slips_here.push_back(part.here(slip));
   for (std::size_t index = 0; index < std::size_t{1} << list.slips.size(); ++index) {
     std::vector<bool> slides = pattern(index, list.slips.size());
-    const Network left = network_in_regime(network, elements, list.slips, slides);
+    const Network left = network_in_regime(part.network(), part.all(), slips_here, slides);
     list.regimes.push_back(regime_of(left, std::move(slides), reference_frequency));
+    list.regimes.back().form = part.in_whole(std::move(list.regimes.back().form));
   }
   return list;
 }

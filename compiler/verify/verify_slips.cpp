@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "certify/slip_motor.hpp"
 #include "verify/realised_network.hpp"
@@ -22,6 +23,7 @@ SlipVerification::SlipVerification(const CertificateFile& certificate, const Hea
     std::vector<Reference>& all = pool_[kind];
     all.insert(all.end(), values.begin(), values.end());
   }
+  for (auto& [kind, values] : pool_) std::sort(values.begin(), values.end());
 }
 
 void SlipVerification::recompute_constants() {
@@ -44,9 +46,11 @@ void SlipVerification::look_at(const HeaderConstant& constant) {
 bool SlipVerification::is_in_pool(std::string_view kind, double constant) const {
   const auto pool = pool_.find(kind);
   const double value = kind == "row" || kind == "weight" ? std::abs(constant) : constant;
-  return pool != pool_.end() && std::any_of(pool->second.begin(), pool->second.end(), [&](const Reference& exact) {
-    return is_correctly_rounded(value, exact, header_.scalar);
-  });
+  if (pool == pool_.end()) return false;
+  // Those next to it, below and above: what rounds to a number lies around it.
+  const auto above = std::lower_bound(pool->second.begin(), pool->second.end(), Reference(value));
+  return (above != pool->second.end() && is_correctly_rounded(value, *above, header_.scalar)) ||
+         (above != pool->second.begin() && is_correctly_rounded(value, *std::prev(above), header_.scalar));
 }
 
 void SlipVerification::compare_with_choice(const HeaderConstant& constant) {

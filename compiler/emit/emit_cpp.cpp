@@ -255,7 +255,7 @@ CodeModel test_model(const Compilation& c) {
   fields["rate"] = fmt::format("{:#}", c.rate);
   fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.linear.static_stiffness));
   fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.linear.feedthrough_damping));
-  fields["start"] = fmt::format("{:#}", c.law.surface_at.value_or(0));
+  fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
   fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
   for (const Mode& mode : c.form.linear.modes)
     model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},

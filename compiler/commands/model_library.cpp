@@ -37,6 +37,11 @@ std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOp
   options.with_library = true;
   const auto files = emit_cpp(compilation, options, diagnostics);
   const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    diagnostics.report<DiagnosticCode::cannot_make_folder>({}, folder.above(), folder.refusal());
+    diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
+    return std::nullopt;
+  }
   if (!files || !write_files(folder.path().string(), *files, diagnostics)) return std::nullopt;
   const char* chosen = std::getenv("CXX");
   const std::string compiler = chosen != nullptr && *chosen != '\0' ? chosen : "c++";

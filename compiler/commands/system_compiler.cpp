@@ -5,6 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -14,13 +17,25 @@ namespace dashpot::compiler {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder() {
+namespace {
+
+std::string folder_for_temporary_files() {
+  const char* chosen = std::getenv("TMPDIR");
+  return chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() : above_(folder_for_temporary_files()) {
   sigset_t ending;
   sigemptyset(&ending);
   for (const int signal : {SIGHUP, SIGINT, SIGTERM}) sigaddset(&ending, signal);
   ::sigprocmask(SIG_BLOCK, &ending, &blocked_before_);
-  std::string pattern = (fs::temp_directory_path() / "dashpot-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+  std::string pattern = (fs::path(above_) / "dashpot-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) != nullptr)
+    path_ = pattern;
+  else
+    refusal_ = std::strerror(errno);
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -8,8 +8,8 @@
 
 namespace dashpot::compiler {
 
-// A folder of its own below the system's temporary one, removed with all that is in it. A signal that ends the process,
-// Ctrl-C for one, waits until then.
+// A folder of its own below $TMPDIR, or /tmp, removed with all that is in it. A signal that ends the process, Ctrl-C for
+// one, waits until then.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -17,10 +17,14 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return path_; }  // empty where none could be made
+  const std::string& above() const { return above_; }         // in which it is, or should have been
+  const std::string& refusal() const { return refusal_; }     // the system's reason why there is none
 
  private:
+  std::string above_;
   std::filesystem::path path_;
+  std::string refusal_;
   sigset_t blocked_before_;
 };
 

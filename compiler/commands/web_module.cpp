@@ -29,6 +29,11 @@ std::optional<std::string> web_module(const Compilation& compilation, Diagnostic
   options.with_live = true;
   const auto files = emit_cpp(compilation, options, diagnostics);
   const TemporaryFolder folder;
+  if (folder.path().empty()) {
+    diagnostics.report<DiagnosticCode::no_live_response>({}, "no folder can be made in '" + folder.above() + "': " + folder.refusal());
+    diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
+    return std::nullopt;
+  }
   if (!files || !write_files(folder.path().string(), *files, diagnostics)) return std::nullopt;
   std::string reasons;
   for (const std::string& compiler : compilers()) {

@@ -9,7 +9,7 @@
 namespace dashpot::compiler {
 
 // Compiles with $DASHPOT_CLANG, else with the clang++ that there is. Warns, and returns nothing, where none makes
-// WebAssembly. Refuses, with an error: templates that do not fit.
+// WebAssembly, or there is no folder to make it in. Refuses, with an error: templates that do not fit.
 std::optional<std::string> web_module(const Compilation& compilation, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

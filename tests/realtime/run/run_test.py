@@ -144,6 +144,24 @@ class Run(unittest.TestCase):
             self.assertIn("[system-compiler-failed]", result.stderr)
             self.assertFalse(os.path.exists(self.log))
 
+    def test_temporary_folder_that_cannot_be_used(self):
+        """Fails if a TMPDIR that is missing, no folder or not writable counts as a defect, or files go elsewhere than there."""
+        file = os.path.join(self.folder.name, "file")
+        open(file, "w").close()
+        for chosen, reason in (("/no/such/folder", "No such file or directory"), (file, "Not a directory"), ("/proc", "No such file or directory")):
+            work = os.path.join(self.folder.name, "work")
+            os.makedirs(work, exist_ok=True)
+            result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "1", "--fast",
+                             "--log", self.log, environment={"TMPDIR": chosen}, folder=work)
+            self.assertEqual(result.returncode, 1, result.stderr)
+            self.assertIn(f"error: cannot make a folder in '{chosen}': {reason} [cannot-make-folder]\nnote: TMPDIR names", result.stderr)
+            page = os.path.join(self.folder.name, "page.html")
+            result = dashpot("report", network("paper/kelvin"), "-o", page, environment={"TMPDIR": chosen}, folder=work)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"no live response: no folder can be made in '{chosen}': {reason} [no-live-response]\nnote: TMPDIR names", result.stderr)
+            self.assertTrue(os.path.exists(page))
+            self.assertEqual(os.listdir(work), [])
+
     def test_float_model_runs(self):
         """Fails if a model in single precision cannot be loaded."""
         result = self.run_fast("paper/second_order_maxwell", "board_mps2", "--scalar", "float")

@@ -104,8 +104,10 @@ std::optional<servo_summary> run_simulated(const Options& options, const Compila
 }
 
 ExitStatus conclude(const servo_summary& summary, const std::string& log, Diagnostics& diagnostics) {
-  const bool has_log = is_admitted(summary.verdict);
-  const bool sound = has_log && summary.left_safe && summary.faults.total() == 0 && summary.telemetry_error == 0;
+  const int unwritten = summary.telemetry_error;
+  if (unwritten != 0) diagnostics.report<DiagnosticCode::cannot_write_file>({}, log, std::string(std::strerror(unwritten)));
+  const bool has_log = is_admitted(summary.verdict) && unwritten == 0;
+  const bool sound = has_log && summary.left_safe && summary.faults.total() == 0;
   const ExitStatus told = write_standard_output(to_text(summary) + (has_log ? "log: " + log + "\n" : ""), diagnostics);
   return sound ? told : ExitStatus::input_refused;
 }

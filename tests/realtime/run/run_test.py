@@ -162,6 +162,15 @@ class Run(unittest.TestCase):
             self.assertTrue(os.path.exists(page))
             self.assertEqual(os.listdir(work), [])
 
+    def test_log_that_cannot_be_written(self):
+        """Fails if a log that a full disk cuts off is told to people only, or named as if it were whole."""
+        result = self.run_fast("paper/kelvin", "phantom_shorted_motor", "--diagnostics", "json", log="/dev/full")
+        self.assertEqual(result.returncode, 1)
+        errors = [told for told in json.loads(result.stderr[result.stderr.index("["):]) if told["severity"] == "error"]
+        self.assertEqual([(told["code"], told["message"]) for told in errors], [("cannot-write-file", "cannot write '/dev/full': No space left on device")])
+        self.assertNotIn("log: ", result.stdout)
+        self.assertIn("device left safe", result.stdout)
+
     def test_float_model_runs(self):
         """Fails if a model in single precision cannot be loaded."""
         result = self.run_fast("paper/second_order_maxwell", "board_mps2", "--scalar", "float")

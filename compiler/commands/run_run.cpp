@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -10,6 +9,7 @@
 #include <dashpot/simulated/simulated_device.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/hand_motion.hpp"
 #include "commands/live_line.hpp"
 #include "commands/model_library.hpp"
 #include "compile.hpp"
@@ -28,20 +28,13 @@ const std::map<std::string, simulated::hand (*)()> hands = {{"none", simulated::
                                                             {"firm", simulated::firm_hand},
                                                             {"stiff", simulated::stiff_grasp}};
 
-// The hand swings by 10 mm, or 0.2 rad at a bare joint, and stays within 40 % of the range.
-double amplitude_for(const device_description& device, bool rotary_tool) {
-  const double wanted = rotary_tool ? 0.2 : 0.01;
-  const bool unlimited = device.encoder.range_low == device.encoder.range_high;
-  if (unlimited) return wanted;
-  const double reach = std::min(-device.encoder.range_low, device.encoder.range_high);
-  return std::min(wanted, 0.4 * reach * (device.arm_radius > 0 && !rotary_tool ? device.arm_radius : 1));
-}
-
 simulated::scenario scene_of(const Options& options, const Compilation& compilation) {
   const device_description& device = compilation.device->description;
   simulated::scenario scene;
   scene.user = hands.at(options.hand)();
-  scene.intended = simulated::sine(amplitude_for(device, compilation.network.port_motion == motion::rotation), 0.5);
+  const HandMotion motion = hand_motion(device, compilation.network.port_motion == motion::rotation);
+  scene.initial_position = motion.start;
+  scene.intended = motion.intended;
   scene.seed = options.seed;
   return scene;
 }

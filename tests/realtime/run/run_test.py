@@ -171,6 +171,39 @@ class Run(unittest.TestCase):
         self.assertNotIn("log: ", result.stdout)
         self.assertIn("device left safe", result.stdout)
 
+    def run_within(self, low, high, *more, network_name="paper/kelvin"):
+        """The positions [m] of a run on a device with that encoder range [mm]."""
+        with open(device("phantom_shorted_motor")) as stream:
+            described = json.load(stream)
+        described["encoder"]["range"] = [f"{low} mm", f"{high} mm"]
+        path = os.path.join(self.folder.name, "device.json")
+        with open(path, "w") as stream:
+            json.dump(described, stream)
+        result = dashpot("run", network(network_name), "--device", path, "--for", "5", "--fast", "--log", self.log, *more)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        with open(self.log, newline="") as stream:
+            return [float(row["position [m]"]) for row in csv.DictReader(stream)]
+
+    def test_hand_stays_within_the_encoder(self):
+        """Fails if a range that lies to one side of 0 leaves the hand unmoved, throws the tool out of it, or starts with loaded springs without need."""
+        for low, high, hands in ((0, 50, ("relaxed", "firm", "stiff")), (-50, 0, ("relaxed", "firm", "stiff")), (-2, 50, ("relaxed", "stiff"))):
+            for hand in hands:
+                with self.subTest(low=low, high=high, hand=hand):
+                    positions = self.run_within(low, high, "--hand", hand)
+                    self.assertLess(abs(positions[0]), 1e-9)
+                    later = positions[len(positions) // 2:]
+                    self.assertGreater(max(later) - min(later), 2e-3)
+        positions = self.run_within(10, 50, "--hand", "stiff", network_name="paper/maxwell_damper_at_tool")
+        self.assertAlmostEqual(positions[0], 0.030, delta=1e-4)
+        self.assertGreater(max(positions) - min(positions), 2e-3)
+
+    def test_hand_swings_about_rest_where_it_can(self):
+        """Fails if ranges that hold 0 well inside move the swing away from where the network is at rest."""
+        for low, high in ((-120, 120), (-20, 50), (-3, 3)):
+            positions = self.run_within(low, high, "--hand", "stiff")
+            self.assertLess(min(positions), -1e-4)
+            self.assertLess(abs(max(positions) + min(positions)), 0.2 * (max(positions) - min(positions)))
+
     def test_float_model_runs(self):
         """Fails if a model in single precision cannot be loaded."""
         result = self.run_fast("paper/second_order_maxwell", "board_mps2", "--scalar", "float")

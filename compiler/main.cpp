@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
 #include "commands/commands.hpp"
@@ -49,6 +50,13 @@ std::string check_rate(const std::string& text) {
 std::string check_duration(const std::string& text) {
   const std::optional<double> duration = decimal(text);
   return duration && *duration > 0 ? "" : "'" + text + "' is no duration; a number of seconds above 0 is expected";
+}
+
+std::string check_seed(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  const bool ok = error == std::errc() && end == text.data() + text.size();
+  return ok ? "" : fmt::format("'{}' is no seed; a whole number from 0 to {} is expected", text, std::numeric_limits<std::uint64_t>::max());
 }
 
 std::string check_decomposition(const std::string& text) {
@@ -167,7 +175,7 @@ void describe(CLI::App& app, CommandLine& line) {
   run->add_option("--hand", options.hand, "Who moves the simulated device")
       ->check(CLI::IsMember({"none", "relaxed", "firm", "stiff"}))
       ->option_text("none|relaxed|firm|stiff");
-  run->add_option("--seed", options.seed, "Of the simulated device's chance, default 0")->check(CLI::NonNegativeNumber)->option_text("N");
+  run->add_option("--seed", options.seed, "Of the simulated device's chance, default 0")->check(check_seed)->option_text("N");
   run->add_flag("--fast", options.fast, "Simulated time: as fast as the machine allows");
   run->add_option("--log", options.output, "Telemetry, default NAME_run.csv")->option_text("FILE.csv");
 }

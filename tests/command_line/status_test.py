@@ -69,7 +69,9 @@ class WrongCommandLine(CommandTest):
         self.wrong("check", FIG_5, "--scheme", "euler", mentions="backward-euler")
         for duration in ["nan", "inf", "0", "-1", "soon"]:
             self.wrong("run", FIG_5, "--device", PANTOGRAPH, "--for", duration, mentions="seconds")
-        self.wrong("run", FIG_5, "--device", PANTOGRAPH, "--seed", "-1", mentions="-1")
+        for seed in ["-1", "18446744073709551616", "1.5", "1e3", "+1", "0x10", "luck", ""]:
+            self.wrong("run", FIG_5, "--device", PANTOGRAPH, "--seed", seed,
+                       mentions=f"'{seed}' is no seed; a whole number from 0 to 18446744073709551615 is expected")
         self.wrong("check", FIG_5, "--state-input", "force", mentions="force")
         self.wrong("check", FIG_5, "--scalar", "half", mentions="half")
         self.wrong("check", FIG_5, "--diagnostics", "xml", mentions="xml")

@@ -234,7 +234,7 @@ void warn_about_fast_relaxations(const Network& network, const LinearForm& form,
   const double relaxation_time = to_double(1 / fastest.relaxation_rate);
   diagnostics.report<DiagnosticCode::fast_relaxation>(network.elements[fastest.elements.front()].span, relaxation_time,
                                                       name_of(fastest.elements, network), period);
-  if (count > 1) diagnostics.note<DiagnosticCode::further_fast_relaxations>({}, count - 1);
+  if (count > 1) diagnostics.note<DiagnosticCode::further_fast_relaxations>({}, count);
   if (2 / relaxation_time <= highest_rate)
     diagnostics.note<DiagnosticCode::fast_relaxation_remedy>({}, std::ceil(2 / relaxation_time));
 }

@@ -141,6 +141,16 @@ class RefusedInput(CommandTest):
         self.write("fast.json", network('{ "series": [ { "spring": 1e6 }, { "damper": 1 } ] }'))
         self.assertEqual(codes(self.dashpot("check", "fast.json").stderr), ["fast-relaxation"])
 
+    def test_fast_relaxations_are_counted(self):
+        """Fails if relaxations that a loop is too slow for are told otherwise than the fastest, and how many they are."""
+        for count in (1, 2, 3):
+            branches = ", ".join(f'{{ "series": [ {{ "spring": 1e6 }}, {{ "damper": {10**i} }} ] }}' for i in range(count))
+            self.write("fast.json", network(f'{{ "parallel": [ {branches} ] }}'))
+            told = self.dashpot("check", "fast.json").stderr
+            self.assertEqual(told.count("[fast-relaxation]"), 1)
+            self.assertEqual(f"note: in all {count} relaxations are that short\n" in told, count > 1, told)
+            self.assertEqual(told.count("that short"), int(count > 1))
+
     def test_silence_where_all_is_well(self):
         """Fails if check says anything about a good network."""
         self.write("kelvin.json", KELVIN)

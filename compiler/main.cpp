@@ -172,7 +172,7 @@ void describe(CLI::App& app, CommandLine& line) {
   run->get_option("--device")->required()->description("Device file");
   run->add_option("--for", options.duration, "How long [s], default until Ctrl-C")->check(check_duration)->option_text("SECONDS");
   run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH, udp:HOST:PORT or pty:")->option_text("URL");
-  run->add_option("--hand", options.hand, "Who moves the simulated device")
+  run->add_option("--hand", options.hand, "Who moves the simulated device, default relaxed")
       ->check(CLI::IsMember({"none", "relaxed", "firm", "stiff"}))
       ->option_text("none|relaxed|firm|stiff");
   run->add_option("--seed", options.seed, "Of the simulated device's chance, default 0")->check(check_seed)->option_text("N");

@@ -41,8 +41,8 @@ struct Options {
   bool json = false;              // explain
   std::optional<double> duration;   // run [s]; without end where empty
   std::optional<std::string> port;  // run: the board's; empty: the simulated device
-  std::string hand = "relaxed";     // run: who holds the simulated device
-  std::uint64_t seed = 0;           // run: of the simulated device
+  std::optional<std::string> hand;    // run: who holds the simulated device; empty: relaxed
+  std::optional<std::uint64_t> seed;  // run: of the simulated device; empty: 0
   BladeWords blade;               // device
   bool fast = false;                // run: simulated time instead of real time
   bool json_diagnostics = false;

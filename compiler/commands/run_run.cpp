@@ -31,11 +31,11 @@ const std::map<std::string, simulated::hand (*)()> hands = {{"none", simulated::
 simulated::scenario scene_of(const Options& options, const Compilation& compilation) {
   const device_description& device = compilation.device->description;
   simulated::scenario scene;
-  scene.user = hands.at(options.hand)();
+  scene.user = hands.at(options.hand.value_or("relaxed"))();
   const HandMotion motion = hand_motion(device, compilation.network.port_motion == motion::rotation);
   scene.initial_position = motion.start;
   scene.intended = motion.intended;
-  scene.seed = options.seed;
+  scene.seed = options.seed.value_or(0);
   return scene;
 }
 
@@ -105,9 +105,19 @@ ExitStatus conclude(const servo_summary& summary, const std::string& log, Diagno
   return sound ? told : ExitStatus::input_refused;
 }
 
+// A board has a hand, chance and time of its own.
+bool asks_a_board_to_be_simulated(const Options& options, Diagnostics& diagnostics) {
+  if (!options.port) return false;
+  if (options.fast) diagnostics.report<DiagnosticCode::simulated_device_only>({}, "--fast");
+  if (options.hand) diagnostics.report<DiagnosticCode::simulated_device_only>({}, "--hand");
+  if (options.seed) diagnostics.report<DiagnosticCode::simulated_device_only>({}, "--seed");
+  return diagnostics.has_errors();
+}
+
 }  // namespace
 
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  if (asks_a_board_to_be_simulated(options, diagnostics)) return ExitStatus::command_line_wrong;
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = files.open(options.networks.front(), diagnostics);

@@ -101,6 +101,14 @@ class WrongCommandLine(CommandTest):
             self.assertIn("--scheme backward-euler", done.stderr)
         self.dashpot("check", FIG_5, "--state-input", "nodal", "--scheme", "backward-euler")
 
+    def test_of_a_board_that_is_to_be_simulated(self):
+        """Fails if a choice that only the simulated device has is dropped in silence where a board is driven."""
+        for option in [["--fast"], ["--hand", "relaxed"], ["--seed", "0"]]:
+            done = self.refused("run", FIG_5, "--device", PANTOGRAPH, "--port", "unix:absent.sock", "--for", "1", *option,
+                                code="simulated-device-only", status=COMMAND_LINE_WRONG)
+            self.assertIn(f"error: {option[0]} with --port", done.stderr)
+        self.assertEqual(self.files(), [])
+
     def test_of_a_rate_that_the_device_has_not(self):
         """Fails if --rate overrules the loop that the device really runs."""
         self.refused("check", FIG_5, "--device", PANTOGRAPH, "--rate", "1000", code="device-rate-contradicts",

@@ -146,10 +146,18 @@ class Table {
 
   void report(const Irregularity& irregular) {
     const Span row = row_spans_[irregular.row];
-    if (irregular.kind == Irregularity::Kind::step)
-      diagnostics_.report<DiagnosticCode::csv_not_uniform>(row, irregular.found, irregular.expected);
-    else
-      diagnostics_.report<DiagnosticCode::csv_drifts>(row, irregular.found, irregular.period, irregular.expected);
+    switch (irregular.kind) {
+      case Irregularity::Kind::no_rise:
+        diagnostics_.report<DiagnosticCode::csv_time_not_rising>(row, irregular.found, irregular.expected);
+        if (irregular.found < irregular.expected) return;
+        break;
+      case Irregularity::Kind::step:
+        diagnostics_.report<DiagnosticCode::csv_not_uniform>(row, irregular.found, irregular.expected);
+        break;
+      case Irregularity::Kind::drift:
+        diagnostics_.report<DiagnosticCode::csv_drifts>(row, irregular.found, irregular.period, irregular.expected);
+        break;
+    }
     diagnostics_.note<DiagnosticCode::csv_uniform_remedy>({}, uniformity, irregular.unit, coarsest_share);
   }
 

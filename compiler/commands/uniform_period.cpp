@@ -26,11 +26,17 @@ double median_of(std::vector<double> values) {
   return *middle;
 }
 
+std::optional<std::size_t> row_without_rise(const std::vector<double>& times) {
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (!(times[i] > times[i - 1])) return i;
+  return std::nullopt;
+}
+
 // The first row whose step is not the median to `uniformity` and `allowance`.
 std::optional<std::size_t> row_off_step(const std::vector<double>& times, double median, double allowance) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double departure = std::abs(times[i] - times[i - 1] - median);
-    if (!(median > 0 && departure <= uniformity * median + rounding_at(times[i]) + allowance)) return i;
+    if (!(departure <= uniformity * median + rounding_at(times[i]) + allowance)) return i;
   }
   return std::nullopt;
 }
@@ -73,12 +79,14 @@ double TimeDigits::unit_at(double time) const {
 }
 
 std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<double>& times, const TimeDigits& digits) {
+  const double unit = std::max(digits.unit_at(times.front()), digits.unit_at(times.back()));
+  if (const auto row = row_without_rise(times))
+    return Irregularity{Irregularity::Kind::no_rise, *row, times[*row], times[*row - 1], 0, unit};
   const double median = median_of(steps_between(times));
   const auto last = static_cast<double>(times.size() - 1);
   const double period = (times.back() - times.front()) / last;
   const std::optional<std::size_t> off_step = row_off_step(times, median, 0);
   if (!off_step) return UniformPeriod{period, 0};
-  const double unit = std::max(digits.unit_at(times.front()), digits.unit_at(times.back()));
   const auto irregular = [&](std::size_t row) {
     return Irregularity{Irregularity::Kind::step, row, times[row] - times[row - 1], median, median, unit};
   };

@@ -28,9 +28,10 @@ struct UniformPeriod {
   double error;   // of it, that the rounding of the times leaves [s]
 };
 
-// Row `row` follows the one before after `found`, or is at the time `found`, in place of `expected` [s].
+// Row `row` is at the time `found`, and the one before at `expected`, no earlier; or it follows that one after `found`, or is at
+// the time `found`, in place of `expected` [s].
 struct Irregularity {
-  enum class Kind { step, drift };
+  enum class Kind { no_rise, step, drift };
 
   Kind kind;
   std::size_t row;
@@ -40,7 +41,7 @@ struct Irregularity {
   double unit;  // of the times' last digit
 };
 
-// In: two times or more. Uniform are steps that are each as long as their median to `uniformity`; and times whose last
+// In: two times or more. A time that does not rise is told before all else. Uniform are steps that are each as long as their median to `uniformity`; and times whose last
 // digit is at most `coarsest_share` of the period, and that are on a straight line to the rounding of that digit. The period
 // is that of the whole, which has less of the rounding than any step.
 std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<double>& times, const TimeDigits& digits);

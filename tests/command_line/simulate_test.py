@@ -224,12 +224,23 @@ class Table(SimulateTest):
         self.refuses("time,position,velocity\n0,0,x\n", "csv-not-a-number")
 
     def test_periods_that_differ(self):
-        """Fails if a gap, a repetition or time that runs backwards is taken for a uniform period."""
+        """Fails if a gap is taken for a uniform period."""
         done = self.refuses("time,position\n0,0\n0.001,0\n0.002,0\n0.004,0\n", "csv-not-uniform")
         self.assertTrue(done.stderr.startswith("motion.csv:5:1: error:"), done.stderr)
-        self.refuses("time,position\n0,0\n0,0\n0,0\n", "csv-not-uniform")
-        self.refuses("time,position\n0.002,0\n0.001,0\n0,0\n", "csv-not-uniform")
         self.refuses("time,position\n0,0\n0.001,0\n0.002,0\n0.003000003,0\n", "csv-not-uniform")
+
+    def test_times_that_do_not_rise(self):
+        """Fails if time that falls or stands still passes, is not told as that, or more digits are asked for where none would help."""
+        for rows, line, found, before in [([0.002, 0.001, 0], 3, "0.001", "0.002"), ([0, 0.001, 0.0005, 0.002], 4, "0.0005", "0.001"),
+                                          ([0, 0.001, 0.005, 0.004], 5, "0.004", "0.005")]:
+            told = self.refuses(table([(time, 0) for time in rows]), "csv-time-not-rising").stderr
+            self.assertTrue(told.startswith(f"motion.csv:{line}:1: error: row is at {found} s, the one before at {before} s; times that rise"), told)
+            self.assertNotIn("digits", told)
+        self.refuses("time,position\n0,0\n0,0\n0,0\n", "csv-time-not-rising")
+        told = self.refuses(table([(f"{n / 3000:.3f}", 0) for n in range(30)]), "csv-time-not-rising").stderr
+        self.assertTrue(told.startswith("motion.csv:3:1: error: row is at 0 s, the one before at 0 s"), told)
+        self.assertIn("last digit, 0.001 s here", told)
+        self.assertIn("write times with more digits", told)
 
     def test_a_period_that_no_loop_has(self):
         """Fails if rows so close that their rate is beyond --rate's own limit pass."""

@@ -138,7 +138,9 @@ class Table {
       return false;
     }
     const UniformPeriod uniform = std::get<UniformPeriod>(found);
-    if (1 / uniform.period > highest_rate) fail<DiagnosticCode::csv_rate_too_high>(row_spans_[1], 1 / uniform.period, highest_rate);
+    const double rate = 1 / uniform.period;
+    if (rate > highest_rate) fail<DiagnosticCode::csv_rate_too_high>(row_spans_[1], rate, highest_rate);
+    if (rate < lowest_rate) fail<DiagnosticCode::csv_rate_too_low>(row_spans_[1], rate, lowest_rate);
     motion.period = uniform.period;
     motion.period_error = uniform.error;
     return !failed_;

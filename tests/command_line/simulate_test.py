@@ -243,8 +243,11 @@ class Table(SimulateTest):
         self.assertIn("write times with more digits", told)
 
     def test_a_period_that_no_loop_has(self):
-        """Fails if rows so close that their rate is beyond --rate's own limit pass."""
+        """Fails if rows so close, or so far apart, that their rate is beyond --rate's own limits pass."""
         self.refuses("time,position\n0,0\n1e-300,0\n", "csv-rate-too-high")
+        told = self.refuses("time,position\n0,0\n1e10,0\n", "csv-rate-too-low").stderr
+        self.assertIn("rows come at 1e-10 Hz; at least 1e-06 Hz is expected", told)
+        self.assertEqual(len(self.simulated("kelvin.json", "time,position\n0,0\n1e6,0\n")), 2)
 
 
 class Tunables(SimulateTest):

@@ -1,11 +1,10 @@
 #include "commands/motion_csv.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <initializer_list>
 #include <string_view>
 
+#include "commands/motion_cell.hpp"
 #include "commands/uniform_period.hpp"
 #include "network/rate_limits.hpp"
 
@@ -103,23 +102,17 @@ class Table {
     return row.size() == count;
   }
 
-  static std::optional<double> number_in(const Cell& cell) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
-    const bool is_number = error == std::errc() && end == cell.text.data() + cell.text.size() && std::isfinite(value);
-    return is_number ? std::optional(value) : std::nullopt;
-  }
-
   // Of many bad cells the first is reported.
   void append(std::vector<double>& values, const Cell& cell, const char* name) {
-    const std::optional<double> value = number_in(cell);
-    if (!value && !failed_) fail<DiagnosticCode::csv_not_a_number>(cell.span, name, cell.text);
+    const std::optional<double> value = number_in_cell(cell.text);
+    if (!value && !failed_) report_cell(cell.span, name, diagnostics_);
+    failed_ |= !value;
     values.push_back(value.value_or(0));
   }
 
   // What is in it may be of no interest to anybody.
   static void append(OtherColumn& column, const Cell& cell) {
-    const std::optional<double> value = number_in(cell);
+    const std::optional<double> value = number_in_cell(cell.text);
     if (!value && !column.not_a_number) column.not_a_number = cell.span;
     column.values.push_back(value.value_or(0));
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "commands/commands.hpp"
+#include "commands/motion_cell.hpp"
 #include "commands/motion_csv.hpp"
 #include "compile.hpp"
 #include "discretise/evaluate.hpp"
@@ -82,9 +83,7 @@ class ValueColumns {
   static const OtherColumn* column_of(const std::string& name, const Motion& motion, Diagnostics& diagnostics) {
     const auto found = std::find_if(motion.others.begin(), motion.others.end(), [&](const OtherColumn& c) { return c.name == name; });
     if (found == motion.others.end()) return nullptr;
-    if (found->not_a_number)
-      diagnostics.report<DiagnosticCode::csv_not_a_number>(*found->not_a_number, name, found->not_a_number->file->text().substr(
-          found->not_a_number->begin, found->not_a_number->end - found->not_a_number->begin));
+    if (found->not_a_number) report_cell(*found->not_a_number, name, diagnostics);
     return &*found;
   }
 

@@ -218,10 +218,22 @@ class Table(SimulateTest):
 
     def test_cells_that_are_no_numbers(self):
         """Fails if text, an empty cell, half a number or what is not finite is read as a number."""
-        for cell in ["deep", "", "1.5mm", "nan", "inf", "-inf", "1e999", "1,5"]:
+        for cell in ["deep", "", "1.5mm", "nan", "inf", "-inf", "+nan", "+-1", "++1", "+", "0x1p3", "1,5"]:
             code = "csv-field-count" if cell == "1,5" else "csv-not-a-number"
             self.refuses(f"time,position\n0,0\n0.001,{cell}\n", code)
         self.refuses("time,position,velocity\n0,0,x\n", "csv-not-a-number")
+
+    def test_numbers_that_no_double_holds(self):
+        """Fails if a number that is finite, and yet beyond a double, is taken for another, or told that it is not finite."""
+        for cell, code in [("1e999", "number-too-large"), ("-1e999", "number-too-large"), ("1e-400", "number-too-small"), ("-1e-400", "number-too-small")]:
+            told = self.refuses(f"time,position\n0,0\n0.001,{cell}\n", code).stderr
+            self.assertTrue(told.startswith(f"motion.csv:3:7: error: '{cell}' is "), told)
+            self.assertNotIn("finite", told)
+            self.assertEqual(codes(told), [code])
+
+    def test_numbers_with_a_plus_sign(self):
+        """Fails if a motion may not write what a network may."""
+        self.assertEqual(self.simulated("kelvin.json", "time,position\n+0,+1\n+1e-3,+.5e+0\n"), self.simulated("kelvin.json", "time,position\n0,1\n1e-3,.5\n"))
 
     def test_periods_that_differ(self):
         """Fails if a gap is taken for a uniform period."""
@@ -301,6 +313,9 @@ class Tunables(SimulateTest):
             self.write("motion.csv", table([(0, 0, cell)], "time,position,K"))
             self.refused("simulate", "tuned.json", "--input", "motion.csv", code="csv-not-a-number")
             self.dashpot("simulate", "kelvin.json", "--input", "motion.csv")
+
+        self.write("motion.csv", table([(0, 0, "1e999")], "time,position,K"))
+        self.refused("simulate", "tuned.json", "--input", "motion.csv", code="number-too-large")
 
     def test_behind_a_contact(self):
         """Fails if a wall whose stiffness is a slider pulls the tool back, or is felt before it is reached."""

@@ -32,7 +32,7 @@ class Table {
     for (std::size_t i = 0; i < header.size(); ++i) {
       if (i == time || i == position || i == velocity) continue;
       others.push_back(i);
-      motion.others.push_back({std::string(header[i].text), {}, {}});
+      motion.others.push_back({std::string(header[i].text), header[i].span, {}, {}});
     }
     for (std::vector<Cell> row = next_row(); !row.empty(); row = next_row()) {
       if (!has_fields(row, header.size())) break;

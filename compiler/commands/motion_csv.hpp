@@ -12,6 +12,7 @@ namespace dashpot::compiler {
 // A column that is neither time, position nor velocity.
 struct OtherColumn {
   std::string name;
+  Span span;                         // of the name
   std::vector<double> values;        // one a row; 0 where a cell is no finite number
   std::optional<Span> not_a_number;  // the first such cell
 };

@@ -48,7 +48,7 @@ void warn_once_outside(const std::optional<Range>& range, double value, double t
 // Columns of the motion that are called like tunables.
 class ValueColumns {
  public:
-  // Refuses: a cell that is no finite number.
+  // Refuses: a cell that is no finite number, a column given twice.
   ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) : network_(c.network) {
     if (!c.law.tunable) return;
     tunables_ = c.law.tunable->tunables;
@@ -81,8 +81,11 @@ class ValueColumns {
   }
 
   static const OtherColumn* column_of(const std::string& name, const Motion& motion, Diagnostics& diagnostics) {
-    const auto found = std::find_if(motion.others.begin(), motion.others.end(), [&](const OtherColumn& c) { return c.name == name; });
+    const auto is_named = [&](const OtherColumn& column) { return column.name == name; };
+    const auto found = std::find_if(motion.others.begin(), motion.others.end(), is_named);
     if (found == motion.others.end()) return nullptr;
+    const auto again = std::find_if(found + 1, motion.others.end(), is_named);
+    if (again != motion.others.end()) diagnostics.report<DiagnosticCode::csv_column_twice>(again->span, name);
     if (found->not_a_number) report_cell(*found->not_a_number, name, diagnostics);
     return &*found;
   }

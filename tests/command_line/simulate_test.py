@@ -317,6 +317,14 @@ class Tunables(SimulateTest):
         self.write("motion.csv", table([(0, 0, "1e999")], "time,position,K"))
         self.refused("simulate", "tuned.json", "--input", "motion.csv", code="number-too-large")
 
+    def test_a_column_twice(self):
+        """Fails if one of two columns that are called like a tunable is taken in silence, or columns that nobody reads are minded."""
+        self.write("motion.csv", table([(0, 0, 100, 1, 300, 7)], "time,position,K,note,K,note"))
+        told = self.refused("simulate", "tuned.json", "--input", "motion.csv", code="csv-column-twice").stderr
+        self.assertTrue(told.startswith("motion.csv:1:22: error: column 'K' is there twice"), told)
+        self.assertEqual(codes(told), ["csv-column-twice"])
+        self.dashpot("simulate", "kelvin.json", "--input", "motion.csv")
+
     def test_behind_a_contact(self):
         """Fails if a wall whose stiffness is a slider pulls the tool back, or is felt before it is reached."""
         self.write("wall.json", self.NETWORK.replace('"network"', '"contact": { "at": 0 }, "network"'))

@@ -3,13 +3,16 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "source/diagnostic.hpp"
 
 namespace dashpot::compiler {
 
-// A column that is neither time, position nor velocity.
+inline constexpr std::string_view own_columns[] = {"time", "position", "velocity"};  // read of every motion
+
+// A column that is none of them.
 struct OtherColumn {
   std::string name;
   Span span;                         // of the name

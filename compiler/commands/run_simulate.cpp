@@ -48,12 +48,15 @@ void warn_once_outside(const std::optional<Range>& range, double value, double t
 // Columns of the motion that are called like tunables.
 class ValueColumns {
  public:
-  // Refuses: a cell that is no finite number, a column given twice.
+  // Refuses: a cell that is no finite number, a column given twice, a tunable that is called like one of the motion's own.
   ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) : network_(c.network) {
     if (!c.law.tunable) return;
     tunables_ = c.law.tunable->tunables;
     warned_.resize(tunables_.size());
-    for (const Tunable& tunable : tunables_) columns_.push_back(column_of(tunable.name, motion, diagnostics));
+    for (const Tunable& tunable : tunables_) {
+      refuse_name_of_motion(tunable.name, diagnostics);
+      columns_.push_back(column_of(tunable.name, motion, diagnostics));
+    }
     is_empty_ = std::all_of(columns_.begin(), columns_.end(), [](const OtherColumn* column) { return column == nullptr; });
   }
 
@@ -76,8 +79,17 @@ class ValueColumns {
     const Tunable& tunable = tunables_[i];
     if (warned_[i] || (value >= tunable.range.min && value <= tunable.range.max)) return;
     warned_[i] = true;
-    const auto parameter = std::find_if(network_.parameters.begin(), network_.parameters.end(), [&](const Parameter& p) { return p.name == tunable.name; });
-    diagnostics.report<DiagnosticCode::outside_tunable_range>(parameter->span, tunable.name, value, tunable.unit, time, tunable.range.min, tunable.range.max);
+    diagnostics.report<DiagnosticCode::outside_tunable_range>(place_of(tunable.name), tunable.name, value, tunable.unit, time, tunable.range.min, tunable.range.max);
+  }
+
+  Span place_of(const std::string& tunable) const {
+    return std::find_if(network_.parameters.begin(), network_.parameters.end(), [&](const Parameter& p) { return p.name == tunable; })->span;
+  }
+
+  // Its column would be the motion's, so that nothing could ever set it.
+  void refuse_name_of_motion(const std::string& tunable, Diagnostics& diagnostics) const {
+    if (std::find(std::begin(own_columns), std::end(own_columns), tunable) != std::end(own_columns))
+      diagnostics.report<DiagnosticCode::tunable_named_as_column>(place_of(tunable), tunable);
   }
 
   static const OtherColumn* column_of(const std::string& name, const Motion& motion, Diagnostics& diagnostics) {

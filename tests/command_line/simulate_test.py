@@ -325,6 +325,14 @@ class Tunables(SimulateTest):
         self.assertEqual(codes(told), ["csv-column-twice"])
         self.dashpot("simulate", "kelvin.json", "--input", "motion.csv")
 
+    def test_a_name_that_a_motion_has_itself(self):
+        """Fails if a tunable that no column can ever set is simulated in silence, or refused where no motion is read."""
+        self.write("tuned.json", self.NETWORK.replace('"K"', '"time"'))
+        self.write("motion.csv", table(ramp(3)))
+        told = self.refused("simulate", "tuned.json", "--input", "motion.csv", code="tunable-named-as-column").stderr
+        self.assertTrue(told.startswith("tuned.json:2:15: error: tunable 'time' is called like a column of the motion itself"), told)
+        self.dashpot("compile", "tuned.json")
+
     def test_behind_a_contact(self):
         """Fails if a wall whose stiffness is a slider pulls the tool back, or is felt before it is reached."""
         self.write("wall.json", self.NETWORK.replace('"network"', '"contact": { "at": 0 }, "network"'))

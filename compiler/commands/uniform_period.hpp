@@ -41,9 +41,9 @@ struct Irregularity {
   double unit;  // of the times' last digit
 };
 
-// In: two times or more. A time that does not rise is told before all else. Uniform are steps that are each as long as their median to `uniformity`; and times whose last
-// digit is at most `coarsest_share` of the period, and that are on a straight line to the rounding of that digit. The period
-// is that of the whole, which has less of the rounding than any step.
+// In: two times or more. A time that does not rise is told before all else. Uniform are steps that are each as long as their
+// median to `uniformity`; and times whose last digit is at most `coarsest_share` of the period, and that are on a straight line
+// to the rounding of that digit. The period is that of the whole, which has less of the rounding than any step.
 std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<double>& times, const TimeDigits& digits);
 
 }  // namespace dashpot::compiler

@@ -75,9 +75,9 @@ std::optional<Device> device_of(const CertificateFile& certificate, SourceFiles&
   return decl ? build_device(*decl, diagnostics) : std::nullopt;
 }
 
-class Verification {
+class TextsVerification {
  public:
-  Verification(const SourceFile& certificate_file, const CertificateFile& certificate, SourceFiles& files, Diagnostics& diagnostics)
+  TextsVerification(const SourceFile& certificate_file, const CertificateFile& certificate, SourceFiles& files, Diagnostics& diagnostics)
       : certificate_file_(certificate_file), certificate_(certificate), files_(files), diagnostics_(diagnostics),
         network_file_(kept(files, "network of the certificate", certificate.network_text)) {}
 
@@ -154,7 +154,7 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
                                         Diagnostics& diagnostics) {
   const std::optional<CertificateFile> certificate = read_certificate(certificate_file, diagnostics);
   if (!certificate) return std::nullopt;
-  Verification verification(certificate_file, *certificate, files, diagnostics);
+  TextsVerification verification(certificate_file, *certificate, files, diagnostics);
   if (!verification.read_subject()) return std::nullopt;
   const std::size_t count = verification.verify(header);
   if (diagnostics.has_errors()) return std::nullopt;

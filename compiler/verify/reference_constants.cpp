@@ -17,7 +17,7 @@ double nearest(const Reference& value, ScalarType scalar) {
 
 // 2⁻²⁰⁰ N and 2⁻⁶⁰ N are taken for zero; a constant is zero where its product with them would be subnormal.
 double threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }
-const Reference negligible{"1e-30"};
+const Reference cancellation_share{"1e-30"};
 
 double smallest(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-822 : 0x1p-66; }
 
@@ -68,7 +68,7 @@ std::map<std::string, std::vector<Reference>> reference_constants(const Referenc
   all["half_static_stiffness"] = {form.static_stiffness / 2};
   all["step_stiffness"] = {step};
   const Reference of_motor = all_in_brake ? Reference(0) : Reference(form.feedthrough_damping - brake), together = of_motor + from_velocity;
-  const bool is_left_over = abs(together) <= negligible * abs(from_velocity);  // from cancellation
+  const bool is_left_over = abs(together) <= cancellation_share * abs(from_velocity);  // from cancellation
   all["velocity_gain"] = {is_left_over ? Reference(0) : together};
   all["no_force"] = all["no_energy"] = {0};
   return all;

@@ -46,15 +46,20 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
                                    Diagnostics& diagnostics, StageTimes& times) {
   times.enter("front end");
   std::optional<Network> network = check(source, diagnostics);
+  return network ? compile(std::move(*network), asked, device, diagnostics, times) : std::nullopt;
+}
+
+std::optional<Compilation> compile(Network network, const Choices& asked, const std::optional<Device>& device,
+                                   Diagnostics& diagnostics, StageTimes& times) {
   Choices choices = asked;
-  if (!network || !settle_tunables(*network, choices, diagnostics)) return std::nullopt;
-  const Network present = at_default(*network);
+  if (!settle_tunables(network, choices, diagnostics)) return std::nullopt;
+  const Network present = at_default(network);
   if (!is_within_reach(present, diagnostics)) return std::nullopt;
   times.enter("normal form");
   std::optional<NormalForm> form = closed_normal_form(present, diagnostics);
   if (!form) return std::nullopt;
   Compilation result;
-  result.network = std::move(*network);
+  result.network = std::move(network);
   result.device = device;
   result.rate = choices.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
   result.form = std::move(*form);

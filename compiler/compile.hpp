@@ -15,7 +15,11 @@ namespace dashpot::compiler {
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics);
 
-// The same, and what each stage takes.
+// Of a network that is read already.
+std::optional<Compilation> compile(Network network, const Choices& choices, const std::optional<Device>& device,
+                                   Diagnostics& diagnostics, StageTimes& times);
+
+// The same as the first, and what each stage takes.
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics, StageTimes& times);
 

@@ -1,80 +1,124 @@
 #include "insist.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <initializer_list>
+#include <set>
+
 #include "certify/settle.hpp"
-#include "certify/slip_motor.hpp"
-#include "decompose/slip_laws.hpp"
+#include "compile.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-// How little the chosen candidate can need on this device, with its damping shared out at best.
-struct LeastNeed {
-  bool fits;
-  double needed;  // [N·s/m]
-};
-
-LeastNeed least_need(const Compilation& c, const Choices& choices, const Device& device) {
-  Diagnostics heard_before;
-  const PortDevice port = PortDevice::of(device, c.network, heard_before).value();
-  Candidate candidate = c.decomposition.choice();
-  CandidateSettler settler(c.network, c.form, c.decomposition, choices, port, 1 / device.description.loop.sample_period);
-  settler.settle(candidate);
-  return {candidate.certified == true, settler.least_need(candidate)};
-}
-
-// The first power of two times the device's own; empty where even a thousandfold does not help.
-std::optional<double> rate_that_would_do(const Compilation& c, const Choices& choices) {
-  Device faster = *c.device;
-  for (int doubling = 1; doubling <= 10; ++doubling) {
-    faster.description.loop.sample_period /= 2;
-    if (least_need(c, choices, faster).fits) return 1 / faster.description.loop.sample_period;
-  }
-  return std::nullopt;
-}
-
-// The same network with tunable parameters on another device: what its brake is told at most, and whether it is certified.
-struct OtherDevice {
-  bool certified = false;
-  double largest_damping = 0;  // [N·s/m]
-};
-
-OtherDevice on_another(const Compilation& c, const Choices& asked, const Device& device) {
+// The network on another device, or another one on the same: what is told to people has been tried.
+std::optional<Compilation> compiled(const Network& network, const Choices& choices, const Device& device) {
   Diagnostics unheard;
-  Choices choices = asked;
-  choices.state_input = StateInput::position;
-  const double period = device.description.loop.sample_period;
-  const auto port = PortDevice::of(device, c.network, unheard);
-  const auto decomposition = decompose(at_default(c.network), c.form, choices, &device, unheard);
-  if (!port || !decomposition) return {};
-  auto law = discretise_tunable(c.network, c.form, *decomposition, choices, 1 / period, &device, unheard);
-  if (!law) return {};
-  const SampledLoop loop = sampled_loop(*port, period);
-  const Certificate certificate = certify(*law, loop, slip_motor(c.network, c.form, *decomposition, choices, loop));
-  return {certificate.certified, law->largest_damping};
+  StageTimes unseen;
+  return compile(network, choices, device, unheard, unseen);
 }
 
-// A brake with room for all that it would be told; a network that asks for so much less of it; a faster loop.
-void say_what_would_do_for_tunables(const Compilation& c, const Choices& choices, const std::string& unit, Diagnostics& diagnostics) {
-  const double has = c.certificate.loop.max_damping, scale = has > 0 ? c.device->description.brake.max_damping / has : 0;
-  Device stronger = *c.device;
-  stronger.description.brake.max_damping = 1e30;
-  if (const OtherDevice unlimited = on_another(c, choices, stronger); unlimited.certified && scale > 0) {
-    const double enough = unlimited.largest_damping * (1 + 1e-6);
-    stronger.description.brake.max_damping = enough * scale;
-    if (on_another(c, choices, stronger).certified) {
-      diagnostics.note<DiagnosticCode::brake_that_would_do>({}, enough, unit, has);
-      diagnostics.note<DiagnosticCode::scale_that_would_do>({}, has / enough);
-    }
-  }
-  Device faster = *c.device;
-  for (int doubling = 1; doubling <= 10; ++doubling) {
-    faster.description.loop.sample_period /= 2;
-    if (!on_another(c, choices, faster).certified) continue;
-    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, 1 / faster.description.loop.sample_period);
-    return;
-  }
+bool would_do(const Network& network, const Choices& choices, const Device& device) {
+  const std::optional<Compilation> again = compiled(network, choices, device);
+  return again && again->certificate.certified;
 }
+
+double as_told(double value, int digits) { return std::stod(fmt::format("{:.{}g}", value, digits)); }
+
+double rounded_up(double value, int digits) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - digits);
+  return as_told(std::ceil(value / unit * (1 - 1e-12)) * unit, digits);
+}
+
+double rounded_down(double value, int digits) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - digits);
+  return as_told(std::floor(value / unit * (1 + 1e-12)) * unit, digits);
+}
+
+// What a device's own unit of damping is worth at the tool.
+double damping_at_tool(const Network& network, Device device) {
+  Diagnostics heard_before;
+  if (device.description.brake.kind == brake_kind::none) device.description.brake.kind = brake_kind::eddy_current;
+  device.description.brake.max_damping = 1;
+  return PortDevice::of(device, network, heard_before).value().max_damping().value_or(0);
+}
+
+class Remedies {
+ public:
+  Remedies(const Compilation& c, const Choices& choices) : c_(c), choices_(choices), scale_(damping_at_tool(c.network, *c.device)) {}
+
+  // At the tool, in four digits: what is missing for the law as it is, or room for all that it would be told.
+  std::optional<double> brake(double enough) const {
+    const std::optional<Compilation> unlimited = compiled(c_.network, choices_, with_brake(1e30));
+    const double all = unlimited && unlimited->certificate.certified ? unlimited->law.largest_damping : 0;
+    for (const double candidate : {enough, all}) {
+      if (!(candidate > 0 && candidate < 1e300)) continue;
+      const double told = rounded_up(candidate, 4);
+      if (would_do(c_.network, choices_, with_brake(told))) return told;
+    }
+    return std::nullopt;
+  }
+
+  // Of all springs and dampers, in three digits.
+  std::optional<double> share(std::initializer_list<double> guesses) const {
+    for (const double guess : guesses)
+      for (const double careful : {1.0, 0.9, 0.75, 0.5}) {
+        if (!(guess * careful > 1e-6 && guess * careful < 1)) continue;
+        const double told = rounded_down(guess * careful, 3);
+        if (would_do(scaled(told), choices_, *c_.device)) return told;
+      }
+    return std::nullopt;
+  }
+
+  // The first power of two times the device's own; empty where even a thousandfold does not help.
+  std::optional<double> rate() const {
+    Device faster = *c_.device;
+    for (int doubling = 1; doubling <= 10; ++doubling) {
+      faster.description.loop.sample_period /= 2;
+      const double told = as_told(1 / faster.description.loop.sample_period, 6);
+      if (may_do(faster) && would_do(c_.network, choices_, faster)) return told;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  Device with_brake(double at_tool) const {
+    Device device = *c_.device;
+    if (device.description.brake.kind == brake_kind::none) device.description.brake.kind = brake_kind::eddy_current;
+    device.description.brake.max_damping = at_tool / scale_;
+    return device;
+  }
+
+  Network scaled(double share) const {
+    Network network = c_.network;
+    std::set<std::size_t> parameters;
+    for (Element& element : network.elements) {
+      if (Spring* const spring = std::get_if<Spring>(&element.law)) spring->stiffness *= share;
+      else if (Damper* const damper = std::get_if<Damper>(&element.law)) damper->damping *= share;
+      else continue;
+      if (element.parameter) parameters.insert(*element.parameter);
+    }
+    for (const std::size_t i : parameters)
+      for (double Parameter::*value : {&Parameter::value, &Parameter::min, &Parameter::max}) network.parameters[i].*value *= share;
+    return network;
+  }
+
+  // Sooner known than by compiling all: with its damping shared out at best the chosen candidate needs no more than there is.
+  bool may_do(const Device& device) const {
+    if (c_.law.tunable) return true;
+    Diagnostics heard_before;
+    const PortDevice port = PortDevice::of(device, c_.network, heard_before).value();
+    Candidate candidate = c_.decomposition.choice();
+    CandidateSettler(c_.network, c_.form, c_.decomposition, choices_, port, 1 / device.description.loop.sample_period).settle(candidate);
+    return candidate.certified == true;
+  }
+
+  const Compilation& c_;
+  const Choices& choices_;
+  double scale_;
+};
 
 }  // namespace
 
@@ -87,22 +131,18 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
     return true;
   }
   const std::string unit = port_units(c.network.port_motion).damping;
-  if (c.law.tunable) {
-    diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, certificate.bound.needed, unit, c.device->name, certificate.assured);
-    say_what_would_do_for_tunables(c, choices, unit, diagnostics);
-    diagnostics.note<DiagnosticCode::compile_uncertified>({});
-    return false;
-  }
   const SampledLoop& loop = certificate.loop;
   const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
-  const double available = assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
-  const double needed = least_need(c, choices, *c.device).needed;
+  const double available = c.law.tunable ? certificate.assured : assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
+  const double needed = certificate.bound.needed;
   diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed, unit, c.device->name, available);
-  const double brake = missing_damping({Proof::sampled, needed, 0, ""}, loop, 0);
-  if (brake < 1e300) diagnostics.note<DiagnosticCode::brake_that_would_do>({}, brake, unit, loop.max_damping);
-  if (available > 0) diagnostics.note<DiagnosticCode::scale_that_would_do>({}, available / needed);
-  if (const std::optional<double> rate = rate_that_would_do(c, choices))
-    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
+  const Remedies remedies(c, choices);
+  const std::optional<double> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
+  if (brake)
+    diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping);
+  if (const std::optional<double> share = remedies.share({available / needed, loop.max_damping / brake.value_or(0)}))
+    diagnostics.note<DiagnosticCode::scale_that_would_do>({}, *share);
+  if (const std::optional<double> rate = remedies.rate()) diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
 }

@@ -449,6 +449,44 @@ class Certified(CommandTest):
         self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified")
         self.assertIn("passivity: not certified", (self.folder / "kelvin.hpp").read_text())
 
+    def test_every_remedy_as_it_is_told(self):
+        """Fails if a brake, a share or a rate that is said to do would not, typed as it is printed: for a linear network, one with a slip at
+        the tool, and one whose brake follows its slip."""
+        skin = ["parallel", ["spring", 400], ["damper", 3]]
+        muscle = [["spring", 900], ["series", ["damper", 12], ["spring", 600]]]
+        layers = {"linear": ["series", skin, ["parallel", *muscle]], "following": ["series", skin, ["parallel", *muscle, ["slip", 0.3]]],
+                  "rubbing": ["parallel", ["spring", 300], ["series", ["damper", 2], ["spring", 150]], ["series", ["slip", 0.5], ["spring", 800]]]}
+
+        def written(tree, share):
+            kind, *inside = tree
+            if kind in ("series", "parallel"): return {kind: [written(child, share) for child in inside]}
+            return {kind: inside[0] * (1 if kind == "slip" else share)}
+
+        def refusal(name, share=1.0, brake=None, rate=None, status=0):
+            device = json.loads((SOURCE / "runtime/devices/phantom_shorted_motor.json").read_text())
+            device["brake"]["safe_damping"] = "0.1 N s/m"
+            if brake: device["brake"]["max_damping"] = brake
+            if rate: device["loop"]["rate"] = rate
+            self.write("device.json", json.dumps(device))
+            self.write("layers.json", network(json.dumps(written(layers[name], share)), "layers"))
+            return self.dashpot("compile", "layers.json", "--device", "device.json", status=status).stderr
+
+        found = set()
+        for name, brakes in {"linear": ["0.6 N s/m", "0.75 N s/m"], "following": ["0.6 N s/m", "5 N s/m", "7 N s/m", "7.17 N s/m"],
+                             "rubbing": ["0.6 N s/m", "1.2 N s/m"]}.items():
+            for brake in brakes:
+                with self.subTest(name=name, brake=brake):
+                    told = refusal(name, brake=brake, status=INPUT_REFUSED)
+                    self.assertIn("[not-certified]", told)
+                    needs, gives = re.search(r"needs (\S+) N s/m of damping on device '.*', which gives at least (\S+) ", told).groups()
+                    self.assertLessEqual(float(gives), float(needs))
+                    for kind, words in {"brake": r"a brake of (\S+ N s/m) at the tool", "share": r"with (\S+) of its stiffness", "rate": r"a loop at (\S+ Hz) would"}.items():
+                        if remedy := re.search(words, told):
+                            found.add((name, kind))
+                            refusal(name, **({"brake": brake} | {kind: float(remedy.group(1)) if kind == "share" else remedy.group(1)}))
+        self.assertEqual({kind for _, kind in found}, {"brake", "share", "rate"})
+        self.assertEqual({name for name, kind in found if kind == "brake"}, set(layers))
+
     def test_a_faster_loop_as_a_remedy(self):
         """Fails if a rate is not offered where it would do."""
         self.write("stiff.json", network('{ "parallel": [ { "spring": 100000 }, { "damper": 5 } ] }', "stiff"))

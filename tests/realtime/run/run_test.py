@@ -304,6 +304,21 @@ class Blade(unittest.TestCase):
         self.assertIn("[wrong-unit]", result.stderr)
         self.assertEqual(result.stdout, "")
 
+    def test_blade_that_the_rest_does_not_fit_is_refused(self):
+        """Fails if a device file is written that no other command takes."""
+        with open(device("pantograph_brake_2009")) as stream:
+            told = json.load(stream)
+        told["brake"] |= {"max_damping": "1 N m s/rad", "safe_damping": "0.5 N m s/rad"}
+        with tempfile.TemporaryDirectory() as folder:
+            path, output = os.path.join(folder, "strong.json"), os.path.join(folder, "filled.json")
+            with open(path, "w") as stream:
+                json.dump(told, stream)
+            result = dashpot("device", path, *self.WORDS, "-o", output)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("strong.json with this blade", result.stderr)
+            self.assertIn("[damping-above-brake]", result.stderr)
+            self.assertFalse(os.path.exists(output))
+
     def test_device_without_brake_is_refused(self):
         """Fails if a brake is invented."""
         result = dashpot("device", device("phantom_single_motor"), *self.WORDS)

@@ -1,4 +1,5 @@
 // A paced host loop on the firmware under QEMU.
+#include <chrono>
 #include <iostream>
 
 #include <time.h>
@@ -42,6 +43,7 @@ class paced_clock {
 // scheduled.
 TEST(Firmware, answers_every_command_of_a_paced_loop) {
   DASHPOT_SKIP_WITHOUT_QEMU();
+  const auto switched_on = std::chrono::steady_clock::now();
   qemu_board emulated;
   board_device device(emulated.connect(), described_board(), patient(sampling::on_command));
   std::string error;
@@ -52,11 +54,16 @@ TEST(Firmware, answers_every_command_of_a_paced_loop) {
   device_sample sample;
   unsigned fresh = 0;
   double sent = 0;
+  std::uint64_t board_time = 0;
   paced_clock clock;
   for (std::uint32_t i = 0; i < periods; ++i) {
     const device_status status = device.read(sample);
     ASSERT_TRUE(status == device_status::ok || status == device_status::no_data || status == device_status::stale);
     fresh += status == device_status::ok;
+    if (status == device_status::ok) {
+      EXPECT_GT(device.newest_sample().timestamp, board_time);
+      board_time = device.newest_sample().timestamp;
+    }
     sent = 0.001 * i;
     const device_status written = device.write({sent, 5});
     ASSERT_TRUE(written == device_status::ok || written == device_status::stale);
@@ -69,6 +76,8 @@ TEST(Firmware, answers_every_command_of_a_paced_loop) {
   }
   EXPECT_EQ(device.newest_sample().motor_torque, static_cast<float>(sent));
   EXPECT_EQ(device.newest_sample().brake_damping, 5.0F);
+  const std::chrono::nanoseconds since = std::chrono::steady_clock::now() - switched_on;
+  EXPECT_LE(board_time, static_cast<std::uint64_t>(since.count())) << "an emulated clock is no faster than the host's";
   while (!device.counts_of_board()) {
     device.ask_statistics();
     device.wait_for_sample(1000);

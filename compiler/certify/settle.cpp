@@ -125,12 +125,6 @@ void CandidateSettler::make_room(Candidate& candidate) {
   }
 }
 
-double CandidateSettler::least_need(const Candidate& candidate) {
-  const StateInput input = candidate.state_input;
-  const auto need = [&](double damping) { return bound(input, damping, search_terms).needed; };
-  return need(least_place(need, 0, candidate.damping));
-}
-
 // The need is a convex function of b: each frequency's is, and the largest of convex functions.
 std::optional<double> CandidateSettler::largest_fitting(StateInput input, double most) {
   const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 1e-9);

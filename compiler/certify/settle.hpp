@@ -19,9 +19,6 @@ class CandidateSettler {
   // and leaves more to the motor, until they fit; where nothing fits, leaves it.
   void settle(Candidate& candidate);
 
-  // The least that the sampled loop can need with its state input, whatever share of its damping the brake takes [N·s/m].
-  double least_need(const Candidate& candidate);
-
  private:
   const std::optional<MotorConstants>& without_brake(StateInput input);
   PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);

@@ -27,22 +27,30 @@ bool would_do(const Network& network, const Choices& choices, const Device& devi
 
 double as_told(double value, int digits) { return std::stod(fmt::format("{:.{}g}", value, digits)); }
 
+// Of the last of so many digits.
+double unit_of_last(double value, int digits) { return std::pow(10, std::floor(std::log10(value)) + 1 - digits); }
+
 double rounded_up(double value, int digits) {
-  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - digits);
+  const double unit = unit_of_last(value, digits);
   return as_told(std::ceil(value / unit * (1 - 1e-12)) * unit, digits);
 }
 
 double rounded_down(double value, int digits) {
-  const double unit = std::pow(10, std::floor(std::log10(value)) + 1 - digits);
+  const double unit = unit_of_last(value, digits);
   return as_told(std::floor(value / unit * (1 + 1e-12)) * unit, digits);
 }
 
-// What a device's own unit of damping is worth at the tool.
-double damping_at_tool(const Network& network, Device device) {
-  Diagnostics heard_before;
+// `damping` in the device's own unit. One without a brake gets one.
+Device with_brake(Device device, double damping) {
   if (device.description.brake.kind == brake_kind::none) device.description.brake.kind = brake_kind::eddy_current;
-  device.description.brake.max_damping = 1;
-  return PortDevice::of(device, network, heard_before).value().max_damping().value_or(0);
+  device.description.brake.max_damping = damping;
+  return device;
+}
+
+// What a device's own unit of damping is worth at the tool.
+double damping_at_tool(const Network& network, const Device& device) {
+  Diagnostics heard_before;
+  return PortDevice::of(with_brake(device, 1), network, heard_before).value().max_damping().value_or(0);
 }
 
 class Remedies {
@@ -51,14 +59,9 @@ class Remedies {
 
   // At the tool, in four digits: what is missing for the law as it is, or room for all that it would be told.
   std::optional<double> brake(double enough) const {
-    const std::optional<Compilation> unlimited = compiled(c_.network, choices_, with_brake(1e30));
-    const double all = unlimited && unlimited->certificate.certified ? unlimited->law.largest_damping : 0;
-    for (const double candidate : {enough, all}) {
-      if (!(candidate > 0 && candidate < 1e300)) continue;
-      const double told = rounded_up(candidate, 4);
-      if (would_do(c_.network, choices_, with_brake(told))) return told;
-    }
-    return std::nullopt;
+    if (const std::optional<double> told = brake_as_told(enough)) return told;
+    const std::optional<Compilation> unlimited = compiled(c_.network, choices_, with_brake_at_tool(1e30));
+    return unlimited && unlimited->certificate.certified ? brake_as_told(unlimited->law.largest_damping) : std::nullopt;
   }
 
   // Of all springs and dampers, in three digits.
@@ -84,11 +87,12 @@ class Remedies {
   }
 
  private:
-  Device with_brake(double at_tool) const {
-    Device device = *c_.device;
-    if (device.description.brake.kind == brake_kind::none) device.description.brake.kind = brake_kind::eddy_current;
-    device.description.brake.max_damping = at_tool / scale_;
-    return device;
+  Device with_brake_at_tool(double damping) const { return with_brake(*c_.device, damping / scale_); }
+
+  std::optional<double> brake_as_told(double damping) const {
+    if (!(damping > 0 && damping < 1e300)) return std::nullopt;
+    const double told = rounded_up(damping, 4);
+    return would_do(c_.network, choices_, with_brake_at_tool(told)) ? std::optional(told) : std::nullopt;
   }
 
   Network scaled(double share) const {

@@ -89,11 +89,6 @@ class PartOfNetwork {
 
   const Network& network() const { return network_; }
 
-  std::vector<std::size_t> all() const {
-    std::vector<std::size_t> all(elements_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return all;
-  }
   std::vector<std::size_t> here(const std::vector<std::size_t>& in_whole) const {
     std::vector<std::size_t> places;
     for (const std::size_t i : in_whole)
@@ -141,11 +136,12 @@ RegimeList regimes_of(const Network& network, const std::vector<std::size_t>& el
   list.count = std::exp2(static_cast<double>(list.slips.size()));
   if (list.slips.size() > most_listed_slips) return list;
   const PartOfNetwork part(network, elements);
+  const std::vector<std::size_t> elements_here = part.here(elements);
   std::vector<SlipElements> slips_here;
   for (const SlipElements& slip : list.slips) slips_here.push_back(part.here(slip));
   for (std::size_t index = 0; index < std::size_t{1} << list.slips.size(); ++index) {
     std::vector<bool> slides = pattern(index, list.slips.size());
-    const Network left = network_in_regime(part.network(), part.all(), slips_here, slides);
+    const Network left = network_in_regime(part.network(), elements_here, slips_here, slides);
     list.regimes.push_back(regime_of(left, std::move(slides), reference_frequency));
     list.regimes.back().form = part.in_whole(std::move(list.regimes.back().form));
   }

@@ -26,12 +26,12 @@ std::string kind_of(const Row& row) {
   return kinds + kind_of(row.excess);
 }
 
-// A damper holds no force once the tool rests.
 bool has_modes(const NormalTree& component) {
   const std::vector<const NormalTree*> blocks = blocks_of(component);
   return std::any_of(blocks.begin(), blocks.end(), [](const NormalTree* block) { return !block->form.modes.empty(); });
 }
 
+// A damper holds no force once the tool rests.
 bool holds_nothing(const LinearForm& form) { return form.static_stiffness == 0 && form.modes.empty(); }
 
 void forget(std::size_t block, SlipResponse& response) {

@@ -15,10 +15,10 @@ double nearest(const Reference& value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? value.convert_to<double>() : static_cast<double>(value.convert_to<float>());
 }
 
+const Reference cancellation_share{"1e-30"};  // of the whole: what is below is left over from rounding
+
 // 2⁻²⁰⁰ N and 2⁻⁶⁰ N are taken for zero; a constant is zero where its product with them would be subnormal.
 double threshold(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-200 : 0x1p-60; }
-const Reference cancellation_share{"1e-30"};
-
 double smallest(ScalarType scalar) { return scalar == ScalarType::float64 ? 0x1p-822 : 0x1p-66; }
 
 double neighbour(double value, double towards, ScalarType scalar) {

@@ -157,6 +157,12 @@ class JsonBuilder {
 
 }  // namespace
 
+const JsonMember* find_member(const JsonValue& object, std::string_view key) {
+  for (const JsonMember& member : object.members)
+    if (member.key == key) return &member;
+  return nullptr;
+}
+
 double number_in(const JsonValue& value) {
   double number = 0;
   std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);

@@ -28,6 +28,9 @@ struct JsonMember {
   JsonValue value;
 };
 
+// Null where the object has no such key.
+const JsonMember* find_member(const JsonValue& object, std::string_view key);
+
 // Of a number, which the parser has seen to fit.
 double number_in(const JsonValue& value);
 

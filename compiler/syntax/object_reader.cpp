@@ -23,11 +23,7 @@ void ObjectReader::refuse_other_keys(const std::vector<std::string>& keys) {
   }
 }
 
-const JsonMember* ObjectReader::find(std::string_view key) const {
-  const auto found = std::find_if(object_.members.begin(), object_.members.end(),
-                                  [&](const JsonMember& member) { return member.key == key; });
-  return found == object_.members.end() ? nullptr : &*found;
-}
+const JsonMember* ObjectReader::find(std::string_view key) const { return find_member(object_, key); }
 
 const JsonMember* ObjectReader::require(std::string_view key) const {
   const JsonMember* member = find(key);

@@ -27,11 +27,6 @@ std::string shown(const JsonValue& value) {
   }
 }
 
-const JsonMember* member_of(const JsonValue& object, const std::string& key) {
-  const auto found = std::find_if(object.members.begin(), object.members.end(), [&](const JsonMember& member) { return member.key == key; });
-  return found == object.members.end() ? nullptr : &*found;
-}
-
 class Comparison {
  public:
   explicit Comparison(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
@@ -39,13 +34,11 @@ class Comparison {
   // Whether they agree; where they do not, that is reported.
   bool agree(const std::string& path, const JsonValue& stated, const JsonValue& again) {
     if (std::find(std::begin(free_to_differ), std::end(free_to_differ), path) != std::end(free_to_differ)) return true;
-    if (stated.kind == again.kind && stated.kind == Kind::object) return objects_agree(path, stated, again);
-    if (stated.kind == again.kind && stated.kind == Kind::array && stated.items.size() == again.items.size()) {
-      for (std::size_t i = 0; i < stated.items.size(); ++i)
-        if (!agree(fmt::format("{}[{}]", path, i), stated.items[i], again.items[i])) return false;
-      return true;
+    if (stated.kind == again.kind) {
+      if (stated.kind == Kind::object) return objects_agree(path, stated, again);
+      if (stated.kind == Kind::array && stated.items.size() == again.items.size()) return lists_agree(path, stated, again);
+      if (stated.kind != Kind::array && values_agree(stated, again)) return true;
     }
-    if (stated.kind == again.kind && stated.kind != Kind::array && values_agree(stated, again)) return true;
     diagnostics_.report<DiagnosticCode::certificate_differs>(stated.span, path, shown(stated), shown(again));
     return false;
   }
@@ -54,15 +47,21 @@ class Comparison {
   bool objects_agree(const std::string& path, const JsonValue& stated, const JsonValue& again) {
     const std::string inside = path.empty() ? "" : path + ".";
     for (const JsonMember& member : stated.members) {
-      const JsonMember* const other = member_of(again, member.key);
+      const JsonMember* const other = find_member(again, member.key);
       if (other == nullptr) diagnostics_.report<DiagnosticCode::certificate_differs>(member.key_span, inside + member.key, "there", "nothing of that name");
       if (other == nullptr || !agree(inside + member.key, member.value, other->value)) return false;
     }
     for (const JsonMember& member : again.members)
-      if (member_of(stated, member.key) == nullptr) {
+      if (find_member(stated, member.key) == nullptr) {
         diagnostics_.report<DiagnosticCode::certificate_differs>(stated.span, inside + member.key, "missing", shown(member.value));
         return false;
       }
+    return true;
+  }
+
+  bool lists_agree(const std::string& path, const JsonValue& stated, const JsonValue& again) {
+    for (std::size_t i = 0; i < stated.items.size(); ++i)
+      if (!agree(fmt::format("{}[{}]", path, i), stated.items[i], again.items[i])) return false;
     return true;
   }
 

@@ -12,6 +12,7 @@ namespace dashpot::compiler {
 class SourceFiles {
  public:
   const SourceFile* open(const std::string& path, Diagnostics& diagnostics);
+  const SourceFile& keep(std::string name, std::string text);  // what is no file, and lives as long as one
   void keep(std::vector<std::unique_ptr<SourceFile>> more);  // words of the command line that diagnostics point into
 
  private:
@@ -35,6 +36,9 @@ ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnosti
 
 // False, with a diagnostic, where what is to be written is one of the files that are read.
 bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics);
+
+// Refuses: what is no device.
+std::optional<Device> read_device(const SourceFile& file, Diagnostics& diagnostics);
 
 // The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
 struct DeviceChoice {

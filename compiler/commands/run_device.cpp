@@ -8,7 +8,6 @@
 #include "commands/eddy_brake.hpp"
 #include "emit/write_files.hpp"
 #include "network/read_value.hpp"
-#include "syntax/parse_device.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -87,15 +86,6 @@ std::string filled_text(const SourceFile& file, const FilledBrake& brake, bool r
   return json.dump(2) + "\n";
 }
 
-// Whether the file with the new brake is one that all other commands take.
-bool is_device(const std::string& path, const std::string& text, SourceFiles& files, Diagnostics& diagnostics) {
-  std::vector<std::unique_ptr<SourceFile>> filled;
-  filled.push_back(std::make_unique<SourceFile>(path + " with this blade", text));
-  const std::optional<DeviceDecl> decl = parse_device(*filled.front(), diagnostics);
-  files.keep(std::move(filled));
-  return decl && build_device(*decl, diagnostics) && !diagnostics.has_errors();
-}
-
 }  // namespace
 
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
@@ -107,7 +97,8 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
   if (!brake) return ExitStatus::input_refused;
   const SourceFile* file = files.open(*options.device, diagnostics);
   const std::string text = filled_text(*file, *brake, device.device->description.motion == motion::rotation);
-  if (!is_device(*options.device, text, files, diagnostics)) return ExitStatus::input_refused;
+  // All other commands have to take it.
+  if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics)) return ExitStatus::input_refused;
   if (!options.output) return write_standard_output(text, diagnostics);
   return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }

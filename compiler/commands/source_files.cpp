@@ -13,16 +13,25 @@ const SourceFile* SourceFiles::open(const std::string& path, Diagnostics& diagno
   return files_.back().get();
 }
 
+const SourceFile& SourceFiles::keep(std::string name, std::string text) {
+  files_.push_back(std::make_unique<SourceFile>(std::move(name), std::move(text)));
+  return *files_.back();
+}
+
 void SourceFiles::keep(std::vector<std::unique_ptr<SourceFile>> more) {
   for (std::unique_ptr<SourceFile>& file : more) files_.push_back(std::move(file));
+}
+
+std::optional<Device> read_device(const SourceFile& file, Diagnostics& diagnostics) {
+  const std::optional<DeviceDecl> decl = parse_device(file, diagnostics);
+  return decl ? build_device(*decl, diagnostics) : std::nullopt;
 }
 
 DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   if (!options.device) return {};
   const SourceFile* file = files.open(*options.device, diagnostics);
   if (file == nullptr) return {std::nullopt, std::nullopt, ExitStatus::input_refused};
-  const std::optional<DeviceDecl> decl = parse_device(*file, diagnostics);
-  std::optional<Device> device = decl ? build_device(*decl, diagnostics) : std::nullopt;
+  std::optional<Device> device = read_device(*file, diagnostics);
   if (!device) return {std::nullopt, std::nullopt, ExitStatus::input_refused};
   const double period = device->description.loop.sample_period;
   if (options.choices.rate && std::abs(*options.choices.rate * period - 1) > 1e-9) {

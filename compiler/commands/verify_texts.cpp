@@ -7,7 +7,6 @@
 #include "compile.hpp"
 #include "linear/reach.hpp"
 #include "source/excerpt.hpp"
-#include "syntax/parse_device.hpp"
 #include "verify/compare_certificates.hpp"
 #include "verify/read_certificate.hpp"
 #include "verify/verify_header.hpp"
@@ -60,32 +59,17 @@ void compare_code(const std::vector<std::string>& written, const SourceFile& hea
   if (!written.empty()) diagnostics.note<DiagnosticCode::code_expected>({}, expected_there);
 }
 
-// A text of the certificate as a file that lives as long as diagnostics may point into it.
-const SourceFile& kept(SourceFiles& files, const char* name, const std::string& text) {
-  std::vector<std::unique_ptr<SourceFile>> one;
-  one.push_back(std::make_unique<SourceFile>(name, text));
-  const SourceFile& file = *one.front();
-  files.keep(std::move(one));
-  return file;
-}
-
-std::optional<Device> device_of(const CertificateFile& certificate, SourceFiles& files, Diagnostics& diagnostics) {
-  if (!certificate.device_text) return std::nullopt;
-  const auto decl = parse_device(kept(files, "device of the certificate", *certificate.device_text), diagnostics);
-  return decl ? build_device(*decl, diagnostics) : std::nullopt;
-}
-
 class TextsVerification {
  public:
   TextsVerification(const SourceFile& certificate_file, const CertificateFile& certificate, SourceFiles& files, Diagnostics& diagnostics)
       : certificate_file_(certificate_file), certificate_(certificate), files_(files), diagnostics_(diagnostics),
-        network_file_(kept(files, "network of the certificate", certificate.network_text)) {}
+        network_file_(files.keep("network of the certificate", certificate.network_text)) {}
 
   // Whether network and device are what they should be.
   bool read_subject() {
     Diagnostics of_network;  // its warnings were given when it was compiled
     network_ = check(network_file_, of_network);
-    device_ = device_of(certificate_, files_, diagnostics_);
+    if (certificate_.device_text) device_ = read_device(files_.keep("device of the certificate", *certificate_.device_text), diagnostics_);
     port_ = !network_ ? std::nullopt : device_ ? PortDevice::of(*device_, *network_, diagnostics_) : PortDevice::ideal();
     if (!network_) check(network_file_, diagnostics_);
     if (!port_ || diagnostics_.has_errors()) {
@@ -95,22 +79,15 @@ class TextsVerification {
     return is_within_reach(*network_, diagnostics_, most_verified_nodes);
   }
 
-  // How many constants are right; with errors where anything is not.
+  // How many constants are right; with errors where anything is not. Those of many points are of one, whose header is written
+  // beside theirs.
   std::size_t verify(const SourceFile& header) {
-    if (!is_of_many_points(*network_, header.text())) return verify_one_point(header);
-    if (!recompile()) return 0;
-    compare_code(emitted(*compiled_, true), header, diagnostics_);
-    const std::vector<std::string> of_one = emitted(*compiled_, false);
-    return diagnostics_.has_errors() || of_one.empty() ? 0 : verify_one_point(kept(files_, "header of one point", of_one.front()));
-  }
-
-  const Network& network() const { return *network_; }
-
- private:
-  std::size_t verify_one_point(const SourceFile& header) {
-    const std::optional<HeaderConstants> constants = header_constants(header.text());
+    const bool of_many = is_of_many_points(*network_, header.text());
+    if (of_many && !recompile()) return 0;
+    const SourceFile& of_one = of_many ? files_.keep("header of one point", emitted(*compiled_, false).at(0)) : header;
+    const std::optional<HeaderConstants> constants = header_constants(of_one.text());
     if (!constants) {
-      diagnostics_.report<DiagnosticCode::no_emitted_header>({}, header.path());
+      diagnostics_.report<DiagnosticCode::no_emitted_header>({}, of_one.path());
       return 0;
     }
     // What takes long is done last: many a wrong certificate is found out before.
@@ -118,15 +95,18 @@ class TextsVerification {
     std::size_t count = is_linear ? verify_linear_constants(certificate_, *network_, *port_, *constants, diagnostics_) : 0;
     if (!recompile()) return 0;
     if (!is_linear) count = verify_constants(certificate_, *port_, *constants, *compiled_, diagnostics_);
-    compare_code(emitted(*compiled_, false), header, diagnostics_);
+    compare_code(emitted(*compiled_, of_many), header, diagnostics_);
     if (!diagnostics_.has_errors()) verify_bounds(certificate_, *port_, *constants, *compiled_, diagnostics_);
     if (!diagnostics_.has_errors()) {
-      const std::string again = certificate_text(*compiled_, certificate_.choices, certificate_.network_text, certificate_.device_text, header.text());
-      compare_certificates(certificate_file_, kept(files_, "certificate written again", again), diagnostics_);
+      std::string again = certificate_text(*compiled_, certificate_.choices, certificate_.network_text, certificate_.device_text, of_one.text());
+      compare_certificates(certificate_file_, files_.keep("certificate written again", std::move(again)), diagnostics_);
     }
     return count;
   }
 
+  const Network& network() const { return *network_; }
+
+ private:
   bool recompile() {
     if (compiled_) return true;
     Diagnostics unheard;

@@ -15,16 +15,19 @@ namespace {
 // Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law.
 void settle_choice(Compilation& c, const Choices& choices, const PortDevice& device) {
   if (device.is_ideal()) return;
-  CandidateSettler(c.network, c.form, c.decomposition, choices, device, c.rate).settle(c.decomposition.candidates[c.decomposition.chosen]);
-  c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, device.is_ideal(), port_units(c.network.port_motion).damping);
+  CandidateSettler(c.network, c.form, c.decomposition, choices, device, c.rate)
+      .settle(c.decomposition.candidates[c.decomposition.chosen]);
+  c.decomposition.reason =
+      reason_for_input(c.decomposition.choice(), choices, device.is_ideal(), port_units(c.network.port_motion).damping);
 }
 
-// False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position does
-// set() inject no energy.
+// False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position
+// does set() inject no energy.
 bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diagnostics) {
   if (!has_tunables(network)) return true;
   const StateInput asked = choices.state_input.value_or(StateInput::position);
-  if (asked != StateInput::position) diagnostics.report<DiagnosticCode::tunable_needs_position>(network.name_span, name_of(asked));
+  if (asked != StateInput::position)
+    diagnostics.report<DiagnosticCode::tunable_needs_position>(network.name_span, name_of(asked));
   choices.state_input = StateInput::position;
   return asked == StateInput::position;
 }
@@ -36,8 +39,8 @@ std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics)
   return decl ? build_network(*decl, diagnostics) : std::nullopt;
 }
 
-std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
-                                   Diagnostics& diagnostics) {
+std::optional<Compilation> compile(const SourceFile& source, const Choices& choices,
+                                   const std::optional<Device>& device, Diagnostics& diagnostics) {
   StageTimes unseen;
   return compile(source, choices, device, diagnostics, unseen);
 }
@@ -67,7 +70,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   times.enter("decomposition");
   const Device* const on = device ? &*device : nullptr;
   const bool is_tunable = has_tunables(result.network);
-  std::optional<Decomposition> decomposition = decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
+  std::optional<Decomposition> decomposition =
+      decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   const PortDevice port = device ? PortDevice::of(*device, result.network, diagnostics).value() : PortDevice::ideal();
@@ -86,7 +90,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");
   const SampledLoop loop = sampled_loop(port, 1 / result.rate);
-  result.certificate = certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
+  result.certificate =
+      certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }

@@ -12,16 +12,16 @@ namespace dashpot::compiler {
 
 // In: a network file's text, the user's choices, a device or none. Out: everything about it. Refuses: what any stage
 // refuses; all that can be found is reported.
-std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
-                                   Diagnostics& diagnostics);
+std::optional<Compilation> compile(const SourceFile& source, const Choices& choices,
+                                   const std::optional<Device>& device, Diagnostics& diagnostics);
 
 // Of a network that is read already.
 std::optional<Compilation> compile(Network network, const Choices& choices, const std::optional<Device>& device,
                                    Diagnostics& diagnostics, StageTimes& times);
 
 // The same as the first, and what each stage takes.
-std::optional<Compilation> compile(const SourceFile& source, const Choices& choices, const std::optional<Device>& device,
-                                   Diagnostics& diagnostics, StageTimes& times);
+std::optional<Compilation> compile(const SourceFile& source, const Choices& choices,
+                                   const std::optional<Device>& device, Diagnostics& diagnostics, StageTimes& times);
 
 // What the sampled loop needs of every candidate, not only of the chosen one: for those who look at them.
 void weigh_all_candidates(Compilation& compilation, const Choices& choices);

@@ -55,7 +55,8 @@ double damping_at_tool(const Network& network, const Device& device) {
 
 class Remedies {
  public:
-  Remedies(const Compilation& c, const Choices& choices) : c_(c), choices_(choices), scale_(damping_at_tool(c.network, *c.device)) {}
+  Remedies(const Compilation& c, const Choices& choices)
+      : c_(c), choices_(choices), scale_(damping_at_tool(c.network, *c.device)) {}
 
   // At the tool, in four digits: what is missing for the law as it is, or room for all that it would be told.
   std::optional<double> brake(double enough) const {
@@ -105,17 +106,20 @@ class Remedies {
       if (element.parameter) parameters.insert(*element.parameter);
     }
     for (const std::size_t i : parameters)
-      for (double Parameter::*value : {&Parameter::value, &Parameter::min, &Parameter::max}) network.parameters[i].*value *= share;
+      for (double Parameter::*value : {&Parameter::value, &Parameter::min, &Parameter::max})
+        network.parameters[i].*value *= share;
     return network;
   }
 
-  // Sooner known than by compiling all: with its damping shared out at best the chosen candidate needs no more than there is.
+  // Sooner known than by compiling all: with its damping shared out at best the chosen candidate needs no more than
+  // there is.
   bool may_do(const Device& device) const {
     if (c_.law.tunable) return true;
     Diagnostics heard_before;
     const PortDevice port = PortDevice::of(device, c_.network, heard_before).value();
     Candidate candidate = c_.decomposition.choice();
-    CandidateSettler(c_.network, c_.form, c_.decomposition, choices_, port, 1 / device.description.loop.sample_period).settle(candidate);
+    CandidateSettler(c_.network, c_.form, c_.decomposition, choices_, port, 1 / device.description.loop.sample_period)
+        .settle(candidate);
     return candidate.certified == true;
   }
 
@@ -131,22 +135,24 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   if (!c.device || certificate.certified) return true;
   const std::string& name = c.network.name;
   if (certificate.bound.proof == Proof::none) {
-    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, name, c.device->name, certificate.bound.reason);
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, name, c.device->name,
+                                                       certificate.bound.reason);
     return true;
   }
   const std::string unit = port_units(c.network.port_motion).damping;
   const SampledLoop& loop = certificate.loop;
   const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
-  const double available = c.law.tunable ? certificate.assured : assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
+  const double available =
+      c.law.tunable ? certificate.assured : assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
   const double needed = certificate.bound.needed;
   diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed, unit, c.device->name, available);
   const Remedies remedies(c, choices);
   const std::optional<double> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
-  if (brake)
-    diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping);
+  if (brake) diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping);
   if (const std::optional<double> share = remedies.share({available / needed, loop.max_damping / brake.value_or(0)}))
     diagnostics.note<DiagnosticCode::scale_that_would_do>({}, *share);
-  if (const std::optional<double> rate = remedies.rate()) diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
+  if (const std::optional<double> rate = remedies.rate())
+    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
 }
@@ -156,9 +162,11 @@ void warn_of_driving_uncertified(const Compilation& c, Diagnostics& diagnostics)
   if (!c.device || certificate.certified) return;
   const Span place = c.network.name_span;
   if (certificate.bound.proof == Proof::none)
-    return diagnostics.report<DiagnosticCode::nothing_proved>(place, c.network.name, c.device->name, certificate.bound.reason);
-  diagnostics.report<DiagnosticCode::drives_uncertified>(place, c.network.name, c.device->name, certificate.bound.needed,
-                                                         port_units(c.network.port_motion).damping, certificate.assured);
+    return diagnostics.report<DiagnosticCode::nothing_proved>(place, c.network.name, c.device->name,
+                                                              certificate.bound.reason);
+  diagnostics.report<DiagnosticCode::drives_uncertified>(
+      place, c.network.name, c.device->name, certificate.bound.needed, port_units(c.network.port_motion).damping,
+      certificate.assured);
   diagnostics.note<DiagnosticCode::compile_says_what_would_do>({});
 }
 

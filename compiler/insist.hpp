@@ -5,8 +5,8 @@
 
 namespace dashpot::compiler {
 
-// True where there is no device, or the law is certified on it. Warns where nothing can be proved. Refuses where damping
-// is missing, with what brake, what share of the network or what rate would do.
+// True where there is no device, or the law is certified on it. Warns where nothing can be proved. Refuses where
+// damping is missing, with what brake, what share of the network or what rate would do.
 bool insist_on_certificate(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 
 // For those who drive it all the same: warns of a law that is not certified on its device.

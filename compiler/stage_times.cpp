@@ -8,7 +8,8 @@ namespace dashpot::compiler {
 
 void StageTimes::enter(const char* stage) {
   end();
-  const auto known = std::find_if(stages_.begin(), stages_.end(), [&](const auto& entry) { return entry.first == stage; });
+  const auto known =
+      std::find_if(stages_.begin(), stages_.end(), [&](const auto& entry) { return entry.first == stage; });
   current_ = static_cast<std::size_t>(known - stages_.begin());
   if (known == stages_.end()) stages_.emplace_back(stage, 0);
   since_ = Clock::now();

@@ -1,7 +1,7 @@
 // A function on an arc of the unit circle, to first order in the angle with a bound on the rest:
 //     |f(θ) − value − slope (θ − θ_c)| ≤ ½ second (θ − θ_c)²        for every θ of the arc
-// with bounds on |f| and |f′| over the arc. The bounds are those of the same expression with all terms made positive, so
-// that a multiple of them also bounds what rounding did to value and slope.
+// with bounds on |f| and |f′| over the arc. The bounds are those of the same expression with all terms made positive,
+// so that a multiple of them also bounds what rounding did to value and slope.
 #pragma once
 
 #include <cmath>
@@ -61,9 +61,7 @@ struct RealArcModel {
     return {s * x.value, s * x.slope, weight * x.size, weight * x.steepness, weight * x.second};
   }
 };
-inline RealArcModel real_part(const ArcModel& x) {
-  return {x.value.real, x.slope.real, x.size, x.steepness, x.second};
-}
+inline RealArcModel real_part(const ArcModel& x) { return {x.value.real, x.slope.real, x.size, x.steepness, x.second}; }
 
 // The angles 0 … π as θ = 4 atan x, x from 0 to 1: sines and cosines of the centre are then rational, and everything
 // below is additions, multiplications, divisions and square roots, whose rounding is known.
@@ -71,10 +69,10 @@ struct Arc {
   double low = 0, high = 1;  // of x
 
   double centre() const { return low + (high - low) / 2; }
-  double radius() const;           // largest |θ − θ_c|
-  double angle() const;            // θ_c, for people [rad]
-  Phasor backward() const;         // w = e^{−jθ_c}
-  Phasor difference() const;       // δ = 1 − w, without cancellation
+  double radius() const;              // largest |θ − θ_c|
+  double angle() const;               // θ_c, for people [rad]
+  Phasor backward() const;            // w = e^{−jθ_c}
+  Phasor difference() const;          // δ = 1 − w, without cancellation
   double least_difference() const;    // min |δ| over the arc
   double largest_difference() const;  // max |δ|
 };

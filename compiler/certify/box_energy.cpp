@@ -11,13 +11,16 @@ namespace {
 
 class BoxEnergy : private BoxNumbers {
  public:
-  explicit BoxEnergy(const UpdateLaw& law) : BoxNumbers(*law.tunable), scalar_(law.scalar), period_(law.sample_period) {}
+  explicit BoxEnergy(const UpdateLaw& law)
+      : BoxNumbers(*law.tunable), scalar_(law.scalar), period_(law.sample_period) {}
 
   // Every relaxation gives no more work than its spring stores, wherever it is in the box.
   bool relaxations_give_no_energy() const {
     return std::all_of(tables_.parts.begin(), tables_.parts.end(), [&](const tunable_part<double>& part) {
-      if (part.kind == tunable_kind::fixed_relaxation) return gives_no_energy(Rational(part.loss), Rational(part.share));
-      if (part.kind != tunable_kind::relaxation || !tables_.head.is_exact) return true;  // (1 − φ)² + φ² ≤ 1, φ of 0 … 1
+      if (part.kind == tunable_kind::fixed_relaxation)
+        return gives_no_energy(Rational(part.loss), Rational(part.share));
+      if (part.kind != tunable_kind::relaxation || !tables_.head.is_exact)
+        return true;  // (1 − φ)² + φ² ≤ 1, φ of 0 … 1
       const Affine spring = stiffness(part.spring), damper = number(part.damping);
       return exact_gives_no_energy(ratio(least(spring), most(damper)), ratio(most(spring), least(damper)));
     });
@@ -25,22 +28,27 @@ class BoxEnergy : private BoxNumbers {
 
  private:
   // a² + (1 − φ)² ≤ 1, with a = 1 − α: of emitted constants, exactly.
-  static bool gives_no_energy(const Rational& loss, const Rational& share) { return loss * (2 - loss) >= (1 - share) * (1 - share); }
+  static bool gives_no_energy(const Rational& loss, const Rational& share) {
+    return loss * (2 - loss) >= (1 - share) * (1 - share);
+  }
 
-  // The same of any x = λh between two ends, for the α and φ that the law works out, off by 64 units of roundoff at most. α rises
-  // with x and φ falls: on an interval the least α stands against the least φ. Below 1e-9, α > x/2 and 1 − φ < x; beyond 700,
-  // α = 1 in double.
+  // The same of any x = λh between two ends, for the α and φ that the law works out, off by 64 units of roundoff at
+  // most. α rises with x and φ falls: on an interval the least α stands against the least φ. Below 1e-9, α > x/2 and 1
+  // − φ < x; beyond 700, α = 1 in double.
   bool exact_gives_no_energy(double low, double high) const {
     const double outward = 1 - 64 * unit_roundoff(scalar_);
     for (double x = std::max(low, 1e-9); x < std::min(high, 700.0); x *= interval_)
-      if (!gives_no_energy(Rational(-std::expm1(-x) * outward), Rational(-std::expm1(-interval_ * x) / (interval_ * x) * outward))) return false;
+      if (!gives_no_energy(Rational(-std::expm1(-x) * outward),
+                           Rational(-std::expm1(-interval_ * x) / (interval_ * x) * outward)))
+        return false;
     return true;
   }
   static constexpr double interval_ = 1.05;
 
   // k h/B, for intervals whose ends need not be sharp
   double ratio(const Rational& stiffness, const Rational& damping) const {
-    return damping > 0 ? Rational(stiffness * period_ / damping).convert_to<double>() : std::numeric_limits<double>::infinity();
+    return damping > 0 ? Rational(stiffness * period_ / damping).convert_to<double>()
+                       : std::numeric_limits<double>::infinity();
   }
 
   ScalarType scalar_;

@@ -20,14 +20,16 @@ BoxCut plus(const BoxCut& first, const BoxCut& second) {
 
 class Box : private BoxNumbers {
  public:
-  Box(const UpdateLaw& law, const BoxLoop& loop) : BoxNumbers(*law.tunable), scalar_(law.scalar), period_(law.sample_period), loop_(loop) {}
+  Box(const UpdateLaw& law, const BoxLoop& loop)
+      : BoxNumbers(*law.tunable), scalar_(law.scalar), period_(law.sample_period), loop_(loop) {}
 
   BoxMotor motor() const {
     if (tables_.head.contact.is_there) return nothing_for("a contact, and parameters that change");
     const std::vector<Affine> brakes = brake_choices();
     const Rational behind_slips = largest_behind_slips(), made_up = make_up(brakes, behind_slips);
     if (made_up > 0 && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
-    if (brakes.empty()) return nothing_for("the brake follows the viscosity of a mesh, which is not bounded over the box");
+    if (brakes.empty())
+      return nothing_for("the brake follows the viscosity of a mesh, which is not bounded over the box");
     const Affine asked = needed();
     Rational worst = 0, least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0;
     for (const Affine& brake : brakes) {
@@ -38,7 +40,9 @@ class Box : private BoxNumbers {
         if (!is_rounding && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
         Affine lacking = plus(asked, brake, -loop_.share);
         if (loop_.gain) lacking = plus(lacking, gain, loop_.hold * Rational(*loop_.gain));
-        worst = std::max(worst, Rational(most(lacking) + (made_up > 0 ? Rational(loop_.hold * Rational(*loop_.gain) * made_up) : Rational(0))));
+        worst = std::max(
+            worst, Rational(most(lacking) +
+                            (made_up > 0 ? Rational(loop_.hold * Rational(*loop_.gain) * made_up) : Rational(0))));
       }
     }
     largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.head.max_damping));
@@ -50,15 +54,19 @@ class Box : private BoxNumbers {
 
   template <class Visit>
   void each_part(const tunable_block& block, Visit visit) const {
-    for (int i = block.first_part; i < block.first_part + block.part_count; ++i) visit(tables_.parts[static_cast<std::size_t>(i)]);
+    for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
+      visit(tables_.parts[static_cast<std::size_t>(i)]);
   }
 
   BoxCut cut_of(const tunable_part<double>& part) const {
     switch (part.kind) {
       case tunable_kind::damper: return {{}, number(part.damping)};
       case tunable_kind::spring: return {plus({}, stiffness(part.spring), half_), {}};
-      case tunable_kind::relaxation: return {plus({}, stiffness(part.spring), tables_.head.is_exact ? Rational(largest_relaxation_hold) : half_), {}};
-      case tunable_kind::fixed_relaxation: return {plus({}, stiffness(part.spring), Rational(relaxation_hold(part.share, part.loss))), {}};
+      case tunable_kind::relaxation:
+        return {plus({}, stiffness(part.spring), tables_.head.is_exact ? Rational(largest_relaxation_hold) : half_),
+                {}};
+      case tunable_kind::fixed_relaxation:
+        return {plus({}, stiffness(part.spring), Rational(relaxation_hold(part.share, part.loss))), {}};
       case tunable_kind::mesh: break;
     }
     return cut_at_port(part);
@@ -83,7 +91,9 @@ class Box : private BoxNumbers {
   }
 
   Rational squared_lateness() const { return Rational(loop_.lateness) * Rational(loop_.lateness); }
-  Rational cost(const BoxCut& cut) const { return most(cut.stiffness) * period_ * squared_lateness() + most(cut.damping); }
+  Rational cost(const BoxCut& cut) const {
+    return most(cut.stiffness) * period_ * squared_lateness() + most(cut.damping);
+  }
 
   // No softer than the law makes blocks behind slips.
   BoxCut bounded_cut(int block) const {
@@ -106,8 +116,8 @@ class Box : private BoxNumbers {
     return node.kind == slip_part::series ? least : sum;
   }
 
-  // Of slips in no tree the least of all ways to take ends to the tool's side, no slip between the sides. There is one: no path
-  // of slips alone joins tool and ground.
+  // Of slips in no tree the least of all ways to take ends to the tool's side, no slip between the sides. There is one:
+  // no path of slips alone joins tool and ground.
   BoxCut least_cut(const tunable_graph& graph) const {
     std::vector<BoxCut> cuts;
     std::vector<double> costs;  // rounded: any cut will do, if not quite the least
@@ -116,14 +126,17 @@ class Box : private BoxNumbers {
       costs.push_back(cost(cuts.back()).convert_to<double>());
     }
     const auto separates = [&](unsigned at_tool, const tunable_ends& ends) {
-      const auto is_at_tool = [&](int end) { return end == graph.end_count || (end < graph.end_count && (at_tool >> end & 1u) != 0); };
+      const auto is_at_tool = [&](int end) {
+        return end == graph.end_count || (end < graph.end_count && (at_tool >> end & 1u) != 0);
+      };
       return is_at_tool(ends.from) != is_at_tool(ends.to);
     };
     std::optional<unsigned> least;
     double least_cost = 0;
     for (unsigned at_tool = 0; at_tool < 1u << graph.end_count; ++at_tool) {
       bool is_crossed = false;
-      for (int k = graph.first_slip; k < graph.first_slip + graph.link_count; ++k) is_crossed |= separates(at_tool, tables_.links[static_cast<std::size_t>(k)]);
+      for (int k = graph.first_slip; k < graph.first_slip + graph.link_count; ++k)
+        is_crossed |= separates(at_tool, tables_.links[static_cast<std::size_t>(k)]);
       double sum = 0;
       for (std::size_t i = 0; i < cuts.size(); ++i)
         if (separates(at_tool, tie(graph, i))) sum += costs[i];
@@ -137,10 +150,12 @@ class Box : private BoxNumbers {
     return cut;
   }
 
-  const tunable_ends& tie(const tunable_graph& graph, std::size_t i) const { return tables_.ties[static_cast<std::size_t>(graph.first_tie) + i]; }
+  const tunable_ends& tie(const tunable_graph& graph, std::size_t i) const {
+    return tables_.ties[static_cast<std::size_t>(graph.first_tie) + i];
+  }
 
-  // T_max β lateness² + b∞(cut) T_max/h. Dampers that join tool and ground are the brake's; those of a mesh as far as none of
-  // its nodes is between.
+  // T_max β lateness² + b∞(cut) T_max/h. Dampers that join tool and ground are the brake's; those of a mesh as far as
+  // none of its nodes is between.
   Affine needed() const {
     BoxCut cut;
     each_part(tables_.blocks.front(), [&](const tunable_part<double>& part) {
@@ -172,14 +187,16 @@ class Box : private BoxNumbers {
   Affine zero_frequency() const {
     Affine sum = feedthrough();
     each_part(tables_.blocks.front(), [&](const tunable_part<double>& part) {
-      if (part.kind == tunable_kind::relaxation || part.kind == tunable_kind::fixed_relaxation) sum = plus(sum, number(part.damping));
+      if (part.kind == tunable_kind::relaxation || part.kind == tunable_kind::fixed_relaxation)
+        sum = plus(sum, number(part.damping));
     });
     return sum;
   }
 
   bool has_meshes() const {
     bool found = false;
-    each_part(tables_.blocks.front(), [&](const tunable_part<double>& part) { found = found || part.kind == tunable_kind::mesh; });
+    each_part(tables_.blocks.front(),
+              [&](const tunable_part<double>& part) { found = found || part.kind == tunable_kind::mesh; });
     return found;
   }
 
@@ -222,8 +239,8 @@ class Box : private BoxNumbers {
     return choices;
   }
 
-  // Σ|h_j| of a block: k, 2 c ≤ 2 k of a relaxation, and of a mesh no more than twice what its edges at the port answer within a
-  // sample, as its inner nodes held fast would.
+  // Σ|h_j| of a block: k, 2 c ≤ 2 k of a relaxation, and of a mesh no more than twice what its edges at the port answer
+  // within a sample, as its inner nodes held fast would.
   Affine gain_of(const tunable_block& block, bool with_dampers) const {
     Affine sum;
     each_part(block, [&](const tunable_part<double>& part) {
@@ -245,8 +262,8 @@ class Box : private BoxNumbers {
     return tables_.nodes[static_cast<std::size_t>(coupling.first_node + index)];
   }
 
-  // What one of its slips alone holds while none gives way: the least yield force over the box, of the strongest such slip. Empty
-  // where it does not hold rigidly.
+  // What one of its slips alone holds while none gives way: the least yield force over the box, of the strongest such
+  // slip. Empty where it does not hold rigidly.
   std::optional<Rational> hold_of(const tunable_coupling& coupling, int index) const {
     const slip_node<double>& node = node_of(coupling, index);
     if (node.kind == slip_part::block) return std::nullopt;
@@ -271,7 +288,8 @@ class Box : private BoxNumbers {
     return all_hold ? weakest : std::nullopt;
   }
 
-  // Of one block in series with what holds rigidly; empty for anything else, and where the encoder's step makes a slip give way.
+  // Of one block in series with what holds rigidly; empty for anything else, and where the encoder's step makes a slip
+  // give way.
   std::optional<Rational> gain_of(const tunable_coupling& coupling) const {
     const slip_node<double>& root = node_of(coupling, 0);
     if (root.kind != slip_part::series) return std::nullopt;
@@ -283,7 +301,8 @@ class Box : private BoxNumbers {
       }
     if (blocks != 1) return std::nullopt;
     const tunable_block& only = tables_.blocks[static_cast<std::size_t>(block)];
-    const Rational largest = most(gain_of(only, true)) * (1 + 2 * Rational(tables_.head.least_share)), of_step = largest * Rational(loop_.encoder_step) / 2;
+    const Rational largest = most(gain_of(only, true)) * (1 + 2 * Rational(tables_.head.least_share)),
+                   of_step = largest * Rational(loop_.encoder_step) / 2;
     bool carried_by_slip = false, holds = true;
     for (int i = root.first_child; i < root.first_child + root.child_count; ++i) {
       const slip_part kind = node_of(coupling, i).kind;
@@ -293,7 +312,8 @@ class Box : private BoxNumbers {
       carried_by_slip = carried_by_slip || kind == slip_part::slip;
       holds = holds && *hold >= of_step;
     }
-    // At places of the box where a slip in series yields within a step, no more is left than that; with one such slip alone.
+    // At places of the box where a slip in series yields within a step, no more is left than that; with one such slip
+    // alone.
     const bool is_motors = !tables_.head.slip_rule.takes_part || most(cut_of(only).damping) == 0;
     return holds || (carried_by_slip && root.child_count == 2 && is_motors) ? std::optional(largest) : std::nullopt;
   }

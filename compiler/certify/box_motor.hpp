@@ -1,15 +1,16 @@
-// What the motor of a network with tunable parameters asks for, whatever their values within the declared ranges (theory,
-// section 6). Every stiffness and damping is an affine function of the tunables with non-negative factors.
+// What the motor of a network with tunable parameters asks for, whatever their values within the declared ranges
+// (theory, section 6). Every stiffness and damping is an affine function of the tunables with non-negative factors.
 //
-// With the law's own storage, V = Σ ½ k z² and what the tank holds, which set() never raises, a spring on the cut asks for
-// β = ½ k and a relaxation for ψ k: with φ = c/k, A = ½ (1 − a²), B = a (1 − φ), C = φ − ½ φ², g = (a − 1, φ),
+// With the law's own storage, V = Σ ½ k z² and what the tank holds, which set() never raises, a spring on the cut asks
+// for β = ½ k and a relaxation for ψ k: with φ = c/k, A = ½ (1 − a²), B = a (1 − φ), C = φ − ½ φ², g = (a − 1, φ),
 //     ψ = ¼ (g₁² C − g₁ g₂ B + g₂² A)/(A C − ¼ B²),     the largest of g·(F, δ) − A F² − B F δ − C δ²,
 // ½ for backward Euler and never above 0.57 for the exact scheme. Between changes; a change that cannot keep the force
 // (tunable_law.hpp) is one jump of the force, held for one sample.
 //
-// b, and with it b∞ − b, is at every point of the box one of a few affine functions: those that the brake's rule and reach
-// choose from. Of affine functions the largest over a box is exact, and worked out in rational numbers: from the numbers of the
-// law's tables, rounded once, outward, at the end. The margin is that of the numbers that set() works out from them.
+// b, and with it b∞ − b, is at every point of the box one of a few affine functions: those that the brake's rule and
+// reach choose from. Of affine functions the largest over a box is exact, and worked out in rational numbers: from the
+// numbers of the law's tables, rounded once, outward, at the end. The margin is that of the numbers that set() works
+// out from them.
 #pragma once
 
 #include <optional>
@@ -25,12 +26,12 @@ struct BoxMotor {
   double lacking = 0;      // max over the box of what is needed less the assured share of b [N·s/m], not below it
   double least_brake = 0;  // min b over the box [N·s/m], not above it
   double largest_brake = 0;
-  std::string hindrance;   // why nothing is proved; empty where something is
+  std::string hindrance;                         // why nothing is proved; empty where something is
   std::optional<double> quantisation_gain = {};  // K over the box, not below it (quantisation.hpp) [N/m]
 };
 
-// `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty where nothing is known of it; `share`:
-// of the brake's command that is assured.
+// `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty where nothing is known of it;
+// `share`: of the brake's command that is assured.
 struct BoxLoop {
   Rational hold;
   double lateness;

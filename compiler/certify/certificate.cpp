@@ -35,8 +35,8 @@ PassivityBound within_range(PassivityBound bound) {
 }
 
 // The bounds of two parts of a motor add up.
-PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator,
-                                 double besides, std::size_t terms) {
+PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop& loop,
+                                 const EstimatorFactors& estimator, double besides, std::size_t terms) {
   const SampledBound found = sampled_bound(NeededDamping(motor, loop, estimator), loop.sample_period, terms);
   PassivityBound bound;
   bound.proof = Proof::sampled;
@@ -98,7 +98,8 @@ PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& sl
   bound.any_regime = true;
   if (bound.proof == Proof::none) return bound;
   const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
-  if (slips.lets_go_by_estimate && is_late) return not_proved("the contact lets go by a velocity estimate, and the loop is late");
+  if (slips.lets_go_by_estimate && is_late)
+    return not_proved("the contact lets go by a velocity estimate, and the loop is late");
   const bool is_punctual = loop.amplifier_lag > 0;  // what is proved with a lag is proved for punctual samples
   if (is_punctual) {
     bound.proof = Proof::sampled;
@@ -113,7 +114,9 @@ PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& sl
   bound = within_range(bound);
   if (bound.proof == Proof::none) return bound;
   if (!slips.behind_contact || Rational(bound.needed) <= assured_damping(loop, 0)) return bound;
-  PassivityBound beyond = not_proved("a free tool, which the brake leaves alone, touches late, and the device itself has less damping than that needs");
+  PassivityBound beyond = not_proved(
+      "a free tool, which the brake leaves alone, touches late, and the device itself has less damping than that "
+      "needs");
   beyond.needed = bound.needed;
   return beyond;
 }
@@ -172,20 +175,24 @@ PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
 }
 
 PassivityBound bound_of(const UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
-  return slips ? passivity_bound(linear_motor_constants(law), *slips, loop) : passivity_bound(motor_constants(law), loop);
+  return slips ? passivity_bound(linear_motor_constants(law), *slips, loop)
+               : passivity_bound(motor_constants(law), loop);
 }
 
 BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
   const Rational period(loop.sample_period);
   const Rational hold = loop.amplifier_lag > 0 ? Rational(1) : Rational((period + Rational(loop.jitter)) / period);
-  return box_motor(law, {hold, lateness(loop), estimate_gain(loop), assured_share(loop), estimate_pulse(loop), loop.encoder_step});
+  return box_motor(
+      law, {hold, lateness(loop), estimate_gain(loop), assured_share(loop), estimate_pulse(loop), loop.encoder_step});
 }
 
 // A brake that changes is told a sum, of whose rounding nothing is promised.
-double surely_told(const UpdateLaw& law) { return law.brake_changes() || law.tunable ? law.damping * (1 - 8 * unit_roundoff(law.scalar)) : law.damping; }
+double surely_told(const UpdateLaw& law) {
+  return law.brake_changes() || law.tunable ? law.damping * (1 - 8 * unit_roundoff(law.scalar)) : law.damping;
+}
 
-// Out: what has been added to the brake's command in every regime. Behind a contact nothing would help: the brake is off
-// while the tool is free.
+// Out: what has been added to the brake's command in every regime. Behind a contact nothing would help: the brake is
+// off while the tool is free.
 double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoop& loop, bool behind_contact) {
   if (behind_contact) return 0;
   if (!law.brake_changes()) {
@@ -201,19 +208,24 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   return added;
 }
 
-// With tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in a few rounds, or not.
+// With tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in a few rounds, or
+// not.
 void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
   const double reach = law.tunable->head.max_damping;
   BoxMotor box = box_of(law, loop);
   result.bound = box_bound(box, loop);
-  const auto missing = [&] { return missing_damping(result.bound, loop, box.least_brake * (1 - 8 * unit_roundoff(law.scalar))); };
+  const auto missing = [&] {
+    return missing_damping(result.bound, loop, box.least_brake * (1 - 8 * unit_roundoff(law.scalar)));
+  };
   const bool is_proved = result.bound.proof != Proof::none;
   double added = 0;
   for (int round = 0; is_proved && loop.has_device && missing() > added; ++round) {
     added = sum_above(missing(), 32 * unit_roundoff(law.scalar) * (box.largest_brake + missing()), law.scalar);
     const bool is_beyond = round == 20 || !(added < loop.max_damping);
     if (is_beyond) added = 0;
-    law.tunable->head.max_damping = is_beyond ? reach : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar));
+    law.tunable->head.max_damping =
+        is_beyond ? reach
+                  : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar));
     box = box_of(law, loop);
     result.bound = box_bound(box, loop);
     if (is_beyond) break;
@@ -243,9 +255,11 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
   if (motor) result.energy = check_energy_lemma(*motor);
   if (law.tunable) result.energy = check_energy_lemma_over_box(law);
   result.bound.any_regime = slips.has_value();
-  if (slips && !law.tunable) result.energy = check_energy_lemma_with_slips(linear_motor_constants(law), parts_behind_slips(law));
+  if (slips && !law.tunable)
+    result.energy = check_energy_lemma_with_slips(linear_motor_constants(law), parts_behind_slips(law));
   if (motor) result.quantisation_gain = quantisation_gain(*motor, loop);
-  else if (slips && !law.tunable) result.quantisation_gain = quantisation_gain(linear_motor_constants(law), *slips, loop);
+  else if (slips && !law.tunable)
+    result.quantisation_gain = quantisation_gain(linear_motor_constants(law), *slips, loop);
   if (!motor) result.energy.rounding_share = rounding_of_step(law);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;

@@ -23,9 +23,10 @@ std::string_view name_of(Proof proof);  // "none", "hold", "sampled"
 // How much physical damping the loop needs, whoever supplies it.
 struct PassivityBound {
   Proof proof = Proof::none;
-  double needed = 0;     // S or β T_max, not below it; where nothing is proved, what would have to be there for it, or 0 [N·s/m]
-  double frequency = 0;  // that binds [Hz]; 0 where none does
-  std::string reason;    // why nothing is proved, or why it is not the hold certificate; one clause
+  double needed =
+      0;  // S or β T_max, not below it; where nothing is proved, what would have to be there for it, or 0 [N·s/m]
+  double frequency = 0;     // that binds [Hz]; 0 where none does
+  std::string reason;       // why nothing is proved, or why it is not the hold certificate; one clause
   bool any_regime = false;  // with slips or a contact: whatever slides, sticks, touches or lets go
   bool any_value = false;   // with tunables: wherever they are in their ranges
 };
@@ -38,16 +39,17 @@ struct Certificate {
   double added_damping = 0;    // what has been added [N·s/m]
   bool certified = false;      // assured ≥ needed, compared exactly
   EnergyLemma energy;
-  double quantisation_stiffness = 0;  // 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
+  double quantisation_stiffness = 0;        // 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
   std::optional<double> quantisation_gain;  // K, which friction pays for up to 2 f_c/Δ [N/m]; empty: not bounded
 };
 
 // (K Δ/2 − f_c)⁺: the energy that the encoder's step may bring in, beyond friction, for each metre of travel [N].
 double unpaid_force(const Certificate& certificate);
 
-// In: a law's constants, the loop around it. Out: the strongest statement that covers them; with less than `most_terms` one
-// that is found sooner and may ask a little more.
-PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms = most_terms);
+// In: a law's constants, the loop around it. Out: the strongest statement that covers them; with less than `most_terms`
+// one that is found sooner and may ask a little more.
+PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop,
+                               std::size_t terms = most_terms);
 
 // The same of a law with slips or a contact, of which `linear` is what reaches ground without a slip.
 PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop);
@@ -55,12 +57,13 @@ PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& sl
 // x = ((S − b_device)/share − b)⁺: what the brake's command lacks, not below it; infinite where no command would do.
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake);
 
-// What the brake is told where the decomposition says `damping`: that, and on a device what passivity lacks, as far as the
-// brake reaches; a number of the scalar's type.
+// What the brake is told where the decomposition says `damping`: that, and on a device what passivity lacks, as far as
+// the brake reaches; a number of the scalar's type.
 double brake_command(const PassivityBound& bound, const SampledLoop& loop, double damping, ScalarType scalar);
 
-// In: a law, the loop around it, what its motor makes behind slips. Out: its certificate. On a device, what passivity lacks is added to the law's brake command, uncompensated, as
-// far as the brake reaches: what is rendered is then D + x s. Without one it is reported only.
+// In: a law, the loop around it, what its motor makes behind slips. Out: its certificate. On a device, what passivity
+// lacks is added to the law's brake command, uncompensated, as far as the brake reaches: what is rendered is then D + x
+// s. Without one it is reported only.
 Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips);
 
 // One or more lines on what is proved; `unit` of a damping.

@@ -21,7 +21,8 @@ std::string covered(const Certificate& c) {
 
 std::string requirement(const Certificate& c, const std::string& unit) {
   if (c.bound.proof == Proof::hold)
-    return fmt::format("needs {:.6g} {} over the longest hold of {:.6g} s", c.bound.needed, unit, c.loop.longest_hold());
+    return fmt::format("needs {:.6g} {} over the longest hold of {:.6g} s", c.bound.needed, unit,
+                       c.loop.longest_hold());
   const std::string most = c.bound.frequency > 0 ? fmt::format(", most at {:.6g} Hz", c.bound.frequency) : "";
   return fmt::format("needs {:.6g} {}{}", c.bound.needed, unit, most);
 }
@@ -33,20 +34,21 @@ std::string verdict(const Certificate& c, const std::string& unit) {
   const std::string numbers = fmt::format("{}, at least {:.6g} {} is there", requirement(c, unit), c.assured, unit);
   if (c.certified) return fmt::format("certified for {}: {}", covered(c), numbers);
   const double missing = c.minimum_damping - c.added_damping;
-  return fmt::format("not certified for {}: {}, {:.6g} {} more is missing in the brake's command", covered(c), numbers, missing, unit);
+  return fmt::format("not certified for {}: {}, {:.6g} {} more is missing in the brake's command", covered(c), numbers,
+                     missing, unit);
 }
 
 // K against 2 f_c/Δ, and what friction leaves.
 std::string quantisation_text(const Certificate& c, const PortUnits& units) {
   std::string text = "quantisation: ";
   if (c.quantisation_gain)
-    text += fmt::format("an error of the encoder reaches the motor with at most {:.6g} {}; ", *c.quantisation_gain, units.stiffness);
-  else
-    text += "what an error of the encoder does to the motor is not bounded; ";
+    text += fmt::format("an error of the encoder reaches the motor with at most {:.6g} {}; ", *c.quantisation_gain,
+                        units.stiffness);
+  else text += "what an error of the encoder does to the motor is not bounded; ";
   if (c.quantisation_stiffness > 0)
-    text += fmt::format("friction pays for up to {:.6g} {} (2 f_c/step), no brake does", c.quantisation_stiffness, units.stiffness);
-  else
-    text += "no friction is stated that would pay for it, and no brake does";
+    text += fmt::format("friction pays for up to {:.6g} {} (2 f_c/step), no brake does", c.quantisation_stiffness,
+                        units.stiffness);
+  else text += "no friction is stated that would pay for it, and no brake does";
   if (unpaid_force(c) > 0)
     text += fmt::format("; up to {:.3g} J/{} of travel are unpaid", unpaid_force(c), units.position);
   return text + "\n";
@@ -57,23 +59,26 @@ std::string quantisation_text(const Certificate& c, const PortUnits& units) {
 std::vector<std::string> passivity_lines(const Certificate& c, const std::string& unit) {
   std::vector<std::string> lines = {"passivity: " + verdict(c, unit)};
   if (!c.loop.has_device)
-    lines.push_back("  on an ideal device with the difference of two samples for a velocity; nothing is added for passivity");
+    lines.push_back(
+        "  on an ideal device with the difference of two samples for a velocity; nothing is added for passivity");
   if (c.added_damping > 0)
-    lines.push_back(fmt::format("  of the brake's command {:.6g} {} are for passivity and not compensated: what is rendered is D + {:.6g} s",
-                                c.added_damping, unit, c.added_damping));
+    lines.push_back(fmt::format(
+        "  of the brake's command {:.6g} {} are for passivity and not compensated: what is rendered is D + {:.6g} s",
+        c.added_damping, unit, c.added_damping));
   if (!c.energy.applies) return lines;
   std::string energy = "energy: ";
   if (!c.energy.holds)
     energy += fmt::format("the law may give {:.3g} N/m times Δu² a sample more than it stores", c.energy.shortfall);
-  else if (c.energy.over_box)
-    energy += "no values within their ranges ever give more work than stored_energy() falls";
+  else if (c.energy.over_box) energy += "no values within their ranges ever give more work than stored_energy() falls";
   else if (c.energy.with_slips)
     energy += "no part's constants ever give more work than it stores, and what slips or touches only takes";
   else if (c.energy.storage == EnergyStorage::emitted)
     energy += "the constants never give more work than stored_energy() falls";
   else
-    energy += fmt::format("the constants never give more work than is stored, with the weight 1/(2 a d) in {} modes", c.energy.reweighted_modes);
-  lines.push_back(energy + fmt::format("; rounding adds at most {:.2g} of the sum of the force's terms", c.energy.rounding_share));
+    energy += fmt::format("the constants never give more work than is stored, with the weight 1/(2 a d) in {} modes",
+                          c.energy.reweighted_modes);
+  lines.push_back(
+      energy + fmt::format("; rounding adds at most {:.2g} of the sum of the force's terms", c.energy.rounding_share));
   return lines;
 }
 

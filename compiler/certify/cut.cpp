@@ -9,7 +9,8 @@ namespace {
 
 // c/(1 + a) of F ← a F + c δ.
 Real held_stiffness(const Real& stiffness, const Real& relaxation_rate, const CutSettings& settings) {
-  const ModeCoefficients mode = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings.scheme, StateInput::position, settings.sample_period);
+  const ModeCoefficients mode = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings.scheme,
+                                                  StateInput::position, settings.sample_period);
   return mode.position_gain / (1 + mode.decay);
 }
 
@@ -79,11 +80,13 @@ std::optional<Cut> least_cut(const NormalTree& tree, const CutSettings& settings
   return sum;
 }
 
-std::optional<Cut> least_cut(const Network& network, const std::vector<std::size_t>& elements, const CutSettings& settings) {
+std::optional<Cut> least_cut(const Network& network, const std::vector<std::size_t>& elements,
+                             const CutSettings& settings) {
   const MultiportForm form = multiport_form_at_slips(network, elements);
   const std::size_t count = form.terminals.size();
   const auto place = [&](NodeIndex node) {
-    return static_cast<std::size_t>(std::find(form.terminals.begin(), form.terminals.end(), node) - form.terminals.begin());
+    return static_cast<std::size_t>(std::find(form.terminals.begin(), form.terminals.end(), node) -
+                                    form.terminals.begin());
   };
   const auto slips = slips_between(network, elements);
   std::optional<Cut> least;

@@ -22,7 +22,8 @@ EnergyLemma check_energy_lemma(const MotorConstants& motor) {
   if (!lemma.applies) return lemma;
   const Rational static_excess = Rational(motor.static_stiffness) - 2 * Rational(motor.half_static_stiffness);
   Rational left = Rational(motor.half_static_stiffness) + Rational(motor.step_stiffness);
-  boost::multiprecision::cpp_int asked = 0;  // of all modes, in steps of the grid: fractions that are kept in lowest terms are slow
+  boost::multiprecision::cpp_int asked =
+      0;  // of all modes, in steps of the grid: fractions that are kept in lowest terms are slow
   for (const MotorMode& mode : motor.modes) {
     const Rational a = exact_decay(motor, mode), d = mode.position_drive;
     if (d == 0) continue;

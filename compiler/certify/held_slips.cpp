@@ -16,8 +16,8 @@ struct HeldTie {
   Real yield_force;
 };
 
-// Ends by number: 0 is the ground, 1 the tool. A mode is one more node, which its spring joins to the ends by their weights and
-// a damper to the ground.
+// Ends by number: 0 is the ground, 1 the tool. A mode is one more node, which its spring joins to the ends by their
+// weights and a damper to the ground.
 class HeldNetwork {
  public:
   explicit HeldNetwork(const CutSettings& settings) : settings_(settings) {}
@@ -29,7 +29,8 @@ class HeldNetwork {
 
   // By backward Euler: k = c/a, λ = (1 − a)/(a h). What vanishes within a sample is a damper c h.
   void add_mode(std::vector<std::pair<std::size_t, Real>> weights, const Real& stiffness, const Real& relaxation_rate) {
-    const ModeCoefficients c = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings_.scheme, StateInput::position, settings_.sample_period);
+    const ModeCoefficients c = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings_.scheme,
+                                                 StateInput::position, settings_.sample_period);
     const Real period = settings_.sample_period;
     if (c.decay < negligible) return add(dampers_, weights, c.position_gain * period);
     const std::size_t node = new_end();
@@ -64,8 +65,8 @@ class HeldNetwork {
     return end;
   }
 
-  // The least number stands for all, so that tool and ground stay what they are. A slip that closes a ring of slips needs to hold
-  // none of a change: the others can.
+  // The least number stands for all, so that tool and ground stay what they are. A slip that closes a ring of slips
+  // needs to hold none of a change: the others can.
   void join_slips() {
     leader_.resize(ends_);
     std::iota(leader_.begin(), leader_.end(), std::size_t{0});
@@ -81,7 +82,8 @@ class HeldNetwork {
 
   bool is_pulled(std::size_t end) const {
     const auto pulls = [&](const Term& term) {
-      return std::any_of(term.weights.begin(), term.weights.end(), [&](const auto& weight) { return leader(weight.first) == end; });
+      return std::any_of(term.weights.begin(), term.weights.end(),
+                         [&](const auto& weight) { return leader(weight.first) == end; });
     };
     return std::any_of(springs_.begin(), springs_.end(), pulls) || std::any_of(dampers_.begin(), dampers_.end(), pulls);
   }
@@ -151,7 +153,8 @@ class HeldNetwork {
     const RealVector k = pull(springs_, set), b = pull(dampers_, set);
     Real stiffness = k(inner_), damping = b(inner_), relaxing = 0;
     for (Eigen::Index i = 0; i < inner_; ++i) {
-      const Real pull_p = k.head(inner_).dot(pencil_.vectors.col(i)), pull_q = b.head(inner_).dot(pencil_.vectors.col(i));
+      const Real pull_p = k.head(inner_).dot(pencil_.vectors.col(i)),
+                 pull_q = b.head(inner_).dot(pencil_.vectors.col(i));
       const Real m = pencil_.mu(i), d = (1 - m) / pencil_.shift;
       if (m < negligible) {
         damping -= pull_q * q_(i) / d;
@@ -186,7 +189,8 @@ void lay(const NormalTree& tree, std::size_t from, std::size_t to, HeldNetwork& 
   if (tree.kind == NormalTree::Kind::block) {
     network.add_spring(from, to, tree.form.static_stiffness);
     network.add_damper(from, to, tree.form.feedthrough_damping);
-    for (const Mode& mode : tree.form.modes) network.add_mode({{from, 1}, {to, -1}}, mode.stiffness, mode.relaxation_rate);
+    for (const Mode& mode : tree.form.modes)
+      network.add_mode({{from, 1}, {to, -1}}, mode.stiffness, mode.relaxation_rate);
     return;
   }
   std::size_t here = from;
@@ -210,8 +214,8 @@ HeldSlips held_slips(const NormalTree& component, const std::vector<Real>& feedt
   return result;
 }
 
-HeldSlips held_slips(const Network& whole, const std::vector<std::size_t>& elements, const std::vector<Real>& feedthroughs,
-                     const CutSettings& settings) {
+HeldSlips held_slips(const Network& whole, const std::vector<std::size_t>& elements,
+                     const std::vector<Real>& feedthroughs, const CutSettings& settings) {
   const MultiportForm form = multiport_form_at_slips(whole, elements);
   HeldNetwork network(settings);
   std::vector<std::size_t> ends;
@@ -227,7 +231,8 @@ HeldSlips held_slips(const Network& whole, const std::vector<std::size_t>& eleme
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) weights.emplace_back(ends[i], mode.weights[i]);
     network.add_mode(std::move(weights), mode.stiffness, mode.relaxation_rate);
   }
-  for (const auto& [between, yield] : slips_between(whole, elements)) network.add_slip(end_of(between.first), end_of(between.second), yield);
+  for (const auto& [between, yield] : slips_between(whole, elements))
+    network.add_slip(end_of(between.first), end_of(between.second), yield);
   return network.gains(feedthroughs);
 }
 

@@ -32,7 +32,8 @@ double ceiling(const Rational& value) {
 Rational hold_stiffness(const MotorConstants& motor) {
   Rational beta = Rational(motor.static_stiffness) / 2;
   Rational rest = Rational(motor.step_stiffness);
-  mp::cpp_int more = 0, less = 0;  // of all modes, in steps of the grid: fractions that are kept in lowest terms are slow
+  mp::cpp_int more = 0,
+              less = 0;  // of all modes, in steps of the grid: fractions that are kept in lowest terms are slow
   for (const MotorMode& mode : motor.modes) {
     const Rational a = exact_decay(motor, mode);
     const Rational d = mode.position_drive;
@@ -42,7 +43,8 @@ Rational hold_stiffness(const MotorConstants& motor) {
     }
     const Rational c = d / a;
     more += grid_steps_up(c / (1 + a));
-    less += grid_steps_up(-c);  // c rounded down: what is left comes out larger, never smaller in size by more than 2⁻¹²⁰⁰
+    less +=
+        grid_steps_up(-c);  // c rounded down: what is left comes out larger, never smaller in size by more than 2⁻¹²⁰⁰
   }
   beta += of_grid_steps(more);
   rest += of_grid_steps(less);

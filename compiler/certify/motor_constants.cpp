@@ -33,7 +33,8 @@ void read_bank(const UpdateLaw& law, const std::string& bank, MotorConstants& mo
   read_modes(law, bank + "gain", &MotorMode::position_drive, motor);
   read_modes(law, bank + "velocity_drive", &MotorMode::velocity_drive, motor);
   read_modes(law, bank + "energy_weight", &MotorMode::energy_weight, motor);
-  for (MotorMode& mode : motor.modes) (motor.loss_is_emitted ? mode.decay : mode.loss) = 1 - (motor.loss_is_emitted ? mode.loss : mode.decay);
+  for (MotorMode& mode : motor.modes)
+    (motor.loss_is_emitted ? mode.decay : mode.loss) = 1 - (motor.loss_is_emitted ? mode.loss : mode.decay);
   motor.unit_roundoff = unit_roundoff(law.scalar);
   motor.error_bound = law.relative_error_bound;
 }
@@ -42,7 +43,8 @@ bool has_slips(const UpdateLaw& law) {
   const auto chooses = [](const Expression& e) {
     return e.operation == Operation::clamp || e.operation == Operation::where;
   };
-  return law.brake_changes() || !law.couplings.empty() || !law.networks.empty() || law.surface_at || std::any_of(law.expressions.begin(), law.expressions.end(), chooses);
+  return law.brake_changes() || !law.couplings.empty() || !law.networks.empty() || law.surface_at ||
+         std::any_of(law.expressions.begin(), law.expressions.end(), chooses);
 }
 
 }  // namespace

@@ -30,11 +30,11 @@ struct MotorConstants {
   double velocity_gain = 0;          // g [N·s/m]
   bool loss_is_emitted = false;      // the decay is exactly 1 − loss; else the loss is exactly 1 − decay
   std::vector<MotorMode> modes;
-  double unit_roundoff = 0;          // of the law's scalar type
-  double error_bound = 0;            // of a mode's force, relative to its peak, from rounding while it runs
+  double unit_roundoff = 0;  // of the law's scalar type
+  double error_bound = 0;    // of a mode's force, relative to its peak, from rounding while it runs
 
-  bool is_idle() const;              // it makes nothing
-  bool follows_estimate() const;     // the motor uses v̂ anywhere
+  bool is_idle() const;           // it makes nothing
+  bool follows_estimate() const;  // the motor uses v̂ anywhere
   bool estimate_drives_modes() const;
 };
 

@@ -61,11 +61,13 @@ void NeededDamping::add_mode(const MotorMode& mode, double sample_period) {
 NeededDamping::ModeSums NeededDamping::mode_sums(const Arc& arc) const {
   const Phasor delta = arc.difference(), w = arc.backward(), turning = {-w.imaginary, w.real};  // δ, w, δ′ = jw
   const double least = arc.least_difference(), largest = std::min(arc.largest_difference(), 1.0);
-  const double centre_square = delta.real * delta.real + delta.imaginary * delta.imaginary, least_square = least * least;
+  const double centre_square = delta.real * delta.real + delta.imaginary * delta.imaginary,
+               least_square = least * least;
   ModeSums sums;
   for (const Mode& mode : modes_) {
     const double a = mode.decay, loss = mode.loss;
-    const double nearest = loss * loss + a * least_square, distance = loss * loss + a * centre_square;  // of D = |1 − a w|²
+    const double nearest = loss * loss + a * least_square,
+                 distance = loss * loss + a * centre_square;  // of D = |1 − a w|²
     const double inverse = 1 / std::sqrt(nearest);
     const Phasor phi = Phasor{loss + a * delta.real, a * delta.imaginary}.inverse();  // 1/(1 − a w)
     const Phasor steps = phi * phi * turning;                                         // −φ′/a
@@ -77,8 +79,8 @@ NeededDamping::ModeSums NeededDamping::mode_sums(const Arc& arc) const {
     if (mode.position == 0) continue;
     const double poisson = loss * (2 - loss) / 2;  // ½ (1 − a²)
     const double steep = 2 * poisson * a * square * square;
-    sums.position += mode.position * ArcModel{delta * phi, loss * steps, arc.largest_difference() * inverse, loss * square,
-                                              loss * square + 2 * a * loss * square * inverse};
+    sums.position += mode.position * ArcModel{delta * phi, loss * steps, arc.largest_difference() * inverse,
+                                              loss * square, loss * square + 2 * a * loss * square * inverse};
     sums.poles = sums.poles + mode.position * RealArcModel{0.5 + poisson / distance,
                                                            -2 * poisson * a * delta.imaginary / (distance * distance),
                                                            0.5 + poisson * square, steep * largest,
@@ -114,15 +116,16 @@ ArcModel NeededDamping::estimate(const Arc& arc, const ModeSums& sums) const {
 
 NeededDamping::Bounds NeededDamping::on(const Arc& arc) const {
   const ModeSums sums = mode_sums(arc);
-  const ArcModel geometric = polynomial_model(arc, geometric_);   // Σ_{j≤n} wʲ
-  const ArcModel late = power_model(arc, delay_ + 1);                                      // wⁿ⁺¹
+  const ArcModel geometric = polynomial_model(arc, geometric_);  // Σ_{j≤n} wʲ
+  const ArcModel late = power_model(arc, delay_ + 1);            // wⁿ⁺¹
   ArcModel rest = ArcModel::constant(rest_);
   rest.size += rest_error_ / roundoff_;
   if (vanished_ != 0) rest += vanished_ * power_model(arc, 1);
   ArcModel estimated;
   if (follows_estimate_) estimated = estimate(arc, sums);
   if (!std::isfinite(estimated.size)) return {-infinite, infinite};
-  const RealArcModel springs = real_part(stiffness_ * (geometric + ArcModel::constant(-0.5)) + sums.position * geometric);
+  const RealArcModel springs =
+      real_part(stiffness_ * (geometric + ArcModel::constant(-0.5)) + sums.position * geometric);
   const RealArcModel needed = springs + -1.0 * sums.poles + -1.0 * real_part(late * (rest + estimated));
   if (lag_share_ == 0) return without_lag(needed, arc.radius());
 
@@ -137,7 +140,8 @@ NeededDamping::Bounds NeededDamping::on(const Arc& arc) const {
 
 NeededDamping::Bounds NeededDamping::without_lag(const RealArcModel& needed, double radius) const {
   const double error = roundoff_ * needed.size;
-  const double reach = (std::abs(needed.slope) + roundoff_ * needed.steepness) * radius + needed.second / 2 * radius * radius;
+  const double reach =
+      (std::abs(needed.slope) + roundoff_ * needed.steepness) * radius + needed.second / 2 * radius * radius;
   return {needed.value - error, needed.value + (error + reach) * slack};
 }
 
@@ -152,8 +156,10 @@ NeededDamping::Bounds NeededDamping::with_lag(const RealArcModel& R, const ArcMo
   const double highest_R = R.value + R_reach;
   double over_arc = (highest_R + std::hypot(highest_R, Z.value.magnitude() + Z_reach)) / 2;
   if (shortest > 0) {
-    const double along = (R.value * R.slope + Z.value.real * Z.slope.real + Z.value.imaginary * Z.slope.imaginary) / length;
-    const double slope = std::abs(R.slope + along) / 2 + roundoff_ * (R.steepness + Z.steepness) + steepness * 2 * error / shortest;
+    const double along =
+        (R.value * R.slope + Z.value.real * Z.slope.real + Z.value.imaginary * Z.slope.imaginary) / length;
+    const double slope =
+        std::abs(R.slope + along) / 2 + roundoff_ * (R.steepness + Z.steepness) + steepness * 2 * error / shortest;
     const double second = (R.second + std::hypot(R.second, Z.second) + steepness * steepness / shortest) / 2;
     over_arc = std::min(over_arc, value + slope * radius + second / 2 * radius * radius);
   }

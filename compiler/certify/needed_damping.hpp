@@ -1,9 +1,9 @@
 // The physical damping that the sampled loop needs at one frequency (theory, section 6b; Colgate & Schenkel 1997), and
 // on an arc of frequencies.
 //
-// Motor: z⁻ⁿ H₀(z) from position sample to force, H₀ = k0 + δ (s + Σ d_i w/(1 − a_i w)) + δ Ĝ/T (g + Σ e_i w/(1 − a_i w)),
-// w = z⁻¹, δ = 1 − w, held over the period T. The work at the port is a quadratic form in the aliases of the tool's
-// motion at the frequencies ω_m = (θ + 2πm)/T. Without lag it is passive with the damping b when
+// Motor: z⁻ⁿ H₀(z) from position sample to force, H₀ = k0 + δ (s + Σ d_i w/(1 − a_i w)) + δ Ĝ/T (g + Σ e_i w/(1 − a_i
+// w)), w = z⁻¹, δ = 1 − w, held over the period T. The work at the port is a quadratic form in the aliases of the
+// tool's motion at the frequencies ω_m = (θ + 2πm)/T. Without lag it is passive with the damping b when
 //     b ≥ S(θ) = T Re{δ wⁿ H₀}/|δ|² = T k0 (Σ_{j≤n} cos jθ − ½) − T Re{wⁿ⁺¹ (H₀ − k0)/δ}
 // (δ²/|δ|² = −w), which has no singularity left in it. A mode in terms of c_i = d_i/a_i and D_i = |1 − a_i w|²:
 //     −Re{c wⁿ⁺¹/(1 − a w)} = −c (½ + ½ (1 − a²)/D) + c Re{δ/(1 − a w) · Σ_{j≤n} wʲ}
@@ -37,7 +37,9 @@ class NeededDamping {
 
   // Sum of the sizes of S's terms: nothing is known more finely than this, rounded [N·s/m].
   double scale() const { return scale_; }
-  std::size_t terms() const { return modes_.size() + 8; }  // that are summed on an arc, those of estimator and lag included
+  std::size_t terms() const {
+    return modes_.size() + 8;
+  }                                              // that are summed on an arc, those of estimator and lag included
   double roundoff() const { return roundoff_; }  // of S, relative to the size of its terms
 
  private:

@@ -14,10 +14,12 @@ constexpr double worthwhile = 0.9;
 
 using Eligible = bool (*)(const Candidate&, const Candidate&);
 
-const Candidate* least(const Decomposition& decomposition, std::optional<double> Candidate::*figure, Eligible eligible) {
+const Candidate* least(const Decomposition& decomposition, std::optional<double> Candidate::*figure,
+                       Eligible eligible) {
   const Candidate* best = nullptr;
   for (const Candidate& candidate : decomposition.candidates)
-    if (candidate.*figure && eligible(candidate, decomposition.choice()) && (!best || *(candidate.*figure) < *(best->*figure)))
+    if (candidate.*figure && eligible(candidate, decomposition.choice()) &&
+        (!best || *(candidate.*figure) < *(best->*figure)))
       best = &candidate;
   return best;
 }
@@ -37,9 +39,10 @@ std::optional<std::string> quieter_law(const ComponentSplit& split) {
   if (!chosen || !chosen->motor_noise) return std::nullopt;
   for (const SlipLawMerit& merit : split.merits)
     if (merit.refusal.empty() && merit.motor_noise && *merit.motor_noise < worthwhile * *chosen->motor_noise)
-      return fmt::format("behind slips '{}' would bring {:.3g} % of the motor's noise, and err by {:.3g} % in place of {:.3g} %",
-                         name_of(merit.law), 100 * *merit.motor_noise / *chosen->motor_noise, 100 * merit.largest_error,
-                         100 * chosen->largest_error);
+      return fmt::format(
+          "behind slips '{}' would bring {:.3g} % of the motor's noise, and err by {:.3g} % in place of {:.3g} %",
+          name_of(merit.law), 100 * *merit.motor_noise / *chosen->motor_noise, 100 * merit.largest_error,
+          100 * chosen->largest_error);
   return std::nullopt;
 }
 
@@ -54,8 +57,8 @@ std::vector<std::string> notes_on_choice(const Decomposition& decomposition, con
                                 *calmest->minimum_damping, *choice.minimum_damping, damping_unit));
   const Candidate* quietest = least(decomposition, &Candidate::motor_noise, needs_no_more);
   if (quietest && choice.motor_noise && *quietest->motor_noise < worthwhile * *choice.motor_noise)
-    notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise", quietest->name,
-                                100 * *quietest->motor_noise / *choice.motor_noise));
+    notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise",
+                                quietest->name, 100 * *quietest->motor_noise / *choice.motor_noise));
   for (const ComponentSplit* split : decomposition.slips.all())
     if (const auto note = quieter_law(*split); note && std::find(notes.begin(), notes.end(), *note) == notes.end())
       notes.push_back(*note);

@@ -11,8 +11,7 @@ using Complex = std::complex<double>;
 // Ĝ's answer r_j to a unit pulse: the estimate of velocity is (r_j − r_{j−1})/T.
 class AveragedPulse {
  public:
-  explicit AveragedPulse(const EstimatorFactors& estimator)
-      : estimator_(estimator), states_(estimator.poles.size()) {}
+  explicit AveragedPulse(const EstimatorFactors& estimator) : estimator_(estimator), states_(estimator.poles.size()) {}
 
   double next() {
     Complex value = place_ < estimator_.taps.size() ? estimator_.taps[place_] : 0;
@@ -63,8 +62,8 @@ class MotorPulse {
     return pulse;
   }
 
-  // Not below Σ|h_j| over all that is to come, q being 0 and Σ|r| at most `rest`. What a mode still makes, −α P, −α a P, …,
-  // sums to −P; modes that agree in sign keep it.
+  // Not below Σ|h_j| over all that is to come, q being 0 and Σ|r| at most `rest`. What a mode still makes, −α P, −α a
+  // P, …, sums to −P; modes that agree in sign keep it.
   double to_come(double rest) const {
     double of_sums = 0, of_rest = std::abs(motor_.velocity_gain);
     for (std::size_t i = 0; i < sums_.size(); ++i) {
@@ -90,7 +89,8 @@ double sum_of_pulse(const MotorConstants& motor, const SampledLoop& loop, const 
   const bool follows = motor.follows_estimate();
   double sum = std::abs(pulse.next(1, follows ? averaged.next() : 0));
   sum += std::abs(pulse.next(0, follows ? averaged.next() : 0));
-  for (std::size_t j = 0; follows && !averaged.is_over() && j < longest_pulse; ++j) sum += std::abs(pulse.next(0, averaged.next()));
+  for (std::size_t j = 0; follows && !averaged.is_over() && j < longest_pulse; ++j)
+    sum += std::abs(pulse.next(0, averaged.next()));
   return sum + pulse.to_come(follows ? averaged.rest() : 0);
 }
 

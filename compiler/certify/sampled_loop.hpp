@@ -9,29 +9,30 @@
 namespace dashpot::compiler {
 
 struct SampledLoop {
-  bool has_device = false;          // false: an ideal device, whose velocity is the difference of the last two samples
-  double sample_period = 0;         // T [s]
-  double jitter = 0;                // longest lateness of a sample [s]
-  unsigned delay_samples = 0;       // n
-  double amplifier_lag = 0;         // τ, first order [s]
-  double tolerance = 0;             // ε of the brake [1]
-  double largest_speed = 0;         // [m/s]; 0: not stated
-  double critical_speed = 0;        // v_c of b/(1 + (v/v_c)²) [m/s]; 0: the brake does not fade
-  double max_damping = 0;           // of the brake, without the residual [N·s/m]; not used without a device
-  double residual_damping = 0;      // of the brake at zero current [N·s/m]
-  double device_damping = 0;        // the mechanics' own [N·s/m]
-  double coulomb_friction = 0;      // [N]
-  double encoder_step = 0;          // Δ [m]
-  velocity_description velocity;    // in the joint's coordinate
-  double joint_encoder_step = 0;    // what the estimator is built with [m] or [rad]
+  bool has_device = false;        // false: an ideal device, whose velocity is the difference of the last two samples
+  double sample_period = 0;       // T [s]
+  double jitter = 0;              // longest lateness of a sample [s]
+  unsigned delay_samples = 0;     // n
+  double amplifier_lag = 0;       // τ, first order [s]
+  double tolerance = 0;           // ε of the brake [1]
+  double largest_speed = 0;       // [m/s]; 0: not stated
+  double critical_speed = 0;      // v_c of b/(1 + (v/v_c)²) [m/s]; 0: the brake does not fade
+  double max_damping = 0;         // of the brake, without the residual [N·s/m]; not used without a device
+  double residual_damping = 0;    // of the brake at zero current [N·s/m]
+  double device_damping = 0;      // the mechanics' own [N·s/m]
+  double coulomb_friction = 0;    // [N]
+  double encoder_step = 0;        // Δ [m]
+  velocity_description velocity;  // in the joint's coordinate
+  double joint_encoder_step = 0;  // what the estimator is built with [m] or [rad]
 
   double longest_hold() const { return sample_period + jitter; }  // T_max [s]
 };
 
 SampledLoop sampled_loop(const PortDevice& device, double sample_period);
 
-// Physical damping at the tool, at least, while the brake is told `brake`: (1 − ε) b and the residual, both faded at the
-// largest speed, and the mechanics'. Exact. Where the brake fades and no largest speed is stated, the mechanics' alone.
+// Physical damping at the tool, at least, while the brake is told `brake`: (1 − ε) b and the residual, both faded at
+// the largest speed, and the mechanics'. Exact. Where the brake fades and no largest speed is stated, the mechanics'
+// alone.
 Rational assured_damping(const SampledLoop& loop, const Rational& brake);
 
 // Of the brake's command, the share that is assured: (1 − ε)/(1 + (v/v_c)²).

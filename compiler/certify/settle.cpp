@@ -104,7 +104,8 @@ void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) 
   candidate.minimum_damping = merit.minimum_damping;
   candidate.certified.reset();
   if (!merit.minimum_damping) return;
-  const double reach = device_.is_ideal() ? candidate.damping + (slips_ ? slips_->largest_brake : 0) : loop_.max_damping;
+  const double reach =
+      device_.is_ideal() ? candidate.damping + (slips_ ? slips_->largest_brake : 0) : loop_.max_damping;
   const double largest_brake = candidate.damping + (slips_ ? slips_->largest_brake : 0);
   candidate.certified = largest_brake + *merit.minimum_damping <= reach;
 }
@@ -115,11 +116,13 @@ void CandidateSettler::make_room(Candidate& candidate) {
   if (!fitting) return;
   candidate.damping = *fitting;
   candidate.velocity_gain = std::abs(to_double(form_.linear.feedthrough_damping) - candidate.damping);
-  if (const std::optional<double> noise = device_.velocity_noise()) candidate.motor_noise = candidate.velocity_gain * *noise;
+  if (const std::optional<double> noise = device_.velocity_noise())
+    candidate.motor_noise = candidate.velocity_gain * *noise;
   for (StateInputMerit& merit : candidate.state_inputs) {
     const LinearForm& form = merit.state_input == StateInput::nodal ? decomposition_.realisation : form_.linear;
     merit.largest_error = largest_error(form, candidate.damping, merit.state_input, device_);
-    merit.extra_damping_any_delay = extra_damping_any_delay(form, candidate.damping, merit.state_input, device_.tolerance());
+    merit.extra_damping_any_delay =
+        extra_damping_any_delay(form, candidate.damping, merit.state_input, device_.tolerance());
     weigh(candidate, merit);
     if (merit.state_input == candidate.state_input) take(candidate, merit);
   }

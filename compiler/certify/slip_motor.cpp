@@ -14,9 +14,9 @@ namespace {
 // min x over a component's regimes; nothing where they are not listed.
 Real least_feedthrough(const ComponentSplit& split) {
   if (split.shares.empty()) return 0;
-  return std::min_element(split.shares.begin(), split.shares.end(), [](const BrakeShare& x, const BrakeShare& y) {
-           return x.feedthrough < y.feedthrough;
-         })->feedthrough;
+  return std::min_element(split.shares.begin(), split.shares.end(),
+                          [](const BrakeShare& x, const BrakeShare& y) { return x.feedthrough < y.feedthrough; })
+      ->feedthrough;
 }
 
 double largest_compensation(const ComponentSplit& split) {
@@ -47,8 +47,8 @@ class Sum {
       : network_(network), settings_(settings), half_step_(encoder_step / 2), margin_(1 + 16 * unit_roundoff(scalar)) {}
 
   // Every part has a cut: where slips alone join tool and ground the force is not unique, and the network was refused.
-  // `shares`: x of every regime; of a part behind a contact nothing, where the brake has some of the dampers, and none of them is
-  // the worst.
+  // `shares`: x of every regime; of a part behind a contact nothing, where the brake has some of the dampers, and none
+  // of them is the worst.
   void add(const NormalTree& component, const std::vector<Real>& shares) {
     cut_ += least_cut(component, settings_).value();
     add_held(held_slips(component, shares, settings_), shares);
@@ -71,12 +71,14 @@ class Sum {
     motor_.held_compensation += largest_compensation(split);
   }
 
-  // The brake has the dampers while the tool touches, and not while it is free. What it has earned it has earned since the touch.
+  // The brake has the dampers while the tool touches, and not while it is free. What it has earned it has earned since
+  // the touch.
   void add_behind_contact(const LinearForm& linear, double brake, double behind_slips) {
     cut_ += cut_of(linear, settings_);
     held_gain_ += linear.static_stiffness;
     for (const Mode& mode : linear.modes)
-      held_gain_ += 2 * mode_coefficients(mode, settings_.scheme, StateInput::position, settings_.sample_period).position_gain;
+      held_gain_ +=
+          2 * mode_coefficients(mode, settings_.scheme, StateInput::position, settings_.sample_period).position_gain;
     motor_.behind_contact = true;
     const double feedthrough = to_double(linear.feedthrough_damping);
     motor_.lets_go_by_estimate = feedthrough + behind_slips > 0;
@@ -104,7 +106,8 @@ class Sum {
     held_gain_ += held.gain;
     const bool is_motors = std::all_of(shares.begin(), shares.end(), [](const Real& x) { return x == 0; });
     if (is_motors && held.series_yield >= 0 && held.series_yield <= held.gain * half_step_) return;
-    for (const HeldSlip& slip : held.slips) motor_.slides_within_step = motor_.slides_within_step || slip.yield_force < slip.gain * half_step_;
+    for (const HeldSlip& slip : held.slips)
+      motor_.slides_within_step = motor_.slides_within_step || slip.yield_force < slip.gain * half_step_;
   }
 
   const Network& network_;
@@ -134,7 +137,8 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
   const std::vector<Real> nothing = {Real(0)};
   for (std::size_t i = 0; !in_one && i < form.components.size(); ++i) {
     const bool is_braked = is_split && !network.contact;
-    sum.add(is_split ? slips.components[i].rendered : form.components[i], is_braked ? feedthroughs(slips.components[i]) : nothing);
+    sum.add(is_split ? slips.components[i].rendered : form.components[i],
+            is_braked ? feedthroughs(slips.components[i]) : nothing);
     if (is_braked) sum.add_brake(slips.components[i]);
   }
   if (slips.networks.empty())

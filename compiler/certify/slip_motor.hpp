@@ -1,14 +1,15 @@
 // What the motor makes behind slips and contacts, as far as passivity asks about it (theory, sections 5 and 6).
 //
-// m_k = f_k − x_k Δu_k/h, where x_k ≤ b∞ of the regime is the brake's. A slip takes energy up, and so does a contact, whose
-// f ≥ 0, gap ≥ 0 and f·gap = 0 make f Δs ≤ f Δu. Of any cut (cut.hpp), with M = L − x e eᵀ ⪰ 0 the dampers' Laplacian less
-// what is the brake's, in a regime's motions y,
+// m_k = f_k − x_k Δu_k/h, where x_k ≤ b∞ of the regime is the brake's. A slip takes energy up, and so does a contact,
+// whose f ≥ 0, gap ≥ 0 and f·gap = 0 make f Δs ≤ f Δu. Of any cut (cut.hpp), with M = L − x e eᵀ ⪰ 0 the dampers'
+// Laplacian less what is the brake's, in a regime's motions y,
 //     eᵀM′y′ Δu − ½ y′ᵀM′y′ − eᵀM y Δu − ½ yᵀM y ≤ (b∞(cut) − ½ (x + x′)) Δu²
 // so that for any motion, any jitter up to T_max, whatever slides, sticks, touches or lets go, a constant damping of
 //     β T_max + (b∞(cut) − min x) T_max/h
 // is enough. A force that comes n samples late, or through an amplifier of lag τ, differs from the one that would be
-// passive, part by part, by no more than the share n + 1 + √((τ/2T) coth(T/2τ)) of what a hold does: β takes its square.
-// A motor that adds −κ v̂, 0 ≤ κ ≤ κ_most and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ_most γ T_max/h, unless the brake earns it.
+// passive, part by part, by no more than the share n + 1 + √((τ/2T) coth(T/2τ)) of what a hold does: β takes its
+// square. A motor that adds −κ v̂, 0 ≤ κ ≤ κ_most and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ_most γ T_max/h, unless the brake earns
+// it.
 #pragma once
 
 #include <optional>
@@ -20,15 +21,15 @@
 namespace dashpot::compiler {
 
 struct SlipMotor {
-  bool behind_contact = false;   // all of the network, and the brake is off while the tool is free
-  double stiffness = 0;          // β of the cut [N/m], rounded up beyond what rounding of the constants does
-  double damping = 0;            // b∞(cut) − min x [N·s/m], the same
-  double held_compensation = 0;  // β v̂ that a finite memory and the brake's own share have earned [N·s/m]
-  double compensation = 0;       // of any other estimate of the velocity [N·s/m]
+  bool behind_contact = false;       // all of the network, and the brake is off while the tool is free
+  double stiffness = 0;              // β of the cut [N/m], rounded up beyond what rounding of the constants does
+  double damping = 0;                // b∞(cut) − min x [N·s/m], the same
+  double held_compensation = 0;      // β v̂ that a finite memory and the brake's own share have earned [N·s/m]
+  double compensation = 0;           // of any other estimate of the velocity [N·s/m]
   bool lets_go_by_estimate = false;  // of a contact: the command ends where f′ + b∞ v̂ < 0
-  double held_gain = 0;          // Σ|h_j| of what is behind slips or a contact, every slip holding (held_slips.hpp) [N/m]
+  double held_gain = 0;  // Σ|h_j| of what is behind slips or a contact, every slip holding (held_slips.hpp) [N/m]
   bool slides_within_step = false;  // the encoder's step alone can make a slip give way
-  double least_brake = 0;        // of what is behind slips, in every regime [N·s/m]
+  double least_brake = 0;           // of what is behind slips, in every regime [N·s/m]
   double largest_brake = 0;
 };
 

@@ -13,7 +13,7 @@ class SourceFiles {
  public:
   const SourceFile* open(const std::string& path, Diagnostics& diagnostics);
   const SourceFile& keep(std::string name, std::string text);  // what is no file, and lives as long as one
-  void keep(std::vector<std::unique_ptr<SourceFile>> more);  // words of the command line that diagnostics point into
+  void keep(std::vector<std::unique_ptr<SourceFile>> more);    // words of the command line that diagnostics point into
 
  private:
   std::vector<std::unique_ptr<SourceFile>> files_;
@@ -42,7 +42,7 @@ std::optional<Device> read_device(const SourceFile& file, Diagnostics& diagnosti
 
 // The device of --device. Refuses: what its file refuses, and a --rate that contradicts it (command line wrong).
 struct DeviceChoice {
-  std::optional<Device> device;  // empty where none was asked for
+  std::optional<Device> device;          // empty where none was asked for
   std::optional<std::string> text = {};  // of its file
   ExitStatus status = ExitStatus::done;
 };

@@ -11,7 +11,8 @@ double return_path_correction(double pole_length, double pole_width) {
 }
 
 double linear_damping(const EddyBrake& brake, double correction) {
-  return correction * brake.thickness * brake.pole_length * brake.pole_width * brake.field * brake.field / brake.resistivity;
+  return correction * brake.thickness * brake.pole_length * brake.pole_width * brake.field * brake.field /
+         brake.resistivity;
 }
 
 }  // namespace dashpot::compiler

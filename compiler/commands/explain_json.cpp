@@ -127,17 +127,28 @@ Json slip_laws_of(const Compilation& c) {
 Json json_of(const TunableTables& tables) {
   Json list = Json::array();
   for (const Tunable& t : tables.tunables)
-    list.push_back({{"name", t.name}, {"unit", t.unit}, {"value", t.range.value}, {"min", t.range.min}, {"max", t.range.max}});
+    list.push_back(
+        {{"name", t.name}, {"unit", t.unit}, {"value", t.range.value}, {"min", t.range.min}, {"max", t.range.max}});
   return list;
 }
 
 // Of every key by how it ends; what is no such quantity is a share of something.
 Json json_of(const PortUnits& units) {
-  return {{"stiffness", units.stiffness}, {"damping", units.damping},   {"compliance", units.compliance},
-          {"fluidity", units.fluidity},   {"rate", "1/s"},              {"frequency", "Hz"},
-          {"velocity_gain", units.damping}, {"motor_noise", units.force}, {"extra_damping_any_delay", units.damping},
-          {"quantisation_gain", units.stiffness}, {"unpaid_force", units.force}, {"hysteresis", units.position},
-          {"at", units.position},         {"displacement", units.position}, {"valid.rate", units.velocity}};
+  return {{"stiffness", units.stiffness},
+          {"damping", units.damping},
+          {"compliance", units.compliance},
+          {"fluidity", units.fluidity},
+          {"rate", "1/s"},
+          {"frequency", "Hz"},
+          {"velocity_gain", units.damping},
+          {"motor_noise", units.force},
+          {"extra_damping_any_delay", units.damping},
+          {"quantisation_gain", units.stiffness},
+          {"unpaid_force", units.force},
+          {"hysteresis", units.position},
+          {"at", units.position},
+          {"displacement", units.position},
+          {"valid.rate", units.velocity}};
 }
 
 Json json_of(const Certificate& c) {
@@ -155,7 +166,9 @@ Json json_of(const Certificate& c) {
 }
 
 Json json_of(const Validity& valid) {
-  const auto ends = [](const std::optional<Range>& range) { return range ? Json({range->low, range->high}) : Json(nullptr); };
+  const auto ends = [](const std::optional<Range>& range) {
+    return range ? Json({range->low, range->high}) : Json(nullptr);
+  };
   return {{"frequency", ends(valid.frequency)}, {"rate", ends(valid.rate)}, {"displacement", ends(valid.displacement)}};
 }
 
@@ -171,30 +184,33 @@ std::string explain_json(const Compilation& c) {
   for (const Candidate& candidate : c.decomposition.candidates) candidates.push_back(json_of(candidate));
   const Candidate& choice = c.decomposition.choice();
   Json all = {{"name", c.network.name},
-          {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
-          {"units", json_of(port_units(c.network.port_motion))},
-          {"static_stiffness", to_double(c.form.linear.static_stiffness)},
-          {"feedthrough_damping", to_double(c.form.linear.feedthrough_damping)},
-          {"modes", modes},
-          {"zero_frequency_damping", to_double(zero_frequency_damping(c.form.linear))},
-          {"kelvin", {{"glass_compliance", to_double(creep.glass_compliance)},
-                      {"fluidity", to_double(creep.fluidity)},
-                      {"elements", kelvin}}},
-          {"contact", c.network.contact ? Json({{"at", c.network.contact->at}, {"hysteresis", c.decomposition.encoder_step}}) : Json(nullptr)},
-          {"scheme", name_of(c.law.scheme)},
-          {"rate", c.rate},
-          {"fastest_relaxation_rate", fastest_rate(c)},
-          {"valid", json_of(c.network.valid)},
-          {"device", c.device ? Json(c.device->name) : Json(nullptr)},
-          {"coupled_operations", cost_of(c.law, c.law.output).coupled},
-          {"candidates", candidates},
-          {"regimes", regimes_of(c)},
-          {"slip_laws", slip_laws_of(c)},
-          {"certificate", json_of(c.certificate)},
-          {"notes", notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)},
-          {"chosen", choice.name},
-          {"state_input", name_of(choice.state_input)},
-          {"reason", choice.reason + "; " + c.decomposition.reason}};
+              {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
+              {"units", json_of(port_units(c.network.port_motion))},
+              {"static_stiffness", to_double(c.form.linear.static_stiffness)},
+              {"feedthrough_damping", to_double(c.form.linear.feedthrough_damping)},
+              {"modes", modes},
+              {"zero_frequency_damping", to_double(zero_frequency_damping(c.form.linear))},
+              {"kelvin",
+               {{"glass_compliance", to_double(creep.glass_compliance)},
+                {"fluidity", to_double(creep.fluidity)},
+                {"elements", kelvin}}},
+              {"contact", c.network.contact
+                              ? Json({{"at", c.network.contact->at}, {"hysteresis", c.decomposition.encoder_step}})
+                              : Json(nullptr)},
+              {"scheme", name_of(c.law.scheme)},
+              {"rate", c.rate},
+              {"fastest_relaxation_rate", fastest_rate(c)},
+              {"valid", json_of(c.network.valid)},
+              {"device", c.device ? Json(c.device->name) : Json(nullptr)},
+              {"coupled_operations", cost_of(c.law, c.law.output).coupled},
+              {"candidates", candidates},
+              {"regimes", regimes_of(c)},
+              {"slip_laws", slip_laws_of(c)},
+              {"certificate", json_of(c.certificate)},
+              {"notes", notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)},
+              {"chosen", choice.name},
+              {"state_input", name_of(choice.state_input)},
+              {"reason", choice.reason + "; " + c.decomposition.reason}};
   if (c.law.tunable) all["tunables"] = json_of(*c.law.tunable);
   return all.dump(2) + "\n";
 }

@@ -24,11 +24,12 @@ namespace {
 
 std::string kelvin_text(const Compilation& c, const PortUnits& units) {
   const KelvinForm creep = kelvin_form(c.form.linear);
-  std::string text = fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g} {}, fluidity {:.8g} {}\n",
-                                 to_double(creep.glass_compliance), units.compliance, to_double(creep.fluidity), units.fluidity);
+  std::string text =
+      fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g} {}, fluidity {:.8g} {}\n",
+                  to_double(creep.glass_compliance), units.compliance, to_double(creep.fluidity), units.fluidity);
   for (const KelvinElement& element : creep.elements)
-    text += fmt::format("  Kelvin element      {:.10g} {} and {:.10g} {}\n", to_double(element.stiffness), units.stiffness,
-                        to_double(element.damping), units.damping);
+    text += fmt::format("  Kelvin element      {:.10g} {} and {:.10g} {}\n", to_double(element.stiffness),
+                        units.stiffness, to_double(element.damping), units.damping);
   return text;
 }
 
@@ -52,17 +53,19 @@ std::string valid_text(const Validity& valid, const PortUnits& units) {
 
 std::string notes_text(const Compilation& c) {
   std::string text;
-  for (const std::string& note : notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)) text += "note: " + note + "\n";
+  for (const std::string& note : notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping))
+    text += "note: " + note + "\n";
   return text;
 }
 
 std::string cost_text(const Compilation& c) {
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
-  std::string text = fmt::format("cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
-                                 output.additions, output.multiplications, update.additions, update.multiplications,
-                                 update.guards, output.states);
+  std::string text = fmt::format(
+      "cost                  output {} + {} multiplications, update {} + {} and {} guards, {} states\n",
+      output.additions, output.multiplications, update.additions, update.multiplications, update.guards, output.states);
   if (output.coupled > 0)
-    text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n", output.coupled);
+    text += fmt::format("coupled slips         at most {} additions, multiplications and divisions in output\n",
+                        output.coupled);
   return text;
 }
 
@@ -71,12 +74,15 @@ std::string tunable_text(const TunableTables& tables) {
   const TunableCost cost = cost_of(tables);
   std::string text, elements;
   for (const Tunable& t : tables.tunables)
-    text += fmt::format("tunable               {} {} {}, {} to {}\n", t.name, t.range.value, t.unit, t.range.min, t.range.max);
+    text += fmt::format("tunable               {} {} {}, {} to {}\n", t.name, t.range.value, t.unit, t.range.min,
+                        t.range.max);
   text += fmt::format("damping follows       {}\n", tables.brake);
   for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
   if (!elements.empty()) text += fmt::format("backward Euler        {}\n", elements);
-  return text + fmt::format("cost at most          output {}, update {}, set {} additions, multiplications and divisions, {} states\n",
-                            cost.output, cost.update, cost.set, cost.states);
+  return text +
+         fmt::format(
+             "cost at most          output {}, update {}, set {} additions, multiplications and divisions, {} states\n",
+             cost.output, cost.update, cost.set, cost.states);
 }
 
 }  // namespace
@@ -86,12 +92,18 @@ std::string explain_text(const Compilation& c) {
   const PortUnits units = port_units(c.network.port_motion);
   std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
   text += to_text(c.form.linear, c.network);
-  text += fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)), units.damping);
-  text += pace_text(c) + valid_text(c.network.valid, units) + kelvin_text(c, units) + "\n" + to_text(c.decomposition, c.network);
-  if (c.device) text += "error                 of the estimator, the loop's delay and the amplifier's lag; the hold's half period comes on top\n";
+  text += fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)),
+                      units.damping);
+  text += pace_text(c) + valid_text(c.network.valid, units) + kelvin_text(c, units) + "\n" +
+          to_text(c.decomposition, c.network);
+  if (c.device)
+    text +=
+        "error                 of the estimator, the loop's delay and the amplifier's lag; the hold's half period "
+        "comes on top\n";
   text += to_text(c.decomposition.slips, c.network);
-  text += fmt::format("any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",
-                      choice.extra_damping_any_delay.value_or(0), units.damping);
+  text += fmt::format(
+      "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",
+      choice.extra_damping_any_delay.value_or(0), units.damping);
   if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";
   text += to_text(c.certificate, c.network.port_motion) + notes_text(c);
   return text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c));

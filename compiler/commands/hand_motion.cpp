@@ -9,12 +9,13 @@ constexpr double frequency = 0.5;      // of the swing [Hz]
 constexpr double lead_in = 1;          // to where it is about [s]
 constexpr double share_of_room = 0.4;  // that a swing takes of the way to the end of the range
 
-simulated::trajectory swing(double amplitude, double centre) { return simulated::sine(amplitude, frequency, 0, centre); }
+simulated::trajectory swing(double amplitude, double centre) {
+  return simulated::sine(amplitude, frequency, 0, centre);
+}
 
 simulated::trajectory swing_led_to(double amplitude, double centre) {
-  return [lead = simulated::smoothly_through({{0, 0}, {lead_in, centre}}), then = swing(amplitude, centre)](double time) {
-    return time < lead_in ? lead(time) : then(time - lead_in);
-  };
+  return [lead = simulated::smoothly_through({{0, 0}, {lead_in, centre}}),
+          then = swing(amplitude, centre)](double time) { return time < lead_in ? lead(time) : then(time - lead_in); };
 }
 
 }  // namespace

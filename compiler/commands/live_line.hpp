@@ -19,8 +19,8 @@ class LiveLine {
 
   bool rotary_;
   bool terminal_;
-  double next_ = 0;          // [s]
-  double last_time_ = 0;     // [s]
+  double next_ = 0;       // [s]
+  double last_time_ = 0;  // [s]
   std::uint64_t records_ = 0;
   std::int64_t latest_ = 0;  // largest lateness since the last line [ns]
   std::uint64_t faults_ = 0;

@@ -33,7 +33,8 @@ LoadedModel::LoadedModel(const model_table& table)
   table_->construct(object_);
 }
 
-std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOptions options, Diagnostics& diagnostics) {
+std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOptions options,
+                                      Diagnostics& diagnostics) {
   options.with_library = true;
   const auto files = emit_cpp(compilation, options, diagnostics);
   const TemporaryFolder folder;
@@ -46,11 +47,13 @@ std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOp
   const char* chosen = std::getenv("CXX");
   const std::string compiler = chosen != nullptr && *chosen != '\0' ? chosen : "c++";
   const fs::path library = folder.path() / "model.so", log = folder.path() / "compiler.log";
-  const int status = run_program({compiler, "-std=c++17", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I" + runtime_headers(),
-                                  (folder.path() / (compilation.network.name + "_library.cpp")).string(), "-o", library.string()},
-                                 log.string());
+  const int status =
+      run_program({compiler, "-std=c++17", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I" + runtime_headers(),
+                   (folder.path() / (compilation.network.name + "_library.cpp")).string(), "-o", library.string()},
+                  log.string());
   if (status != 0) {
-    diagnostics.report<DiagnosticCode::system_compiler_failed>({}, compiler, status == program_not_found ? "cannot be started" : contents_of(log));
+    diagnostics.report<DiagnosticCode::system_compiler_failed>(
+        {}, compiler, status == program_not_found ? "cannot be started" : contents_of(log));
     return std::nullopt;
   }
   const model_table* table = open_library(library, diagnostics);

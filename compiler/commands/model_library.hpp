@@ -34,6 +34,7 @@ class LoadedModel {
 // Writes the class to a folder of its own below the system's temporary one, compiles it with $CXX or c++ against the
 // runtime's headers, loads it, and removes the folder. The library stays loaded. Refuses: no compiler, a compiler that
 // fails (its own words are passed on), a folder that cannot be made, templates that do not fit.
-std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOptions options, Diagnostics& diagnostics);
+std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOptions options,
+                                      Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

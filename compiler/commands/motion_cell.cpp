@@ -18,12 +18,10 @@ std::optional<double> number_in_cell(std::string_view text) {
 void report_cell(Span cell, std::string_view name, Diagnostics& diagnostics) {
   const std::string_view text = std::string_view(cell.file->text()).substr(cell.begin, cell.end - cell.begin);
   const bool is_decimal = !text.empty() && decimal_length(text) == text.size();
-  if (!is_decimal)
-    diagnostics.report<DiagnosticCode::csv_not_a_number>(cell, name, text);
+  if (!is_decimal) diagnostics.report<DiagnosticCode::csv_not_a_number>(cell, name, text);
   else if (round_decimal(text, {}).rounding == Rounding::overflow)
     diagnostics.report<DiagnosticCode::number_too_large>(cell, text);
-  else
-    diagnostics.report<DiagnosticCode::number_too_small>(cell, text);
+  else diagnostics.report<DiagnosticCode::number_too_small>(cell, text);
 }
 
 }  // namespace dashpot::compiler

@@ -8,8 +8,8 @@
 
 namespace dashpot::compiler {
 
-// In decimal notation, like the numbers of a network: with a sign or without. Nothing where it is none, is not finite, or is
-// beyond a double: too large, or not zero and yet too small.
+// In decimal notation, like the numbers of a network: with a sign or without. Nothing where it is none, is not finite,
+// or is beyond a double: too large, or not zero and yet too small.
 std::optional<double> number_in_cell(std::string_view text);
 
 // Why a cell of column `name` holds no such number.

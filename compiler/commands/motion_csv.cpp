@@ -85,7 +85,8 @@ class Table {
   }
 
   // A column by its name alone, or with its unit as the loop's own log writes it.
-  std::optional<std::size_t> column(const std::vector<Cell>& header, std::initializer_list<std::string_view> names, bool needed) {
+  std::optional<std::size_t> column(const std::vector<Cell>& header, std::initializer_list<std::string_view> names,
+                                    bool needed) {
     std::optional<std::size_t> found;
     for (std::size_t i = 0; i < header.size(); ++i) {
       if (std::find(names.begin(), names.end(), header[i].text) == names.end()) continue;

@@ -30,9 +30,9 @@ struct Motion {
 };
 
 // In: comma-separated text with a header that names `time` and `position`, optionally `velocity`, in any order among
-// other columns, alone or with units as in "time [s]"; blank lines do not count. Refuses: missing or repeated columns, rows
-// of another length, cells that are no finite numbers, times that do not rise, a period that is not uniform or that no loop
-// has.
+// other columns, alone or with units as in "time [s]"; blank lines do not count. Refuses: missing or repeated columns,
+// rows of another length, cells that are no finite numbers, times that do not rise, a period that is not uniform or
+// that no loop has.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

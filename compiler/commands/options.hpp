@@ -29,22 +29,22 @@ struct Options {
   std::vector<std::string> networks;
   std::optional<std::string> device;
   Choices choices;
-  std::optional<std::string> output;  // folder of compile, file of simulate, log of run
-  std::string input;                  // simulate: the motion
-  std::optional<std::string> print;   // compile: the stage to show instead of writing
+  std::optional<std::string> output;   // folder of compile, file of simulate, log of run
+  std::string input;                   // simulate: the motion
+  std::optional<std::string> print;    // compile: the stage to show instead of writing
   std::optional<std::string> timings;  // compile: "text" or "json"
   std::optional<std::string> depfile;
   std::optional<std::string> certificate;  // compile: to write; verify: to read
-  std::string header;             // verify
+  std::string header;                      // verify
   EmissionOptions emission;
-  bool uncertified = false;       // compile: also what lacks damping on its device
-  bool json = false;              // explain
-  std::optional<double> duration;   // run [s]; without end where empty
-  std::optional<std::string> port;  // run: the board's; empty: the simulated device
+  bool uncertified = false;           // compile: also what lacks damping on its device
+  bool json = false;                  // explain
+  std::optional<double> duration;     // run [s]; without end where empty
+  std::optional<std::string> port;    // run: the board's; empty: the simulated device
   std::optional<std::string> hand;    // run: who holds the simulated device; empty: relaxed
   std::optional<std::uint64_t> seed;  // run: of the simulated device; empty: 0
-  BladeWords blade;               // device
-  bool fast = false;                // run: simulated time instead of real time
+  BladeWords blade;                   // device
+  bool fast = false;                  // run: simulated time instead of real time
   bool json_diagnostics = false;
 };
 

@@ -7,7 +7,8 @@ ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& di
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   for (const std::string& path : options.networks)
-    if (const SourceFile* file = files.open(path, diagnostics)) compile(*file, options.choices, device.device, diagnostics);
+    if (const SourceFile* file = files.open(path, diagnostics))
+      compile(*file, options.choices, device.device, diagnostics);
   return diagnostics.has_errors() ? ExitStatus::input_refused : ExitStatus::done;
 }
 

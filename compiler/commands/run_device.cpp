@@ -23,8 +23,8 @@ class Words {
   double positive(const char* option, const std::string& text, const Dimension& dimension) {
     sources_.push_back(std::make_unique<SourceFile>(option, text));
     const Span span{sources_.back().get(), 0, text.size()};
-    const std::optional<double> value = read_quantity_as({ValueDecl::Form::text, text, span},
-                                                         {option, dimension, motion::translation}, diagnostics_);
+    const std::optional<double> value =
+        read_quantity_as({ValueDecl::Form::text, text, span}, {option, dimension, motion::translation}, diagnostics_);
     if (value && !(*value > 0)) diagnostics_.report<DiagnosticCode::not_positive>(span, option, text);
     sound_ = sound_ && value && *value > 0;
     return value.value_or(1);
@@ -40,7 +40,7 @@ class Words {
 };
 
 struct FilledBrake {
-  double damping;                                   // at the joint [N·m·s/rad] or [N·s/m]
+  double damping;  // at the joint [N·m·s/rad] or [N·s/m]
   std::optional<double> damping_per_current_squared;
 };
 
@@ -55,10 +55,12 @@ bool is_within_numbers(const FilledBrake& brake, bool rotary, Diagnostics& diagn
     return false;
   };
   return is_quantity("damping", brake.damping, damping_unit(rotary)) &&
-         is_quantity("damping per squared current", brake.damping_per_current_squared.value_or(1), current_unit(rotary));
+         is_quantity("damping per squared current", brake.damping_per_current_squared.value_or(1),
+                     current_unit(rotary));
 }
 
-std::optional<FilledBrake> fill_in(const Device& device, const BladeWords& blade, Words& words, Diagnostics& diagnostics) {
+std::optional<FilledBrake> fill_in(const Device& device, const BladeWords& blade, Words& words,
+                                   Diagnostics& diagnostics) {
   const device_description& d = device.description;
   const bool rotary = d.motion == motion::rotation;
   const EddyBrake brake{words.positive("--blade", blade.thickness, dimensions::length),
@@ -98,7 +100,8 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
   const SourceFile* file = files.open(*options.device, diagnostics);
   const std::string text = filled_text(*file, *brake, device.device->description.motion == motion::rotation);
   // All other commands have to take it.
-  if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics)) return ExitStatus::input_refused;
+  if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics))
+    return ExitStatus::input_refused;
   if (!options.output) return write_standard_output(text, diagnostics);
   return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }

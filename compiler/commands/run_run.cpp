@@ -98,7 +98,8 @@ std::optional<servo_summary> run_simulated(const Options& options, const Compila
 
 ExitStatus conclude(const servo_summary& summary, const std::string& log, Diagnostics& diagnostics) {
   const int unwritten = summary.telemetry_error;
-  if (unwritten != 0) diagnostics.report<DiagnosticCode::cannot_write_file>({}, log, std::string(std::strerror(unwritten)));
+  if (unwritten != 0)
+    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log, std::string(std::strerror(unwritten)));
   const bool has_log = is_admitted(summary.verdict) && unwritten == 0;
   const bool sound = has_log && summary.left_safe && summary.faults.total() == 0;
   const ExitStatus told = write_standard_output(to_text(summary) + (has_log ? "log: " + log + "\n" : ""), diagnostics);
@@ -127,7 +128,8 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   warn_of_driving_uncertified(*compilation, diagnostics);
   std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);
   if (!model) return ExitStatus::input_refused;
-  if (!options.json_diagnostics) tell(options, diagnostics);  // before anything moves; a program reads one array, at the end
+  if (!options.json_diagnostics)
+    tell(options, diagnostics);  // before anything moves; a program reads one array, at the end
   LiveLine live(compilation->network.port_motion == motion::rotation);
   const servo_options loop = loop_options(options, *compilation, live);
   const std::optional<servo_summary> summary = options.port

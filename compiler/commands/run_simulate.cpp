@@ -19,10 +19,12 @@ constexpr double same_rate = 1e-6;  // relative: times in a file are decimal num
 // What rates may differ by, relative: the times' rounding leaves more of it open where they have few digits.
 double same_rate_of(const Motion& motion) { return std::max(same_rate, motion.period_error / *motion.period); }
 
-// The rate that the file means: a whole number of hertz, or a period with few digits, rather than the rounding of times.
+// The rate that the file means: a whole number of hertz, or a period with few digits, rather than the rounding of
+// times.
 double rate_meant(const Motion& motion) {
   const double period = *motion.period, rate = 1 / period;
-  if (const double whole = std::round(rate); whole > 0 && std::abs(rate - whole) <= same_rate_of(motion) * rate) return whole;
+  if (const double whole = std::round(rate); whole > 0 && std::abs(rate - whole) <= same_rate_of(motion) * rate)
+    return whole;
   return 1 / std::strtod(fmt::format("{:.7g}", period).c_str(), nullptr);
 }
 
@@ -48,7 +50,8 @@ void warn_once_outside(const std::optional<Range>& range, double value, double t
 // Columns of the motion that are called like tunables.
 class ValueColumns {
  public:
-  // Refuses: a cell that is no finite number, a column given twice, a tunable that is called like one of the motion's own.
+  // Refuses: a cell that is no finite number, a column given twice, a tunable that is called like one of the motion's
+  // own.
   ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) : network_(c.network) {
     if (!c.law.tunable) return;
     tunables_ = c.law.tunable->tunables;
@@ -57,7 +60,8 @@ class ValueColumns {
       refuse_name_of_motion(tunable.name, diagnostics);
       columns_.push_back(column_of(tunable.name, motion, diagnostics));
     }
-    is_empty_ = std::all_of(columns_.begin(), columns_.end(), [](const OtherColumn* column) { return column == nullptr; });
+    is_empty_ =
+        std::all_of(columns_.begin(), columns_.end(), [](const OtherColumn* column) { return column == nullptr; });
   }
 
   // Sets the values of a row, and warns once of each tunable that is out of its range.
@@ -79,11 +83,14 @@ class ValueColumns {
     const Tunable& tunable = tunables_[i];
     if (warned_[i] || (value >= tunable.range.min && value <= tunable.range.max)) return;
     warned_[i] = true;
-    diagnostics.report<DiagnosticCode::outside_tunable_range>(place_of(tunable.name), tunable.name, value, tunable.unit, time, tunable.range.min, tunable.range.max);
+    diagnostics.report<DiagnosticCode::outside_tunable_range>(place_of(tunable.name), tunable.name, value, tunable.unit,
+                                                              time, tunable.range.min, tunable.range.max);
   }
 
   Span place_of(const std::string& tunable) const {
-    return std::find_if(network_.parameters.begin(), network_.parameters.end(), [&](const Parameter& p) { return p.name == tunable; })->span;
+    return std::find_if(network_.parameters.begin(), network_.parameters.end(),
+                        [&](const Parameter& p) { return p.name == tunable; })
+        ->span;
   }
 
   // Its column would be the motion's, so that nothing could ever set it.
@@ -131,8 +138,8 @@ std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& di
                       warned_displacement, c.network, diagnostics);
     // Rest is in every recording, and says nothing of how fast the tissue may be pressed.
     if (velocity != 0)
-      warn_once_outside(c.network.valid.rate, std::abs(double(velocity)), motion.time[i], "rate", turns ? "rad/s" : "m/s",
-                        warned_rate, c.network, diagnostics);
+      warn_once_outside(c.network.valid.rate, std::abs(double(velocity)), motion.time[i], "rate",
+                        turns ? "rad/s" : "m/s", warned_rate, c.network, diagnostics);
   }
   return text;
 }

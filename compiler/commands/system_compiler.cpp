@@ -32,10 +32,8 @@ TemporaryFolder::TemporaryFolder() : above_(folder_for_temporary_files()) {
   for (const int signal : {SIGHUP, SIGINT, SIGTERM}) sigaddset(&ending, signal);
   ::sigprocmask(SIG_BLOCK, &ending, &blocked_before_);
   std::string pattern = (fs::path(above_) / "dashpot-XXXXXX").string();
-  if (::mkdtemp(pattern.data()) != nullptr)
-    path_ = pattern;
-  else
-    refusal_ = std::strerror(errno);
+  if (::mkdtemp(pattern.data()) != nullptr) path_ = pattern;
+  else refusal_ = std::strerror(errno);
 }
 
 TemporaryFolder::~TemporaryFolder() {

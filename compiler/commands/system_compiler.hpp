@@ -8,8 +8,8 @@
 
 namespace dashpot::compiler {
 
-// A folder of its own below $TMPDIR, or /tmp, removed with all that is in it. A signal that ends the process, Ctrl-C for
-// one, waits until then.
+// A folder of its own below $TMPDIR, or /tmp, removed with all that is in it. A signal that ends the process, Ctrl-C
+// for one, waits until then.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -18,8 +18,8 @@ class TemporaryFolder {
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }  // empty where none could be made
-  const std::string& above() const { return above_; }         // in which it is, or should have been
-  const std::string& refusal() const { return refusal_; }     // the system's reason why there is none
+  const std::string& above() const { return above_; }          // in which it is, or should have been
+  const std::string& refusal() const { return refusal_; }      // the system's reason why there is none
 
  private:
   std::string above_;
@@ -33,7 +33,8 @@ std::string runtime_headers();
 
 inline constexpr int program_not_found = 127;
 
-// Standard error goes to `log`. No signal waits there. Returns the exit status, or program_not_found where it cannot be started.
+// Standard error goes to `log`. No signal waits there. Returns the exit status, or program_not_found where it cannot be
+// started.
 int run_program(std::vector<std::string> words, const std::string& log);
 
 std::string contents_of(const std::filesystem::path& path);

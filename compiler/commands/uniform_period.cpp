@@ -41,8 +41,10 @@ std::optional<std::size_t> row_off_step(const std::vector<double>& times, double
   return std::nullopt;
 }
 
-// The first row that leaves the straight line through the ends by more than the rounding of both: times t + e, |e| ≤ unit/2.
-std::optional<std::size_t> row_off_line(const std::vector<double>& times, double period, const TimeDigits& digits, double unit_at_ends) {
+// The first row that leaves the straight line through the ends by more than the rounding of both: times t + e, |e| ≤
+// unit/2.
+std::optional<std::size_t> row_off_line(const std::vector<double>& times, double period, const TimeDigits& digits,
+                                        double unit_at_ends) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     const double departure = std::abs(times[i] - (times.front() + static_cast<double>(i) * period));
     if (departure > (unit_at_ends + digits.unit_at(times[i])) / 2 + rounding_at(times[i])) return i;
@@ -94,7 +96,8 @@ std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<doubl
   if (const auto row = row_off_line(times, period, digits, unit)) {
     // Steps of a uniform motion, rounded, are of two lengths that differ by a unit.
     if (const auto gap = row_off_step(times, median, unit)) return irregular(*gap);
-    return Irregularity{Irregularity::Kind::drift, *row, times[*row], times.front() + static_cast<double>(*row) * period, period, unit};
+    return Irregularity{
+        Irregularity::Kind::drift, *row, times[*row], times.front() + static_cast<double>(*row) * period, period, unit};
   }
   return UniformPeriod{period, unit / last};
 }

@@ -15,8 +15,8 @@ inline constexpr double coarsest_share = 0.1;  // of the period, of a last digit
 // What the digits of times tell of their rounding, in a table that has so many decimals, or so many significant digits.
 class TimeDigits {
  public:
-  void add(std::string_view number);      // decimal notation
-  double unit_at(double time) const;      // of the last digit of a time of this size [s]
+  void add(std::string_view number);  // decimal notation
+  double unit_at(double time) const;  // of the last digit of a time of this size [s]
 
  private:
   std::optional<int> last_place_;  // the finest there is: −6 where microseconds are written
@@ -28,8 +28,8 @@ struct UniformPeriod {
   double error;   // of it, that the rounding of the times leaves [s]
 };
 
-// Row `row` is at the time `found`, and the one before at `expected`, no earlier; or it follows that one after `found`, or is at
-// the time `found`, in place of `expected` [s].
+// Row `row` is at the time `found`, and the one before at `expected`, no earlier; or it follows that one after `found`,
+// or is at the time `found`, in place of `expected` [s].
 struct Irregularity {
   enum class Kind { no_rise, step, drift };
 
@@ -41,9 +41,10 @@ struct Irregularity {
   double unit;  // of the times' last digit
 };
 
-// In: two times or more. A time that does not rise is told before all else. Uniform are steps that are each as long as their
-// median to `uniformity`; and times whose last digit is at most `coarsest_share` of the period, and that are on a straight line
-// to the rounding of that digit. The period is that of the whole, which has less of the rounding than any step.
+// In: two times or more. A time that does not rise is told before all else. Uniform are steps that are each as long as
+// their median to `uniformity`; and times whose last digit is at most `coarsest_share` of the period, and that are on a
+// straight line to the rounding of that digit. The period is that of the whole, which has less of the rounding than any
+// step.
 std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<double>& times, const TimeDigits& digits);
 
 }  // namespace dashpot::compiler

@@ -29,7 +29,8 @@ bool is_of_many_points(const Network& network, const std::string& code) {
   return code.find(fmt::format("\nclass {}_batch {{\n", network.name)) != code.npos;
 }
 
-// What is written of the network: the header that decides by jumps and the one in constant time, of one point or of many.
+// What is written of the network: the header that decides by jumps and the one in constant time, of one point or of
+// many.
 std::vector<std::string> emitted(const Compilation& compiled, bool of_many_points) {
   std::vector<std::string> texts;
   Diagnostics unheard;
@@ -37,7 +38,8 @@ std::vector<std::string> emitted(const Compilation& compiled, bool of_many_point
     EmissionOptions options;
     options.constant_time = constant_time;
     options.batch = of_many_points;
-    if (auto files = emit_cpp(compiled, options, unheard)) texts.push_back(std::move(files->at(of_many_points ? 1 : 0).text));
+    if (auto files = emit_cpp(compiled, options, unheard))
+      texts.push_back(std::move(files->at(of_many_points ? 1 : 0).text));
   }
   return texts;
 }
@@ -50,37 +52,47 @@ void compare_code(const std::vector<std::string>& written, const SourceFile& hea
   for (const std::string& text : written) {
     const std::string_view expected = code_of(text);
     if (found == expected) return;
-    const auto same = std::size_t(std::mismatch(found.begin(), found.end(), expected.begin(), expected.end()).first - found.begin());
+    const auto same =
+        std::size_t(std::mismatch(found.begin(), found.end(), expected.begin(), expected.end()).first - found.begin());
     if (expected_there.empty() || same > furthest) expected_there = excerpt_at(expected, same);
     furthest = std::max(furthest, same);
   }
-  const std::size_t start = behind_banner(header.text()) + furthest, end = std::min(header.text().find('\n', start), header.text().size());
+  const std::size_t start = behind_banner(header.text()) + furthest,
+                    end = std::min(header.text().find('\n', start), header.text().size());
   diagnostics.report<DiagnosticCode::code_differs>({&header, start, end}, excerpt_at(found, furthest));
   if (!written.empty()) diagnostics.note<DiagnosticCode::code_expected>({}, expected_there);
 }
 
 class TextsVerification {
  public:
-  TextsVerification(const SourceFile& certificate_file, const CertificateFile& certificate, SourceFiles& files, Diagnostics& diagnostics)
-      : certificate_file_(certificate_file), certificate_(certificate), files_(files), diagnostics_(diagnostics),
+  TextsVerification(const SourceFile& certificate_file, const CertificateFile& certificate, SourceFiles& files,
+                    Diagnostics& diagnostics)
+      : certificate_file_(certificate_file),
+        certificate_(certificate),
+        files_(files),
+        diagnostics_(diagnostics),
         network_file_(files.keep("network of the certificate", certificate.network_text)) {}
 
   // Whether network and device are what they should be.
   bool read_subject() {
     Diagnostics of_network;  // its warnings were given when it was compiled
     network_ = check(network_file_, of_network);
-    if (certificate_.device_text) device_ = read_device(files_.keep("device of the certificate", *certificate_.device_text), diagnostics_);
-    port_ = !network_ ? std::nullopt : device_ ? PortDevice::of(*device_, *network_, diagnostics_) : PortDevice::ideal();
+    if (certificate_.device_text)
+      device_ = read_device(files_.keep("device of the certificate", *certificate_.device_text), diagnostics_);
+    port_ = !network_ ? std::nullopt
+            : device_ ? PortDevice::of(*device_, *network_, diagnostics_)
+                      : PortDevice::ideal();
     if (!network_) check(network_file_, diagnostics_);
     if (!port_ || diagnostics_.has_errors()) {
-      diagnostics_.report<DiagnosticCode::no_certificate>({}, certificate_file_.path(), "its network or device is not read");
+      diagnostics_.report<DiagnosticCode::no_certificate>({}, certificate_file_.path(),
+                                                          "its network or device is not read");
       return false;
     }
     return is_within_reach(*network_, diagnostics_, most_verified_nodes);
   }
 
-  // How many constants are right; with errors where anything is not. Those of many points are of one, whose header is written
-  // beside theirs.
+  // How many constants are right; with errors where anything is not. Those of many points are of one, whose header is
+  // written beside theirs.
   std::size_t verify(const SourceFile& header) {
     const bool of_many = is_of_many_points(*network_, header.text());
     if (of_many && !recompile()) return 0;
@@ -92,13 +104,15 @@ class TextsVerification {
     }
     // What takes long is done last: many a wrong certificate is found out before.
     const bool is_linear = is_plainly_linear(*network_);
-    std::size_t count = is_linear ? verify_linear_constants(certificate_, *network_, *port_, *constants, diagnostics_) : 0;
+    std::size_t count =
+        is_linear ? verify_linear_constants(certificate_, *network_, *port_, *constants, diagnostics_) : 0;
     if (!recompile()) return 0;
     if (!is_linear) count = verify_constants(certificate_, *port_, *constants, *compiled_, diagnostics_);
     compare_code(emitted(*compiled_, of_many), header, diagnostics_);
     if (!diagnostics_.has_errors()) verify_bounds(certificate_, *port_, *constants, *compiled_, diagnostics_);
     if (!diagnostics_.has_errors()) {
-      std::string again = certificate_text(*compiled_, certificate_.choices, certificate_.network_text, certificate_.device_text, of_one.text());
+      std::string again = certificate_text(*compiled_, certificate_.choices, certificate_.network_text,
+                                           certificate_.device_text, of_one.text());
       compare_certificates(certificate_file_, files_.keep("certificate written again", std::move(again)), diagnostics_);
     }
     return count;
@@ -130,16 +144,18 @@ class TextsVerification {
 
 }  // namespace
 
-std::optional<std::string> verify_texts(const SourceFile& certificate_file, const SourceFile& header, SourceFiles& files,
-                                        Diagnostics& diagnostics) {
+std::optional<std::string> verify_texts(const SourceFile& certificate_file, const SourceFile& header,
+                                        SourceFiles& files, Diagnostics& diagnostics) {
   const std::optional<CertificateFile> certificate = read_certificate(certificate_file, diagnostics);
   if (!certificate) return std::nullopt;
   TextsVerification verification(certificate_file, *certificate, files, diagnostics);
   if (!verification.read_subject()) return std::nullopt;
   const std::size_t count = verification.verify(header);
   if (diagnostics.has_errors()) return std::nullopt;
-  return fmt::format("{}: {} constants are the nearest to those of the network, recomputed in 100 digits; the code is that of the network; {}\n",
-                     verification.network().name, count, certificate->certified ? "certified" : "not certified");
+  return fmt::format(
+      "{}: {} constants are the nearest to those of the network, recomputed in 100 digits; the code is that of the "
+      "network; {}\n",
+      verification.network().name, count, certificate->certified ? "certified" : "not certified");
 }
 
 }  // namespace dashpot::compiler

@@ -16,10 +16,11 @@ std::vector<std::string> compilers() {
 }
 
 int compile_to_wasm(const std::string& compiler, const std::filesystem::path& folder, const std::string& name) {
-  return run_program({compiler, "--target=wasm32", "-std=c++17", "-O2", "-ffreestanding", "-nostdlib", "-fno-exceptions", "-fno-rtti",
-                      "-ffp-contract=off", "-mbulk-memory", "-I" + runtime_headers(), "-Wl,--no-entry", "-Wl,--strip-all",
-                      (folder / (name + "_live.cpp")).string(), "-o", (folder / "live.wasm").string()},
-                     (folder / "compiler.log").string());
+  return run_program(
+      {compiler, "--target=wasm32", "-std=c++17", "-O2", "-ffreestanding", "-nostdlib", "-fno-exceptions", "-fno-rtti",
+       "-ffp-contract=off", "-mbulk-memory", "-I" + runtime_headers(), "-Wl,--no-entry", "-Wl,--strip-all",
+       (folder / (name + "_live.cpp")).string(), "-o", (folder / "live.wasm").string()},
+      (folder / "compiler.log").string());
 }
 
 }  // namespace
@@ -30,7 +31,8 @@ std::optional<std::string> web_module(const Compilation& compilation, Diagnostic
   const auto files = emit_cpp(compilation, options, diagnostics);
   const TemporaryFolder folder;
   if (folder.path().empty()) {
-    diagnostics.report<DiagnosticCode::no_live_response>({}, "no folder can be made in '" + folder.above() + "': " + folder.refusal());
+    diagnostics.report<DiagnosticCode::no_live_response>(
+        {}, "no folder can be made in '" + folder.above() + "': " + folder.refusal());
     diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
     return std::nullopt;
   }
@@ -39,8 +41,9 @@ std::optional<std::string> web_module(const Compilation& compilation, Diagnostic
   for (const std::string& compiler : compilers()) {
     const int status = compile_to_wasm(compiler, folder.path(), compilation.network.name);
     if (status == 0) return contents_of(folder.path() / "live.wasm");
-    reasons += (reasons.empty() ? "'" : "; '") + compiler + "' " +
-               (status == program_not_found ? "cannot be started" : "says: " + contents_of(folder.path() / "compiler.log"));
+    reasons +=
+        (reasons.empty() ? "'" : "; '") + compiler + "' " +
+        (status == program_not_found ? "cannot be started" : "says: " + contents_of(folder.path() / "compiler.log"));
   }
   diagnostics.report<DiagnosticCode::no_live_response>({}, reasons);
   diagnostics.note<DiagnosticCode::clang_remedy>({});

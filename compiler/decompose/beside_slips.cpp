@@ -6,7 +6,9 @@
 namespace dashpot::compiler {
 namespace {
 
-bool has_force(const LinearForm& form) { return form.static_stiffness > 0 || form.feedthrough_damping > 0 || !form.modes.empty(); }
+bool has_force(const LinearForm& form) {
+  return form.static_stiffness > 0 || form.feedthrough_damping > 0 || !form.modes.empty();
+}
 
 bool is_slip(const NormalTree& tree) { return tree.kind == NormalTree::Kind::slip; }
 
@@ -17,10 +19,13 @@ bool is_damper(const NormalTree& tree) {
 // A slip and a damper, and nothing else.
 bool is_damped_slip(const NormalTree& tree) {
   return tree.kind == NormalTree::Kind::parallel && tree.children.size() == 2 &&
-         std::any_of(tree.children.begin(), tree.children.end(), is_slip) && std::any_of(tree.children.begin(), tree.children.end(), is_damper);
+         std::any_of(tree.children.begin(), tree.children.end(), is_slip) &&
+         std::any_of(tree.children.begin(), tree.children.end(), is_damper);
 }
 
-double yield_of(const NormalTree& damped_slip) { return std::find_if(damped_slip.children.begin(), damped_slip.children.end(), is_slip)->yield_force; }
+double yield_of(const NormalTree& damped_slip) {
+  return std::find_if(damped_slip.children.begin(), damped_slip.children.end(), is_slip)->yield_force;
+}
 
 bool drop_dampers(NormalTree& tree);
 
@@ -31,7 +36,9 @@ bool drop_damper_beside_slip(NormalTree& parallel) {
     child.form.feedthrough_damping = 0;
     dropped = true;
   }
-  std::erase_if(parallel.children, [](const NormalTree& child) { return child.kind == NormalTree::Kind::block && !has_force(child.form); });
+  std::erase_if(parallel.children, [](const NormalTree& child) {
+    return child.kind == NormalTree::Kind::block && !has_force(child.form);
+  });
   if (parallel.children.size() == 1) parallel = NormalTree(std::move(parallel.children.front()));
   return dropped;
 }
@@ -47,10 +54,8 @@ bool drop_in_series(NormalTree& series) {
   bool dropped = false;
   NormalTree* weakest = nullptr;
   for (NormalTree& child : series.children) {
-    if (!is_damped_slip(child))
-      dropped |= drop_dampers(child);
-    else if (weakest == nullptr || yield_of(child) < yield_of(*weakest))
-      weakest = &child;
+    if (!is_damped_slip(child)) dropped |= drop_dampers(child);
+    else if (weakest == nullptr || yield_of(child) < yield_of(*weakest)) weakest = &child;
   }
   const bool has_bare_slip = std::any_of(series.children.begin(), series.children.end(), is_slip);
   return (weakest != nullptr && !has_bare_slip && drop_dampers(*weakest)) || dropped;
@@ -69,7 +74,8 @@ struct Answer {
 
 class RegimeForm {
  public:
-  RegimeForm(const std::vector<SlipElements>& slips, const std::vector<bool>& slides) : slips_(slips), slides_(slides) {}
+  RegimeForm(const std::vector<SlipElements>& slips, const std::vector<bool>& slides)
+      : slips_(slips), slides_(slides) {}
 
   Answer of(const NormalTree& tree) const {
     switch (tree.kind) {
@@ -113,7 +119,8 @@ std::optional<NormalTree> without_dampers_beside_slips(NormalTree component) {
   return drop_dampers(component) ? std::optional(std::move(component)) : std::nullopt;
 }
 
-std::optional<std::vector<std::size_t>> without_dampers_beside_slips(const Network& network, const std::vector<std::size_t>& elements) {
+std::optional<std::vector<std::size_t>> without_dampers_beside_slips(const Network& network,
+                                                                     const std::vector<std::size_t>& elements) {
   const auto slips = slips_between(network, elements);
   std::vector<std::size_t> left = elements;
   std::erase_if(left, [&](std::size_t index) {
@@ -123,7 +130,8 @@ std::optional<std::vector<std::size_t>> without_dampers_beside_slips(const Netwo
   return left.size() < elements.size() ? std::optional(std::move(left)) : std::nullopt;
 }
 
-LinearForm form_in_regime(const NormalTree& component, const std::vector<SlipElements>& slips, const std::vector<bool>& slides) {
+LinearForm form_in_regime(const NormalTree& component, const std::vector<SlipElements>& slips,
+                          const std::vector<bool>& slides) {
   return RegimeForm(slips, slides).of(component).form;
 }
 

@@ -10,15 +10,17 @@
 
 namespace dashpot::compiler {
 
-// Of slips that would then be in line the weakest alone loses its damper: the others would never give way. Empty where none
-// lies beside a slip.
+// Of slips that would then be in line the weakest alone loses its damper: the others would never give way. Empty where
+// none lies beside a slip.
 std::optional<NormalTree> without_dampers_beside_slips(NormalTree component);
 
 // The same of a part that is no tree, by its elements: those that join the ends of a slip.
-std::optional<std::vector<std::size_t>> without_dampers_beside_slips(const Network& network, const std::vector<std::size_t>& elements);
+std::optional<std::vector<std::size_t>> without_dampers_beside_slips(const Network& network,
+                                                                     const std::vector<std::size_t>& elements);
 
-// D(s) at the tool of a component that does not slide all through where `slides` says which of `slips` do; nothing where a
-// constant force is left.
-LinearForm form_in_regime(const NormalTree& component, const std::vector<SlipElements>& slips, const std::vector<bool>& slides);
+// D(s) at the tool of a component that does not slide all through where `slides` says which of `slips` do; nothing
+// where a constant force is left.
+LinearForm form_in_regime(const NormalTree& component, const std::vector<SlipElements>& slips,
+                          const std::vector<bool>& slides);
 
 }  // namespace dashpot::compiler

@@ -42,12 +42,17 @@ std::string names_of(const std::vector<std::size_t>& elements, const Network& ne
   return names.empty() ? "0" : names;
 }
 
-BrakeRule observed_rule(const Network& network, const Candidate& choice, double reference_frequency, ObserverRule observer) {
+BrakeRule observed_rule(const Network& network, const Candidate& choice, double reference_frequency,
+                        ObserverRule observer) {
   const std::optional<Tree> tree = series_parallel_tree(network);
   if (!tree) return {brake_rule::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
-  std::vector<std::size_t> dampers = dampers_at_tool(observe(*tree, network, observer, reference_frequency).realisation);
+  std::vector<std::size_t> dampers =
+      dampers_at_tool(observe(*tree, network, observer, reference_frequency).realisation);
   if (std::abs(sum_of(dampers, network) - choice.wanted_damping) > 1e-12 * choice.wanted_damping)
-    return {brake_rule::within_viscosity, choice.wanted_damping, {}, {},
+    return {brake_rule::within_viscosity,
+            choice.wanted_damping,
+            {},
+            {},
             "its value at the defaults, never above the network's viscosity at low frequency"};
   add_direct_dampers(network, dampers);
   const std::string text = names_of(dampers, network);
@@ -62,7 +67,8 @@ BrakeRule uncapped_rule(const Network& network, const Candidate& choice, double 
     return {brake_rule::half_zero_frequency, 0, {}, {}, "half the network's viscosity at low frequency"};
   if (choice.name == "most-dissipative")
     return observed_rule(network, choice, reference_frequency, ObserverRule::most_dissipative);
-  if (choice.name == "largest-observer") return observed_rule(network, choice, reference_frequency, ObserverRule::largest);
+  if (choice.name == "largest-observer")
+    return observed_rule(network, choice, reference_frequency, ObserverRule::largest);
   return {brake_rule::constant, choice.wanted_damping, {}, {}, "no parameter"};
 }
 

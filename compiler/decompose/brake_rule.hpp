@@ -19,8 +19,9 @@ struct BrakeRule {
   std::string text;                   // one clause for people
 };
 
-// In: the linear part of a network at its default values, and what was chosen for it. Out: the same choice as a rule for all
-// values. Ensures: the rule gives the chosen damping at the default values, within rounding, and never less than zero.
+// In: the linear part of a network at its default values, and what was chosen for it. Out: the same choice as a rule
+// for all values. Ensures: the rule gives the chosen damping at the default values, within rounding, and never less
+// than zero.
 BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const Device* device);
 
 }  // namespace dashpot::compiler

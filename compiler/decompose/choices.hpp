@@ -14,9 +14,9 @@ enum class ScalarType { float64, float32 };
 // Of the machine that rolled loops are laid out for.
 enum class VectorRegisters { none, sse2, avx2, avx512, neon };
 
-std::string_view name_of(Scheme scheme);          // "exact", "backward-euler"
-std::string_view name_of(StateInput input);       // "position", "velocity", "nodal"
-std::string_view name_of(ScalarType scalar);      // "double", "float"
+std::string_view name_of(Scheme scheme);              // "exact", "backward-euler"
+std::string_view name_of(StateInput input);           // "position", "velocity", "nodal"
+std::string_view name_of(ScalarType scalar);          // "double", "float"
 std::string_view name_of(VectorRegisters registers);  // "none", "sse2", "avx2", "avx512", "neon"
 
 std::size_t bytes_of(VectorRegisters registers);  // in a register; 0 for none
@@ -24,8 +24,9 @@ std::size_t bytes_of(VectorRegisters registers);  // in a register; 0 for none
 struct Choices {
   std::optional<double> rate;  // [Hz]; the device's, or 1000 Hz
   Scheme scheme = Scheme::exact;
-  std::optional<StateInput> state_input;                        // empty: auto
-  std::variant<std::string, double> decomposition = "most-dissipative";  // a name of theory, section 4, or a damping [SI]
+  std::optional<StateInput> state_input;  // empty: auto
+  std::variant<std::string, double> decomposition =
+      "most-dissipative";  // a name of theory, section 4, or a damping [SI]
   ScalarType scalar = ScalarType::float64;
   VectorRegisters registers = VectorRegisters::sse2;  // sixteen bytes: what every x86-64 and every AArch64 has
   bool guards_each_sample = false;  // against subnormals, also where they could take turns: many points share no turn

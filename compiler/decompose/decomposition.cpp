@@ -67,7 +67,8 @@ class Decomposer {
     candidate.wanted_damping = split.damping;
     candidate.damping = std::min(split.damping, device_.max_damping().value_or(split.damping));
     if (network_.contact) leave_nothing_to_compensate(candidate);
-    for (StateInput input : inputs_to_compare(split)) candidate.state_inputs.push_back(merit(candidate, input, realisation));
+    for (StateInput input : inputs_to_compare(split))
+      candidate.state_inputs.push_back(merit(candidate, input, realisation));
     const StateInputMerit& best = best_of(candidate.state_inputs);
     candidate.state_input = best.state_input;
     candidate.largest_error = best.largest_error;
@@ -79,13 +80,14 @@ class Decomposer {
   }
 
  private:
-  // More than b∞ would be taken back by the motor through the estimate, also in the samples in which the tool touches or
-  // leaves: that can inject energy.
+  // More than b∞ would be taken back by the motor through the estimate, also in the samples in which the tool touches
+  // or leaves: that can inject energy.
   void leave_nothing_to_compensate(Candidate& candidate) const {
     const double feedthrough = to_double(form_.feedthrough_damping);
     if (candidate.damping <= feedthrough) return;
     candidate.damping = candidate.wanted_damping = feedthrough;
-    candidate.reason += "; with the contact no more than the feedthrough damping, so that the motor compensates nothing";
+    candidate.reason +=
+        "; with the contact no more than the feedthrough damping, so that the motor compensates nothing";
   }
 
   bool has_slips() const {
@@ -95,8 +97,10 @@ class Decomposer {
 
   Split observed(const char* name, ObserverRule rule) const {
     if (!tree_)
-      return {name, to_double(zero_frequency_damping(form_)),
-              "no series-parallel tree, so the viscosity at low frequency", {}};
+      return {name,
+              to_double(zero_frequency_damping(form_)),
+              "no series-parallel tree, so the viscosity at low frequency",
+              {}};
     const Observation observation = observe(*tree_, network_, rule, device_.reference_frequency());
     return {name, to_double(observation.damping), observation.reason, {}};
   }
@@ -143,7 +147,8 @@ bool refuse_impossible_choices(const Network& network, const Choices& choices, c
     refused = true;
   }
   if (choices.state_input && *choices.state_input != StateInput::position && !device.estimate_sums_to_displacement()) {
-    diagnostics.report<DiagnosticCode::velocity_input_drifts>(network.name_span, name_of(*choices.state_input), network.name);
+    diagnostics.report<DiagnosticCode::velocity_input_drifts>(network.name_span, name_of(*choices.state_input),
+                                                              network.name);
     refused = true;
   }
   return refused;
@@ -151,40 +156,46 @@ bool refuse_impossible_choices(const Network& network, const Choices& choices, c
 
 constexpr double overwhelming = 1e4;  // a brake that is off by 1 % is then off by a hundred times the force
 
-void warn_about_share(const Candidate& chosen, const Network& network, const LinearForm& form, const PortDevice& device, Diagnostics& diagnostics) {
+void warn_about_share(const Candidate& chosen, const Network& network, const LinearForm& form, const PortDevice& device,
+                      Diagnostics& diagnostics) {
   const double share = largest_brake_share(form, chosen.damping, device);
   if (share <= overwhelming) return;
   constexpr double two_pi = 6.28318530717958647692;
-  diagnostics.report<DiagnosticCode::brake_dwarfs_network>(network.name_span, chosen.name, share, device.band_low() / two_pi,
-                                                           device.band_high() / two_pi);
+  diagnostics.report<DiagnosticCode::brake_dwarfs_network>(network.name_span, chosen.name, share,
+                                                           device.band_low() / two_pi, device.band_high() / two_pi);
   diagnostics.note<DiagnosticCode::take_velocity_free>({});
 }
 
 }  // namespace
 
-void warn_about_choice(const Decomposition& all, const Network& network, const LinearForm& form, Diagnostics& diagnostics) {
+void warn_about_choice(const Decomposition& all, const Network& network, const LinearForm& form,
+                       Diagnostics& diagnostics) {
   const Candidate& chosen = all.choice();
   if (chosen.capped())
-    diagnostics.report<DiagnosticCode::damping_capped>(network.name_span, chosen.name, chosen.wanted_damping, chosen.damping);
+    diagnostics.report<DiagnosticCode::damping_capped>(network.name_span, chosen.name, chosen.wanted_damping,
+                                                       chosen.damping);
   const double viscosity = to_double(zero_frequency_damping(form));
   if (chosen.damping > viscosity * (1 + 1e-12))
     diagnostics.report<DiagnosticCode::injects_power>(network.name_span, chosen.name, chosen.damping, viscosity);
   const auto is_virtual = [](const Candidate& candidate) { return candidate.name == "virtual"; };
   const auto single_motor = std::find_if(all.candidates.begin(), all.candidates.end(), is_virtual);
   if (chosen.largest_error > single_motor->largest_error * (1 + 1e-9))
-    diagnostics.report<DiagnosticCode::more_error_than_virtual>(network.name_span, chosen.name, 100 * chosen.largest_error,
-                                                                100 * single_motor->largest_error);
+    diagnostics.report<DiagnosticCode::more_error_than_virtual>(
+        network.name_span, chosen.name, 100 * chosen.largest_error, 100 * single_motor->largest_error);
 }
 
-std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal, const std::string& damping_unit) {
+std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal,
+                             const std::string& damping_unit) {
   if (choices.state_input) return fmt::format("{} driven as asked", name_of(chosen.state_input));
   if (chosen.state_inputs.size() == 1) return fmt::format("{} driven by definition", name_of(chosen.state_input));
   if (device_is_ideal) return "position driven: on an ideal device nothing tells the inputs apart";
-  std::string text = fmt::format("{} driven; minimum damping and largest error in the band:", name_of(chosen.state_input));
+  std::string text =
+      fmt::format("{} driven; minimum damping and largest error in the band:", name_of(chosen.state_input));
   for (const StateInputMerit& merit : chosen.state_inputs)
-    text += fmt::format("{} {} {}, {:.4g} %", &merit == &chosen.state_inputs.front() ? "" : ";", name_of(merit.state_input),
-                        merit.minimum_damping ? fmt::format("{:.4g} {}", *merit.minimum_damping, damping_unit) : "not proved",
-                        100 * merit.largest_error);
+    text += fmt::format(
+        "{} {} {}, {:.4g} %", &merit == &chosen.state_inputs.front() ? "" : ";", name_of(merit.state_input),
+        merit.minimum_damping ? fmt::format("{:.4g} {}", *merit.minimum_damping, damping_unit) : "not proved",
+        100 * merit.largest_error);
   return text;
 }
 
@@ -224,8 +235,8 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
   const auto heading = [](const auto&... cells) {
     return fmt::format("{:<18}{:>14}  {:<9}{:>14}{:>16}{:>17}{:>12}{:>12}{}\n", cells...);
   };
-  std::string text = heading("candidate", "b", "states", "velocity gain", "any-delay extra", "minimum damping", "noise", "error",
-                             "  reason");
+  std::string text = heading("candidate", "b", "states", "velocity gain", "any-delay extra", "minimum damping", "noise",
+                             "error", "  reason");
   text += heading("", units.damping, "", units.damping, units.damping, units.damping, units.force, "%", "");
   for (const Candidate& c : decomposition.candidates)
     text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>17}{:>12}{:>12.4g}  {}{}\n", c.name, c.damping,

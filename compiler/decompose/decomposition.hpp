@@ -28,8 +28,8 @@ struct Candidate {
   double damping;         // b, what the brake is asked for [N·s/m] or [N·m·s/rad]
   double wanted_damping;  // before capping at what the brake can give
   StateInput state_input;
-  double velocity_gain;   // |b∞ − b|, of the estimate into the motor [N·s/m]
-  double largest_error;   // of the chosen state input [1]
+  double velocity_gain;               // |b∞ − b|, of the estimate into the motor [N·s/m]
+  double largest_error;               // of the chosen state input [1]
   std::optional<double> motor_noise;  // rms motor force from quantisation through the estimate [N]; empty: not linear
   std::optional<double> extra_damping_any_delay;  // [N·s/m]
   std::optional<double> minimum_damping;          // [N·s/m]; of the chosen state input
@@ -58,10 +58,12 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
                                        const Device* device, Diagnostics& diagnostics);
 
 // Warns: capping, b > Z_d(0), more error than `virtual`.
-void warn_about_choice(const Decomposition& decomposition, const Network& network, const LinearForm& form, Diagnostics& diagnostics);
+void warn_about_choice(const Decomposition& decomposition, const Network& network, const LinearForm& form,
+                       Diagnostics& diagnostics);
 
 // What decided between position, velocity and nodal.
-std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal, const std::string& damping_unit);
+std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal,
+                             const std::string& damping_unit);
 
 // True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);

@@ -50,7 +50,9 @@ struct Group {
   Real compliance_ratio = 0;  // Σ D_first/D_i
   Real damping = 0;
 
-  ObserverResponse response() const { return members.size() == 1 ? members.front().response : scaled(members.front().response, 1 / compliance_ratio); }
+  ObserverResponse response() const {
+    return members.size() == 1 ? members.front().response : scaled(members.front().response, 1 / compliance_ratio);
+  }
 };
 
 void join(std::vector<Group>& groups, Observed child) {
@@ -93,7 +95,8 @@ class Observer {
     std::string text;
     const std::size_t shown = std::min<std::size_t>(clauses_.size(), 4);
     for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : "; ") + clauses_[i];
-    if (clauses_.size() > shown) text += fmt::format("; and {} more series connections likewise", clauses_.size() - shown);
+    if (clauses_.size() > shown)
+      text += fmt::format("; and {} more series connections likewise", clauses_.size() - shown);
     return text.empty() ? "dampers at the tool in parallel add" : text;
   }
 
@@ -155,8 +158,7 @@ class Observer {
       names += (names.empty() ? "" : " - ") + names_in(member.tree, network_);
     if (names.size() > 60) names = names.substr(0, 57) + "...";
     const double damping = to_double(observed.damping);
-    if (groups.size() == 1)
-      clauses_.push_back(fmt::format("{} in series act as one of {:.6g}", names, damping));
+    if (groups.size() == 1) clauses_.push_back(fmt::format("{} in series act as one of {:.6g}", names, damping));
     else if (rule_ == ObserverRule::largest)
       clauses_.push_back(fmt::format("in series the largest damping, {:.6g}, is that of {}", damping, names));
     else

@@ -16,9 +16,9 @@ enum class ObserverRule {
 };
 
 struct Observation {
-  Real damping;        // [N·s/m] or [N·m·s/rad]
-  std::string reason;  // one clause for each series connection with a choice
-  Network realisation; // the same network, rewired so that every observed child is next to the tool
+  Real damping;         // [N·s/m] or [N·m·s/rad]
+  std::string reason;   // one clause for each series connection with a choice
+  Network realisation;  // the same network, rewired so that every observed child is next to the tool
 };
 
 // Walks the tree from the tool: in parallel dampings add; in series the observed child's is taken. Shares are compared

@@ -11,10 +11,10 @@ namespace dashpot::compiler {
 inline const Real equal_to{"1e-12"};  // relative: two dissipations that differ by less are equal
 
 struct ObserverResponse {
-  Real stiffness = 0;        // k0 of D(s) = k0 + z s + … for s → 0 [N/m]
-  Real viscosity = 0;        // z there [N·s/m]
+  Real stiffness = 0;              // k0 of D(s) = k0 + z s + … for s → 0 [N/m]
+  Real viscosity = 0;              // z there [N·s/m]
   ComplexReal at_reference{0, 0};  // D(jω) at the reference frequency [N/m]
-  std::vector<Real> along;   // D(s) at positive s, the same places for every part of a network [N/m]
+  std::vector<Real> along;         // D(s) at positive s, the same places for every part of a network [N/m]
 };
 
 // Where the responses of a network's parts are taken.

@@ -25,7 +25,8 @@ PartDecomposer::PartDecomposer(SlipPart part, const LinearForm& beside, const Po
   for (std::size_t i = 0; i < part_.gated.size(); ++i) {
     Real& feedthrough = part_.gated[i].feedthrough_damping;
     feedthrough = snapped(feedthrough, regime(i).feedthrough());
-    const Real whole = zero_frequency_damping(regime(i).form), left_out = whole - snapped(zero_frequency_damping(part_.gated[i]), whole);
+    const Real whole = zero_frequency_damping(regime(i).form),
+               left_out = whole - snapped(zero_frequency_damping(part_.gated[i]), whole);
     gated_brakes_.push_back(feedthrough + std::max(left_out, Real(0)));
   }
 }
@@ -39,7 +40,9 @@ ComponentSplit PartDecomposer::split(const std::variant<std::string, double>& de
 }
 
 // Where no slip slides nothing is gained by an observer: what it would take changes when one does.
-double PartDecomposer::excess_brake(std::size_t i) const { return i == 0 ? 0 : to_double(regime(i).damping - regime(i).feedthrough()); }
+double PartDecomposer::excess_brake(std::size_t i) const {
+  return i == 0 ? 0 : to_double(regime(i).damping - regime(i).feedthrough());
+}
 double PartDecomposer::compensation(std::size_t i) const {
   return std::min(excess_brake(i), (1 - device_.tolerance()) * to_double(regime(i).damping));
 }
@@ -64,7 +67,9 @@ void PartDecomposer::choose(const std::variant<std::string, double>& decompositi
   } else if (*name == "most-dissipative") {
     choose_most_dissipative(split);
   } else {
-    take(*name == name_of(SlipLaw::gated) ? SlipLaw::gated : *name == name_of(SlipLaw::compensated) ? SlipLaw::compensated : SlipLaw::velocity_free,
+    take(*name == name_of(SlipLaw::gated)         ? SlipLaw::gated
+         : *name == name_of(SlipLaw::compensated) ? SlipLaw::compensated
+                                                  : SlipLaw::velocity_free,
          "asked for", split);
   }
 }
@@ -77,7 +82,9 @@ std::string PartDecomposer::hindrance_to_choice() const {
 
 void PartDecomposer::choose_most_dissipative(ComponentSplit& split) const {
   const SlipLawMerit &gated = split.merits[1], &compensated = split.merits[2];
-  const std::string error = gated.refusal.empty() ? fmt::format("the gated law errs by {:.3g} % in the band", 100 * gated.largest_error) : gated.refusal;
+  const std::string error = gated.refusal.empty()
+                                ? fmt::format("the gated law errs by {:.3g} % in the band", 100 * gated.largest_error)
+                                : gated.refusal;
   if (gated.refusal.empty() && gated.largest_error <= gated_tolerance)
     return take(SlipLaw::gated, fmt::format("{}, no more than {:.3g} %", error, 100 * gated_tolerance), split);
   if (gated.refusal.empty() && compensated.refusal.empty()) return take(SlipLaw::compensated, error, split);
@@ -85,7 +92,8 @@ void PartDecomposer::choose_most_dissipative(ComponentSplit& split) const {
 }
 
 void PartDecomposer::take(SlipLaw law, std::string reason, ComponentSplit& split) const {
-  const auto chosen = std::find_if(split.merits.begin(), split.merits.end(), [=](const SlipLawMerit& merit) { return merit.law == law; });
+  const auto chosen = std::find_if(split.merits.begin(), split.merits.end(),
+                                   [=](const SlipLawMerit& merit) { return merit.law == law; });
   split.law = chosen->refusal.empty() ? law : SlipLaw::velocity_free;
   split.reason = chosen->refusal.empty() ? std::move(reason) : chosen->refusal;
 }
@@ -95,7 +103,8 @@ std::string PartDecomposer::refusal_of(SlipLaw law) const {
   if (!hindrance_to_choice().empty()) return hindrance_to_choice();
   if (largest_excess_brake() <= 0) return "what slides has no damping but at the tool";
   if (law == SlipLaw::gated) return part_.gated.empty() ? "no damper lies beside a slip" : "";
-  if (!device_.estimate_memory()) return fmt::format("the estimator '{}' never forgets or is not linear", device_.estimator_name());
+  if (!device_.estimate_memory())
+    return fmt::format("the estimator '{}' never forgets or is not linear", device_.estimator_name());
   return "";
 }
 
@@ -103,7 +112,8 @@ SlipLawMerit PartDecomposer::merit(SlipLaw law) const {
   SlipLawMerit merit{law, 0, 0.0, refusal_of(law)};
   if (!merit.refusal.empty() || law == SlipLaw::velocity_free) return merit;
   for (std::size_t i = 0; i < part_.regimes.regimes.size(); ++i)
-    merit.largest_error = std::max(merit.largest_error, largest_in_band(device_, [&](double w) { return error(law, i, w); }));
+    merit.largest_error =
+        std::max(merit.largest_error, largest_in_band(device_, [&](double w) { return error(law, i, w); }));
   if (law != SlipLaw::compensated) return merit;
   const std::optional<double> noise = device_.velocity_noise();
   merit.motor_noise = noise ? std::optional(largest_compensation() * *noise) : std::nullopt;
@@ -113,10 +123,10 @@ SlipLawMerit PartDecomposer::merit(SlipLaw law) const {
 double PartDecomposer::error(SlipLaw law, std::size_t i, double w) const {
   const LinearForm& form = regime(i).form;
   const std::complex<double> whole = impedance(beside_, w) + impedance(form, w);
-  const std::complex<double> error =
-      law == SlipLaw::gated
-          ? to_double(gated_brakes_[i]) + impedance(part_.gated[i], w) - to_double(part_.gated[i].feedthrough_damping) - impedance(form, w)
-          : excess_brake(i) - compensation(i) * device_.velocity_response(w);
+  const std::complex<double> error = law == SlipLaw::gated
+                                         ? to_double(gated_brakes_[i]) + impedance(part_.gated[i], w) -
+                                               to_double(part_.gated[i].feedthrough_damping) - impedance(form, w)
+                                         : excess_brake(i) - compensation(i) * device_.velocity_response(w);
   return std::abs(error) == 0 ? 0 : std::abs(error) / std::abs(whole);
 }
 
@@ -133,7 +143,8 @@ std::vector<BrakeShare> PartDecomposer::shares(SlipLaw law) const {
 BrakeShare PartDecomposer::share(SlipLaw law, std::size_t i) const {
   const Real& feedthrough = regime(i).feedthrough();
   if (law == SlipLaw::gated) return {to_double(gated_brakes_[i]), part_.gated[i].feedthrough_damping, 0};
-  if (law == SlipLaw::compensated && excess_brake(i) > 0) return {to_double(regime(i).damping), feedthrough, compensation(i)};
+  if (law == SlipLaw::compensated && excess_brake(i) > 0)
+    return {to_double(regime(i).damping), feedthrough, compensation(i)};
   return {to_double(feedthrough), feedthrough, 0};
 }
 

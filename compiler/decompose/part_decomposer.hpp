@@ -43,7 +43,8 @@ class PartDecomposer {
   BrakeShare share(SlipLaw law, std::size_t i) const;
 
   SlipPart part_;
-  std::vector<Real> gated_brakes_;  // b∞ of what is computed, and the viscosity that the dampers left out have at low frequency
+  std::vector<Real>
+      gated_brakes_;  // b∞ of what is computed, and the viscosity that the dampers left out have at low frequency
   const LinearForm& beside_;
   const PortDevice& device_;
   bool is_tunable_;

@@ -12,16 +12,17 @@ namespace {
 
 using std::numbers::pi;
 
-// Σ h²: the variance that white noise of unit variance in the position leaves in the estimate. The estimator itself answers the
-// impulse: of a filter far below the rate the coefficients of a transfer function are mostly rounding. It is done where a whole
-// window changes the sum no more.
+// Σ h²: the variance that white noise of unit variance in the position leaves in the estimate. The estimator itself
+// answers the impulse: of a filter far below the rate the coefficients of a transfer function are mostly rounding. It
+// is done where a whole window changes the sum no more.
 double noise_power_gain(any_estimator<double> estimator) {
   constexpr int most_samples = 1 << 22;  // beyond, a filter forgets more slowly than any loop runs
   estimator.reset(0);
   device_sample impulse;
   impulse.position = 1;
   double sum = 0;
-  for (int i = 0, unchanged = 0; i < most_samples && (sum == 0 || unchanged <= int(longest_window)); ++i, impulse.position = 0) {
+  for (int i = 0, unchanged = 0; i < most_samples && (sum == 0 || unchanged <= int(longest_window));
+       ++i, impulse.position = 0) {
     const double answer = estimator.update(impulse), more = sum + answer * answer;
     unchanged = more == sum ? unchanged + 1 : 0;
     sum = more;
@@ -53,14 +54,20 @@ std::optional<double> PortDevice::max_damping() const {
 }
 
 double PortDevice::tolerance() const { return is_ideal() ? 0 : device_->description.brake.tolerance; }
-double PortDevice::band_low() const { return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_low; }
-double PortDevice::band_high() const { return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_high; }
+double PortDevice::band_low() const {
+  return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_low;
+}
+double PortDevice::band_high() const {
+  return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_high;
+}
 double PortDevice::largest_estimator_gain() const {
   if (is_ideal()) return 1;
   return estimator_is_linear() ? estimator().max_gain() : std::numeric_limits<double>::infinity();
 }
 
-double PortDevice::sample_period() const { return (is_ideal() ? loop_description{} : device_->description.loop).sample_period; }
+double PortDevice::sample_period() const {
+  return (is_ideal() ? loop_description{} : device_->description.loop).sample_period;
+}
 double PortDevice::coil_lag() const { return is_ideal() ? 0 : device_->description.brake.coil_lag; }
 
 double PortDevice::coil_slew() const {

@@ -20,27 +20,27 @@ class PortDevice {
 
   bool is_ideal() const { return device_ == nullptr; }
   const device_description& description() const { return device_->description; }  // of a device that is not ideal
-  double damping_scale() const { return damping_scale_; }    // from the joint to the tool
-  double position_scale() const { return position_scale_; }  // likewise
-  std::optional<double> max_damping() const;  // at the tool [N·s/m]; empty: any
-  double tolerance() const;                   // ε of the brake [1]
-  double band_low() const;                    // [rad/s]
-  double band_high() const;                   // [rad/s]
-  double reference_frequency() const;         // [rad/s]; 0: the limit ω → 0
+  double damping_scale() const { return damping_scale_; }                         // from the joint to the tool
+  double position_scale() const { return position_scale_; }                       // likewise
+  std::optional<double> max_damping() const;                                      // at the tool [N·s/m]; empty: any
+  double tolerance() const;                                                       // ε of the brake [1]
+  double band_low() const;                                                        // [rad/s]
+  double band_high() const;                                                       // [rad/s]
+  double reference_frequency() const;                                             // [rad/s]; 0: the limit ω → 0
 
   // G(jω) = V̂/U̇ of the estimator; a pure delay where the estimator is not linear. 1 for an ideal device.
   std::complex<double> velocity_response(double angular_frequency) const;
   // A(jω) between the motor's command and its force: whole samples of loop delay and the amplifier's lag; not the hold.
   std::complex<double> motor_response(double angular_frequency) const;
-  double encoder_step() const;                // at the tool [m] or [rad]; 0 for an ideal device
+  double encoder_step() const;  // at the tool [m] or [rad]; 0 for an ideal device
   bool estimator_is_linear() const;
   bool estimate_sums_to_displacement() const;  // so that velocity-driven slow modes do not drift
   // Samples that an estimate reaches back from the hold that it acts in; empty where it never forgets or is not linear.
   std::optional<unsigned> estimate_memory() const;
   double largest_estimator_gain() const;  // max |G|; infinite where it is not linear
-  double sample_period() const;  // [s]
-  double coil_lag() const;       // [s]
-  double coil_slew() const;      // of √b [√(N·s/m)/s]; 0: unlimited
+  double sample_period() const;           // [s]
+  double coil_lag() const;                // [s]
+  double coil_slew() const;               // of √b [√(N·s/m)/s]; 0: unlimited
   std::string_view estimator_name() const;
   std::optional<double> velocity_noise() const;  // rms of the estimate under quantisation [m/s]; empty: not linear
 
@@ -49,7 +49,7 @@ class PortDevice {
   Estimator estimator() const;
 
   const Device* device_ = nullptr;
-  double damping_scale_ = 1;   // from the joint to the tool
+  double damping_scale_ = 1;  // from the joint to the tool
   double position_scale_ = 1;
 };
 

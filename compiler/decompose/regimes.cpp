@@ -64,8 +64,8 @@ Regime regime_of(const Network& left, std::vector<bool> slides, double reference
   return regime;
 }
 
-// Some of a network's elements as a network of their own, so that what is done with them does not cost more the more there are
-// beside them.
+// Some of a network's elements as a network of their own, so that what is done with them does not cost more the more
+// there are beside them.
 class PartOfNetwork {
  public:
   PartOfNetwork(const Network& whole, const std::vector<std::size_t>& elements) : elements_(elements) {

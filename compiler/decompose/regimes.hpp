@@ -1,5 +1,5 @@
-// The regimes of a network with slips (theory, section 5): for each pattern of stuck and sliding slips the linear network
-// that is left, and what the brake may take over from it.
+// The regimes of a network with slips (theory, section 5): for each pattern of stuck and sliding slips the linear
+// network that is left, and what the brake may take over from it.
 #pragma once
 
 #include <cstddef>
@@ -26,14 +26,16 @@ struct Regime {
 
 struct RegimeList {
   std::vector<SlipElements> slips;
-  std::vector<Regime> regimes;  // one a pattern: bit i of the index tells whether slip i slides; empty beyond most_listed_slips
-  double count = 1;             // 2ⁿ, listed or not
+  std::vector<Regime>
+      regimes;       // one a pattern: bit i of the index tells whether slip i slides; empty beyond most_listed_slips
+  double count = 1;  // 2ⁿ, listed or not
 };
 
 inline constexpr std::size_t most_listed_slips = 6;
 
-// In: a network, those of its elements that are behind the slips given, and the frequency at which shares of dissipation
-// are compared [rad/s] (section 4). Ensures: 0 ≤ b∞ ≤ Z_d(0) in every regime. Works for trees and for others.
+// In: a network, those of its elements that are behind the slips given, and the frequency at which shares of
+// dissipation are compared [rad/s] (section 4). Ensures: 0 ≤ b∞ ≤ Z_d(0) in every regime. Works for trees and for
+// others.
 RegimeList regimes_of(const Network& network, const std::vector<std::size_t>& elements, std::vector<SlipElements> slips,
                       double reference_frequency);
 

@@ -42,13 +42,14 @@ struct ComponentSplit {
 };
 
 struct SlipDecomposition {
-  std::vector<ComponentSplit> components;  // in the order of NormalForm::components; none where a contact makes one of all
-  std::vector<ComponentSplit> networks;    // in the order of NormalForm::networks; behind a contact one for all slips
-  double hysteresis = 0;         // displacement that does not end a slide for the command [m]
-  unsigned hold_samples = 0;     // a regime's samples before it is compensated
-  double coil_share = 1;         // κ: of what is missing from √b, that the coil makes up in a sample at least [1]
-  double assured_share = 0;      // of a damping that no slip changes, what an estimate may make up for; 0 for none [1]
-  double make_up = 0;            // what the motor may add or take of a brake on its way, β at most [N·s/m]
+  std::vector<ComponentSplit>
+      components;  // in the order of NormalForm::components; none where a contact makes one of all
+  std::vector<ComponentSplit> networks;  // in the order of NormalForm::networks; behind a contact one for all slips
+  double hysteresis = 0;                 // displacement that does not end a slide for the command [m]
+  unsigned hold_samples = 0;             // a regime's samples before it is compensated
+  double coil_share = 1;     // κ: of what is missing from √b, that the coil makes up in a sample at least [1]
+  double assured_share = 0;  // of a damping that no slip changes, what an estimate may make up for; 0 for none [1]
+  double make_up = 0;        // what the motor may add or take of a brake on its way, β at most [N·s/m]
 
   // Components, then networks.
   std::vector<const ComponentSplit*> all() const {

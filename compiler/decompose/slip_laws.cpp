@@ -10,7 +10,8 @@ namespace dashpot::compiler {
 namespace {
 
 bool has_tunables(const Network& network) {
-  return std::any_of(network.parameters.begin(), network.parameters.end(), [](const Parameter& p) { return p.tunable; });
+  return std::any_of(network.parameters.begin(), network.parameters.end(),
+                     [](const Parameter& p) { return p.tunable; });
 }
 
 ComponentSplit split_of_component(const Network& network, const NormalTree& component, const LinearForm& beside,
@@ -20,20 +21,23 @@ ComponentSplit split_of_component(const Network& network, const NormalTree& comp
   part.sliding = form_in_regime(component, slips, std::vector<bool>(slips.size(), true));
   const std::optional<NormalTree> gated = without_dampers_beside_slips(component);
   if (gated)
-    for (const Regime& regime : part.regimes.regimes) part.gated.push_back(form_in_regime(*gated, slips, regime.slides));
+    for (const Regime& regime : part.regimes.regimes)
+      part.gated.push_back(form_in_regime(*gated, slips, regime.slides));
   ComponentSplit split = PartDecomposer(std::move(part), beside, device, has_tunables(network)).split(decomposition);
   split.rendered = split.law == SlipLaw::gated ? *gated : component;
   return split;
 }
 
 // Slips that meet in no tree.
-ComponentSplit split_of_network(const Network& network, const std::vector<std::size_t>& elements, const LinearForm& beside,
-                                const std::variant<std::string, double>& decomposition, const PortDevice& device) {
+ComponentSplit split_of_network(const Network& network, const std::vector<std::size_t>& elements,
+                                const LinearForm& beside, const std::variant<std::string, double>& decomposition,
+                                const PortDevice& device) {
   SlipPart part{regimes_of(network, elements, device.reference_frequency()), {}, {}};
   if (!part.regimes.regimes.empty()) part.sliding = part.regimes.regimes.back().form;
   const std::optional<std::vector<std::size_t>> gated = without_dampers_beside_slips(network, elements);
   if (gated)
-    for (const Regime& regime : regimes_of(network, *gated, part.regimes.slips, device.reference_frequency()).regimes) part.gated.push_back(regime.form);
+    for (const Regime& regime : regimes_of(network, *gated, part.regimes.slips, device.reference_frequency()).regimes)
+      part.gated.push_back(regime.form);
   ComponentSplit split = PartDecomposer(std::move(part), beside, device, has_tunables(network)).split(decomposition);
   split.rendered_elements = split.law == SlipLaw::gated ? *gated : elements;
   return split;
@@ -55,8 +59,8 @@ double largest_damping(const ComponentSplit& split) {
   return largest;
 }
 
-// What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f. Returns what is
-// left of the brake.
+// What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f. Returns what
+// is left of the brake.
 double cap(std::vector<ComponentSplit>& splits, double reach) {
   for (ComponentSplit& split : splits) {
     for (BrakeShare& share : split.shares) {
@@ -78,7 +82,9 @@ double coil_share(const PortDevice& device, double root_span) {
 
 // Of the damping that no slip changes, what is certain and does not cover a compensation yet. With a constant bound any
 // estimator will do that does not make the velocity larger, ‖v̂‖₂ ≤ ‖u̇‖₂.
-double assured_share(const PortDevice& device) { return device.largest_estimator_gain() <= 1 ? 1 - device.tolerance() : 0; }
+double assured_share(const PortDevice& device) {
+  return device.largest_estimator_gain() <= 1 ? 1 - device.tolerance() : 0;
+}
 
 double make_up(const Candidate& linear_part, const PortDevice& device) {
   return std::max(0.0, assured_share(device) * linear_part.damping - linear_part.velocity_gain);
@@ -109,13 +115,15 @@ SlipDecomposition decompose_slips(const Network& network, const NormalForm& form
 namespace {
 
 // False, with a diagnostic, where a law was asked for that no part can have.
-bool has_what_was_asked_for(const Network& network, const SlipDecomposition& slips, const Choices& choices, Diagnostics& diagnostics) {
+bool has_what_was_asked_for(const Network& network, const SlipDecomposition& slips, const Choices& choices,
+                            Diagnostics& diagnostics) {
   const auto* name = std::get_if<std::string>(&choices.decomposition);
   if (name == nullptr || (*name != name_of(SlipLaw::gated) && *name != name_of(SlipLaw::compensated))) return true;
   for (const ComponentSplit* split : slips.all())
     if (name_of(split->law) == *name) return true;
   const ComponentSplit& first = *slips.all().front();
-  diagnostics.report<DiagnosticCode::no_such_slip_law>(network.elements[first.regimes.slips.front().front()].span, *name, name_of(first, network), first.reason);
+  diagnostics.report<DiagnosticCode::no_such_slip_law>(network.elements[first.regimes.slips.front().front()].span,
+                                                       *name, name_of(first, network), first.reason);
   diagnostics.note<DiagnosticCode::take_another_slip_law>({});
   return false;
 }
@@ -124,7 +132,8 @@ bool has_what_was_asked_for(const Network& network, const SlipDecomposition& sli
 
 std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& choices,
                                        const Device* device, Diagnostics& diagnostics) {
-  std::optional<Decomposition> result = decompose(linear_part(network, form), form.linear, choices, device, diagnostics);
+  std::optional<Decomposition> result =
+      decompose(linear_part(network, form), form.linear, choices, device, diagnostics);
   if (!result || !form.has_slips()) return result;
   const std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
   if (!port) return result;

@@ -1,8 +1,8 @@
 // How the force of what is behind slips is shared between brake and motor, regime by regime (theory, section 5).
 //
 // In every regime V_k − V_{k−1} ≤ f′Δu, f′ = f − x Δu/h for any x up to the regime's feedthrough damping b∞. So a motor
-// that makes f′ is passive with any brake, whatever the slips, the coil and the tolerance do; only what an estimate of the
-// velocity takes away again, the compensation, has to stay below a brake that is certain.
+// that makes f′ is passive with any brake, whatever the slips, the coil and the tolerance do; only what an estimate of
+// the velocity takes away again, the compensation, has to stay below a brake that is certain.
 #pragma once
 
 #include <optional>
@@ -24,9 +24,9 @@ inline constexpr double hysteresis_steps = 1.5;
 
 std::string_view name_of(SlipLaw law);
 
-// In: the network, its normal form, the decomposition of what reaches ground without a slip. Ensures: together with that
-// part no regime asks for more than the brake gives; every feedthrough ≤ b∞ and ≤ b of its regime, every compensation
-// ≤ (1 − ε) b.
+// In: the network, its normal form, the decomposition of what reaches ground without a slip. Ensures: together with
+// that part no regime asks for more than the brake gives; every feedthrough ≤ b∞ and ≤ b of its regime, every
+// compensation ≤ (1 − ε) b.
 SlipDecomposition decompose_slips(const Network& network, const NormalForm& form, const Candidate& linear_part,
                                   const Choices& choices, const PortDevice& device);
 

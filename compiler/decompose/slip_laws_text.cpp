@@ -11,7 +11,8 @@ namespace dashpot::compiler {
 namespace {
 
 bool offers_choice(const ComponentSplit& split) {
-  return std::count_if(split.merits.begin(), split.merits.end(), [](const SlipLawMerit& merit) { return merit.refusal.empty(); }) > 1;
+  return std::count_if(split.merits.begin(), split.merits.end(),
+                       [](const SlipLawMerit& merit) { return merit.refusal.empty(); }) > 1;
 }
 
 bool is_like(const ComponentSplit& first, const ComponentSplit& second) {
@@ -23,19 +24,22 @@ bool is_like(const ComponentSplit& first, const ComponentSplit& second) {
 }
 
 bool asks_the_brake(const ComponentSplit& split) {
-  return std::any_of(split.regimes.regimes.begin(), split.regimes.regimes.end(), [](const Regime& regime) { return regime.damping > 0; });
+  return std::any_of(split.regimes.regimes.begin(), split.regimes.regimes.end(),
+                     [](const Regime& regime) { return regime.damping > 0; });
 }
 
 std::string regimes_text(const ComponentSplit& split, const Network& network) {
   const std::string unit = port_units(network.port_motion).damping;
-  std::string text = fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}  observer\n", "stuck", "b", "its observer's", "b∞", "compensation");
+  std::string text =
+      fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}  observer\n", "stuck", "b", "its observer's", "b∞", "compensation");
   text += fmt::format("  {:<24}{:>14}{:>16}{:>14}{:>14}\n", "", unit, unit, unit, unit);
   for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) {
     const Regime& regime = split.regimes.regimes[i];
     const std::vector<std::string> stuck = slip_names(split.regimes, regime, false, network);
-    text += fmt::format("  {:<24}{:>14.8g}{:>16.8g}{:>14.8g}{:>14.8g}  {}\n", stuck.empty() ? "-" : fmt::format("{}", fmt::join(stuck, ", ")),
-                        split.shares[i].damping, to_double(regime.damping), to_double(regime.feedthrough()),
-                        split.shares[i].compensation, regime.reason);
+    text += fmt::format("  {:<24}{:>14.8g}{:>16.8g}{:>14.8g}{:>14.8g}  {}\n",
+                        stuck.empty() ? "-" : fmt::format("{}", fmt::join(stuck, ", ")), split.shares[i].damping,
+                        to_double(regime.damping), to_double(regime.feedthrough()), split.shares[i].compensation,
+                        regime.reason);
   }
   return text;
 }
@@ -48,8 +52,7 @@ std::string laws_text(const ComponentSplit& split, const Network& network) {
     if (merit.refusal.empty())
       text += fmt::format("  {:<16}{:>12.4g}{:>14}\n", name_of(merit.law), 100 * merit.largest_error,
                           merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
-    else
-      text += fmt::format("  {:<16}  not to be had: {}\n", name_of(merit.law), merit.refusal);
+    else text += fmt::format("  {:<16}  not to be had: {}\n", name_of(merit.law), merit.refusal);
   return text;
 }
 
@@ -65,7 +68,8 @@ std::string_view name_of(SlipLaw law) {
   return "";
 }
 
-std::vector<std::string> slip_names(const RegimeList& list, const Regime& regime, bool sliding, const Network& network) {
+std::vector<std::string> slip_names(const RegimeList& list, const Regime& regime, bool sliding,
+                                    const Network& network) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < list.slips.size(); ++i)
     if (regime.slides[i] == sliding)
@@ -83,11 +87,10 @@ std::string name_of(const ComponentSplit& split, const Network& network) {
 std::vector<SlipLikes> likes_of(const SlipDecomposition& slips, const Network& network) {
   std::vector<SlipLikes> all;
   for (const ComponentSplit* split : slips.all()) {
-    const auto like = std::find_if(all.begin(), all.end(), [&](const SlipLikes& other) { return is_like(*other.first, *split); });
-    if (like == all.end())
-      all.push_back({split, {name_of(*split, network)}});
-    else
-      like->names.push_back(name_of(*split, network));
+    const auto like =
+        std::find_if(all.begin(), all.end(), [&](const SlipLikes& other) { return is_like(*other.first, *split); });
+    if (like == all.end()) all.push_back({split, {name_of(*split, network)}});
+    else like->names.push_back(name_of(*split, network));
   }
   return all;
 }

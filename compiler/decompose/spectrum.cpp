@@ -99,7 +99,8 @@ double largest_error(const LinearForm& form, double damping, StateInput input, c
   const double static_stiffness = to_double(form.static_stiffness);
   const auto error_at = [&](double w) {
     const MotorImpedance motor = scanned.impedance(w);
-    const std::complex<double> late = device.motor_response(w), prompt = motor.position_driven + static_stiffness / std::complex(0.0, w);
+    const std::complex<double> late = device.motor_response(w),
+                               prompt = motor.position_driven + static_stiffness / std::complex(0.0, w);
     // (A − 1)(k0/jω + position_driven) + (A G − 1) velocity_driven
     const std::complex<double> error =
         (late - 1.0) * prompt + (late * device.velocity_response(w) - 1.0) * motor.velocity_driven;
@@ -132,8 +133,7 @@ double extra_damping_any_delay(const LinearForm& form, double damping, StateInpu
     const MotorImpedance motor = scanned.impedance(w);
     return std::abs(motor.velocity_driven) - motor.position_driven.real() - (1 - tolerance) * damping;
   };
-  const double at_high_frequency =
-      std::abs(to_double(form.feedthrough_damping) - damping) - (1 - tolerance) * damping;
+  const double at_high_frequency = std::abs(to_double(form.feedthrough_damping) - damping) - (1 - tolerance) * damping;
   return std::max({0.0, at_high_frequency, lack_at(0), maximum(whole_axis(form), lack_at)});
 }
 

@@ -7,8 +7,10 @@ ContactSurface::ContactSurface(LawWriter& writer, double at, double encoder_step
 
 void ContactSurface::declare() {
   surface_ = writer_.scalar("surface", writer_.length(), "s, how far the surface is pushed in", Role::state);
-  if (at_ != 0) depth_ = writer_.scalar("depth", writer_.length(), "of the tool behind the unloaded surface", Role::local);
-  approach_ = writer_.scalar("approach", writer_.length(), "Δ, the surface's change if it stuck to the tool", Role::local);
+  if (at_ != 0)
+    depth_ = writer_.scalar("depth", writer_.length(), "of the tool behind the unloaded surface", Role::local);
+  approach_ =
+      writer_.scalar("approach", writer_.length(), "Δ, the surface's change if it stuck to the tool", Role::local);
   change_ = writer_.scalar("surface_change", writer_.length(), "Δs since the sample before", Role::local);
   gap_ = writer_.scalar("gap", writer_.length(), "between tool and surface", Role::local);
   now_ = writer_.scalar("surface_now", writer_.length(), "s", Role::local);
@@ -21,7 +23,8 @@ void ContactSurface::write_approach() {
   if (at_ == 0) {
     depth_ = law.position;
   } else {
-    const ExpressionId at = writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies", Real(at_));
+    const ExpressionId at =
+        writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies", Real(at_));
     writer_.assign(law.output, depth_, writer_.subtract(writer_.read(law.position), at), "");
   }
   writer_.assign(law.output, approach_, writer_.subtract(writer_.read(depth_), writer_.read(surface_)), "Δ = u − s₋");
@@ -33,8 +36,10 @@ void ContactSurface::write_change(const Real& stiffness, VariableId held) {
   const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
   const VariableId recovery =
       writer_.scalar("surface_recovery", writer_.length(), "the surface's change if nothing touched it", Role::local);
-  const ExpressionId compliance = writer_.constant("recovery_compliance", writer_.compliance(), "−1/g", stiffness > 0 ? Real(-1 / stiffness) : Real(0));
-  writer_.assign(output, recovery, writer_.multiply(compliance, held == no_variable ? none : writer_.read(held)), "f = 0 at Δs = −π/g");
+  const ExpressionId compliance = writer_.constant("recovery_compliance", writer_.compliance(), "−1/g",
+                                                   stiffness > 0 ? Real(-1 / stiffness) : Real(0));
+  writer_.assign(output, recovery, writer_.multiply(compliance, held == no_variable ? none : writer_.read(held)),
+                 "f = 0 at Δs = −π/g");
   const ExpressionId ahead = writer_.subtract(writer_.read(recovery), writer_.read(approach_));
   writer_.assign(output, change_, writer_.where(ahead, writer_.read(recovery), writer_.read(approach_)), "f ≥ 0");
 }
@@ -46,10 +51,12 @@ void ContactSurface::write_surface() {
   writer_.assign(output, now_, writer_.where(writer_.read(gap_), moved, writer_.read(depth_)), "s = s₋ + Δs");
 }
 
-void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_damping, const BrakeBehindSlips& slips) {
+void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_damping,
+                                   const BrakeBehindSlips& slips) {
   UpdateLaw& law = writer_.law();
   const double damping = law.damping;
-  const Real left_to_motor = rounded(feedthrough_damping, law.scalar) == damping ? Real(0) : Real(feedthrough_damping - damping);
+  const Real left_to_motor =
+      rounded(feedthrough_damping, law.scalar) == damping ? Real(0) : Real(feedthrough_damping - damping);
   ExpressionId felt = writer_.read(opposing), motor = felt;
   if (feedthrough_damping > 0) {
     const ExpressionId feedthrough = writer_.constant("feedthrough", writer_.damping(), "b∞", feedthrough_damping);
@@ -60,14 +67,17 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
     motor = writer_.add(motor, writer_.multiply(gain, writer_.read(law.velocity)));
   }
   if (slips.steady > 0)
-    felt = writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(), "b∞ behind slips", slips.steady), writer_.read(law.velocity)));
+    felt = writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(),
+                                                               "b∞ behind slips", slips.steady),
+                                              writer_.read(law.velocity)));
   if (slips.changing != nothing) felt = writer_.add(felt, writer_.multiply(slips.changing, writer_.read(law.velocity)));
   if (slips.compensation != nothing) {
     const ExpressionId taken_back = writer_.multiply(slips.compensation, writer_.read(law.velocity));
     felt = writer_.subtract(felt, taken_back);
     motor = writer_.subtract(motor, taken_back);
   }
-  const VariableId released = released_ = writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
+  const VariableId released = released_ =
+      writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
   const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
   const ExpressionId release = release_of(opposing, felt, none);
   writer_.assign(law.output, released, release, "above 0 where the tool is free");
@@ -77,21 +87,26 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
     law.largest_damping = rounded(Real(damping) + slips.largest, law.scalar);
     const Real steady = Real(damping) + slips.steady;
     ExpressionId held = slips.changing;
-    if (steady > 0) held = writer_.plus(held, writer_.constant("contact_damping", writer_.damping(), "b while the tool touches", steady));
+    if (steady > 0)
+      held = writer_.plus(held,
+                          writer_.constant("contact_damping", writer_.damping(), "b while the tool touches", steady));
     writer_.assign(law.output, law.brake, writer_.where(writer_.read(released), none, held), "b = 0 of a free tool");
     law.last_brake = writer_.kept(law.brake);
   }
-  writer_.assign(law.output, law.force, writer_.where(writer_.read(released), none, motor), "m = f − b u̇ of a tool that touches");
+  writer_.assign(law.output, law.force, writer_.where(writer_.read(released), none, motor),
+                 "m = f − b u̇ of a tool that touches");
 }
 
 // The state lets go with f; the command only where f′ + b∞ v̂ < 0, or beyond a gap that the encoder tells from none, or
 // where nothing pushes any more.
 ExpressionId ContactSurface::release_of(VariableId opposing, ExpressionId felt, ExpressionId none) {
-  const VariableId pull = writer_.scalar("pull", writer_.force(), "what the tool would feel, the other way", Role::local);
+  const VariableId pull =
+      writer_.scalar("pull", writer_.force(), "what the tool would feel, the other way", Role::local);
   writer_.assign(writer_.law().output, pull, writer_.subtract(none, felt), "−(f′ + b∞ v̂)");
   ExpressionId opened = writer_.read(gap_);
   if (encoder_step_ > 0) {
-    const ExpressionId step = writer_.constant("encoder_step", writer_.length(), "of the gap before the command lets go", Real(encoder_step_));
+    const ExpressionId step = writer_.constant("encoder_step", writer_.length(),
+                                               "of the gap before the command lets go", Real(encoder_step_));
     const ExpressionId pushed = writer_.where(writer_.read(opposing), none, writer_.read(gap_));
     opened = writer_.where(writer_.subtract(writer_.read(gap_), step), writer_.read(gap_), pushed);
   }

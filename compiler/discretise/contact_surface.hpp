@@ -1,8 +1,8 @@
-// The surface that a tool touches and leaves (theory, section 5, "Contact"), written into a law: where the surface goes in
-// a sample, and when the command lets go.
+// The surface that a tool touches and leaves (theory, section 5, "Contact"), written into a law: where the surface goes
+// in a sample, and when the command lets go.
 //
-// The state is the surface's displacement s from where it lies unloaded. The tool would have it change by Δ = u − at − s₋.
-// With f(Δ) ≥ 0 it goes along; else it goes where f = 0, and a gap opens.
+// The state is the surface's displacement s from where it lies unloaded. The tool would have it change by Δ = u − at −
+// s₋. With f(Δ) ≥ 0 it goes along; else it goes where f = 0, and a gap opens.
 #pragma once
 
 #include "discretise/law_writer.hpp"
@@ -11,10 +11,10 @@ namespace dashpot::compiler {
 
 // The brake's b of what is behind slips.
 struct BrakeBehindSlips {
-  ExpressionId changing = nothing;  // nothing where it does not change
+  ExpressionId changing = nothing;      // nothing where it does not change
   ExpressionId compensation = nothing;  // β, whose β v̂ the motor takes back; nothing without
-  Real steady = 0;                  // of what does not [N·s/m]
-  Real largest = 0;                 // of both together [N·s/m]
+  Real steady = 0;                      // of what does not [N·s/m]
+  Real largest = 0;                     // of both together [N·s/m]
 };
 
 class ContactSurface {
@@ -24,7 +24,7 @@ class ContactSurface {
 
   void declare();
 
-  VariableId before() const { return surface_; }    // s₋
+  VariableId before() const { return surface_; }     // s₋
   VariableId approach() const { return approach_; }  // Δ
   VariableId change() const { return change_; }      // Δs
   VariableId now() const { return now_; }            // s
@@ -35,8 +35,8 @@ class ContactSurface {
   void write_change(const Real& stiffness, VariableId held);
   // Where it is, its change being known.
   void write_surface();
-  // The brake's b and the motor's part while the tool touches; both 0 when it is free. `opposing` is f′ = f − b∞ Δs/h, also
-  // without what slips leave to the brake.
+  // The brake's b and the motor's part while the tool touches; both 0 when it is free. `opposing` is f′ = f − b∞ Δs/h,
+  // also without what slips leave to the brake.
   void write_command(VariableId opposing, const Real& feedthrough_damping, const BrakeBehindSlips& slips);
 
  private:
@@ -44,7 +44,8 @@ class ContactSurface {
 
   LawWriter& writer_;
   double at_, encoder_step_;
-  VariableId surface_ = nothing, depth_ = nothing, approach_ = nothing, change_ = nothing, gap_ = nothing, now_ = nothing, released_ = nothing;
+  VariableId surface_ = nothing, depth_ = nothing, approach_ = nothing, change_ = nothing, gap_ = nothing,
+             now_ = nothing, released_ = nothing;
 };
 
 }  // namespace dashpot::compiler

@@ -26,10 +26,12 @@ void collect(const NormalTree& tree, std::vector<std::size_t>& elements) {
 
 }  // namespace
 
-CoupledSlips::CoupledSlips(LawWriter& writer, const Network& network, const Real& sample_period, const NormalTree& component)
+CoupledSlips::CoupledSlips(LawWriter& writer, const Network& network, const Real& sample_period,
+                           const NormalTree& component)
     : writer_(writer),
       network_(network),
-      table_(slip_table(component, companion_stiffness(component, writer.law().scheme, sample_period), writer.law().scalar)),
+      table_(slip_table(component, companion_stiffness(component, writer.law().scheme, sample_period),
+                        writer.law().scalar)),
       name_(writer.unique(joined("coupled", name_of(table_.slips.front()->elements, network)))) {
   for (const NormalTree* part : table_.blocks) blocks_.push_back(block_of(*part, sample_period));
 }
@@ -38,8 +40,10 @@ CoupledSlips::Block CoupledSlips::block_of(const NormalTree& part, const Real& s
   Block block{&part, writer_.unique(name_of(part.elements, network_)), nullptr};
   if (part.form.modes.empty()) return block;
   Names names;
-  for (const Mode& mode : part.form.modes) names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
-  block.modes = std::make_unique<ModeBank>(writer_, part.form.modes, StateInput::position, sample_period, std::move(names), block.name);
+  for (const Mode& mode : part.form.modes)
+    names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
+  block.modes = std::make_unique<ModeBank>(writer_, part.form.modes, StateInput::position, sample_period,
+                                           std::move(names), block.name);
   return block;
 }
 
@@ -61,14 +65,17 @@ double CoupledSlips::smallest_loss() const {
 void CoupledSlips::declare() {
   for (Block& block : blocks_) {
     if (block.has_spring())
-      block.spring_force = writer_.scalar(joined(block.name, "spring_force"), writer_.force(), "force of the spring", Role::state);
+      block.spring_force =
+          writer_.scalar(joined(block.name, "spring_force"), writer_.force(), "force of the spring", Role::state);
     if (block.modes) block.modes->declare();
     if (block.has_spring() || block.modes)
-      block.elongation = writer_.scalar(joined(block.name, "elongation"), writer_.length(), "δ of the block", Role::local);
+      block.elongation =
+          writer_.scalar(joined(block.name, "elongation"), writer_.length(), "δ of the block", Role::local);
   }
   if (!has_signs_) return;
   for (const NormalTree* slip : table_.slips)
-    signs_.push_back(writer_.scalar(joined(writer_.unique(name_of(slip->elements, network_)), "sign"), "1", "side to which the slip gives way", Role::local));
+    signs_.push_back(writer_.scalar(joined(writer_.unique(name_of(slip->elements, network_)), "sign"), "1",
+                                    "side to which the slip gives way", Role::local));
 }
 
 ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_change) {
@@ -79,8 +86,10 @@ ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_ch
   for (const NormalTree* slip : table_.slips) coupling.slips.push_back(slip->elements);
   coupling.sign = signs_;
   coupling.surface_change = surface_change;
-  const VariableId force = writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
-  writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers", origins());
+  const VariableId force =
+      writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
+  writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers",
+                 origins());
   law.output.back().coupling = static_cast<std::uint32_t>(law.couplings.size());
   law.couplings.push_back(std::move(coupling));
   return writer_.read(force);
@@ -93,7 +102,8 @@ VariableId CoupledSlips::write_held(const Block& block) {
   if (!block.has_spring()) return block.modes->decayed_sum();
   const VariableId held = writer_.scalar(joined(block.name, "held"), writer_.force(), "force at rest", Role::local);
   writer_.assign(writer_.law().output, held,
-                 writer_.add(writer_.read(block.spring_force), writer_.read(block.modes->decayed_sum())), "π = F0 + Σ a F");
+                 writer_.add(writer_.read(block.spring_force), writer_.read(block.modes->decayed_sum())),
+                 "π = F0 + Σ a F");
   return held;
 }
 
@@ -103,9 +113,12 @@ void CoupledSlips::write_update() {
     if (block.elongation == nothing) continue;
     const VariableId elongation = writer_.kept(block.elongation);
     if (block.has_spring()) {
-      const ExpressionId stiffness = writer_.constant(joined(block.name, "stiffness"), writer_.stiffness(), "k0", block.form().static_stiffness);
-      const ExpressionId force = writer_.add(writer_.read(block.spring_force), writer_.multiply(stiffness, writer_.read(elongation)));
-      writer_.assign(writer_.law().update, block.spring_force, writer_.flush(force), "F ← F + k δ", {block.part->elements});
+      const ExpressionId stiffness =
+          writer_.constant(joined(block.name, "stiffness"), writer_.stiffness(), "k0", block.form().static_stiffness);
+      const ExpressionId force =
+          writer_.add(writer_.read(block.spring_force), writer_.multiply(stiffness, writer_.read(elongation)));
+      writer_.assign(writer_.law().update, block.spring_force, writer_.flush(force), "F ← F + k δ",
+                     {block.part->elements});
     }
     if (block.modes) block.modes->write_update(elongation, nothing);
   }
@@ -122,12 +135,14 @@ ExpressionId CoupledSlips::energy() {
 
 // ½ F0²/k0
 ExpressionId CoupledSlips::spring_energy(const Block& block) {
-  const ExpressionId weight = writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)", 1 / (2 * block.form().static_stiffness));
+  const ExpressionId weight = writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)",
+                                               1 / (2 * block.form().static_stiffness));
   return writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)), writer_.read(block.spring_force));
 }
 
 VariableId CoupledSlips::sign_of(const std::vector<std::size_t>& elements) const {
-  const auto slip = std::find_if(table_.slips.begin(), table_.slips.end(), [&](const NormalTree* part) { return part->elements == elements; });
+  const auto slip = std::find_if(table_.slips.begin(), table_.slips.end(),
+                                 [&](const NormalTree* part) { return part->elements == elements; });
   return signs_[static_cast<std::size_t>(slip - table_.slips.begin())];
 }
 

@@ -1,5 +1,5 @@
-// A component in which several slips meet, written as one step of dashpot::slip_tree between scalars of the law (theory,
-// section 5, "Coupled trees").
+// A component in which several slips meet, written as one step of dashpot::slip_tree between scalars of the law
+// (theory, section 5, "Coupled trees").
 #pragma once
 
 #include <memory>
@@ -28,8 +28,8 @@ class CoupledSlips {
   double smallest_loss() const;  // min (1 − a) over all modes; 1 without
   void declare();                // to be called when the law's mode form is settled
 
-  // The component's force, from the tool's displacement in this sample. Where the tool pushes and cannot pull, that is what
-  // the surface's change would be if it stuck to the tool, and `surface_change` becomes what it is.
+  // The component's force, from the tool's displacement in this sample. Where the tool pushes and cannot pull, that is
+  // what the surface's change would be if it stuck to the tool, and `surface_change` becomes what it is.
   ExpressionId write_output(VariableId change, VariableId surface_change = nothing);
   void write_update();
   ExpressionId energy();  // nothing without springs

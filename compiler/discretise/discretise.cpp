@@ -14,9 +14,9 @@
 namespace dashpot::compiler {
 namespace {
 
-// Places; beyond, a loop. Measured for Maxwell elements on an AMD EPYC (Zen 4), g++ 12 -O3, each form in a class of its own, the best
-// of 200 chains of 1,000 steps and the lower quartile of 41 ticks after the caches were filled with other things. Straight and
-// rolled, in SSE2, AVX2 and AVX-512 registers:
+// Places; beyond, a loop. Measured for Maxwell elements on an AMD EPYC (Zen 4), g++ 12 -O3, each form in a class of its
+// own, the best of 200 chains of 1,000 steps and the lower quartile of 41 ticks after the caches were filled with other
+// things. Straight and rolled, in SSE2, AVX2 and AVX-512 registers:
 //   8 places:  12 and 14, 13 and 16, 12 and 20 ns in a chain;  1.27 and 1.16, 1.73 and 1.53, 1.43 and 1.25 µs cold
 //   16 places: 29 and 16, 18 and 16, 18 and 21 ns;             1.48 and 1.54, 1.60 and 1.60, 1.31 and 1.31 µs
 //   32 places: 48 and 21, 46 and 18, 45 and 21 ns;             2.35 and 1.36, 3.39 and 1.55, 2.67 and 1.34 µs
@@ -107,20 +107,24 @@ class LawBuilder {
       change_ = writer_.scalar("position_change", writer_.length(), "Δu since the sample before", Role::local);
   }
 
-  // f_k = S + k0 u_k + (Σc) Δu + (b∞ − b) u̇_k, in two halves: neither the sample nor S, which is the last to be stored, then passes
-  // through every sum.
+  // f_k = S + k0 u_k + (Σc) Δu + (b∞ − b) u̇_k, in two halves: neither the sample nor S, which is the last to be stored,
+  // then passes through every sum.
   void write_output() {
     if (change_ != nothing)
       writer_.assign(law_.output, change_,
                      writer_.subtract(writer_.read(law_.position), writer_.read(law_.rest_position)), "Δu = u − u₋");
     const ExpressionId held = modes_.empty() ? nothing : writer_.read(modes_.decayed_sum());
-    const ExpressionId placed = plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
-    const ExpressionId stepped = plus_product(nothing, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
-                                              modes_.step_stiffness(), change_);
+    const ExpressionId placed =
+        plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
+    const ExpressionId stepped =
+        plus_product(nothing, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
+                     modes_.step_stiffness(), change_);
     const Real of_motor = feedthrough_of_motor(), of_modes = modes_.velocity_gain(), together = of_motor + of_modes;
     const Real velocity_gain = abs(together) <= negligible_share * abs(of_modes) ? Real(0) : together;
-    const char* meaning = modes_.follows_velocity() ? "b∞ − b + h Σ c_i, what the estimate drives within a sample" : "b∞ − b";
-    const ExpressionId driven = plus_product(nothing, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
+    const char* meaning =
+        modes_.follows_velocity() ? "b∞ − b + h Σ c_i, what the estimate drives within a sample" : "b∞ − b";
+    const ExpressionId driven =
+        plus_product(nothing, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
     ExpressionId sum = stepped == nothing ? writer_.plus(held, writer_.plus(placed, driven))
                                           : writer_.plus(writer_.plus(held, placed), writer_.plus(stepped, driven));
     sum = slips_.write_output(sum, change_);
@@ -135,12 +139,14 @@ class LawBuilder {
   void write_contact_output() {
     const Real& feedthrough = form_.feedthrough_damping;
     contact_->write_approach();
-    const VariableId opposing = writer_.scalar("opposing", writer_.force(), "f′, the network's force but for b∞ Δs/h", Role::local);
+    const VariableId opposing =
+        writer_.scalar("opposing", writer_.force(), "f′, the network's force but for b∞ Δs/h", Role::local);
     ExpressionId sum = nothing;
     if (!slips_.empty()) {
       sum = slips_.write_push(contact_->approach(), contact_->change(), {linear_stiffness(), write_held()});
       contact_->write_surface();
-      sum = plus_product(sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h", -feedthrough / sample_period_, contact_->change());
+      sum = plus_product(sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h", -feedthrough / sample_period_,
+                         contact_->change());
       sum = brake_.without_feedthrough(sum, contact_->now(), contact_->change());
     } else {
       contact_->write_change(linear_stiffness(), write_held());
@@ -156,14 +162,18 @@ class LawBuilder {
   }
 
   // g = k0 + b∞/h + Σ c_i
-  Real linear_stiffness() const { return form_.static_stiffness + modes_.step_stiffness() + form_.feedthrough_damping / sample_period_; }
+  Real linear_stiffness() const {
+    return form_.static_stiffness + modes_.step_stiffness() + form_.feedthrough_damping / sample_period_;
+  }
 
   // π = k0 s₋ + S, of the linear part at the tool; no variable for a lone damper.
   VariableId write_held() {
-    ExpressionId held = plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, contact_->before());
+    ExpressionId held = plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness,
+                                     contact_->before());
     if (!modes_.empty()) held = writer_.plus(held, writer_.read(modes_.decayed_sum()));
     if (held == nothing) return no_variable;
-    const VariableId force = writer_.scalar("held_force", writer_.force(), "of the linear part if the surface stayed", Role::local);
+    const VariableId force =
+        writer_.scalar("held_force", writer_.force(), "of the linear part if the surface stayed", Role::local);
     writer_.assign(law_.output, force, held, "π = k0 s₋ + S");
     return force;
   }
@@ -180,7 +190,8 @@ class LawBuilder {
     modes_.write_update(modes_.follows_position() ? writer_.kept(change_) : nothing,
                         modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing);
     if (law_.rest_position != no_variable)
-      writer_.assign(law_.update, law_.rest_position, writer_.read(writer_.kept(contact_ ? contact_->now() : law_.position)),
+      writer_.assign(law_.update, law_.rest_position,
+                     writer_.read(writer_.kept(contact_ ? contact_->now() : law_.position)),
                      contact_ ? "s₋ = s" : "u₋ = u");
   }
 
@@ -196,7 +207,8 @@ class LawBuilder {
     if (form_.static_stiffness > 0) {
       const ExpressionId weight =
           writer_.constant("half_static_stiffness", writer_.stiffness(), "½ k0", form_.static_stiffness / 2);
-      sum = writer_.multiply(writer_.multiply(weight, writer_.read(law_.rest_position)), writer_.read(law_.rest_position));
+      sum = writer_.multiply(writer_.multiply(weight, writer_.read(law_.rest_position)),
+                             writer_.read(law_.rest_position));
     }
     sum = writer_.plus(sum, modes_.energy());
     sum = slips_.energy(sum);
@@ -205,8 +217,8 @@ class LawBuilder {
   }
 
   // Terms whose coefficient rounds to zero leave no trace in the program.
-  ExpressionId plus_product(ExpressionId sum, const std::string& name, const std::string& unit, const std::string& meaning,
-                            const Real& value, VariableId variable) {
+  ExpressionId plus_product(ExpressionId sum, const std::string& name, const std::string& unit,
+                            const std::string& meaning, const Real& value, VariableId variable) {
     if (rounded(value, law_.scalar) == 0) return sum;
     return writer_.plus(sum, writer_.multiply(writer_.constant(name, unit, meaning, value), writer_.read(variable)));
   }
@@ -226,7 +238,8 @@ class LawBuilder {
 };
 
 // The fastest alone is shown: it decides which rate samples them all.
-void warn_about_fast_relaxations(const Network& network, const LinearForm& form, double period, Diagnostics& diagnostics) {
+void warn_about_fast_relaxations(const Network& network, const LinearForm& form, double period,
+                                 Diagnostics& diagnostics) {
   const auto is_fast = [&](const Mode& mode) { return to_double(1 / mode.relaxation_rate) < 2 * period; };
   const auto count = std::count_if(form.modes.begin(), form.modes.end(), is_fast);
   if (count == 0) return;
@@ -263,8 +276,9 @@ UpdateLaw discretise(const Network& network, const NormalForm& form, const Decom
   return LawBuilder(network, realised, decomposition, choices, sample_period).build();
 }
 
-std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                                            const Choices& choices, double rate, const Device* device, Diagnostics& diagnostics) {
+std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
+                                            const Decomposition& decomposition, const Choices& choices, double rate,
+                                            const Device* device, Diagnostics& diagnostics) {
   const Real sample_period = 1 / Real(rate);
   warn_about_fast_relaxations(network, form.linear, to_double(sample_period), diagnostics);
   if (choices.scalar == ScalarType::float32) warn_about_float_range(network, form.linear, diagnostics);

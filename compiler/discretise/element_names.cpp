@@ -16,13 +16,28 @@ bool is_called(const Named& named, const std::string& name) {
 }
 
 // Tables and states of a law with tunables.
-constexpr std::string_view tunable_members[] = {"tunables", "terms", "numbers", "springs", "parts", "edges", "blocks", "cuts", "yields",
-                                                "couplings", "nodes", "tables", "law_", "last_position_", "sampled_position_",
+constexpr std::string_view tunable_members[] = {"tunables",
+                                                "terms",
+                                                "numbers",
+                                                "springs",
+                                                "parts",
+                                                "edges",
+                                                "blocks",
+                                                "cuts",
+                                                "yields",
+                                                "couplings",
+                                                "nodes",
+                                                "tables",
+                                                "law_",
+                                                "last_position_",
+                                                "sampled_position_",
                                                 "sampled_position_change_"};
 
 // States end in an underscore in the emitted class.
 bool is_member(const UpdateLaw& law, const std::string& name) {
-  if (law.tunable && std::find(std::begin(tunable_members), std::end(tunable_members), name) != std::end(tunable_members)) return true;
+  if (law.tunable &&
+      std::find(std::begin(tunable_members), std::end(tunable_members), name) != std::end(tunable_members))
+    return true;
   if (name == "threshold" || name == "total" || name == "sampled_") return true;
   const std::string state = name.back() == '_' ? name.substr(0, name.size() - 1) : "";
   const auto names_state = [&](const Variable& v) { return v.role == Role::state && is_called(v, state); };

@@ -54,7 +54,8 @@ void Evaluation<Scalar>::reset(Scalar position) {
   for (std::size_t i = 0; i < variables_.size(); ++i)
     std::fill(variables_[i].begin(), variables_[i].end(), static_cast<Scalar>(law_.variables[i].rest_value));
   if (law_.rest_position != no_variable && all_finite(position, position, position))
-    variables_[law_.rest_position][0] = law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
+    variables_[law_.rest_position][0] =
+        law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
   std::fill(turns_.begin(), turns_.end(), 0);
   sampled_ = false;
 }
@@ -148,10 +149,11 @@ void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const S
                          solver.merged.data());
   const Scalar change = value(statement.value, 0);
   if (coupling.is_pushed())
-    variables_[statement.target][0] = tree.push(change, solver.held.data(), solver.elongation.data(), solver.sign.data(),
-                                                variables_[coupling.surface_change][0]);
+    variables_[statement.target][0] = tree.push(change, solver.held.data(), solver.elongation.data(),
+                                                solver.sign.data(), variables_[coupling.surface_change][0]);
   else
-    variables_[statement.target][0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
+    variables_[statement.target][0] =
+        tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
   for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
     if (coupling.elongation[i] != no_variable) variables_[coupling.elongation[i]][0] = solver.elongation[i];
   for (std::size_t i = 0; i < coupling.sign.size(); ++i)
@@ -162,14 +164,18 @@ template <class Scalar>
 void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement) {
   for (std::size_t i = 0; i < network.held.size(); ++i)
     solver.held[i] = network.held[i] == no_variable ? Scalar(0) : variables_[network.held[i]][0];
-  for (std::size_t i = 0; i < network.sign.size(); ++i) solver.sign[i] = static_cast<int>(variables_[network.last_sign[i]][0]);
-  slip_network<Scalar> step(solver.links.data(), network.slip_count(),
-                            {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), static_cast<Scalar>(network.through)},
-                            network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
-  variables_[statement.target][0] = step.step(value(statement.value, 0), solver.held.data(), solver.moved.data(), solver.sign.data());
+  for (std::size_t i = 0; i < network.sign.size(); ++i)
+    solver.sign[i] = static_cast<int>(variables_[network.last_sign[i]][0]);
+  slip_network<Scalar> step(
+      solver.links.data(), network.slip_count(),
+      {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), static_cast<Scalar>(network.through)},
+      network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
+  variables_[statement.target][0] =
+      step.step(value(statement.value, 0), solver.held.data(), solver.moved.data(), solver.sign.data());
   for (std::size_t i = 0; i < network.moved.size(); ++i)
     if (network.moved[i] != no_variable) variables_[network.moved[i]][0] = solver.moved[i];
-  for (std::size_t i = 0; i < network.sign.size(); ++i) variables_[network.sign[i]][0] = static_cast<Scalar>(solver.sign[i]);
+  for (std::size_t i = 0; i < network.sign.size(); ++i)
+    variables_[network.sign[i]][0] = static_cast<Scalar>(solver.sign[i]);
 }
 
 template <class Scalar>
@@ -182,12 +188,12 @@ Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
     case Operation::add: return value(expression.left, place) + value(expression.right, place);
     case Operation::subtract: return value(expression.left, place) - value(expression.right, place);
     case Operation::multiply: return value(expression.left, place) * value(expression.right, place);
-    case Operation::flush:
-      return flush_below(static_cast<Scalar>(law_.flush_threshold), value(expression.left, place));
+    case Operation::flush: return flush_below(static_cast<Scalar>(law_.flush_threshold), value(expression.left, place));
     case Operation::clamp: return clamp_to(value(expression.right, place), value(expression.left, place));
     case Operation::where:
       return value(expression.condition, place) > 0 ? value(expression.left, place) : value(expression.right, place);
-    case Operation::pick: return coefficients_[expression.left][static_cast<std::size_t>(value(expression.right, place))];
+    case Operation::pick:
+      return coefficients_[expression.left][static_cast<std::size_t>(value(expression.right, place))];
     case Operation::sum: return sum(expression.left);
   }
   return Scalar(0);

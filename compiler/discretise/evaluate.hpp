@@ -62,7 +62,7 @@ class Evaluation {
   std::vector<std::vector<Scalar>> variables_;
   std::vector<std::vector<Scalar>> coefficients_;
   std::vector<std::size_t> turns_;  // of each guard, the first place that it takes next
-  std::vector<Solver> solvers_;  // one a coupling
+  std::vector<Solver> solvers_;     // one a coupling
   std::vector<NetworkSolver> network_solvers_;
   bool sampled_ = false;  // a finite sample waits for update()
 };

@@ -4,7 +4,8 @@ namespace dashpot::compiler {
 
 ExpressionId LawBrake::without_feedthrough(ExpressionId force, VariableId position, VariableId change) {
   for (const SlipParts::Braked& part : parts_.braked()) part.brake->write_output(part.signs, position);
-  for (const SlipParts::Braked& part : parts_.braked()) force = part.brake->without_feedthrough(force, change, sample_period_);
+  for (const SlipParts::Braked& part : parts_.braked())
+    force = part.brake->without_feedthrough(force, change, sample_period_);
   return force;
 }
 
@@ -25,7 +26,8 @@ ExpressionId LawBrake::made_up(ExpressionId sum) {
   for (const auto& group : parts_.groups()) shortfall = writer_.plus(shortfall, group->shortfall());
   for (const SlipParts::Braked& part : parts_.braked()) shortfall = writer_.plus(shortfall, part.brake->shortfall());
   if (shortfall == nothing) return sum;
-  const ExpressionId most = writer_.constant("steady_make_up", writer_.damping(), "what the motor makes up at most", settings_.make_up);
+  const ExpressionId most =
+      writer_.constant("steady_make_up", writer_.damping(), "what the motor makes up at most", settings_.make_up);
   return writer_.plus(sum, writer_.multiply(writer_.clamp(shortfall, most), writer_.read(writer_.law().velocity)));
 }
 
@@ -51,7 +53,9 @@ void LawBrake::write_command() {
   law.damping = rounded(least, law.scalar);
   law.largest_damping = rounded(largest, law.scalar);
   if (changing == nothing) return;
-  if (steady > 0) changing = writer_.plus(changing, writer_.constant("steady_damping", writer_.damping(), "of what no slip changes", steady));
+  if (steady > 0)
+    changing = writer_.plus(changing,
+                            writer_.constant("steady_damping", writer_.damping(), "of what no slip changes", steady));
   law.brake = writer_.scalar("damping", writer_.damping(), "b, the brake's part", Role::local);
   writer_.assign(law.output, law.brake, changing, "b of the regime");
   law.last_brake = writer_.scalar("last_damping", writer_.damping(), "b of the sample before", Role::state);

@@ -9,8 +9,13 @@ namespace dashpot::compiler {
 class LawBrake {
  public:
   // All outlive this. `linear_damping`: b of what reaches ground without a slip [N·s/m].
-  LawBrake(LawWriter& writer, const SlipDecomposition& settings, const SlipParts& parts, double linear_damping, const Real& sample_period)
-      : writer_(writer), settings_(settings), parts_(parts), linear_damping_(linear_damping), sample_period_(sample_period) {}
+  LawBrake(LawWriter& writer, const SlipDecomposition& settings, const SlipParts& parts, double linear_damping,
+           const Real& sample_period)
+      : writer_(writer),
+        settings_(settings),
+        parts_(parts),
+        linear_damping_(linear_damping),
+        sample_period_(sample_period) {}
 
   // f′ = f − Σ x Δu/h, x of every part's regime
   ExpressionId without_feedthrough(ExpressionId force, VariableId position, VariableId change);

@@ -54,7 +54,8 @@ VariableId LawWriter::scalar(const std::string& name, const std::string& unit, c
 
 VariableId LawWriter::vector(const VectorName& name, const std::string& unit, const std::string& meaning, Role role,
                              const Names& names) {
-  law_.variables.push_back({joined(name.whose, name.what), unit, meaning, role, names.size(), suffixed(names, name.what)});
+  law_.variables.push_back(
+      {joined(name.whose, name.what), unit, meaning, role, names.size(), suffixed(names, name.what)});
   return static_cast<VariableId>(law_.variables.size() - 1);
 }
 
@@ -67,7 +68,8 @@ ExpressionId LawWriter::constant(const std::string& name, const std::string& uni
                                  const Real& value) {
   const auto known = std::find_if(law_.coefficients.begin(), law_.coefficients.end(),
                                   [&](const Coefficient& coefficient) { return coefficient.name == name; });
-  if (known != law_.coefficients.end()) return node(Operation::constant, static_cast<std::uint32_t>(known - law_.coefficients.begin()));
+  if (known != law_.coefficients.end())
+    return node(Operation::constant, static_cast<std::uint32_t>(known - law_.coefficients.begin()));
   law_.coefficients.push_back({name, unit, meaning, {rounded(value, law_.scalar)}, {}});
   return node(Operation::constant, static_cast<std::uint32_t>(law_.coefficients.size() - 1));
 }

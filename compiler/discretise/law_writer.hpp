@@ -59,13 +59,14 @@ class LawWriter {
   ExpressionId where(ExpressionId condition, ExpressionId left, ExpressionId right);
   ExpressionId sum(VariableId vector) { return node(Operation::sum, read(vector)); }
   // The constant of that name, made where there is none yet.
-  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, const Real& value);
+  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning,
+                        const Real& value);
   ExpressionId constants(const VectorName& name, const std::string& unit, const std::string& meaning,
                          const std::vector<Real>& values, const Names& names);
 
   // A table, and the place of it that an expression says.
-  ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning, const std::vector<Real>& values,
-                    ExpressionId place);
+  ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning,
+                    const std::vector<Real>& values, ExpressionId place);
 
   // The variable that an expression is, or `nothing` where it is more than that.
   VariableId reads(ExpressionId expression) const;
@@ -85,7 +86,8 @@ class LawWriter {
   UpdateLaw& law_;
   std::string length_, force_;
   std::map<VariableId, VariableId> kept_;
-  std::set<std::string> taken_ = {"relaxed", "velocity", "no", "step", "last", "sampled", "steady"};  // begin names of the law's own
+  std::set<std::string> taken_ = {"relaxed", "velocity", "no",    "step",
+                                  "last",    "sampled",  "steady"};  // begin names of the law's own
 };
 
 }  // namespace dashpot::compiler

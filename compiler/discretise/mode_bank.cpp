@@ -44,7 +44,8 @@ void ModeBank::declare() {
   if (empty()) return;
   const bool are_several = modes_.size() > 1;
   if (are_several)
-    decayed_sum_ = writer_.scalar(joined(prefix_, "relaxed_force"), writer_.force(), "sum of the modes' forces, decayed to the next sample", Role::state);
+    decayed_sum_ = writer_.scalar(joined(prefix_, "relaxed_force"), writer_.force(),
+                                  "sum of the modes' forces, decayed to the next sample", Role::state);
   forces_ = state("force", "force of the mode, decayed to the next sample");
   if (!are_several) decayed_sum_ = forces_;
   if (writer_.law().mode_form == ModeForm::compensated) errors_ = state("error", "what rounding kept from the force");
@@ -60,8 +61,8 @@ void ModeBank::write_update(VariableId position_change, VariableId velocity) {
   switch (writer_.law().mode_form) {
     case ModeForm::product: {
       const ExpressionId decay = per_mode("decay", "1", decayed.c_str(), [](const auto& c) { return c.decay; });
-      // The guard looks at the force before, which waits for nothing; the drive comes first, so that the product that a compiler may
-      // fuse with the sum is that of the force.
+      // The guard looks at the force before, which waits for nothing; the drive comes first, so that the product that a
+      // compiler may fuse with the sum is that of the force.
       writer_.assign(update, forces_, writer_.add(driven, writer_.multiply(decay, guarded(writer_.read(forces_)))),
                      "F ← a (F + c Δu)", origins());
       break;
@@ -75,14 +76,15 @@ void ModeBank::write_update(VariableId position_change, VariableId velocity) {
   if (decayed_sum_ != forces_) writer_.assign(update, decayed_sum_, writer_.sum(forces_), "S = Σ a_i F_i");
 }
 
-// Has the forces guarded in turn, by the fewest rounds of the loop a sample that come to each while it can wait; false where each
-// needs its guard at each sample.
+// Has the forces guarded in turn, by the fewest rounds of the loop a sample that come to each while it can wait; false
+// where each needs its guard at each sample.
 bool ModeBank::guard_in_turn() {
   UpdateLaw& law = writer_.law();
   if (law.guards_each_sample || law.mode_form == ModeForm::compensated || !law.is_rolled(modes_.size())) return false;
   double smallest_decay = 1;
   for (const ModeCoefficients& mode : coefficients_) smallest_decay = std::min(smallest_decay, to_double(mode.decay));
-  const std::size_t rounds = law.padded(modes_.size()) / law.lanes, samples = samples_without_guard(smallest_decay, law.scalar);
+  const std::size_t rounds = law.padded(modes_.size()) / law.lanes,
+                    samples = samples_without_guard(smallest_decay, law.scalar);
   std::size_t at_once = 1;
   while (at_once < rounds && (rounds % at_once != 0 || rounds / at_once > samples)) ++at_once;
   if (at_once >= rounds) return false;
@@ -115,8 +117,8 @@ ExpressionId ModeBank::drive(VariableId position_change, VariableId velocity) {
     sum = writer_.multiply(gain, writer_.read(position_change));
   }
   if (!follows_velocity()) return sum;
-  const ExpressionId gain =
-      per_mode("velocity_drive", writer_.damping(), "a c h", [](const auto& c) { return Real(c.decay * c.velocity_gain); });
+  const ExpressionId gain = per_mode("velocity_drive", writer_.damping(), "a c h",
+                                     [](const auto& c) { return Real(c.decay * c.velocity_gain); });
   return writer_.plus(sum, writer_.multiply(gain, writer_.read(velocity)));
 }
 
@@ -129,7 +131,8 @@ ExpressionId ModeBank::increment(ExpressionId driven) {
 void ModeBank::write_compensated(ExpressionId driven) {
   std::vector<Statement>& update = writer_.law().update;
   const VariableId added = state("increment", "", Role::local), next = state("next", "", Role::local);
-  writer_.assign(update, added, writer_.add(increment(driven), writer_.read(errors_)), "y = (a c Δu − α F) + e", origins());
+  writer_.assign(update, added, writer_.add(increment(driven), writer_.read(errors_)), "y = (a c Δu − α F) + e",
+                 origins());
   writer_.assign(update, next, writer_.add(writer_.read(forces_), writer_.read(added)), "t = F + y");
   const ExpressionId taken = writer_.subtract(writer_.read(next), writer_.read(forces_));
   writer_.assign(update, errors_, writer_.flush(writer_.subtract(writer_.read(added), taken)), "e = y − (t − F)");

@@ -22,15 +22,15 @@ class ModeBank {
   bool empty() const { return modes_.empty(); }
   bool follows_position() const;  // some mode is driven by displacement
   bool follows_velocity() const;
-  Real step_stiffness() const;    // Σ c_i: force for a displacement within the sample [N/m]
-  Real velocity_gain() const;     // h Σ c_i of what the estimate drives [N·s/m]
-  double smallest_loss() const;   // min (1 − a); 1 for an empty bank
+  Real step_stiffness() const;   // Σ c_i: force for a displacement within the sample [N/m]
+  Real velocity_gain() const;    // h Σ c_i of what the estimate drives [N·s/m]
+  double smallest_loss() const;  // min (1 − a); 1 for an empty bank
 
-  void declare();                 // to be called when the law's mode form is settled
+  void declare();                                          // to be called when the law's mode form is settled
   VariableId decayed_sum() const { return decayed_sum_; }  // Σ G_i
   // Either drive may be `nothing` where no mode follows it.
   void write_update(VariableId position_change, VariableId velocity);
-  ExpressionId energy();          // Σ F²/(2k); nothing for an empty bank
+  ExpressionId energy();  // Σ F²/(2k); nothing for an empty bank
 
  private:
   ExpressionId drive(VariableId position_change, VariableId velocity);

@@ -10,7 +10,7 @@ ModeCoefficients mode_coefficients(const Mode& mode, Scheme scheme, StateInput i
   const Real loss = exact ? Real(-boost::math::expm1(Real(-x))) : Real(x / (1 + x));
   const Real gain = exact ? Real(mode.stiffness * loss / x) : Real(mode.stiffness / (1 + x));
   const Real decay = exact ? Real(exp(-x)) : Real(1 / (1 + x));
-  const Real spring_share = input == StateInput::position ? Real(1)
+  const Real spring_share = input == StateInput::position   ? Real(1)
                             : input == StateInput::velocity ? Real(0)
                                                             : mode.spring_share;
   return {decay, loss, gain * spring_share, gain * (1 - spring_share) * sample_period};

@@ -32,14 +32,16 @@ NetworkedSlips::NetworkedSlips(LawWriter& writer, const Network& network, const 
   add_modes();
   for (const Tie& tie : form_.springs) {
     add_stiffness(tie.a, tie.b, tie.value);
-    springs_.push_back({tie, writer_.unique(joined(end_names_[tie.a], tie.b < end_names_.size() ? end_names_[tie.b] : "ground"))});
+    springs_.push_back(
+        {tie, writer_.unique(joined(end_names_[tie.a], tie.b < end_names_.size() ? end_names_[tie.b] : "ground"))});
   }
   for (const Tie& tie : form_.dampers) add_stiffness(tie.a, tie.b, tie.value / sample_period_);
 }
 
 // Of all terminals; the tool's own is the last.
 void NetworkedSlips::number_ends() {
-  for (NodeIndex node : form_.terminals) end_names_.push_back(writer_.unique(node == tool ? "tool" : network_.nodes[node]));
+  for (NodeIndex node : form_.terminals)
+    end_names_.push_back(writer_.unique(node == tool ? "tool" : network_.nodes[node]));
   step_.node_count = static_cast<int>(form_.terminals.size()) - (is_pushed_ ? 0 : 1);
   const auto nodes = static_cast<std::size_t>(step_.node_count);
   between_.assign(nodes * nodes, Real(0));
@@ -56,7 +58,8 @@ int NetworkedSlips::end_of(std::size_t terminal) const {
 
 void NetworkedSlips::add_links() {
   const auto terminal = [&](NodeIndex node) {
-    return static_cast<std::size_t>(std::find(form_.terminals.begin(), form_.terminals.end(), node) - form_.terminals.begin());
+    return static_cast<std::size_t>(std::find(form_.terminals.begin(), form_.terminals.end(), node) -
+                                    form_.terminals.begin());
   };
   for (const auto& [ends, yield] : slips_between(network_, elements_)) {
     const double limit = rounded(Real(yield), writer_.law().scalar);
@@ -69,18 +72,22 @@ void NetworkedSlips::add_links() {
 void NetworkedSlips::add_modes() {
   for (const MultiportMode& mode : form_.modes) {
     const Mode plain{mode.stiffness, mode.relaxation_rate, 1, mode.elements};
-    const Real gain = mode_coefficients(plain, writer_.law().scheme, StateInput::position, sample_period_).position_gain;
+    const Real gain =
+        mode_coefficients(plain, writer_.law().scheme, StateInput::position, sample_period_).position_gain;
     for (std::size_t a = 0; a < mode.weights.size(); ++a)
-      for (std::size_t b = a + 1; b < mode.weights.size(); ++b) add_stiffness(a, b, -mode.weights[a] * mode.weights[b] * gain);
+      for (std::size_t b = a + 1; b < mode.weights.size(); ++b)
+        add_stiffness(a, b, -mode.weights[a] * mode.weights[b] * gain);
     const std::string name = writer_.unique(joined(name_of(mode.elements, network_), "mode"));
-    modes_.push_back({mode, name, std::make_unique<ModeBank>(writer_, std::vector<Mode>{plain}, StateInput::position,
-                                                             sample_period_, Names{name}, name)});
+    modes_.push_back({mode, name,
+                      std::make_unique<ModeBank>(writer_, std::vector<Mode>{plain}, StateInput::position,
+                                                 sample_period_, Names{name}, name)});
   }
 }
 
 void NetworkedSlips::add_stiffness(std::size_t a, std::size_t b, const Real& stiffness) {
   const int nodes = step_.node_count, first = std::min(end_of(a), end_of(b)), second = std::max(end_of(a), end_of(b));
-  const auto inner = static_cast<std::size_t>(first), other = static_cast<std::size_t>(second), size = static_cast<std::size_t>(nodes);
+  const auto inner = static_cast<std::size_t>(first), other = static_cast<std::size_t>(second),
+             size = static_cast<std::size_t>(nodes);
   if (second < nodes) {
     between_[inner * size + other] += stiffness;
     between_[other * size + inner] += stiffness;
@@ -99,12 +106,15 @@ double NetworkedSlips::smallest_loss() const {
 
 void NetworkedSlips::declare() {
   for (SpringTie& spring : springs_)
-    spring.force = writer_.scalar(joined(spring.name, "spring_force"), writer_.force(), "force of the spring", Role::state);
+    spring.force =
+        writer_.scalar(joined(spring.name, "spring_force"), writer_.force(), "force of the spring", Role::state);
   for (NetworkMode& mode : modes_) mode.bank->declare();
   for (std::size_t i = 0; i < static_cast<std::size_t>(step_.node_count); ++i)
-    step_.moved.push_back(writer_.scalar(joined(end_names_[i], "moved"), writer_.length(), "displacement of the node", Role::local));
+    step_.moved.push_back(
+        writer_.scalar(joined(end_names_[i], "moved"), writer_.length(), "displacement of the node", Role::local));
   for (std::size_t k = 0; k < step_.links.size(); ++k) {
-    const VariableId sign = writer_.scalar(joined(name_, fmt::format("sign_{}", k + 1)), "1", "side to which the slip gives way", Role::local);
+    const VariableId sign = writer_.scalar(joined(name_, fmt::format("sign_{}", k + 1)), "1",
+                                           "side to which the slip gives way", Role::local);
     step_.sign.push_back(sign);
     step_.last_sign.push_back(writer_.kept(sign));
   }
@@ -138,7 +148,8 @@ ExpressionId NetworkedSlips::write_step(VariableId change) {
   UpdateLaw& law = writer_.law();
   round_stiffness();
   const VariableId force = writer_.scalar(joined(name_, "force"), writer_.force(), "the part's force", Role::local);
-  writer_.assign(law.output, force, writer_.read(change), "f and where every node goes, by patterns of slips", {elements_});
+  writer_.assign(law.output, force, writer_.read(change), "f and where every node goes, by patterns of slips",
+                 {elements_});
   law.output.back().network = static_cast<std::uint32_t>(law.networks.size());
   law.networks.push_back(step_);
   return writer_.read(force);
@@ -155,7 +166,8 @@ ExpressionId NetworkedSlips::held_at(std::size_t terminal) {
   }
   for (const NetworkMode& mode : modes_) {
     if (mode.mode.weights[terminal] == 0) continue;
-    const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[terminal])), "1", "of the mode there", mode.mode.weights[terminal]);
+    const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[terminal])), "1",
+                                                 "of the mode there", mode.mode.weights[terminal]);
     sum = writer_.plus(sum, writer_.multiply(weight, writer_.read(mode.bank->decayed_sum())));
   }
   return sum;
@@ -165,7 +177,8 @@ VariableId NetworkedSlips::write_held(std::size_t terminal, VariableId beside) {
   ExpressionId sum = held_at(terminal);
   if (beside != no_variable) sum = writer_.plus(sum, writer_.read(beside));
   if (sum == nothing) return no_variable;
-  const VariableId held = writer_.scalar(joined(end_names_[terminal], "held"), writer_.force(), "force at the node if it stayed", Role::local);
+  const VariableId held = writer_.scalar(joined(end_names_[terminal], "held"), writer_.force(),
+                                         "force at the node if it stayed", Role::local);
   writer_.assign(writer_.law().output, held, sum, "");
   return held;
 }
@@ -186,7 +199,8 @@ ExpressionId NetworkedSlips::drive(const NetworkMode& mode) {
   ExpressionId sum = nothing;
   for (std::size_t i = 0; i < form_.terminals.size(); ++i) {
     if (mode.mode.weights[i] == 0) continue;
-    const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[i])), "1", "of the mode there", mode.mode.weights[i]);
+    const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[i])), "1",
+                                                 "of the mode there", mode.mode.weights[i]);
     sum = writer_.plus(sum, writer_.multiply(weight, movement(i)));
   }
   return sum;
@@ -196,8 +210,10 @@ ExpressionId NetworkedSlips::drive(const NetworkMode& mode) {
 void NetworkedSlips::write_update() {
   std::vector<Statement>& update = writer_.law().update;
   for (const SpringTie& spring : springs_) {
-    const ExpressionId stiffness = writer_.constant(joined(spring.name, "stiffness"), writer_.stiffness(), "k0", spring.tie.value);
-    const ExpressionId force = writer_.add(writer_.read(spring.force), writer_.multiply(stiffness, elongation(spring.tie)));
+    const ExpressionId stiffness =
+        writer_.constant(joined(spring.name, "stiffness"), writer_.stiffness(), "k0", spring.tie.value);
+    const ExpressionId force =
+        writer_.add(writer_.read(spring.force), writer_.multiply(stiffness, elongation(spring.tie)));
     writer_.assign(update, spring.force, writer_.flush(force), "F ← F + k δ", {elements_});
   }
   for (const NetworkMode& mode : modes_) {
@@ -217,7 +233,8 @@ VariableId NetworkedSlips::sign_of(const std::vector<std::size_t>& elements) con
 ExpressionId NetworkedSlips::energy() {
   ExpressionId sum = nothing;
   for (const SpringTie& spring : springs_) {
-    const ExpressionId weight = writer_.constant(joined(spring.name, "compliance"), writer_.compliance(), "1/(2 k)", 1 / (2 * spring.tie.value));
+    const ExpressionId weight = writer_.constant(joined(spring.name, "compliance"), writer_.compliance(), "1/(2 k)",
+                                                 1 / (2 * spring.tie.value));
     const ExpressionId force = writer_.read(spring.force);
     sum = writer_.plus(sum, writer_.multiply(writer_.multiply(weight, force), force));
   }

@@ -1,5 +1,5 @@
-// Slips that meet in a part of a network that is no tree, written as one step of dashpot::slip_network between scalars of
-// the law (theory, section 5, "Not a tree").
+// Slips that meet in a part of a network that is no tree, written as one step of dashpot::slip_network between scalars
+// of the law (theory, section 5, "Not a tree").
 #pragma once
 
 #include <memory>
@@ -15,22 +15,23 @@ namespace dashpot::compiler {
 
 // What reaches from the surface of a contact to the ground beside the slips; its states are written by others.
 struct BesideSlips {
-  Real stiffness;     // g [N/m]
+  Real stiffness;                 // g [N/m]
   VariableId held = no_variable;  // π [N]
 };
 
 class NetworkedSlips {
  public:
   // `elements`: those of the part. With a contact the tool pushes the node at which they end and cannot pull it.
-  NetworkedSlips(LawWriter& writer, const Network& network, const Real& sample_period, std::vector<std::size_t> elements,
-                 bool is_pushed);
+  NetworkedSlips(LawWriter& writer, const Network& network, const Real& sample_period,
+                 std::vector<std::size_t> elements, bool is_pushed);
 
   double smallest_loss() const;  // min (1 − a) over all modes; 1 without
   void declare();                // to be called when the law's mode form is settled
 
   // The part's force, from the tool's displacement in this sample.
   ExpressionId write_output(VariableId change);
-  // The same behind a contact: `change` is what the surface's would be if it stuck to the tool, `surface_change` becomes it.
+  // The same behind a contact: `change` is what the surface's would be if it stuck to the tool, `surface_change`
+  // becomes it.
   ExpressionId write_push(VariableId change, VariableId surface_change, const BesideSlips& beside);
   void write_update();
   ExpressionId energy();  // nothing without springs

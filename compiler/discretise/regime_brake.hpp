@@ -1,5 +1,6 @@
-// What slips that are solved together ask of the brake, by the pattern in which they give way (theory, section 5, "Regimes"):
-// b of the regime, m = f′ = f − x Δu/h with x ≤ b∞ of what is computed, less β v̂ where the brake has earned it.
+// What slips that are solved together ask of the brake, by the pattern in which they give way (theory, section 5,
+// "Regimes"): b of the regime, m = f′ = f − x Δu/h with x ≤ b∞ of what is computed, less β v̂ where the brake has earned
+// it.
 #pragma once
 
 #include <string>
@@ -22,7 +23,8 @@ class RegimeBrake {
   const std::vector<SlipElements>& slips() const { return split_.regimes.slips; }
 
   void declare(const std::string& prefix, const Names& slip_names);
-  // `signs`: not 0 where a slip gives way, in the order of slips(), none where nothing changes; `position`: of the tool.
+  // `signs`: not 0 where a slip gives way, in the order of slips(), none where nothing changes; `position`: of the
+  // tool.
   void write_output(const std::vector<VariableId>& signs, VariableId position);
   // f′ from f: what is taken is x Δu/h.
   ExpressionId without_feedthrough(ExpressionId force, VariableId change, const Real& sample_period);
@@ -39,7 +41,8 @@ class RegimeBrake {
 
  private:
   struct Memory {
-    VariableId slid, at;          // states: 1 where the command takes the slip for sliding; where the tool was when it last slid
+    VariableId slid,
+        at;  // states: 1 where the command takes the slip for sliding; where the tool was when it last slid
     VariableId slides_now, at_now;
   };
 
@@ -53,7 +56,8 @@ class RegimeBrake {
   void write_compensation(VariableId regime);
   ExpressionId nearer(VariableId from, ExpressionId goal);
   template <class ValueOf>
-  ExpressionId by_regime(VariableId regime, const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
+  ExpressionId by_regime(VariableId regime, const char* name, const std::string& unit, const char* meaning,
+                         ValueOf value_of);
   VariableId local(const std::string& what, const std::string& unit, const std::string& meaning);
 
   LawWriter& writer_;
@@ -63,7 +67,8 @@ class RegimeBrake {
   std::vector<Memory> memories_;
   VariableId regime_ = nothing, damping_ = nothing, shortfall_ = nothing, root_ = nothing, root_now_ = nothing;
   VariableId regime_before_ = nothing, samples_ = nothing, earned_way_ = nothing, earned_ = nothing;  // states
-  VariableId commanded_ = nothing, samples_now_ = nothing, earned_way_now_ = nothing, earned_now_ = nothing, compensation_ = nothing;
+  VariableId commanded_ = nothing, samples_now_ = nothing, earned_way_now_ = nothing, earned_now_ = nothing,
+             compensation_ = nothing;
 };
 
 }  // namespace dashpot::compiler

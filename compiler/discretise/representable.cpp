@@ -17,14 +17,17 @@ bool is_representable(const UpdateLaw& law, const Network& network, Diagnostics&
   bool all = true;
   const auto require = [&](const std::vector<double>& values, const std::string& name, const std::string& unit) {
     if (are_finite(values)) return;
-    diagnostics.report<DiagnosticCode::constant_overflows>(network.name_span, name, unit, network.name, name_of(law.scalar));
+    diagnostics.report<DiagnosticCode::constant_overflows>(network.name_span, name, unit, network.name,
+                                                           name_of(law.scalar));
     all = false;
   };
   require({law.damping}, "damping", network.port_motion == motion::rotation ? "N·m·s/rad" : "N·s/m");
-  for (const Coefficient& coefficient : law.coefficients) require(coefficient.values, coefficient.name, coefficient.unit);
+  for (const Coefficient& coefficient : law.coefficients)
+    require(coefficient.values, coefficient.name, coefficient.unit);
   if (!law.tunable) return all;
   for (const Tunable& t : law.tunable->tunables) require({t.range.value, t.range.min, t.range.max}, t.name, t.unit);
-  for (std::size_t i = 0; i < law.tunable->numbers.size(); ++i) require({law.tunable->numbers[i].base}, "numbers[" + std::to_string(i) + "]", "SI");
+  for (std::size_t i = 0; i < law.tunable->numbers.size(); ++i)
+    require({law.tunable->numbers[i].base}, "numbers[" + std::to_string(i) + "]", "SI");
   return all;
 }
 

@@ -25,7 +25,9 @@ double error_bound(ModeForm form, double loss, double roundoff) {
 
 ModeForm cheapest_form(double smallest_loss, ScalarType scalar) {
   const double tolerated = scalar == ScalarType::float64 ? 1e-12 : 1e-3;
-  const auto is_tolerable = [&](ModeForm form) { return error_bound(form, smallest_loss, unit_roundoff(scalar)) <= tolerated; };
+  const auto is_tolerable = [&](ModeForm form) {
+    return error_bound(form, smallest_loss, unit_roundoff(scalar)) <= tolerated;
+  };
   if (scalar == ScalarType::float64 && is_tolerable(ModeForm::product)) return ModeForm::product;
   return is_tolerable(ModeForm::delta) ? ModeForm::delta : ModeForm::compensated;
 }

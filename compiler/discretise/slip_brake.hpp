@@ -1,5 +1,5 @@
-// What a group of components with one slip each asks of the brake, and what the motor takes back of it (theory, section 5,
-// "Regimes"): vectors with one place a component.
+// What a group of components with one slip each asks of the brake, and what the motor takes back of it (theory, section
+// 5, "Regimes"): vectors with one place a component.
 #pragma once
 
 #include <string>
@@ -42,7 +42,7 @@ class SlipBrake {
   Real largest_damping() const;
   Real damping_at_rest() const;
   VariableId compensation() const { return compensation_; }  // β of each place, `nothing` for none
-  VariableId shortfall() const { return shortfall_; }  // of b where the coil is on its way, `nothing` for none
+  VariableId shortfall() const { return shortfall_; }        // of b where the coil is on its way, `nothing` for none
 
  private:
   bool coil_lags() const { return settings_.coil_share < 1; }
@@ -67,7 +67,8 @@ class SlipBrake {
   std::vector<Real> leave_;  // Y (Y − hysteresis·∂t/∂u) [N²]
   ExpressionId share_ = nothing;
   VariableId slid_ = nothing, samples_ = nothing, way_ = nothing, earned_way_ = nothing, earned_ = nothing;  // states
-  VariableId damping_ = nothing, slide_ = nothing, samples_now_ = nothing, way_now_ = nothing, earned_way_now_ = nothing, earned_now_ = nothing, shortfall_ = nothing, compensation_ = nothing;  // locals
+  VariableId damping_ = nothing, slide_ = nothing, samples_now_ = nothing, way_now_ = nothing,
+             earned_way_now_ = nothing, earned_now_ = nothing, shortfall_ = nothing, compensation_ = nothing;  // locals
 };
 
 }  // namespace dashpot::compiler

@@ -18,7 +18,9 @@ std::vector<Real> column(const std::vector<Row>& rows, ValueOf value_of) {
   return values;
 }
 
-char kind_of(const Real& coefficient) { return coefficient == 0 ? '0' : coefficient == 1 ? '1' : coefficient == -1 ? 'm' : 'x'; }
+char kind_of(const Real& coefficient) {
+  return coefficient == 0 ? '0' : coefficient == 1 ? '1' : coefficient == -1 ? 'm' : 'x';
+}
 
 std::string kind_of(const Row& row) {
   std::string kinds(1, kind_of(row.change));
@@ -42,7 +44,8 @@ void forget(std::size_t block, SlipResponse& response) {
 
 }  // namespace
 
-SlipGroup::SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period, const SlipDecomposition& settings)
+SlipGroup::SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period,
+                     const SlipDecomposition& settings)
     : writer_(writer), network_(network), sample_period_(sample_period), brake_(writer, settings) {}
 
 // g = k0 + b∞/h + Σ c_i
@@ -82,7 +85,8 @@ std::string SlipGroup::shape(const SlipResponse& response, const MotorForce& for
 }
 
 bool SlipGroup::accepts(const NormalTree& component, const BrakePair& pair) const {
-  if (responses_.empty() || has_modes_ || has_modes(component) || brake_.shape(pair) != brake_.shape(brake_.pair(0))) return false;
+  if (responses_.empty() || has_modes_ || has_modes(component) || brake_.shape(pair) != brake_.shape(brake_.pair(0)))
+    return false;
   const SlipResponse response = response_of(component);
   return shape(response, motor_force(response, pair)) == shape(responses_.front(), forces_.front());
 }
@@ -102,7 +106,8 @@ void SlipGroup::add(const NormalTree& component, const BrakePair& pair) {
     blocks_[i].has_spring = block.form.static_stiffness > 0;
     if (block.form.modes.empty()) continue;
     Names mode_names;
-    for (const Mode& mode : block.form.modes) mode_names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
+    for (const Mode& mode : block.form.modes)
+      mode_names.push_back(writer_.unique(joined(name_of(mode.elements, network_), "mode")));
     blocks_[i].modes = std::make_unique<ModeBank>(writer_, block.form.modes, StateInput::position, sample_period_,
                                                   std::move(mode_names), blocks_[i].names.front());
   }
@@ -119,7 +124,8 @@ void SlipGroup::declare() {
   prefix_ = names_.front();
   for (Block& block : blocks_) {
     if (block.has_spring)
-      block.spring_force = writer_.vector({block.names.front(), "spring_force"}, writer_.force(), "force of the spring", Role::state, block.names);
+      block.spring_force = writer_.vector({block.names.front(), "spring_force"}, writer_.force(), "force of the spring",
+                                          Role::state, block.names);
     if (block.modes) block.modes->declare();
   }
   brake_.declare(prefix_, names_);
@@ -132,7 +138,8 @@ ExpressionId SlipGroup::write_output(VariableId change) {
   now_.trial = local("trial", "the slip's force if it held");
   std::vector<Row> trial = rows(&SlipResponse::trial);
   for (Row& row : trial) row.excess = 0;
-  writer_.assign(output, now_.trial, expression("trial", trial, {change, nothing, nothing, nothing}), "t = stuck trial", origins());
+  writer_.assign(output, now_.trial, expression("trial", trial, {change, nothing, nothing, nothing}), "t = stuck trial",
+                 origins());
   std::vector<Real> yields;
   for (const SlipResponse& response : responses_) yields.push_back(response.yield_force);
   now_.slip = local("slip", "the slip's force");
@@ -163,7 +170,8 @@ ExpressionId SlipGroup::write_force(ExpressionId sliding) {
   if (names_.size() == 1 && !differs) return force;
   if (writer_.reads(force) == now_.slip) return force;
   const VariableId shares = local("force", "the component's force");
-  writer_.assign(writer_.law().output, shares, force, differs ? "f' = f − x Δu/h, x of the regime" : "f = f_stuck − ρ r", origins());
+  writer_.assign(writer_.law().output, shares, force,
+                 differs ? "f' = f − x Δu/h, x of the regime" : "f = f_stuck − ρ r", origins());
   return writer_.read(shares);
 }
 
@@ -184,7 +192,9 @@ void SlipGroup::write_update(VariableId) {
     Block& block = blocks_[i];
     if (block.modes) {
       drives[i] = writer_.vector({block.names.front(), "elongation"}, writer_.length(), "", Role::local, block.names);
-      writer_.assign(update, drives[i], expression(joined(block.names.front(), "elongation"), elongations(i), kept_terms), "δ of the block", {});
+      writer_.assign(update, drives[i],
+                     expression(joined(block.names.front(), "elongation"), elongations(i), kept_terms),
+                     "δ of the block", {});
     }
     if (!block.has_spring) continue;
     std::vector<Row> next = elongations(i);
@@ -199,7 +209,8 @@ void SlipGroup::write_update(VariableId) {
       writer_.assign(update, block.spring_force, writer_.flush(force), "F ← F + k δ", origins());
       continue;
     }
-    const VariableId fresh = writer_.vector({block.names.front(), "spring_force_next"}, writer_.force(), "", Role::local, block.names);
+    const VariableId fresh =
+        writer_.vector({block.names.front(), "spring_force_next"}, writer_.force(), "", Role::local, block.names);
     writer_.assign(update, fresh, writer_.flush(force), "F ← F + k δ", origins());
     replaced.emplace_back(block.spring_force, fresh);
   }
@@ -216,9 +227,12 @@ ExpressionId SlipGroup::energy() {
     if (block.has_spring) {
       std::vector<Real> weights;
       for (const LinearForm& form : block.forms) weights.push_back(1 / (2 * form.static_stiffness));
-      const ExpressionId weight = writer_.constants({block.names.front(), "compliance"}, writer_.compliance(), "1/(2 k)", weights, block.names);
-      const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)), writer_.read(block.spring_force));
-      const VariableId stored = writer_.vector({block.names.front(), "spring_energy"}, "J", "", Role::local, block.names);
+      const ExpressionId weight =
+          writer_.constants({block.names.front(), "compliance"}, writer_.compliance(), "1/(2 k)", weights, block.names);
+      const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)),
+                                                    writer_.read(block.spring_force));
+      const VariableId stored =
+          writer_.vector({block.names.front(), "spring_energy"}, "J", "", Role::local, block.names);
       writer_.assign(writer_.law().energy, stored, squared, "F²/(2k)", origins());
       sum = writer_.plus(sum, block.names.size() == 1 ? writer_.read(stored) : writer_.sum(stored));
     }
@@ -261,9 +275,10 @@ ExpressionId SlipGroup::held_force(const Block& block) {
 // force itself. Variables of the output that a row of the update refers to are kept from one to the other.
 ExpressionId SlipGroup::expression(const std::string& what, const std::vector<Row>& rows, Terms terms) {
   const bool in_output = terms.excess != nothing || what == "trial";
-  const bool like_trial = what != "trial" && std::equal(rows.begin(), rows.end(), responses_.begin(), [](const Row& row, const SlipResponse& response) {
-    return same_but_for_excess(row, response.trial);
-  });
+  const bool like_trial = what != "trial" && std::equal(rows.begin(), rows.end(), responses_.begin(),
+                                                        [](const Row& row, const SlipResponse& response) {
+                                                          return same_but_for_excess(row, response.trial);
+                                                        });
   const std::vector<Real> excess = column(rows, [](const Row& row) { return row.excess; });
   const auto at_hand = [&](VariableId local) { return in_output ? local : kept(local); };
   if (like_trial && all_equal(excess, -1)) return writer_.read(at_hand(now_.slip));
@@ -271,12 +286,16 @@ ExpressionId SlipGroup::expression(const std::string& what, const std::vector<Ro
   if (like_trial) {
     sum = writer_.read(at_hand(now_.trial));
   } else {
-    sum = term(what + "_by_change", writer_.stiffness(), "for a change of position", column(rows, [](const Row& row) { return row.change; }), writer_.read(terms.change), sum);
+    sum = term(what + "_by_change", writer_.stiffness(), "for a change of position",
+               column(rows, [](const Row& row) { return row.change; }), writer_.read(terms.change), sum);
     for (std::size_t i = 0; i < blocks_.size(); ++i)
       if (const ExpressionId held = held_force(blocks_[i]); held != nothing)
-        sum = term(what + "_by_" + blocks_[i].names.front(), "1", "for a force held there", column(rows, [i](const Row& row) { return row.held[i]; }), held, sum);
+        sum = term(what + "_by_" + blocks_[i].names.front(), "1", "for a force held there",
+                   column(rows, [i](const Row& row) { return row.held[i]; }), held, sum);
   }
-  if (!all_equal(excess, 0)) sum = term(what + "_by_excess", "1", "for what the slip does not hold", excess, writer_.read(at_hand(now_.excess)), sum);
+  if (!all_equal(excess, 0))
+    sum = term(what + "_by_excess", "1", "for what the slip does not hold", excess, writer_.read(at_hand(now_.excess)),
+               sum);
   return sum == nothing ? writer_.constant(joined(prefix_, what + "_none"), writer_.force(), "nothing", 0) : sum;
 }
 
@@ -285,11 +304,14 @@ ExpressionId SlipGroup::term(const std::string& name, const std::string& unit, c
                              std::vector<Real> values, ExpressionId factor, ExpressionId sum) {
   if (all_equal(values, 0)) return sum;
   if (all_equal(values, 1)) return writer_.plus(sum, factor);
-  const bool falls = std::all_of(values.begin(), values.end(), [](const Real& value) { return value < 0; }) && sum != nothing;
+  const bool falls =
+      std::all_of(values.begin(), values.end(), [](const Real& value) { return value < 0; }) && sum != nothing;
   if (falls)
     for (Real& value : values) value = -value;
   const ExpressionId product =
-      all_equal(values, 1) ? factor : writer_.multiply(writer_.constants({prefix_, name}, unit, meaning, values, names_), factor);
+      all_equal(values, 1)
+          ? factor
+          : writer_.multiply(writer_.constants({prefix_, name}, unit, meaning, values, names_), factor);
   return falls ? writer_.subtract(sum, product) : writer_.plus(sum, product);
 }
 

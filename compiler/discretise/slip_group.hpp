@@ -32,9 +32,11 @@ class SlipGroup {
   ExpressionId energy();  // nothing without springs
 
   const SlipBrake& brake() const { return brake_; }
-  ExpressionId changing_damping() const { return damping_; }   // Σ b of what changes; nothing without
-  ExpressionId shortfall() const { return shortfall_; }        // Σ of what b lacks on its way; nothing without
-  ExpressionId compensation() const { return compensation_; }  // Σ β, whose β v̂ is to be taken from the force; nothing without
+  ExpressionId changing_damping() const { return damping_; }  // Σ b of what changes; nothing without
+  ExpressionId shortfall() const { return shortfall_; }       // Σ of what b lacks on its way; nothing without
+  ExpressionId compensation() const {
+    return compensation_;
+  }  // Σ β, whose β v̂ is to be taken from the force; nothing without
 
  private:
   struct Block {
@@ -77,7 +79,7 @@ class SlipGroup {
   const Network& network_;
   Real sample_period_;
   std::string prefix_;
-  Names names_;  // of the slips
+  Names names_;             // of the slips
   bool has_modes_ = false;  // then it has one component
   std::vector<SlipResponse> responses_;
   std::vector<MotorForce> forces_;

@@ -52,7 +52,8 @@ void SlipParts::add(const NormalTree& component, const ComponentSplit* split) {
     return;
   }
   const BrakePair pair = split ? brake_pair(*split) : BrakePair{};
-  const auto fitting = std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group->accepts(component, pair); });
+  const auto fitting =
+      std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group->accepts(component, pair); });
   if (fitting != groups_.end()) return (*fitting)->add(component, pair);
   groups_.push_back(std::make_unique<SlipGroup>(writer_, network_, sample_period_, settings_));
   groups_.back()->add(component, pair);
@@ -69,11 +70,13 @@ void SlipParts::add_behind_contact(const NormalForm& form) {
     add(settings_.networks.empty() ? elements_behind_slips(form) : settings_.networks.front().rendered_elements, true);
   } else {
     whole_ = rendered_whole(form, network_, settings_);
-    const bool has_linear = whole_.children.front().kind == NormalTree::Kind::block && whole_.kind == NormalTree::Kind::parallel;
+    const bool has_linear =
+        whole_.children.front().kind == NormalTree::Kind::block && whole_.kind == NormalTree::Kind::parallel;
     trees_.push_back(std::make_unique<CoupledSlips>(writer_, network_, sample_period_, whole_));
     if (has_linear) trees_.back()->keep_elsewhere(whole_.children.front());
   }
-  for (const ComponentSplit* split : settings_.all()) add_brake(*split, trees_.empty() ? nullptr : trees_.front().get());
+  for (const ComponentSplit* split : settings_.all())
+    add_brake(*split, trees_.empty() ? nullptr : trees_.front().get());
 }
 
 void SlipParts::add_brake(const ComponentSplit& split, CoupledSlips* tree) {

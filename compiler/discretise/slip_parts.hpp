@@ -1,5 +1,5 @@
-// All that is behind slips, as parts of a law: components with one slip each in groups, trees of coupled slips, networks of
-// others; and what those that are solved together ask of the brake.
+// All that is behind slips, as parts of a law: components with one slip each in groups, trees of coupled slips,
+// networks of others; and what those that are solved together ask of the brake.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@ namespace dashpot::compiler {
 class SlipParts {
  public:
   // All outlive this. Behind a contact all slips are solved together.
-  SlipParts(LawWriter& writer, const Network& network, const Real& sample_period, const NormalForm& form, const SlipDecomposition& settings);
+  SlipParts(LawWriter& writer, const Network& network, const Real& sample_period, const NormalForm& form,
+            const SlipDecomposition& settings);
 
   bool empty() const { return groups_.empty() && trees_.empty() && networks_.empty(); }
   double smallest_loss() const;  // min (1 − a) over all modes; 1 without

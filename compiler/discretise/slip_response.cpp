@@ -100,10 +100,8 @@ class Equations {
       const Eigen::Index row = static_cast<Eigen::Index>(node) - 2;
       system(row, row) += stiffness_[i];
       inputs_of(row, column(i + 1)) -= sign;
-      if (other >= 2)
-        system(row, static_cast<Eigen::Index>(other) - 2) -= stiffness_[i];
-      else if (other == tool_end)
-        inputs_of(row, 0) += stiffness_[i];
+      if (other >= 2) system(row, static_cast<Eigen::Index>(other) - 2) -= stiffness_[i];
+      else if (other == tool_end) inputs_of(row, 0) += stiffness_[i];
     }
   }
 

@@ -1,5 +1,6 @@
-// How a component with one slip answers a sample (theory, section 5): everything is linear in the displacement Δu of the
-// tool, the forces π_i that the blocks would hold at rest, and the excess r of the slip's trial force over its yield.
+// How a component with one slip answers a sample (theory, section 5): everything is linear in the displacement Δu of
+// the tool, the forces π_i that the blocks would hold at rest, and the excess r of the slip's trial force over its
+// yield.
 #pragma once
 
 #include <vector>
@@ -26,8 +27,8 @@ struct SlipResponse {
   std::vector<CompanionBlock> blocks;
   double yield_force;
   std::vector<std::size_t> slip_elements;
-  Row trial;                 // t: the slip's force if it held
-  Row force;                 // f: what the component opposes to the tool
+  Row trial;                    // t: the slip's force if it held
+  Row force;                    // f: what the component opposes to the tool
   std::vector<Row> elongation;  // δ_i of each block
 };
 

@@ -74,8 +74,11 @@ SlipTable slip_table(const NormalTree& component, const std::vector<Real>& stiff
     const int children = static_cast<int>(part->children.size()), slips = static_cast<int>(slip_count(*part));
     const bool is_block = part->kind == NormalTree::Kind::block, is_slip = part->kind == NormalTree::Kind::slip;
     table.nodes.push_back({part_kind(part->kind), children == 0 ? 0 : next_child, children, slips,
-                           is_block ? next_block++ : is_slip ? next_slip++ : 0, is_block ? 0 : next_corner,
-                           rounded(g, scalar), g > 0 ? rounded(1 / g, scalar) : 0.0, rounded(Real(part->yield_force), scalar)});
+                           is_block  ? next_block++
+                           : is_slip ? next_slip++
+                                     : 0,
+                           is_block ? 0 : next_corner, rounded(g, scalar), g > 0 ? rounded(1 / g, scalar) : 0.0,
+                           rounded(Real(part->yield_force), scalar)});
     next_child += children;
     if (!is_block) next_corner += slip_curve_room(slips);
   }

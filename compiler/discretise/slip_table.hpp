@@ -12,9 +12,9 @@
 namespace dashpot::compiler {
 
 struct SlipTable {
-  std::vector<slip_node<double>> nodes;     // breadth first, the root at 0
-  std::vector<const NormalTree*> blocks;    // by the place of their nodes; into the component
-  std::vector<const NormalTree*> slips;     // the same
+  std::vector<slip_node<double>> nodes;   // breadth first, the root at 0
+  std::vector<const NormalTree*> blocks;  // by the place of their nodes; into the component
+  std::vector<const NormalTree*> slips;   // the same
 };
 
 // `stiffness` gives g of every block in the order of SlipTable::blocks. Numbers are rounded to `scalar`.

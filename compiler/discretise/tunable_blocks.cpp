@@ -88,10 +88,12 @@ Sides sides_of(const Network& network, const Part& part) {
 
 }  // namespace
 
-TunableBlocks::TunableBlocks(const Network& network, const Choices& choices, const Real& sample_period, TunableTables& tables)
+TunableBlocks::TunableBlocks(const Network& network, const Choices& choices, const Real& sample_period,
+                             TunableTables& tables)
     : whole_(network), choices_(choices), sample_period_(sample_period), tables_(tables) {
   int next = 0;
-  for (const Parameter& parameter : network.parameters) tunable_of_parameter_.push_back(parameter.tunable ? next++ : no_index);
+  for (const Parameter& parameter : network.parameters)
+    tunable_of_parameter_.push_back(parameter.tunable ? next++ : no_index);
 }
 
 void TunableBlocks::add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose) {
@@ -99,12 +101,11 @@ void TunableBlocks::add(const Network& network, const std::vector<std::size_t>& 
   std::vector<std::size_t> fixed_elements, direct;
   std::vector<Part> others;
   for (Part& part : independent_parts(network, elements, tool, ground)) {
-    const bool is_fixed = std::none_of(part.elements.begin(), part.elements.end(), [&](std::size_t i) { return is_tunable(network, i); });
+    const bool is_fixed =
+        std::none_of(part.elements.begin(), part.elements.end(), [&](std::size_t i) { return is_tunable(network, i); });
     auto* list = is_fixed ? &fixed_elements : part.internal.empty() ? &direct : nullptr;
-    if (list != nullptr)
-      list->insert(list->end(), part.elements.begin(), part.elements.end());
-    else
-      others.push_back(std::move(part));
+    if (list != nullptr) list->insert(list->end(), part.elements.begin(), part.elements.end());
+    else others.push_back(std::move(part));
   }
   const LinearForm fixed = linear_form(network, fixed_elements, tool, ground);
   add_direct(network, direct, fixed, is_loose);
@@ -118,10 +119,8 @@ int TunableBlocks::number(const Network& network, const std::vector<std::size_t>
   Real sum = base;
   const int first = static_cast<int>(tables_.terms.size());
   for (std::size_t i : elements)
-    if (is_tunable(network, i))
-      tables_.terms.push_back(tunable_of_parameter_[*network.elements[i].parameter]);
-    else
-      sum += value_of(network.elements[i].law);
+    if (is_tunable(network, i)) tables_.terms.push_back(tunable_of_parameter_[*network.elements[i].parameter]);
+    else sum += value_of(network.elements[i].law);
   tables_.numbers.push_back({rounded(sum, choices_.scalar), first, static_cast<int>(tables_.terms.size()) - first});
   return static_cast<int>(tables_.numbers.size()) - 1;
 }
@@ -133,7 +132,8 @@ int TunableBlocks::add_spring(int stiffness, std::string name) {
 }
 
 // k0 and b∞ of the fixed parts, and what tunables add to them.
-void TunableBlocks::add_direct(const Network& network, const std::vector<std::size_t>& elements, const LinearForm& fixed, bool is_loose) {
+void TunableBlocks::add_direct(const Network& network, const std::vector<std::size_t>& elements,
+                               const LinearForm& fixed, bool is_loose) {
   std::vector<std::size_t> springs, dampers;
   for (std::size_t i : elements) (is_spring(network.elements[i]) ? springs : dampers).push_back(i);
   if (!springs.empty() || fixed.static_stiffness > 0) {
@@ -144,15 +144,17 @@ void TunableBlocks::add_direct(const Network& network, const std::vector<std::si
     if (tables_.blocks.size() == 1) tables_.head.static_spring = spring;
   }
   if (!dampers.empty() || fixed.feedthrough_damping > 0)
-    tables_.parts.push_back({tunable_kind::damper, no_index, number(network, dampers, fixed.feedthrough_damping), 0, 0, 0, 0, false, 0, 0});
+    tables_.parts.push_back(
+        {tunable_kind::damper, no_index, number(network, dampers, fixed.feedthrough_damping), 0, 0, 0, 0, false, 0, 0});
 }
 
 void TunableBlocks::add_fixed(const Network& network, const LinearForm& fixed) {
   for (const Mode& mode : fixed.modes) {
     const ModeCoefficients c = mode_coefficients(mode, choices_.scheme, StateInput::position, sample_period_);
     const int spring = add_spring(number(network, {}, mode.stiffness), name_of(mode.elements, whole_));
-    tables_.parts.push_back({tunable_kind::fixed_relaxation, spring, number(network, {}, mode.damping()), 0, 0, 0, 0, false,
-                             rounded(c.position_gain / mode.stiffness, choices_.scalar), rounded(c.loss, choices_.scalar)});
+    tables_.parts.push_back({tunable_kind::fixed_relaxation, spring, number(network, {}, mode.damping()), 0, 0, 0, 0,
+                             false, rounded(c.position_gain / mode.stiffness, choices_.scalar),
+                             rounded(c.loss, choices_.scalar)});
   }
 }
 

@@ -23,7 +23,8 @@ class TunableBlocks {
  private:
   int constant(const Real& value) { return number({}, {}, value); }
   int add_spring(int stiffness, std::string name);
-  void add_direct(const Network& network, const std::vector<std::size_t>& elements, const LinearForm& fixed, bool is_loose);
+  void add_direct(const Network& network, const std::vector<std::size_t>& elements, const LinearForm& fixed,
+                  bool is_loose);
   void add_fixed(const Network& network, const LinearForm& fixed);
   bool add_relaxation(const Network& network, const Part& part);
   void add_mesh(const Network& network, const Part& part);

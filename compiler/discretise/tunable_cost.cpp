@@ -52,7 +52,8 @@ std::size_t slips(const TunableTables& tables) {
   for (const tunable_coupling& coupling : tables.couplings)
     operations += size_of(slip_tree_operations(tables.nodes.data() + coupling.first_node, coupling.node_count));
   // What blocks do at both ends, and how long they become.
-  for (const tunable_graph& graph : tables.graphs) operations += size_of(tables.operations(graph) + 5 * graph.tie_count);
+  for (const tunable_graph& graph : tables.graphs)
+    operations += size_of(tables.operations(graph) + 5 * graph.tie_count);
   return operations;
 }
 
@@ -64,7 +65,8 @@ std::size_t tuning(const TunableTables& tables) {
     const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
     operations += 14;
     if (part.kind == tunable_kind::relaxation) operations += 2 * (6 + mean_decay_operations);
-    if (part.kind == tunable_kind::mesh) operations += 20 * edges + 5 * elimination(nodes) + first_order_elimination(nodes);
+    if (part.kind == tunable_kind::mesh)
+      operations += 20 * edges + 5 * elimination(nodes) + first_order_elimination(nodes);
   }
   return operations;
 }
@@ -72,9 +74,11 @@ std::size_t tuning(const TunableTables& tables) {
 // Of the regime of the sample and of the command's, and √b where a coil lags.
 std::size_t slip_brake(const TunableTables& tables) {
   if (!tables.head.slip_rule.takes_part) return 0;
-  std::size_t operations = 18 + 4 * tables.yields.size() + (tables.head.slip_rule.coil_share < 1 ? square_root_operations + 4 : 0);
+  std::size_t operations =
+      18 + 4 * tables.yields.size() + (tables.head.slip_rule.coil_share < 1 ? square_root_operations + 4 : 0);
   for (const tunable_coupling& coupling : tables.couplings)
-    operations += 2 * (1 + size_of(slip_regime_operations(tables.nodes.data() + coupling.first_node, coupling.node_count)));
+    operations +=
+        2 * (1 + size_of(slip_regime_operations(tables.nodes.data() + coupling.first_node, coupling.node_count)));
   for (const tunable_graph& graph : tables.graphs)
     operations += 2 * (1 + size_of(2 * graph.tie_count) + elimination(size_of(graph.end_count)));
   return operations;
@@ -84,7 +88,8 @@ std::size_t contact(const TunableTables& tables) { return tables.head.contact.is
 
 }  // namespace
 
-// Of patterns only how many there are matters: a slip that holds 1 N, and behind a contact the tool's own, which has two.
+// Of patterns only how many there are matters: a slip that holds 1 N, and behind a contact the tool's own, which has
+// two.
 int TunableTables::operations(const tunable_graph& graph) const {
   std::vector<slip_link<double>> of_graph(size_of(graph.link_count), {0, 0, -1, 1});
   if (head.contact.is_there) of_graph.push_back({0, 0, 0, 1});
@@ -94,8 +99,9 @@ int TunableTables::operations(const tunable_graph& graph) const {
 TunableCost cost_of(const TunableTables& tables) {
   const std::size_t springs = tables.springs.size();
   const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
-  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables), 6 + slips(tables) + slip_brake(tables) + contact(tables),
-          advance(tables) + held(tables) + 9 * springs, springs};
+  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables),
+          6 + slips(tables) + slip_brake(tables) + contact(tables), advance(tables) + held(tables) + 9 * springs,
+          springs};
 }
 
 }  // namespace dashpot::compiler

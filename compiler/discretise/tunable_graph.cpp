@@ -9,12 +9,15 @@
 namespace dashpot::compiler {
 namespace {
 
-bool is_slip(const Network& network, std::size_t element) { return std::holds_alternative<Slip>(network.elements[element].law); }
+bool is_slip(const Network& network, std::size_t element) {
+  return std::holds_alternative<Slip>(network.elements[element].law);
+}
 
 // Linear elements that share nodes which are no ends.
 class Clusters {
  public:
-  Clusters(const Network& network, const std::vector<std::size_t>& elements, const std::set<NodeIndex>& ends) : network_(network), ends_(ends) {
+  Clusters(const Network& network, const std::vector<std::size_t>& elements, const std::set<NodeIndex>& ends)
+      : network_(network), ends_(ends) {
     for (std::size_t element : elements)
       if (!is_slip(network, element)) add(element);
   }
@@ -30,7 +33,8 @@ class Clusters {
     Cluster joined;
     add_to(joined, element);
     for (auto other = clusters_.begin(); other != clusters_.end();) {
-      const bool shares = std::any_of(joined.inner.begin(), joined.inner.end(), [&](NodeIndex node) { return other->inner.count(node) != 0; });
+      const bool shares = std::any_of(joined.inner.begin(), joined.inner.end(),
+                                      [&](NodeIndex node) { return other->inner.count(node) != 0; });
       if (!shares) {
         ++other;
         continue;
@@ -114,9 +118,9 @@ Network laid_out(const Network& network, const OnePort& port) {
 
 bool is_loose(const SlipGraph& graph, const OnePort& tie) {
   const auto is_alone_at = [&](NodeIndex node) {
-    return node != tool && node != ground && std::count_if(graph.ties.begin(), graph.ties.end(), [=](const OnePort& other) {
-                                               return other.from == node || other.to == node;
-                                             }) == 1;
+    return node != tool && node != ground &&
+           std::count_if(graph.ties.begin(), graph.ties.end(),
+                         [=](const OnePort& other) { return other.from == node || other.to == node; }) == 1;
   };
   return is_alone_at(tie.from) || is_alone_at(tie.to);
 }

@@ -26,7 +26,8 @@ struct SlipGraph {
   std::vector<std::size_t> opened;  // elements at inner ends that no slip has: their relaxations mix over several ends
 };
 
-// In: a network, those of its elements that are behind slips which meet in no tree. Ensures: every element is in one link or tie.
+// In: a network, those of its elements that are behind slips which meet in no tree. Ensures: every element is in one
+// link or tie.
 SlipGraph slip_graph(const Network& network, const std::vector<std::size_t>& elements);
 
 // The elements of a one-port between tool and ground, with inner nodes of their own.

@@ -47,7 +47,8 @@ int slip_elements(const Network& network) {
 // The blocks that a slip is next to in series.
 void find_loose(const NormalTree& tree, std::set<const NormalTree*>& loose) {
   const auto is_slip = [](const NormalTree& child) { return child.kind == NormalTree::Kind::slip; };
-  const bool slides = tree.kind == NormalTree::Kind::series && std::any_of(tree.children.begin(), tree.children.end(), is_slip);
+  const bool slides =
+      tree.kind == NormalTree::Kind::series && std::any_of(tree.children.begin(), tree.children.end(), is_slip);
   for (const NormalTree& child : tree.children) {
     if (slides) loose.insert(&child);
     find_loose(child, loose);
@@ -56,9 +57,14 @@ void find_loose(const NormalTree& tree, std::set<const NormalTree*>& loose) {
 
 class TablesBuilder {
  public:
-  TablesBuilder(const Network& network, const BrakeRule& brake, const Decomposition& decomposition, const Choices& choices,
-                const Real& sample_period)
-      : network_(network), structure_(at_largest(network)), brake_(brake), decomposition_(decomposition), choices_(choices), period_(sample_period),
+  TablesBuilder(const Network& network, const BrakeRule& brake, const Decomposition& decomposition,
+                const Choices& choices, const Real& sample_period)
+      : network_(network),
+        structure_(at_largest(network)),
+        brake_(brake),
+        decomposition_(decomposition),
+        choices_(choices),
+        period_(sample_period),
         blocks_(network_, choices_, period_, tables_) {}
 
   // False, with a diagnostic, where too many slips are in no tree.
@@ -70,8 +76,7 @@ class TablesBuilder {
     if (!form) return false;
     if (const std::optional<Tree> tree = form->has_slips() ? series_parallel_tree(structure_) : std::nullopt)
       add_tree(*tree, *form);
-    else
-      add_parts(*form);
+    else add_parts(*form);
     tables_.head.observed = blocks_.number(network_, brake_.observed);
     count();
     return true;
@@ -95,7 +100,8 @@ class TablesBuilder {
     head.damping = to_scalar(Real(brake_.damping));
     head.max_damping = brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest_finite(choices_.scalar);
     head.static_spring = no_index;
-    head.contact = {network_.contact.has_value(), network_.contact ? to_scalar(Real(network_.contact->at)) : 0, to_scalar(Real(decomposition_.encoder_step))};
+    head.contact = {network_.contact.has_value(), network_.contact ? to_scalar(Real(network_.contact->at)) : 0,
+                    to_scalar(Real(decomposition_.encoder_step))};
     head.slip_rule = slip_rule();
     tables_.brake = brake_.text;
   }
@@ -103,15 +109,18 @@ class TablesBuilder {
   tunable_slip_rule<double> slip_rule() const {
     const SlipDecomposition& slips = decomposition_.slips;
     const bool takes_part = brake_.rule != brake_rule::constant && slip_elements(structure_) > 0;
-    return {takes_part, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share)), to_scalar(Real(slips.assured_share))};
+    return {takes_part, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share)),
+            to_scalar(Real(slips.assured_share))};
   }
 
   void add_tunable(const Parameter& parameter) {
     const auto user = std::find_if(network_.elements.begin(), network_.elements.end(),
                                    [&](const Element& element) { return tunable_of(network_, element) == &parameter; });
     const std::string unit = user == network_.elements.end() ? "" : unit_of(user->law, network_.port_motion);
-    tables_.tunables.push_back({parameter.name, unit,
-                                {to_scalar(Real(parameter.value)), to_scalar(Real(parameter.min)), to_scalar(Real(parameter.max))}});
+    tables_.tunables.push_back(
+        {parameter.name,
+         unit,
+         {to_scalar(Real(parameter.value)), to_scalar(Real(parameter.min)), to_scalar(Real(parameter.max))}});
   }
 
   void add_tree(const Tree& tree, const NormalForm& form) {
@@ -119,8 +128,7 @@ class TablesBuilder {
     blocks_.add(laid_out_part(network_, tree, linear), linear, false);
     if (!network_.contact)
       for (const NormalTree& component : form.components) add_component(component, tree, false);
-    else
-      add_component(whole_tree(form, structure_), tree, !linear.empty());
+    else add_component(whole_tree(form, structure_), tree, !linear.empty());
   }
 
   // Of what is no tree as a whole; with a contact all slips are solved together.
@@ -129,16 +137,12 @@ class TablesBuilder {
     std::vector<std::size_t> together;
     for (const NormalTree& component : form.components) {
       const std::vector<std::size_t> elements = elements_of(component);
-      if (network_.contact)
-        together.insert(together.end(), elements.begin(), elements.end());
-      else
-        add_component(component, tree_of(elements), false);
+      if (network_.contact) together.insert(together.end(), elements.begin(), elements.end());
+      else add_component(component, tree_of(elements), false);
     }
     for (const std::vector<std::size_t>& part : form.networks)
-      if (network_.contact)
-        together.insert(together.end(), part.begin(), part.end());
-      else
-        add_graph(part);
+      if (network_.contact) together.insert(together.end(), part.begin(), part.end());
+      else add_graph(part);
     if (!together.empty()) add_graph(together);
   }
 
@@ -149,10 +153,12 @@ class TablesBuilder {
     return series_parallel_tree(part).value();
   }
 
-  std::vector<std::size_t> linear_elements(const NormalForm& form) const { return effective_elements(linear_part(network_, form)); }
+  std::vector<std::size_t> linear_elements(const NormalForm& form) const {
+    return effective_elements(linear_part(network_, form));
+  }
 
-  // Of the table only the shape is taken: its numbers follow from the parameters. Behind a contact the first block may be the
-  // one that is there.
+  // Of the table only the shape is taken: its numbers follow from the parameters. Behind a contact the first block may
+  // be the one that is there.
   void add_component(const NormalTree& component, const Tree& tree, bool has_first_block) {
     const std::vector<Real> any_stiffness(blocks_breadth_first(component).size(), Real(1));
     const SlipTable table = slip_table(component, any_stiffness, choices_.scalar);
@@ -167,10 +173,12 @@ class TablesBuilder {
     std::set<const NormalTree*> loose;
     find_loose(component, loose);
     for (const NormalTree* block : table.blocks)
-      if (!has_first_block || block != table.blocks.front()) blocks_.add(laid_out_part(network_, tree, block->elements), block->elements, loose.count(block) != 0);
+      if (!has_first_block || block != table.blocks.front())
+        blocks_.add(laid_out_part(network_, tree, block->elements), block->elements, loose.count(block) != 0);
     for (const NormalTree* slip : table.slips) {
       const int first = static_cast<int>(tables_.cuts.size());
-      for (const std::vector<std::size_t>& cut : cuts_through(tree, slip->elements)) tables_.cuts.push_back(blocks_.number(network_, cut));
+      for (const std::vector<std::size_t>& cut : cuts_through(tree, slip->elements))
+        tables_.cuts.push_back(blocks_.number(network_, cut));
       tables_.yields.push_back({first, static_cast<int>(tables_.cuts.size()) - first});
       tables_.links.push_back({0, 0});
     }
@@ -185,7 +193,8 @@ class TablesBuilder {
     const int ends = static_cast<int>(graph.ends.size()) + (network_.contact ? 1 : 0);
     place.emplace(ground, ends + 1);
     tables_.graphs.push_back({ends, static_cast<int>(graph.links.size()), static_cast<int>(tables_.yields.size()), 0,
-                              static_cast<int>(tables_.ties.size()), static_cast<int>(tables_.blocks.size()) - (network_.contact ? 1 : 0)});
+                              static_cast<int>(tables_.ties.size()),
+                              static_cast<int>(tables_.blocks.size()) - (network_.contact ? 1 : 0)});
     if (network_.contact) tables_.ties.push_back({place.at(tool), ends + 1});
     for (const OnePort& tie : graph.ties) {
       tables_.ties.push_back({place.at(tie.from), place.at(tie.to)});
@@ -232,17 +241,21 @@ bool exceeds(std::size_t count, int most, const char* what, const Network& netwo
 
 bool is_too_large(const TunableTables& tables, const Network& network, Diagnostics& diagnostics) {
   return exceeds(tables.springs.size(), most_tunable_springs, "springs", network, diagnostics) ||
-         exceeds(static_cast<std::size_t>(tables.mesh_nodes), most_tunable_nodes, "inner nodes", network, diagnostics) ||
+         exceeds(static_cast<std::size_t>(tables.mesh_nodes), most_tunable_nodes, "inner nodes", network,
+                 diagnostics) ||
          exceeds(tables.blocks.size(), most_tunable_blocks, "parts between slips", network, diagnostics) ||
          exceeds(tables.nodes.size(), most_tunable_slip_parts, "parts between slips", network, diagnostics) ||
-         exceeds(static_cast<std::size_t>(tables.corners), most_tunable_corners, "corners of slips", network, diagnostics) ||
-         exceeds(static_cast<std::size_t>(tables.ends), most_tunable_ends, "ends of slips outside a tree", network, diagnostics);
+         exceeds(static_cast<std::size_t>(tables.corners), most_tunable_corners, "corners of slips", network,
+                 diagnostics) ||
+         exceeds(static_cast<std::size_t>(tables.ends), most_tunable_ends, "ends of slips outside a tree", network,
+                 diagnostics);
 }
 
 }  // namespace
 
 bool has_tunables(const Network& network) {
-  return std::any_of(network.parameters.begin(), network.parameters.end(), [](const Parameter& p) { return p.tunable; });
+  return std::any_of(network.parameters.begin(), network.parameters.end(),
+                     [](const Parameter& p) { return p.tunable; });
 }
 
 Network at_default(const Network& network) {
@@ -256,8 +269,10 @@ Network at_default(const Network& network) {
 
 std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network, const LinearForm& form,
                                                const Decomposition& decomposition, const Choices& choices,
-                                               const Real& sample_period, const Device* device, Diagnostics& diagnostics) {
-  const auto tunables = std::count_if(network.parameters.begin(), network.parameters.end(), [](const Parameter& p) { return p.tunable; });
+                                               const Real& sample_period, const Device* device,
+                                               Diagnostics& diagnostics) {
+  const auto tunables =
+      std::count_if(network.parameters.begin(), network.parameters.end(), [](const Parameter& p) { return p.tunable; });
   if (exceeds(static_cast<std::size_t>(tunables), most_tunables, "tunable parameters", network, diagnostics) ||
       exceeds(form.modes.size(), most_tunable_modes, "relaxations", network, diagnostics) ||
       exceeds(static_cast<std::size_t>(slip_elements(network)), most_tunable_slips, "slips", network, diagnostics))

@@ -61,10 +61,15 @@ class TunableRun {
   }
 
   static Scalar scalar(double value) { return static_cast<Scalar>(value); }
-  static tunable_range<Scalar> range_of(const tunable_range<double>& r) { return {scalar(r.value), scalar(r.min), scalar(r.max)}; }
-  static tunable_number<Scalar> number_of(const tunable_number<double>& n) { return {scalar(n.base), n.first, n.count}; }
+  static tunable_range<Scalar> range_of(const tunable_range<double>& r) {
+    return {scalar(r.value), scalar(r.min), scalar(r.max)};
+  }
+  static tunable_number<Scalar> number_of(const tunable_number<double>& n) {
+    return {scalar(n.base), n.first, n.count};
+  }
   static tunable_part<Scalar> part_of(const tunable_part<double>& p) {
-    return {p.kind, p.spring, p.damping, p.first_node, p.node_count, p.first_edge, p.edge_count, p.is_loose, scalar(p.share), scalar(p.loss)};
+    return {p.kind,       p.spring,     p.damping,  p.first_node,    p.node_count,
+            p.first_edge, p.edge_count, p.is_loose, scalar(p.share), scalar(p.loss)};
   }
   static slip_node<Scalar> node_of(const slip_node<double>& n) {
     return {n.kind, n.first_child, n.child_count, n.slips, n.place, n.first_corner, 0, 0, 0};
@@ -72,14 +77,41 @@ class TunableRun {
 
   tunable_tables<Scalar> tables_of(const TunableTables& t) {
     const tunable_tables<double>& h = t.head;
-    return {scalar(h.period), scalar(h.rate), h.is_exact, scalar(h.retention), scalar(h.threshold), scalar(h.least_share),
-            h.rule, scalar(h.damping), h.observed, scalar(h.max_damping), h.static_spring,
+    return {scalar(h.period),
+            scalar(h.rate),
+            h.is_exact,
+            scalar(h.retention),
+            scalar(h.threshold),
+            scalar(h.least_share),
+            h.rule,
+            scalar(h.damping),
+            h.observed,
+            scalar(h.max_damping),
+            h.static_spring,
             {h.contact.is_there, scalar(h.contact.at), scalar(h.contact.encoder_step)},
-            {h.slip_rule.takes_part, scalar(h.slip_rule.hysteresis), scalar(h.slip_rule.coil_share), scalar(h.slip_rule.assured_share)},
-            h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count, h.coupling_count, h.graph_count,
-            ranges_.data(), t.terms.data(), numbers_.data(), t.springs.data(), parts_.data(), t.edges.data(), t.blocks.data(),
-            t.cuts.data(), t.yields.data(), t.couplings.data(), nodes_.data(),
-            t.graphs.data(), t.links.data(), t.ties.data()};
+            {h.slip_rule.takes_part, scalar(h.slip_rule.hysteresis), scalar(h.slip_rule.coil_share),
+             scalar(h.slip_rule.assured_share)},
+            h.tunable_count,
+            h.spring_count,
+            h.part_count,
+            h.block_count,
+            h.slip_count,
+            h.coupling_count,
+            h.graph_count,
+            ranges_.data(),
+            t.terms.data(),
+            numbers_.data(),
+            t.springs.data(),
+            parts_.data(),
+            t.edges.data(),
+            t.blocks.data(),
+            t.cuts.data(),
+            t.yields.data(),
+            t.couplings.data(),
+            nodes_.data(),
+            t.graphs.data(),
+            t.links.data(),
+            t.ties.data()};
   }
 
   std::vector<tunable_range<Scalar>> ranges_;
@@ -87,8 +119,9 @@ class TunableRun {
   std::vector<tunable_part<Scalar>> parts_;
   std::vector<slip_node<Scalar>> nodes_;
   tunable_tables<Scalar> tables_;
-  tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks, most_tunable_slip_parts,
-              most_tunable_slips, most_tunable_corners, most_tunable_ends> law_;
+  tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks,
+              most_tunable_slip_parts, most_tunable_slips, most_tunable_corners, most_tunable_ends>
+      law_;
   Scalar added_damping_;
   tunable_sample<Scalar> sample_ = {};
   Scalar last_position_ = 0, sampled_position_ = 0, sampled_change_ = 0;

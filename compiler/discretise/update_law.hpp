@@ -1,8 +1,9 @@
 // The update law as a small typed program: what evaluate() runs, what the back ends print, what a certificate proves.
 //
-// Two phases (theory, section 3): `output` turns the sample into a command in O(1) and, where everything is finite, `keep`
-// remembers the sample; `update` follows, O(states), after the command has left. `energy` gives the stored energy. Variables are vectors of `size` scalars; statements
-// act elementwise, and `sum` reduces in a stated order. So a law has the same few statements at any number of states.
+// Two phases (theory, section 3): `output` turns the sample into a command in O(1) and, where everything is finite,
+// `keep` remembers the sample; `update` follows, O(states), after the command has left. `energy` gives the stored
+// energy. Variables are vectors of `size` scalars; statements act elementwise, and `sum` reduces in a stated order. So
+// a law has the same few statements at any number of states.
 #pragma once
 
 #include <dashpot/slip_network.hpp>
@@ -49,7 +50,7 @@ struct Coefficient {
   std::string name;
   std::string unit;
   std::string meaning;
-  std::vector<double> values;              // one, or one a place, or those of a table that `pick` reads
+  std::vector<double> values;                   // one, or one a place, or those of a table that `pick` reads
   std::vector<std::string> element_names = {};  // of a vector, one name a place; else empty
 
   bool is_table() const { return values.size() > 1 && element_names.empty(); }
@@ -65,8 +66,8 @@ enum class Operation : std::uint8_t {
   clamp,  // left within ± right
   where,  // left where `condition` is above zero, else right
   pick,   // of a table, the place `right` counted from 0
-  sum,    // of a vector: from the first place to the last; where it is rolled, in `lanes` partial sums in turn, of which
-          // the second half is added to the first until one is left
+  sum,  // of a vector: from the first place to the last; where it is rolled, in `lanes` partial sums in turn, of which
+        // the second half is added to the first until one is left
 };
 
 struct Expression {
@@ -81,8 +82,8 @@ inline constexpr std::uint32_t no_coupling = static_cast<std::uint32_t>(-1);
 struct Statement {
   VariableId target;
   ExpressionId value;
-  std::string purpose;                              // the equation, as the literature writes it
-  std::vector<std::vector<std::size_t>> origins;    // for each place of the target, indices into Network::elements
+  std::string purpose;                            // the equation, as the literature writes it
+  std::vector<std::vector<std::size_t>> origins;  // for each place of the target, indices into Network::elements
   std::uint32_t coupling = no_coupling;  // of a step of coupled slips: index into UpdateLaw::couplings; `value` is Δu,
                                          // `target` the force, and the coupling's elongations are assigned too
   std::uint32_t network = no_coupling;   // the same of slips outside a tree: index into UpdateLaw::networks
@@ -90,19 +91,20 @@ struct Statement {
 
 // Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
 struct Coupling {
-  std::string name;                            // of the emitted table
-  std::vector<slip_node<double>> nodes;        // numbers already rounded to the law's scalar type
-  std::vector<VariableId> held;                // π of each block [N]; no_variable where it is 0
-  std::vector<VariableId> elongation;          // local, δ of each block [m]; no_variable where nothing follows it
-  std::vector<std::vector<std::size_t>> slips; // of each slip, indices into Network::elements
-  std::vector<VariableId> sign;                // local, of each slip: −1, 0 or 1; no_variable where nothing follows it
-  VariableId surface_change = no_variable;     // local, of a tree that is pushed and not pulled: Δs [m]
+  std::string name;                             // of the emitted table
+  std::vector<slip_node<double>> nodes;         // numbers already rounded to the law's scalar type
+  std::vector<VariableId> held;                 // π of each block [N]; no_variable where it is 0
+  std::vector<VariableId> elongation;           // local, δ of each block [m]; no_variable where nothing follows it
+  std::vector<std::vector<std::size_t>> slips;  // of each slip, indices into Network::elements
+  std::vector<VariableId> sign;             // local, of each slip: −1, 0 or 1; no_variable where nothing follows it
+  VariableId surface_change = no_variable;  // local, of a tree that is pushed and not pulled: Δs [m]
 
   bool is_pushed() const { return surface_change != no_variable; }
   int node_count() const { return static_cast<int>(nodes.size()); }
   int corners() const { return slip_tree_corners(nodes.data(), node_count()); }
   int operations() const {
-    return is_pushed() ? slip_tree_push_operations(nodes.data(), node_count()) : slip_tree_operations(nodes.data(), node_count());
+    return is_pushed() ? slip_tree_push_operations(nodes.data(), node_count())
+                       : slip_tree_operations(nodes.data(), node_count());
   }
 };
 
@@ -123,8 +125,8 @@ struct SlipNetwork {
   int operations() const { return slip_network_operations(links.data(), slip_count(), node_count); }
 };
 
-// The guard of a rolled vector of forces that decay slowly: before an update, `places` of them in turn become zero below the
-// threshold. All at each sample would take three of the eight operations of a mode.
+// The guard of a rolled vector of forces that decay slowly: before an update, `places` of them in turn become zero
+// below the threshold. All at each sample would take three of the eight operations of a mode.
 struct GuardInTurn {
   VariableId state;
   std::size_t places;  // a sample; several lanes, and a part of the padded size
@@ -144,16 +146,16 @@ struct UpdateLaw {
   ScalarType scalar = ScalarType::float64;
   Scheme scheme = Scheme::exact;
   StateInput state_input = StateInput::position;
-  double sample_period = 0;     // [s]
-  double damping = 0;           // b, the brake's command; where it changes its least value [N·s/m]
-  double largest_damping = 0;   // its largest; the same where it does not change [N·s/m]
-  double flush_threshold = 0;   // [N]: magnitudes below become zero
+  double sample_period = 0;    // [s]
+  double damping = 0;          // b, the brake's command; where it changes its least value [N·s/m]
+  double largest_damping = 0;  // its largest; the same where it does not change [N·s/m]
+  double flush_threshold = 0;  // [N]: magnitudes below become zero
   ModeForm mode_form = ModeForm::product;
   double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
   std::size_t lanes = 1;        // partial sums of a rolled vector's `sum`, a power of two; 1 where nothing is rolled
   std::size_t rolled_from = 0;  // places of the smallest vector that is rolled
   bool guards_each_sample = false;  // against subnormals, also where they could take turns
-  std::size_t register_bytes = 0;  // of the machine that loops are laid out for; 0 where it has no vectors
+  std::size_t register_bytes = 0;   // of the machine that loops are laid out for; 0 where it has no vectors
 
   std::vector<Variable> variables;
   std::vector<Coefficient> coefficients;
@@ -164,21 +166,25 @@ struct UpdateLaw {
   std::vector<Coupling> couplings;
   std::vector<SlipNetwork> networks;
   std::vector<GuardInTurn> guards;  // before `update`
-  std::vector<Statement> energy;  // ends with the assignment of `stored`
+  std::vector<Statement> energy;    // ends with the assignment of `stored`
 
   std::optional<TunableTables> tunable;  // of a network with tunables: all of its law, the programs are then empty
 
   VariableId position = 0;  // the inputs
   VariableId velocity = 0;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
-  std::optional<double> surface_at;  // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
-  VariableId force = 0;     // m_k, the motor's command [N]
-  VariableId brake = no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
+  std::optional<double>
+      surface_at;        // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
+  VariableId force = 0;  // m_k, the motor's command [N]
+  VariableId brake =
+      no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
-  VariableId stored = 0;    // [J]
+  VariableId stored = 0;                // [J]
 
   bool is_rolled(std::size_t size) const { return lanes > 1 && size > 1 && size >= rolled_from; }
-  std::size_t padded(std::size_t size) const { return (size + lanes - 1) / lanes * lanes; }  // of a rolled vector: whole rounds of its loop
+  std::size_t padded(std::size_t size) const {
+    return (size + lanes - 1) / lanes * lanes;
+  }  // of a rolled vector: whole rounds of its loop
   bool brake_changes() const { return brake != no_variable; }
 };
 
@@ -186,21 +192,23 @@ struct Cost {
   std::size_t additions = 0;  // and subtractions
   std::size_t multiplications = 0;
   std::size_t selections = 0;  // clamps and choices
-  std::size_t guards = 0;  // against subnormals
-  std::size_t coupled = 0;  // operations of coupled slips at most: additions, multiplications, divisions
+  std::size_t guards = 0;      // against subnormals
+  std::size_t coupled = 0;     // operations of coupled slips at most: additions, multiplications, divisions
   std::size_t states = 0;
 };
 Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);
 
-// In: normal form, decomposition of its linear part, scheme, rate, scalar. Out: the law. Ensures: constants rounded once from extended
-// precision. Warns: a relaxation faster than two samples; a float that cannot carry stiffest and slowest mode together.
+// In: normal form, decomposition of its linear part, scheme, rate, scalar. Out: the law. Ensures: constants rounded
+// once from extended precision. Warns: a relaxation faster than two samples; a float that cannot carry stiffest and
+// slowest mode together.
 UpdateLaw discretise(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                      const Choices& choices, double rate, Diagnostics& diagnostics);
 
 // The same for a network with tunables; form and decomposition are those of its default values. Refuses: what
 // tunable_tables_of() refuses.
-std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                                            const Choices& choices, double rate, const Device* device, Diagnostics& diagnostics);
+std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
+                                            const Decomposition& decomposition, const Choices& choices, double rate,
+                                            const Device* device, Diagnostics& diagnostics);
 
 // Raises the brake's command in every regime of a law whose brake changes, by a number of the scalar's type.
 void add_steady_damping(UpdateLaw& law, double damping);

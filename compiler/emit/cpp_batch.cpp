@@ -24,21 +24,25 @@ class BatchPrinter {
     for (std::string& line : lines_of(law_.update)) batch.update.push_back(std::move(line));
     batch.energy = lines_of(law_.energy);
     batch.loads = loads();
-    for (const Statement* sum : derived_) append(batch.loads, fmt::format("const vector {} = {};", name(sum->target, 0), expression(sum->value, 0)), sum->purpose);
+    for (const Statement* sum : derived_)
+      append(batch.loads, fmt::format("const vector {} = {};", name(sum->target, 0), expression(sum->value, 0)),
+             sum->purpose);
     batch.energy_loads = energy_loads();
     batch.commands = commands();
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
       batch.states = number + 1;
       batch.reset.push_back(fmt::format("put(state, {}, {});", number, rest_value(law_.variables[id])));
-      batch.stores.push_back(fmt::format("vector::put(state, {0} * block, vector::where(sampled, {1}, vector::at(state, {0} * block)));", number, state));
+      batch.stores.push_back(
+          fmt::format("vector::put(state, {0} * block, vector::where(sampled, {1}, vector::at(state, {0} * block)));",
+                      number, state));
     });
     batch.constants = constants();
     return batch;
   }
 
  private:
-  // A state is what is read before it is assigned, or for the energy. What update() makes of other states alone, a sum of them, is as quickly
-  // added up again as it is fetched from memory.
+  // A state is what is read before it is assigned, or for the energy. What update() makes of other states alone, a sum
+  // of them, is as quickly added up again as it is fetched from memory.
   void find_states() {
     std::set<VariableId> assigned;
     for (const auto* program : {&law_.output, &law_.keep, &law_.update})
@@ -49,7 +53,8 @@ class BatchPrinter {
     for (const Statement& statement : law_.energy) find_reads(statement.value, {}, kept_);
     if (law_.last_brake != no_variable) kept_.insert(law_.last_brake);
     for (const Statement& statement : law_.update)
-      if (law_.expressions[statement.value].operation == Operation::sum && kept_.erase(statement.target) != 0) derived_.push_back(&statement);
+      if (law_.expressions[statement.value].operation == Operation::sum && kept_.erase(statement.target) != 0)
+        derived_.push_back(&statement);
   }
 
   // States that the expression reads, but for those that are `assigned`.
@@ -75,7 +80,9 @@ class BatchPrinter {
     return later;
   }
 
-  bool is_derived(const Statement& statement) const { return std::find(derived_.begin(), derived_.end(), &statement) != derived_.end(); }
+  bool is_derived(const Statement& statement) const {
+    return std::find(derived_.begin(), derived_.end(), &statement) != derived_.end();
+  }
 
   // With the number of each in the storage.
   template <class Visit>
@@ -89,7 +96,8 @@ class BatchPrinter {
     std::vector<std::string> lines;
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
       const Variable& variable = law_.variables[id];
-      lines.push_back(fmt::format("vector {} = vector::at(state, {} * block);  // {} [{}]", state, number, variable.meaning, variable.unit));
+      lines.push_back(fmt::format("vector {} = vector::at(state, {} * block);  // {} [{}]", state, number,
+                                  variable.meaning, variable.unit));
     });
     return lines;
   }
@@ -99,7 +107,8 @@ class BatchPrinter {
     for (const Statement& statement : law_.energy) find_reads(statement.value, {}, read);
     std::vector<std::string> lines;
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
-      if (read.count(id) != 0) lines.push_back(fmt::format("const vector {} = vector::at(state, {} * block);", state, number));
+      if (read.count(id) != 0)
+        lines.push_back(fmt::format("const vector {} = vector::at(state, {} * block);", state, number));
     });
     return lines;
   }
@@ -112,7 +121,8 @@ class BatchPrinter {
       if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
       const char* declared = kept_.count(statement.target) != 0 ? "" : "const vector ";
       for (std::size_t place = 0; place < target.size; ++place)
-        append(lines, fmt::format("{}{} = {};", declared, name(statement.target, place), expression(statement.value, place)));
+        append(lines,
+               fmt::format("{}{} = {};", declared, name(statement.target, place), expression(statement.value, place)));
     }
     return lines;
   }
@@ -120,14 +130,16 @@ class BatchPrinter {
   std::vector<std::string> commands() const {
     std::vector<std::string> lines;
     if (law_.brake_changes())
-      lines.push_back(fmt::format("vector::put(dampings, point, vector::where(sampled, {}, {}));", name(law_.brake, 0), name(law_.last_brake, 0)));
+      lines.push_back(fmt::format("vector::put(dampings, point, vector::where(sampled, {}, {}));", name(law_.brake, 0),
+                                  name(law_.last_brake, 0)));
     lines.push_back("vector::put(forces, point, vector::where(sampled, force, scalar(0)));");
     return lines;
   }
 
   std::string name(VariableId id, std::size_t place) const {
     const Variable& variable = law_.variables[id];
-    return (variable.element_names.empty() ? variable.name : variable.element_names[place]) + (variable.role == Role::state ? "_" : "");
+    return (variable.element_names.empty() ? variable.name : variable.element_names[place]) +
+           (variable.role == Role::state ? "_" : "");
   }
 
   std::string expression(ExpressionId id, std::size_t place) {
@@ -141,7 +153,9 @@ class BatchPrinter {
       uses_flush_ = true;
       return fmt::format("vector::flush_below(threshold, {})", value);
     };
-    spelling.clamp = [](const std::string& value, const std::string& limit) { return fmt::format("vector::clamp_to({}, {})", limit, value); };
+    spelling.clamp = [](const std::string& value, const std::string& limit) {
+      return fmt::format("vector::clamp_to({}, {})", limit, value);
+    };
     spelling.sum = [this](const Variable& vector) { return "(" + sum_text(vector) + ")"; };
     spelling.where = [](const std::string& condition, const std::string& yes, const std::string& no) {
       return fmt::format("vector::where({}, {}, {})", condition, yes, no);
@@ -149,7 +163,9 @@ class BatchPrinter {
     return expression_text(law_, id, spelling);
   }
 
-  std::string name_of(const Variable& variable, std::size_t place) const { return name(static_cast<VariableId>(&variable - law_.variables.data()), place); }
+  std::string name_of(const Variable& variable, std::size_t place) const {
+    return name(static_cast<VariableId>(&variable - law_.variables.data()), place);
+  }
 
   // In the order of the single class, whose rolled loops begin every lane at 0.
   std::string sum_text(const Variable& vector) const {
@@ -166,14 +182,18 @@ class BatchPrinter {
 
   std::string rest_value(const Variable& variable) const {
     if (law_.rest_position != no_variable && &variable == &law_.variables[law_.rest_position])
-      return law_.surface_at ? fmt::format("dashpot::pushed_in({}, position)", cpp_literal(*law_.surface_at, law_.scalar)) : "position";
+      return law_.surface_at
+                 ? fmt::format("dashpot::pushed_in({}, position)", cpp_literal(*law_.surface_at, law_.scalar))
+                 : "position";
     return cpp_literal(variable.rest_value, law_.scalar);
   }
 
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
     if (uses_flush_)
-      lines.push_back(fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state", cpp_literal(law_.flush_threshold, law_.scalar)));
+      lines.push_back(
+          fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
+                      cpp_literal(law_.flush_threshold, law_.scalar)));
     for (const Coefficient& coefficient : law_.coefficients)
       if (used_.count(&coefficient) != 0) append_constant_of_each(coefficient, law_.scalar, lines);
     return lines;

@@ -9,12 +9,12 @@
 namespace dashpot::compiler {
 
 struct CppBatch {
-  std::size_t states = 0;              // scalars that a point keeps from one sample to the next
+  std::size_t states = 0;  // scalars that a point keeps from one sample to the next
   std::vector<std::string> constants;
-  std::vector<std::string> reset;      // of the state of one point
-  std::vector<std::string> loads;      // states into locals
+  std::vector<std::string> reset;  // of the state of one point
+  std::vector<std::string> loads;  // states into locals
   std::vector<std::string> output;
-  std::vector<std::string> commands;   // `sampled` says at which places the sample is one that can be kept
+  std::vector<std::string> commands;  // `sampled` says at which places the sample is one that can be kept
   std::vector<std::string> update;
   std::vector<std::string> stores;
   std::vector<std::string> energy_loads;

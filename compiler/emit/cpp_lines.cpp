@@ -9,8 +9,8 @@ constexpr std::size_t line_width = 112;
 
 std::size_t indentation(const std::string& text) { return std::min(text.find_first_not_of(' '), text.size()); }
 
-// The blank, not beyond `limit` and outside of [], that a line is best broken at: behind a plus, else behind a comma but that of an
-// array and its place, else behind a product's sign; 0 where there is none.
+// The blank, not beyond `limit` and outside of [], that a line is best broken at: behind a plus, else behind a comma
+// but that of an array and its place, else behind a product's sign; 0 where there is none.
 std::size_t break_place(const std::string& text, std::size_t limit) {
   std::size_t plus = 0, comma = 0, product = 0;
   int depth = 0;

@@ -15,7 +15,8 @@ namespace {
 
 class CppPrinter {
  public:
-  CppPrinter(const UpdateLaw& law, const Network& network, Timing timing) : law_(law), timing_(timing), statements_(law, network, timing) {}
+  CppPrinter(const UpdateLaw& law, const Network& network, Timing timing)
+      : law_(law), timing_(timing), statements_(law, network, timing) {}
 
   CppProgram print() {
     CppProgram program;
@@ -30,7 +31,8 @@ class CppPrinter {
     for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
     put_alias_before(program.output, program.keep);
     program.parameters = {"struct parameters {};"};
-    program.set = {"// No parameter of this network can be set while it runs.", "unsigned set(const parameters&) noexcept { return 0; }"};
+    program.set = {"// No parameter of this network can be set while it runs.",
+                   "unsigned set(const parameters&) noexcept { return 0; }"};
     program.reset = reset();
     program.constants = constants();
     program.states = states();
@@ -52,11 +54,14 @@ class CppPrinter {
   std::string name_of(VariableId id) const { return CppStatements::scalar_name(law_.variables[id]); }
 
   void check_and_return(CppProgram& program) const {
-    program.command = law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
+    program.command =
+        law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
     check_by_jumps(program, checked_numbers(law_), safe_command());
   }
 
-  std::string safe_command() const { return law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}"; }
+  std::string safe_command() const {
+    return law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}";
+  }
 
   // What is kept of a sample that is no number is what was there before.
   void check_by_masks(CppProgram& program) const {
@@ -64,7 +69,8 @@ class CppPrinter {
                      "const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);"};
     program.command = fmt::format("{{{}, dashpot::branch_free::chosen(sampled, force, scalar(0))}}",
                                   law_.brake_changes() ? name_of(law_.last_brake) : "damping");
-    if (!program.update.empty()) program.wait.push_back("const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);");
+    if (!program.update.empty())
+      program.wait.push_back("const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);");
     program.wait.push_back("sampled_ = false;");
   }
 
@@ -72,18 +78,20 @@ class CppPrinter {
   void put_alias_before(std::vector<std::string>& lines, const std::vector<std::string>& more = {}) const {
     const auto uses_vectors = [](const std::string& line) { return line.find("vector::") != line.npos; };
     if (std::any_of(lines.begin(), lines.end(), uses_vectors) || std::any_of(more.begin(), more.end(), uses_vectors))
-      lines.insert(lines.begin(), fmt::format("using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, {}>{}>;", law_.lanes,
-                                                    law_.register_bytes > 0 ? fmt::format(", {}", law_.register_bytes) : ""));
+      lines.insert(lines.begin(),
+                   fmt::format("using vector = dashpot::vector<scalar, dashpot::vector_width<scalar, {}>{}>;",
+                               law_.lanes, law_.register_bytes > 0 ? fmt::format(", {}", law_.register_bytes) : ""));
   }
 
-  // What output() finds, update() uses at once. That nothing is left to update() is stored last: before, it would hold up the states.
+  // What output() finds, update() uses at once. That nothing is left to update() is stored last: before, it would hold
+  // up the states.
   std::vector<std::string> fused(const CppProgram& program) {
     const std::map<VariableId, VariableId> carried = carried_numbers(law_);
     std::vector<Statement> kept = law_.keep;
     std::erase_if(kept, [&](const Statement& statement) { return carried.count(statement.target) != 0; });
     std::vector<std::string> lines = program.output;
-    const std::vector<std::string> check = {fmt::format("if (!dashpot::all_finite({})) {{", checked_numbers(law_)), "  sampled_ = false;",
-                                            fmt::format("  return {};", safe_command()), "}"};
+    const std::vector<std::string> check = {fmt::format("if (!dashpot::all_finite({})) {{", checked_numbers(law_)),
+                                            "  sampled_ = false;", fmt::format("  return {};", safe_command()), "}"};
     const std::vector<std::string> end = {"sampled_ = false;", fmt::format("return {};", program.command)};
     for (const auto& more : {check, statements_.lines_of(kept), statements_.lines_of(law_.update, carried), end})
       lines.insert(lines.end(), more.begin(), more.end());
@@ -94,10 +102,12 @@ class CppPrinter {
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
     if (!law_.brake_changes())
-      lines.push_back(fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
+      lines.push_back(
+          fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
     if (statements_.uses_flush())
-      lines.push_back(fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
-                                  literal(law_.flush_threshold)));
+      lines.push_back(
+          fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
+                      literal(law_.flush_threshold)));
     for (const Coefficient& coefficient : law_.coefficients)
       if (statements_.uses(coefficient)) append_constant(coefficient, lines);
     for (const Coupling& coupling : law_.couplings) append_table(law_, coupling, lines);
@@ -108,13 +118,16 @@ class CppPrinter {
   void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {
     const std::string note = fmt::format("  // {} [{}]", coefficient.meaning, coefficient.unit);
     if (coefficient.is_table()) {
-      std::string table = fmt::format("static constexpr scalar {}[{}] = {{", coefficient.name, coefficient.values.size());
-      for (std::size_t i = 0; i < coefficient.values.size(); ++i) table += (i == 0 ? "" : ", ") + literal(coefficient.values[i]);
+      std::string table =
+          fmt::format("static constexpr scalar {}[{}] = {{", coefficient.name, coefficient.values.size());
+      for (std::size_t i = 0; i < coefficient.values.size(); ++i)
+        table += (i == 0 ? "" : ", ") + literal(coefficient.values[i]);
       lines.push_back("//" + note.substr(4));
       return append(lines, table + "};");
     }
     if (!statements_.is_rolled(coefficient)) return append_constant_of_each(coefficient, law_.scalar, lines);
-    std::string table = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment(), coefficient.name, law_.padded(coefficient.values.size()));
+    std::string table = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment(), coefficient.name,
+                                    law_.padded(coefficient.values.size()));
     for (std::size_t place = 0; place < coefficient.values.size(); ++place)
       table += (place == 0 ? "" : ", ") + literal(coefficient.values[place]);
     lines.push_back("//" + note.substr(4));
@@ -128,11 +141,11 @@ class CppPrinter {
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       if (rests && &variable == &law_.variables[law_.rest_position])
-        lines.push_back(fmt::format("{} = dashpot::all_finite(position, position, position) ? {} : 0;", CppStatements::scalar_name(variable), rest_position()));
+        lines.push_back(fmt::format("{} = dashpot::all_finite(position, position, position) ? {} : 0;",
+                                    CppStatements::scalar_name(variable), rest_position()));
       else if (variable.size == 1)
         lines.push_back(fmt::format("{} = {};", CppStatements::scalar_name(variable), rest_value(variable)));
-      else if (statements_.is_rolled(variable))
-        lines.push_back(clearing(variable));
+      else if (statements_.is_rolled(variable)) lines.push_back(clearing(variable));
       else
         for (const std::string& name : variable.element_names)
           lines.push_back(fmt::format("{}_ = {};", name, rest_value(variable)));
@@ -150,14 +163,15 @@ class CppPrinter {
     return fmt::format("clear({}_);", variable.name);
   }
 
-  // The last position comes last, away from the forces: a compiler stores neighbours as one vector, and a force would then wait for
-  // its neighbour, and the next step for both.
+  // The last position comes last, away from the forces: a compiler stores neighbours as one vector, and a force would
+  // then wait for its neighbour, and the next step for both.
   std::vector<const Variable*> states_in_order() const {
     std::vector<const Variable*> all;
     for (const Variable& variable : law_.variables)
       if (variable.role == Role::state) all.push_back(&variable);
     if (law_.rest_position != no_variable)
-      std::stable_partition(all.begin(), all.end(), [&](const Variable* v) { return v != &law_.variables[law_.rest_position]; });
+      std::stable_partition(all.begin(), all.end(),
+                            [&](const Variable* v) { return v != &law_.variables[law_.rest_position]; });
     return all;
   }
 
@@ -167,32 +181,40 @@ class CppPrinter {
       const Variable& variable = *state;
       const std::string note = fmt::format("  // {} [{}]", variable.meaning, variable.unit);
       if (variable.size == 1)
-        lines.push_back(fmt::format("scalar {} = {};{}", CppStatements::scalar_name(variable), rest_value(variable), note));
+        lines.push_back(
+            fmt::format("scalar {} = {};{}", CppStatements::scalar_name(variable), rest_value(variable), note));
       else if (statements_.is_rolled(variable))
-        lines.push_back(fmt::format("{}scalar {}_[{}] = {{}};{}", alignment(), variable.name, law_.padded(variable.size), note));
+        lines.push_back(
+            fmt::format("{}scalar {}_[{}] = {{}};{}", alignment(), variable.name, law_.padded(variable.size), note));
       else
         for (const std::string& name : variable.element_names)
           lines.push_back(fmt::format("scalar {}_ = {};{}", name, rest_value(variable), note));
     }
     for (const GuardInTurn& guard : law_.guards)
-      lines.push_back(fmt::format("int {}_ = 0;  // first place of {}_ that is guarded next", guard.name, law_.variables[guard.state].name));
+      lines.push_back(fmt::format("int {}_ = 0;  // first place of {}_ that is guarded next", guard.name,
+                                  law_.variables[guard.state].name));
     return lines;
   }
 
   std::vector<std::string> functions() const {
     std::vector<std::string> lines;
     if (uses_clear_)
-      for (const char* line : {"// Through volatile: compilers turn a plain loop into a call of memset, which may not be there.",
-                               "template <int size>", "static void clear(volatile scalar (&states)[size]) noexcept {",
-                               "  for (int i = 0; i < size; ++i) states[i] = 0;", "}", ""})
+      for (const char* line :
+           {"// Through volatile: compilers turn a plain loop into a call of memset, which may not be there.",
+            "template <int size>", "static void clear(volatile scalar (&states)[size]) noexcept {",
+            "  for (int i = 0; i < size; ++i) states[i] = 0;", "}", ""})
         lines.push_back(line);
     return lines;
   }
 
   // A register that straddles two lines of the cache takes two reads.
-  std::string alignment() const { return law_.register_bytes > 0 ? fmt::format("alignas({}) ", law_.register_bytes) : ""; }
+  std::string alignment() const {
+    return law_.register_bytes > 0 ? fmt::format("alignas({}) ", law_.register_bytes) : "";
+  }
 
-  std::string rest_value(const Variable& state) const { return state.rest_value == 0 ? "0" : literal(state.rest_value); }
+  std::string rest_value(const Variable& state) const {
+    return state.rest_value == 0 ? "0" : literal(state.rest_value);
+  }
 
   std::string literal(double value) const { return cpp_literal(value, law_.scalar); }
 
@@ -217,8 +239,8 @@ CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timi
 }
 
 void check_by_jumps(CppProgram& program, const std::string& checked, const std::string& safe_command) {
-  program.check = {"sampled_ = false;",
-                   fmt::format("if (!dashpot::all_finite({})) return {};", checked, safe_command), "sampled_ = true;"};
+  program.check = {"sampled_ = false;", fmt::format("if (!dashpot::all_finite({})) return {};", checked, safe_command),
+                   "sampled_ = true;"};
   program.wait = {"if (!sampled_) return;", "sampled_ = false;"};
 }
 
@@ -226,8 +248,8 @@ void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, 
   const std::vector<std::string> lone = {coefficient.name};
   const std::vector<std::string>& names = coefficient.element_names.empty() ? lone : coefficient.element_names;
   for (std::size_t place = 0; place < coefficient.values.size(); ++place)
-    lines.push_back(fmt::format("static constexpr scalar {} = {};  // {} [{}]", names[place], cpp_literal(coefficient.values[place], scalar),
-                                coefficient.meaning, coefficient.unit));
+    lines.push_back(fmt::format("static constexpr scalar {} = {};  // {} [{}]", names[place],
+                                cpp_literal(coefficient.values[place], scalar), coefficient.meaning, coefficient.unit));
 }
 
 }  // namespace dashpot::compiler

@@ -14,16 +14,16 @@ struct CppProgram {
   std::vector<std::string> functions;  // private helpers that the lines below call
   std::vector<std::string> constants;
   std::vector<std::string> states;
-  std::vector<std::string> parameters; // the struct of that name
-  std::vector<std::string> set;        // the function of that name, with its contract
+  std::vector<std::string> parameters;  // the struct of that name
+  std::vector<std::string> set;         // the function of that name, with its contract
   std::vector<std::string> reset;
   std::vector<std::string> output;
-  std::vector<std::string> check;      // whether the sample is one that can be kept
+  std::vector<std::string> check;  // whether the sample is one that can be kept
   std::vector<std::string> keep;
-  std::string command;                 // what output() returns
-  std::vector<std::string> wait;       // what begins update(): nothing happens without such a sample
+  std::string command;            // what output() returns
+  std::vector<std::string> wait;  // what begins update(): nothing happens without such a sample
   std::vector<std::string> update;
-  std::vector<std::string> step;       // both phases in one
+  std::vector<std::string> step;  // both phases in one
   std::vector<std::string> energy;
 };
 
@@ -33,7 +33,8 @@ enum class Timing { any, constant };
 // In constant time: laws without couplings, networks and tunables.
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing = Timing::any);
 
-// `check` of those numbers and `wait` by jumps; `safe_command` is what output() returns after an input that is no number.
+// `check` of those numbers and `wait` by jumps; `safe_command` is what output() returns after an input that is no
+// number.
 void check_by_jumps(CppProgram& program, const std::string& checked, const std::string& safe_command);
 
 // A line for each place of the coefficient.

@@ -25,7 +25,8 @@ CppStatements::CppStatements(const UpdateLaw& law, const Network& network, Timin
   for (const Statement& statement : law.keep) find_vectors(statement.value);
 }
 
-std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& program, const std::map<VariableId, VariableId>& given) {
+std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& program,
+                                                 const std::map<VariableId, VariableId>& given) {
   std::vector<std::string> lines;
   given_.clear();
   for (const auto& [copy, original] : given) given_[&law_.variables[copy]] = &law_.variables[original];
@@ -66,7 +67,8 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>&
     if (guard.places <= 4 * law_.lanes) lines.push_back("DASHPOT_UNROLL");  // code that does not grow with the modes
     lines.push_back(fmt::format("for (int j = 0, first = {}_; j < {}; j += vector::width)", guard.name, guard.places));
     append(lines, fmt::format("  vector::put({}, first + j, {});", array_name(forces), value));
-    const std::string taken = branch_free_ ? fmt::format("({} & static_cast<int>(sampled))", guard.places) : std::to_string(guard.places);
+    const std::string taken =
+        branch_free_ ? fmt::format("({} & static_cast<int>(sampled))", guard.places) : std::to_string(guard.places);
     lines.push_back(fmt::format("{0}_ += {1};", guard.name, taken));
     lines.push_back(fmt::format("{0}_ = {0}_ < {1} ? {0}_ : 0;", guard.name, law_.padded(forces.size)));
   }
@@ -76,12 +78,15 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>&
 void CppStatements::print_unrolled(const Statement& statement, std::vector<std::string>& lines) {
   const Variable& target = law_.variables[statement.target];
   if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
-  if (statement.coupling != no_coupling) return append_step(law_, statement, law_.couplings[statement.coupling], *this, lines);
-  if (statement.network != no_coupling) return append_step(law_, statement, law_.networks[statement.network], *this, lines);
+  if (statement.coupling != no_coupling)
+    return append_step(law_, statement, law_.couplings[statement.coupling], *this, lines);
+  if (statement.network != no_coupling)
+    return append_step(law_, statement, law_.networks[statement.network], *this, lines);
   const bool is_masked = masks_states_ && target.role == Role::state;
   for (std::size_t place = 0; place < target.size; ++place) {
     std::string value = expression(statement.value, place);
-    if (is_masked) value = fmt::format("dashpot::branch_free::chosen(sampled, {}, {})", value, place_name(target, place));
+    if (is_masked)
+      value = fmt::format("dashpot::branch_free::chosen(sampled, {}, {})", value, place_name(target, place));
     const std::string line = assignment(target, place) + value + ";";
     const bool has_origin = target.size > 1 && place < statement.origins.size();
     append(lines, line, has_origin ? origin_names(statement.origins[place], network_) : "");
@@ -91,7 +96,8 @@ void CppStatements::print_unrolled(const Statement& statement, std::vector<std::
 // Elementwise statements in one loop, with the partial sums of those vectors that are added up later.
 void CppStatements::print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last,
                                std::vector<std::string>& lines) {
-  const std::vector<Statement> body(program.begin() + static_cast<std::ptrdiff_t>(first), program.begin() + static_cast<std::ptrdiff_t>(last));
+  const std::vector<Statement> body(program.begin() + static_cast<std::ptrdiff_t>(first),
+                                    program.begin() + static_cast<std::ptrdiff_t>(last));
   for (const Statement& statement : body) {
     const Variable& vector = target(statement);
     if (outlives_loop(vector)) lines.push_back(fmt::format("scalar {}[{}];", vector.name, law_.padded(vector.size)));
@@ -105,19 +111,23 @@ void CppStatements::print_loop(const std::vector<Statement>& program, std::size_
   for (const Statement& statement : body) {
     const Variable& vector = target(statement);
     if (vector.role == Role::state && reads_of(statement.value, statement.target) > 1) {
-      lines.push_back(fmt::format("    const vector {} = vector::in_register({});", vector.name, vector_name(vector, 0)));
+      lines.push_back(
+          fmt::format("    const vector {} = vector::in_register({});", vector.name, vector_name(vector, 0)));
       in_register_ = &vector;
     }
     std::string value = rolled_expression(statement.value);
     in_register_ = nullptr;
     if (masks_states_ && vector.role == Role::state)
       value = fmt::format("vector::chosen(sampled, {}, {})", value, vector_name(vector, 0));
-    append(lines, is_array(vector) ? fmt::format("    vector::put({}, j, {});", array_name(vector), value)
-                                   : fmt::format("    const vector {} = {};", vector.name, value), statement.purpose);
+    append(lines,
+           is_array(vector) ? fmt::format("    vector::put({}, j, {});", array_name(vector), value)
+                            : fmt::format("    const vector {} = {};", vector.name, value),
+           statement.purpose);
   }
   for (const Statement& statement : body)
     if (summed_.count(statement.target) != 0)
-      lines.push_back(fmt::format("    {}.add(j - i, {});", lane(target(statement)), vector_name(target(statement), 0)));
+      lines.push_back(
+          fmt::format("    {}.add(j - i, {});", lane(target(statement)), vector_name(target(statement), 0)));
   lines.push_back("  }");
 }
 
@@ -140,7 +150,9 @@ int CppStatements::reads_of(ExpressionId id, VariableId vector) const {
 }
 
 // Partial sums; called after their vector where a function has several.
-std::string CppStatements::lane(const Variable& vector) const { return summed_.size() == 1 ? "lane" : vector.name + "_lane"; }
+std::string CppStatements::lane(const Variable& vector) const {
+  return summed_.size() == 1 ? "lane" : vector.name + "_lane";
+}
 
 // A scalar state would be read again in each round: what a round stores might be it, for all that a compiler knows.
 void CppStatements::hoist_scalars(ExpressionId id, std::vector<std::string>& lines) {
@@ -149,7 +161,8 @@ void CppStatements::hoist_scalars(ExpressionId id, std::vector<std::string>& lin
   if (e.operation == Operation::read) {
     const Variable& variable = law_.variables[e.left];
     const bool is_steady = variable.role == Role::state && variable.size == 1 && assigned_.count(e.left) == 0;
-    if (is_steady && hoisted_.insert(e.left).second) lines.push_back(fmt::format("const vector {} = {};", variable.name, scalar_name(variable)));
+    if (is_steady && hoisted_.insert(e.left).second)
+      lines.push_back(fmt::format("const vector {} = {};", variable.name, scalar_name(variable)));
     return;
   }
   hoist_scalars(e.left, lines);
@@ -190,7 +203,9 @@ bool CppStatements::outlives_loop(const Variable& variable) const {
   return variable.role == Role::local && outliving_.count(&variable) != 0;
 }
 
-bool CppStatements::is_array(const Variable& vector) const { return vector.role != Role::local || outlives_loop(vector); }
+bool CppStatements::is_array(const Variable& vector) const {
+  return vector.role != Role::local || outlives_loop(vector);
+}
 
 std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   Spelling spelling;
@@ -208,9 +223,9 @@ std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   const bool is_whole = law_.expressions[id].operation == Operation::sum;
   if (!branch_free_)
     spelling.relax = [&](const std::string& decay, const std::string& force, const std::string& drive) {
-    uses_flush_ = true;
-    return fmt::format("dashpot::relaxed(threshold, {}, {}, {})", decay, force, drive);
-  };
+      uses_flush_ = true;
+      return fmt::format("dashpot::relaxed(threshold, {}, {}, {})", decay, force, drive);
+    };
   spelling.clamp = [&](const std::string& value, const std::string& limit) {
     return fmt::format("{}::clamp_to({}, {})", decisions, limit, value);
   };
@@ -243,7 +258,9 @@ std::string CppStatements::rolled_expression(ExpressionId id) {
     uses_flush_ = true;
     return fmt::format("vector::flush_below(threshold, {})", value);
   };
-  spelling.clamp = [](const std::string& value, const std::string& limit) { return fmt::format("vector::clamp_to({}, {})", limit, value); };
+  spelling.clamp = [](const std::string& value, const std::string& limit) {
+    return fmt::format("vector::clamp_to({}, {})", limit, value);
+  };
   spelling.sum = [this](const Variable& vector) { return sum_text(vector); };
   spelling.where = [](const std::string& condition, const std::string& yes, const std::string& no) {
     return fmt::format("vector::where({}, {}, {})", condition, yes, no);
@@ -269,7 +286,8 @@ std::string CppStatements::array_name(const Variable& variable) const {
 }
 
 std::string CppStatements::vector_name(const Variable& variable, std::size_t place) const {
-  if (is_rolled(variable)) return is_array(variable) ? fmt::format("vector::at({}, j)", array_name(variable)) : variable.name;
+  if (is_rolled(variable))
+    return is_array(variable) ? fmt::format("vector::at({}, j)", array_name(variable)) : variable.name;
   return variable.role == Role::state ? variable.element_names[place] + "_" : variable.element_names[place];
 }
 

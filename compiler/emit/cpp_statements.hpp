@@ -18,20 +18,24 @@ class CppStatements {
   CppStatements(const UpdateLaw& law, const Network& network, Timing timing);
 
   // Where a variable is a key of `given`, what it was copied from is read in its place.
-  std::vector<std::string> lines_of(const std::vector<Statement>& program, const std::map<VariableId, VariableId>& given = {});
+  std::vector<std::string> lines_of(const std::vector<Statement>& program,
+                                    const std::map<VariableId, VariableId>& given = {});
   // The same of a program that assigns to states: in constant time only where the mask `sampled` is set.
   std::vector<std::string> kept_lines_of(const std::vector<Statement>& program);
-  // Loops of their own, before those of `update`; in constant time they too leave everything as it is unless `sampled` is set.
+  // Loops of their own, before those of `update`; in constant time they too leave everything as it is unless `sampled`
+  // is set.
   std::vector<std::string> lines_of(const std::vector<GuardInTurn>& guards);
 
   // What begins an assignment to a place of `target`: its declaration where it is a local.
   std::string assignment(const Variable& target, std::size_t place) const;
-  std::string expression(ExpressionId id, std::size_t place);         // straight-line
-  std::string rolled_expression(ExpressionId id);  // in a loop, of the places from j on
+  std::string expression(ExpressionId id, std::size_t place);  // straight-line
+  std::string rolled_expression(ExpressionId id);              // in a loop, of the places from j on
   static std::string scalar_name(const Variable& variable);
 
   bool is_rolled(const Variable& variable) const { return law_.is_rolled(variable.size); }
-  bool is_rolled(const Coefficient& coefficient) const { return law_.is_rolled(coefficient.values.size()) && !coefficient.is_table(); }
+  bool is_rolled(const Coefficient& coefficient) const {
+    return law_.is_rolled(coefficient.values.size()) && !coefficient.is_table();
+  }
 
   // What the lines so far refer to.
   bool uses(const Coefficient& coefficient) const { return used_coefficients_.count(&coefficient) != 0; }
@@ -39,7 +43,8 @@ class CppStatements {
 
  private:
   void print_unrolled(const Statement& statement, std::vector<std::string>& lines);
-  void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last, std::vector<std::string>& lines);
+  void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last,
+                  std::vector<std::string>& lines);
   int reads_of(ExpressionId id, VariableId vector) const;
   std::string lane(const Variable& vector) const;
   void find_sums(ExpressionId id);
@@ -63,7 +68,7 @@ class CppStatements {
   bool masks_states_ = false;  // of the program at hand
   bool uses_flush_ = false;
   std::set<const Coefficient*> used_coefficients_;
-  std::set<VariableId> summed_;  // of the program at hand
+  std::set<VariableId> summed_;              // of the program at hand
   std::set<VariableId> assigned_, hoisted_;  // likewise
   const Variable* in_register_ = nullptr;    // of the statement at hand
   std::map<const Variable*, const Variable*> given_;

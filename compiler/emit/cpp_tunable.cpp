@@ -49,14 +49,17 @@ class TunablePrinter {
                                  is_pushed ? "dashpot::pushed_in(tables.contact.at, position)" : "position"),
                      "sampled_position_change_ = 0;", "sampled_position_ = last_position_;",
                      "law_.reset(tables, last_position_);", "last_damping_ = law_.damping_at_rest(tables);"};
-    program.output = {is_pushed ? "// where the surface goes, b, and m = f − b u̇" : "// Δu = u − u₋, b, and m = f − b u̇",
-                      "const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);",
-                      "const scalar force = sample.force;"};
+    program.output = {
+        is_pushed ? "// where the surface goes, b, and m = f − b u̇" : "// Δu = u − u₋, b, and m = f − b u̇",
+        "const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);",
+        "const scalar force = sample.force;"};
     program.step = two_phases();
-    program.keep = {"sampled_position_change_ = sample.change;", "sampled_position_ = sample.position;", "last_damping_ = sample.damping;"};
-    program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);", is_pushed ? "// s₋ = s" : "// u₋ = u",
-                      "last_position_ = sampled_position_;"};
-    program.energy = {"// V + T: in the springs, and what changes of parameters have set free", "const scalar stored = law_.stored_energy(tables);"};
+    program.keep = {"sampled_position_change_ = sample.change;", "sampled_position_ = sample.position;",
+                    "last_damping_ = sample.damping;"};
+    program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);",
+                      is_pushed ? "// s₋ = s" : "// u₋ = u", "last_position_ = sampled_position_;"};
+    program.energy = {"// V + T: in the springs, and what changes of parameters have set free",
+                      "const scalar stored = law_.stored_energy(tables);"};
     const std::string added = tables_.added_damping > 0 ? " + added_damping" : "";
     check_by_jumps(program, "position, velocity, force", "{last_damping_" + added + ", 0}");
     program.command = "{sample.damping" + added + ", force}";
@@ -69,7 +72,8 @@ class TunablePrinter {
   std::vector<std::string> parameters() const {
     std::vector<std::string> lines = {"struct parameters {"};
     for (const Tunable& t : tables_.tunables)
-      lines.push_back(fmt::format("  scalar {} = {};  // {} to {} [{}]", t.name, number(t.range.value), t.range.min, t.range.max, t.unit));
+      lines.push_back(fmt::format("  scalar {} = {};  // {} to {} [{}]", t.name, number(t.range.value), t.range.min,
+                                  t.range.max, t.unit));
     lines.push_back("};");
     return lines;
   }
@@ -78,40 +82,49 @@ class TunablePrinter {
   std::vector<std::string> set() const {
     std::string wanted;
     for (const Tunable& t : tables_.tunables) wanted += (wanted.empty() ? "" : ", ") + ("wanted." + t.name);
-    return {"// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was",
-            "// no number and is as it was.",
-            "unsigned set(const parameters& wanted) noexcept {",
-            "  update();",
-            fmt::format("  const scalar values[] = {{{}}};", wanted),
-            "  return law_.set(tables, values);",
-            "}"};
+    return {
+        "// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its "
+        "bound now, or it was",
+        "// no number and is as it was.",
+        "unsigned set(const parameters& wanted) noexcept {",
+        "  update();",
+        fmt::format("  const scalar values[] = {{{}}};", wanted),
+        "  return law_.set(tables, values);",
+        "}"};
   }
 
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
     list(lines, "dashpot::tunable_range<scalar>", "tunables", tables_.tunables, [this](const Tunable& t, std::size_t) {
-      return fmt::format("{{{}, {}, {}}},  // {} [{}]", number(t.range.value), number(t.range.min), number(t.range.max), t.name, t.unit);
+      return fmt::format("{{{}, {}, {}}},  // {} [{}]", number(t.range.value), number(t.range.min), number(t.range.max),
+                         t.name, t.unit);
     });
     row(lines, "terms", tables_.terms);
-    list(lines, "dashpot::tunable_number<scalar>", "numbers", tables_.numbers, [this](const tunable_number<double>& n, std::size_t) {
-      return fmt::format("{{{}, {}, {}}},", number(n.base), n.first, n.count);
-    });
+    list(lines, "dashpot::tunable_number<scalar>", "numbers", tables_.numbers,
+         [this](const tunable_number<double>& n, std::size_t) {
+           return fmt::format("{{{}, {}, {}}},", number(n.base), n.first, n.count);
+         });
     list(lines, "int", "springs", tables_.springs,
          [this](int n, std::size_t i) { return fmt::format("{},  // {}", n, tables_.spring_names[i]); });
-    list(lines, "dashpot::tunable_part<scalar>", "parts", tables_.parts, [this](const tunable_part<double>& p, std::size_t) {
-      return fmt::format("{{dashpot::tunable_kind::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_of(p.kind), p.spring, p.damping,
-                         p.first_node, p.node_count, p.first_edge, p.edge_count, p.is_loose, number(p.share), number(p.loss));
+    list(lines, "dashpot::tunable_part<scalar>", "parts", tables_.parts,
+         [this](const tunable_part<double>& p, std::size_t) {
+           return fmt::format("{{dashpot::tunable_kind::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_of(p.kind),
+                              p.spring, p.damping, p.first_node, p.node_count, p.first_edge, p.edge_count, p.is_loose,
+                              number(p.share), number(p.loss));
+         });
+    list(lines, "dashpot::tunable_edge", "edges", tables_.edges, [](const tunable_edge& e, std::size_t) {
+      return fmt::format("{{{}, {}, {}, {}}},", e.from, e.to, e.spring, e.damping);
     });
-    list(lines, "dashpot::tunable_edge", "edges", tables_.edges,
-         [](const tunable_edge& e, std::size_t) { return fmt::format("{{{}, {}, {}, {}}},", e.from, e.to, e.spring, e.damping); });
     list(lines, "dashpot::tunable_block", "blocks", tables_.blocks,
          [](const tunable_block& b, std::size_t) { return fmt::format("{{{}, {}}},", b.first_part, b.part_count); });
     row(lines, "cuts", tables_.cuts);
     list(lines, "dashpot::tunable_yield", "yields", tables_.yields,
          [](const tunable_yield& y, std::size_t) { return fmt::format("{{{}, {}}},", y.first_cut, y.cut_count); });
-    list(lines, "dashpot::tunable_coupling", "couplings", tables_.couplings, [](const tunable_coupling& c, std::size_t) {
-      return fmt::format("{{{}, {}, {}, {}, {}}},", c.first_node, c.node_count, c.first_block, c.first_slip, c.first_corner);
-    });
+    list(lines, "dashpot::tunable_coupling", "couplings", tables_.couplings,
+         [](const tunable_coupling& c, std::size_t) {
+           return fmt::format("{{{}, {}, {}, {}, {}}},", c.first_node, c.node_count, c.first_block, c.first_slip,
+                              c.first_corner);
+         });
     append_nodes(lines);
     append_graphs(lines);
     append_head(lines);
@@ -120,8 +133,8 @@ class TunablePrinter {
 
   void append_nodes(std::vector<std::string>& lines) const {
     list(lines, "dashpot::slip_node<scalar>", "nodes", tables_.nodes, [](const slip_node<double>& n, std::size_t) {
-      return fmt::format("{{dashpot::slip_part::{}, {}, {}, {}, {}, {}, 0, 0, 0}},", part_name(n.kind), n.first_child, n.child_count,
-                         n.slips, n.place, n.first_corner);
+      return fmt::format("{{dashpot::slip_part::{}, {}, {}, {}, {}, {}, 0, 0, 0}},", part_name(n.kind), n.first_child,
+                         n.child_count, n.slips, n.place, n.first_corner);
     });
   }
 
@@ -129,7 +142,8 @@ class TunablePrinter {
     if (tables_.graphs.empty()) return;
     const auto ends = [](const tunable_ends& e, std::size_t) { return fmt::format("{{{}, {}}},", e.from, e.to); };
     list(lines, "dashpot::tunable_graph", "graphs", tables_.graphs, [](const tunable_graph& g, std::size_t) {
-      return fmt::format("{{{}, {}, {}, {}, {}, {}}},", g.end_count, g.link_count, g.first_slip, g.tie_count, g.first_tie, g.first_block);
+      return fmt::format("{{{}, {}, {}, {}, {}, {}}},", g.end_count, g.link_count, g.first_slip, g.tie_count,
+                         g.first_tie, g.first_block);
     });
     list(lines, "dashpot::tunable_ends", "links", tables_.links, ends);
     list(lines, "dashpot::tunable_ends", "ties", tables_.ties, ends);
@@ -138,18 +152,19 @@ class TunablePrinter {
   void append_head(std::vector<std::string>& lines) const {
     const tunable_tables<double>& h = tables_.head;
     lines.push_back("static constexpr dashpot::tunable_tables<scalar> tables = {");
-    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", number(h.period), number(h.rate), h.is_exact, number(h.retention),
-                                number(h.threshold), number(h.least_share)));
-    lines.push_back(fmt::format("    dashpot::brake_rule::{}, {}, {}, {}, {},", name_of(h.rule), number(h.damping), h.observed,
-                                number(h.max_damping), h.static_spring));
-    lines.push_back(fmt::format("    {{{}, {}, {}}}, {{{}, {}, {}, {}}},", h.contact.is_there, number(h.contact.at), number(h.contact.encoder_step),
-                                h.slip_rule.takes_part, number(h.slip_rule.hysteresis), number(h.slip_rule.coil_share),
-                                number(h.slip_rule.assured_share)));
-    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count, h.block_count, h.slip_count,
-                                h.coupling_count, h.graph_count));
-    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {}}};", name_or_none("terms", tables_.terms),
-                                name_or_none("springs", tables_.springs), name_or_none("parts", tables_.parts),
-                                name_or_none("edges", tables_.edges), name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
+    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", number(h.period), number(h.rate), h.is_exact,
+                                number(h.retention), number(h.threshold), number(h.least_share)));
+    lines.push_back(fmt::format("    dashpot::brake_rule::{}, {}, {}, {}, {},", name_of(h.rule), number(h.damping),
+                                h.observed, number(h.max_damping), h.static_spring));
+    lines.push_back(fmt::format("    {{{}, {}, {}}}, {{{}, {}, {}, {}}},", h.contact.is_there, number(h.contact.at),
+                                number(h.contact.encoder_step), h.slip_rule.takes_part, number(h.slip_rule.hysteresis),
+                                number(h.slip_rule.coil_share), number(h.slip_rule.assured_share)));
+    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count,
+                                h.block_count, h.slip_count, h.coupling_count, h.graph_count));
+    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {}}};",
+                                name_or_none("terms", tables_.terms), name_or_none("springs", tables_.springs),
+                                name_or_none("parts", tables_.parts), name_or_none("edges", tables_.edges),
+                                name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
                                 name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes),
                                 tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties"));
   }
@@ -160,7 +175,8 @@ class TunablePrinter {
   }
 
   template <class Entry, class Text>
-  static void list(std::vector<std::string>& lines, const char* type, const char* name, const std::vector<Entry>& entries, Text text) {
+  static void list(std::vector<std::string>& lines, const char* type, const char* name,
+                   const std::vector<Entry>& entries, Text text) {
     if (entries.empty()) return;
     lines.push_back(fmt::format("static constexpr {} {}[{}] = {{", type, name, entries.size()));
     for (std::size_t i = 0; i < entries.size(); ++i) lines.push_back("    " + text(entries[i], i));
@@ -179,9 +195,11 @@ class TunablePrinter {
     return {"scalar last_position_ = 0;  // u of the sample before",
             "scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample",
             "scalar sampled_position_ = 0;  // port displacement u, at this sample",
-            fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};", tables_.tunables.size(),
-                        room(tables_.springs.size()), room(static_cast<std::size_t>(tables_.mesh_nodes)), tables_.blocks.size(),
-                        room(tables_.nodes.size()), tables_.yields.size(), room(static_cast<std::size_t>(tables_.corners)), tables_.ends),
+            fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};",
+                        tables_.tunables.size(), room(tables_.springs.size()),
+                        room(static_cast<std::size_t>(tables_.mesh_nodes)), tables_.blocks.size(),
+                        room(tables_.nodes.size()), tables_.yields.size(),
+                        room(static_cast<std::size_t>(tables_.corners)), tables_.ends),
             "scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before"};
   }
 

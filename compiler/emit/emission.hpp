@@ -28,8 +28,8 @@ struct EmissionOptions {
   bool constant_time = false;  // no value decides how long output() and update() take
   bool batch = false;          // also a class for many points of the same network
   bool with_test = false;
-  bool with_library = false;  // a source that makes the class loadable at run time
-  bool with_live = false;     // a source for WebAssembly, the same behind the functions that a page calls
+  bool with_library = false;             // a source that makes the class loadable at run time
+  bool with_live = false;                // a source for WebAssembly, the same behind the functions that a page calls
   std::optional<std::string> templates;  // folder in place of the built-in ones
 };
 
@@ -38,8 +38,8 @@ struct OutputFile {
   std::string text;
 };
 
-// <name>.hpp, and <name>_batch.hpp, <name>_test.cpp, <name>_library.cpp and <name>_live.cpp where asked for. Refuses: templates that
-// do not fit; constant time and many points where slips meet at inner nodes, or parameters are tunable.
+// <name>.hpp, and <name>_batch.hpp, <name>_test.cpp, <name>_library.cpp and <name>_live.cpp where asked for. Refuses:
+// templates that do not fit; constant time and many points where slips meet at inner nodes, or parameters are tunable.
 std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 

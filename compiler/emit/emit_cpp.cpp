@@ -35,8 +35,9 @@ std::string cost_line(const char* phase, const Cost& cost) {
 
 // U+202A to U+202E and U+2066 to U+2069 turn the direction of what follows: code would not read as it is compiled.
 bool turns_direction(std::string_view text) {
-  return text.starts_with("\xE2\x80") ? text.size() > 2 && text[2] >= '\xAA' && text[2] <= '\xAE'
-                                        : text.starts_with("\xE2\x81") && text.size() > 2 && text[2] >= '\xA6' && text[2] <= '\xA9';
+  return text.starts_with("\xE2\x80")
+             ? text.size() > 2 && text[2] >= '\xAA' && text[2] <= '\xAE'
+             : text.starts_with("\xE2\x81") && text.size() > 2 && text[2] >= '\xA6' && text[2] <= '\xA9';
 }
 
 // The author's words stay in the comment that they are put in: they hold no end of line, and no backslash at one.
@@ -79,7 +80,8 @@ std::vector<std::string> split_lines(std::string text, std::size_t width) {
 std::string brake_line(const SlipLikes& likes, const std::string& unit) {
   const std::vector<BrakeShare>& shares = likes.first->shares;
   if (shares.size() != 2) return to_text(likes);
-  return to_text(likes) + fmt::format("; b = {} {} stuck, {} sliding", shares.front().damping, unit, shares.back().damping);
+  return to_text(likes) +
+         fmt::format("; b = {} {} stuck, {} sliding", shares.front().damping, unit, shares.back().damping);
 }
 
 // Where the numbers were measured, as far as the author says.
@@ -103,11 +105,14 @@ void describe_tunables(const TunableTables& tables, const std::string& damping_u
   for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
   const TunableCost cost = cost_of(tables);
   facts.push_back("tunable: " + names);
-  facts.push_back("  set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay");
+  facts.push_back(
+      "  set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay");
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake));
-  if (!elements.empty()) facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
+  if (!elements.empty())
+    facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
   facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions", cost.output));
-  facts.push_back(fmt::format("cost of update(): at most {} additions and multiplications; {} states", cost.update, cost.states));
+  facts.push_back(
+      fmt::format("cost of update(): at most {} additions and multiplications; {} states", cost.update, cost.states));
   facts.push_back(fmt::format("cost of set(): at most {} additions, multiplications and divisions", cost.set));
 }
 
@@ -115,16 +120,21 @@ void describe_cost(const Compilation& c, std::vector<std::string>& facts) {
   const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
   facts.push_back(cost_line("cost of output():", output));
   if (output.coupled > 0)
-    facts.push_back(fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
+    facts.push_back(
+        fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
   facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
 }
 
-std::string form_text(ModeForm form) { return form == ModeForm::product ? "" : fmt::format("in {} form ", name_of(form)); }
+std::string form_text(ModeForm form) {
+  return form == ModeForm::product ? "" : fmt::format("in {} form ", name_of(form));
+}
 
 std::string loops_line(const UpdateLaw& law) {
-  const std::string room = law.register_bytes > 0 ? fmt::format("registers of {} bytes", law.register_bytes) : "a machine without vectors";
+  const std::string room =
+      law.register_bytes > 0 ? fmt::format("registers of {} bytes", law.register_bytes) : "a machine without vectors";
   const char* flag = law.register_bytes == 64 ? ", -mavx512f" : law.register_bytes == 32 ? ", -mavx2" : "";
-  return fmt::format("loops: laid out for {}{}; sums in {} parts, the same bits on every machine", room, flag, law.lanes);
+  return fmt::format("loops: laid out for {}{}; sums in {} parts, the same bits on every machine", room, flag,
+                     law.lanes);
 }
 
 std::vector<std::string> banner(const Compilation& c, Timing timing) {
@@ -136,22 +146,23 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
   const std::string capped =
       choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
-  facts.push_back(fmt::format("decomposition: {}, b = {} {}{}: {}", choice.name, choice.damping, unit, capped, choice.reason));
+  facts.push_back(
+      fmt::format("decomposition: {}, b = {} {}{}: {}", choice.name, choice.damping, unit, capped, choice.reason));
   for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) facts.push_back(brake_line(likes, unit));
   facts.push_back("states: " + c.decomposition.reason);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
   facts.push_back(fmt::format("any delay of the estimate: {:.6g} {} of extra damping keep an exact brake passive",
                               choice.extra_damping_any_delay.value_or(0), unit));
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
-  facts.push_back(fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
-  if (c.law.tunable)
-    describe_tunables(*c.law.tunable, unit, facts);
-  else
-    describe_cost(c, facts);
+  facts.push_back(
+      fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
+  if (c.law.tunable) describe_tunables(*c.law.tunable, unit, facts);
+  else describe_cost(c, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
   if (c.law.lanes > 1) facts.push_back(loops_line(c.law));
   if (c.law.relative_error_bound > 0)
-    facts.push_back(fmt::format("rounding: {}a mode's force is off by at most {:.2g} of its peak", form_text(c.law.mode_form), c.law.relative_error_bound));
+    facts.push_back(fmt::format("rounding: {}a mode's force is off by at most {:.2g} of its peak",
+                                form_text(c.law.mode_form), c.law.relative_error_bound));
   std::vector<std::string> lines;
   for (const std::string& fact : facts)
     for (const std::string& line : split_lines(fact, 112)) lines.push_back(comment_text(line));
@@ -188,8 +199,9 @@ CodeModel header_model(const Compilation& c, Timing timing) {
   fields["command"] = program.command;
   for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
   model.lists["banner"] = as_list(banner(c, timing));
-  fields["energy_contract"] = c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
-                                            : "In the springs after the last update() [J].";
+  fields["energy_contract"] =
+      c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
+                    : "In the springs after the last update() [J].";
   model.lists["parameters"] = as_list(program.parameters);
   model.lists["set"] = as_list(program.set);
   model.lists["reset"] = as_list(program.reset);
@@ -214,7 +226,10 @@ void describe_outputs(const UpdateLaw& law, CodeModel& model) {
   fields["no_outputs"] = brake ? "nullptr, nullptr" : "nullptr";
   fields["dampings_comment"] = brake ? " and dampings" : "";
   model.lists["damping"];
-  if (!brake) model.lists["damping"].push_back({{"line", fmt::format("static constexpr scalar damping = {};  // b, the brake's part, of every point", cpp_literal(law.damping, law.scalar))}});
+  if (!brake)
+    model.lists["damping"].push_back(
+        {{"line", fmt::format("static constexpr scalar damping = {};  // b, the brake's part, of every point",
+                              cpp_literal(law.damping, law.scalar))}});
 }
 
 CodeModel batch_model(const Compilation& c) {
@@ -239,8 +254,8 @@ CodeModel batch_model(const Compilation& c) {
   return model;
 }
 
-// How far rounding may take the force from the closed form, relative to the peak: the modes' bound, one roundoff for each
-// of the products and sums of a sample, and in double as many for the closed form's own.
+// How far rounding may take the force from the closed form, relative to the peak: the modes' bound, one roundoff for
+// each of the products and sums of a sample, and in double as many for the closed form's own.
 double test_tolerance(const UpdateLaw& law) {
   const double roundoff = law.scalar == ScalarType::float64 ? 0x1p-53 : 0x1p-24;
   const Cost cost = cost_of(law, law.output);
@@ -263,7 +278,9 @@ CodeModel test_model(const Compilation& c) {
   model.lists["modes"];
   // Forces of slips have no closed form along a ramp.
   model.lists["closed_forms"];
-  if (!c.form.has_slips()) model.lists["closed_forms"].push_back({{"decays", c.law.scheme == Scheme::exact ? "rate * period" : "std::log1p(rate * period)"}});
+  if (!c.form.has_slips())
+    model.lists["closed_forms"].push_back(
+        {{"decays", c.law.scheme == Scheme::exact ? "rate * period" : "std::log1p(rate * period)"}});
   return model;
 }
 
@@ -296,7 +313,8 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
   if (!can_be_emitted(compilation, options, diagnostics)) return std::nullopt;
   const Timing timing = options.constant_time ? Timing::constant : Timing::any;
   bool ok = append("network.hpp.in", name + ".hpp", header_model(compilation, timing), options, files, diagnostics);
-  if (options.batch) ok &= append("batch.hpp.in", name + "_batch.hpp", batch_model(compilation), options, files, diagnostics);
+  if (options.batch)
+    ok &= append("batch.hpp.in", name + "_batch.hpp", batch_model(compilation), options, files, diagnostics);
   if (options.with_test)
     ok &= append("network_test.cpp.in", name + "_test.cpp", test_model(compilation), options, files, diagnostics);
   if (options.with_library)

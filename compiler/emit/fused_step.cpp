@@ -28,7 +28,8 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
   switch (e.operation) {
     case Operation::read: {
       if (e.left == input) return true;
-      const auto assigned = std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == e.left; });
+      const auto assigned =
+          std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == e.left; });
       return assigned != law.output.end() && assigned->coupling == no_coupling && assigned->network == no_coupling &&
              law.variables[e.left].size == 1 && shows(law, assigned->value, input);
     }
@@ -47,22 +48,22 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
 
 }  // namespace
 
-bool is_fusable(const UpdateLaw& law) {
-  return law.couplings.empty() && law.networks.empty() && law.lanes == 1;
-}
+bool is_fusable(const UpdateLaw& law) { return law.couplings.empty() && law.networks.empty() && law.lanes == 1; }
 
 std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law) {
   std::map<VariableId, VariableId> carried;
   for (const Statement& statement : law.keep) {
     const Expression& e = law.expressions[statement.value];
-    const bool stays = statement.target == law.last_brake || reads(law, law.output, statement.target) || reads(law, law.energy, statement.target);
+    const bool stays = statement.target == law.last_brake || reads(law, law.output, statement.target) ||
+                       reads(law, law.energy, statement.target);
     if (e.operation == Operation::read && !stays) carried[statement.target] = e.left;
   }
   return carried;
 }
 
 std::string checked_numbers(const UpdateLaw& law) {
-  const Statement& last = *std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.force; });
+  const Statement& last =
+      *std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.force; });
   std::string numbers;
   for (VariableId input : {law.position, law.velocity})
     if (!shows(law, last.value, input)) numbers += law.variables[input].name + ", ";

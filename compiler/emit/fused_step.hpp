@@ -1,4 +1,5 @@
-// What a whole step can leave out of output() and update(): copies from one to the other, and questions that are answered already.
+// What a whole step can leave out of output() and update(): copies from one to the other, and questions that are
+// answered already.
 #pragma once
 
 #include <map>
@@ -8,14 +9,15 @@
 
 namespace dashpot::compiler {
 
-// In: a law without tunables. True where its two phases stand well in one function: where loops or coupled slips take the time, it would
-// only be longer.
+// In: a law without tunables. True where its two phases stand well in one function: where loops or coupled slips take
+// the time, it would only be longer.
 bool is_fusable(const UpdateLaw& law);
 
 // The states that only carry a number of output() to update(), each with what it is a copy of.
 std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law);
 
-// "force", behind those inputs that it does not show the state of: sums and products of what is not finite are not finite.
+// "force", behind those inputs that it does not show the state of: sums and products of what is not finite are not
+// finite.
 std::string checked_numbers(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

@@ -18,7 +18,8 @@ std::size_t operations_of(const UpdateLaw& law) {
 // True, with an error, where the law's step is no list of statements.
 bool refuses(const Compilation& c, const char* option, Diagnostics& diagnostics) {
   if (c.law.tunable) {
-    const auto tunable = std::find_if(c.network.parameters.begin(), c.network.parameters.end(), [](const Parameter& p) { return p.tunable; });
+    const auto tunable = std::find_if(c.network.parameters.begin(), c.network.parameters.end(),
+                                      [](const Parameter& p) { return p.tunable; });
     diagnostics.report<DiagnosticCode::step_of_tunables>(tunable->span, tunable->name, option);
     return true;
   }

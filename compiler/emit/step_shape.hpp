@@ -5,8 +5,8 @@
 
 namespace dashpot::compiler {
 
-// True where nothing asked for stands against the law. Refuses: --constant-time and --batch for coupled slips and tunables,
-// whose steps take as long as their values have it.
+// True where nothing asked for stands against the law. Refuses: --constant-time and --batch for coupled slips and
+// tunables, whose steps take as long as their values have it.
 bool can_be_emitted(const Compilation& compilation, const EmissionOptions& options, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -29,8 +29,7 @@ class Filling {
     std::size_t place = 0;
     while (place < all.size()) {
       const std::size_t end = std::min(all.find('\n', place), all.size() - 1) + 1;
-      if (const auto list = list_tag(all.substr(place, end - place), "{{#"))
-        place = repeat(*list, place, end, result);
+      if (const auto list = list_tag(all.substr(place, end - place), "{{#")) place = repeat(*list, place, end, result);
       else {
         substitute(place, end, nullptr, result);
         place = end;
@@ -81,7 +80,8 @@ class Filling {
       result += all.substr(begin, open - begin);
       if (open == end) return;
       const std::size_t close = all.find("}}", open);
-      if (close == all.npos || close >= end) return unknown(std::string(all.substr(open + 2, end - open - 2)), open, end);
+      if (close == all.npos || close >= end)
+        return unknown(std::string(all.substr(open + 2, end - open - 2)), open, end);
       append_field(std::string(all.substr(open + 2, close - open - 2)), open, close + 2, entry, result);
       begin = close + 2;
     }

@@ -69,7 +69,8 @@ std::vector<std::string> folders_to_make(const std::vector<Pending>& files) {
   std::vector<std::string> folders;
   std::error_code ignored;
   for (const Pending& file : files)
-    for (fs::path folder = file.target.parent_path(); !folder.empty() && !fs::exists(folder, ignored); folder = folder.parent_path())
+    for (fs::path folder = file.target.parent_path(); !folder.empty() && !fs::exists(folder, ignored);
+         folder = folder.parent_path())
       folders.push_back(folder.string());
   return folders;
 }

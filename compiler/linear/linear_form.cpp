@@ -42,8 +42,7 @@ Mode merged(const Mode& first, const Mode& second) {
   Mode both = first;
   both.stiffness = first.stiffness + second.stiffness;
   both.relaxation_rate = both.stiffness / (first.damping() + second.damping());
-  both.spring_share =
-      (first.stiffness * first.spring_share + second.stiffness * second.spring_share) / both.stiffness;
+  both.spring_share = (first.stiffness * first.spring_share + second.stiffness * second.spring_share) / both.stiffness;
   unite(both.elements, second.elements);
   return both;
 }
@@ -53,12 +52,10 @@ void sort_and_merge(std::vector<Mode>& modes) {
                    [](const Mode& x, const Mode& y) { return x.relaxation_rate < y.relaxation_rate; });
   std::vector<Mode> distinct;
   for (const Mode& mode : modes) {
-    const bool repeated = !distinct.empty() && mode.relaxation_rate - distinct.back().relaxation_rate <=
-                                                   equal_rates * mode.relaxation_rate;
-    if (repeated)
-      distinct.back() = merged(distinct.back(), mode);
-    else
-      distinct.push_back(mode);
+    const bool repeated = !distinct.empty() &&
+                          mode.relaxation_rate - distinct.back().relaxation_rate <= equal_rates * mode.relaxation_rate;
+    if (repeated) distinct.back() = merged(distinct.back(), mode);
+    else distinct.push_back(mode);
   }
   modes = std::move(distinct);
 }

@@ -15,18 +15,18 @@
 namespace dashpot::compiler {
 
 struct Mode {
-  Real stiffness;          // k_i [N/m] or [N·m/rad]
-  Real relaxation_rate;    // λ_i [1/s]
-  Real spring_share;       // of the drive that reaches the mode through springs at the tool, the rest through dampers [1]
+  Real stiffness;        // k_i [N/m] or [N·m/rad]
+  Real relaxation_rate;  // λ_i [1/s]
+  Real spring_share;     // of the drive that reaches the mode through springs at the tool, the rest through dampers [1]
   std::vector<std::size_t> elements;  // indices into Network::elements: where the mode comes from
 
   Real damping() const { return stiffness / relaxation_rate; }  // B_i [N·s/m] or [N·m·s/rad]
 };
 
 struct LinearForm {
-  Real static_stiffness = 0;      // k0 [N/m] or [N·m/rad]
-  Real feedthrough_damping = 0;   // b∞ [N·s/m] or [N·m·s/rad]
-  std::vector<Mode> modes;        // by ascending relaxation rate, all different
+  Real static_stiffness = 0;                      // k0 [N/m] or [N·m/rad]
+  Real feedthrough_damping = 0;                   // b∞ [N·s/m] or [N·m·s/rad]
+  std::vector<Mode> modes;                        // by ascending relaxation rate, all different
   std::vector<std::size_t> static_elements;       // those that take part in k0
   std::vector<std::size_t> feedthrough_elements;  // those that take part in b∞
 };
@@ -68,8 +68,8 @@ struct KelvinElement {
   Real damping;    // B_i [N·s/m]
 };
 struct KelvinForm {
-  Real glass_compliance;  // 1/k_g [m/N], zero where there is no lone spring
-  Real fluidity;          // 1/b_g [m/(N·s)], zero where there is no lone damper
+  Real glass_compliance;                // 1/k_g [m/N], zero where there is no lone spring
+  Real fluidity;                        // 1/b_g [m/(N·s)], zero where there is no lone damper
   std::vector<KelvinElement> elements;  // by ascending K/B
 };
 KelvinForm kelvin_form(const LinearForm& form);

@@ -82,11 +82,9 @@ std::size_t floating_clusters(const Part& part, const Network& network, ValueOf 
   DisjointSets sets(network.nodes.size());
   sets.unite(part.port, part.held);
   for (std::size_t element : part.elements)
-    if (value_of(network.elements[element]) > 0)
-      sets.unite(network.elements[element].a, network.elements[element].b);
+    if (value_of(network.elements[element]) > 0) sets.unite(network.elements[element].a, network.elements[element].b);
   std::size_t clusters = 0;
-  for (NodeIndex node : part.internal)
-    clusters += sets.find(node) == node && sets.find(part.port) != node ? 1 : 0;
+  for (NodeIndex node : part.internal) clusters += sets.find(node) == node && sets.find(part.port) != node ? 1 : 0;
   return clusters;
 }
 
@@ -95,8 +93,7 @@ template <class ValueOf>
 bool leads_through(const Part& part, const Network& network, ValueOf value_of) {
   DisjointSets sets(network.nodes.size());
   for (std::size_t element : part.elements)
-    if (value_of(network.elements[element]) > 0)
-      sets.unite(network.elements[element].a, network.elements[element].b);
+    if (value_of(network.elements[element]) > 0) sets.unite(network.elements[element].a, network.elements[element].b);
   return sets.find(part.port) == sets.find(part.held);
 }
 
@@ -118,12 +115,9 @@ void add_modes(LinearForm& form, const Part& part, const Network& network, const
   const Vector q = pencil.vectors.transpose() * equations.port_damping;
   const Eigen::Index size = p.size();
   for (Eigen::Index i = 0; i < size; ++i) {
-    if (i < held_by_dampers)
-      form.feedthrough_damping -= q(i) * q(i) * pencil.shift;
-    else if (i >= size - held_by_springs)
-      form.static_stiffness -= p(i) * p(i);
-    else
-      add_relaxing_mode(form, p(i), q(i), pencil.mu(i), (1 - pencil.mu(i)) / pencil.shift, part);
+    if (i < held_by_dampers) form.feedthrough_damping -= q(i) * q(i) * pencil.shift;
+    else if (i >= size - held_by_springs) form.static_stiffness -= p(i) * p(i);
+    else add_relaxing_mode(form, p(i), q(i), pencil.mu(i), (1 - pencil.mu(i)) / pencil.shift, part);
   }
 }
 

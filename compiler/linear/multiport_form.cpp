@@ -55,7 +55,9 @@ class Block {
 
  private:
   bool is_outer(NodeIndex node) const { return std::find(outer_.begin(), outer_.end(), node) != outer_.end(); }
-  Eigen::Index outer_index(NodeIndex node) const { return std::find(outer_.begin(), outer_.end(), node) - outer_.begin(); }
+  Eigen::Index outer_index(NodeIndex node) const {
+    return std::find(outer_.begin(), outer_.end(), node) - outer_.begin();
+  }
 
   // Inner nodes come first, then the outer ones.
   Eigen::Index index(NodeIndex node) const {
@@ -70,7 +72,8 @@ class Block {
     for (std::size_t element : elements_) {
       const Element& e = network_.elements[element];
       const Values values = values_of(e);
-      for (const auto& [i, j, sign] : {std::tuple(e.a, e.a, 1), std::tuple(e.b, e.b, 1), std::tuple(e.a, e.b, -1), std::tuple(e.b, e.a, -1)}) {
+      for (const auto& [i, j, sign] :
+           {std::tuple(e.a, e.a, 1), std::tuple(e.b, e.b, 1), std::tuple(e.a, e.b, -1), std::tuple(e.b, e.a, -1)}) {
         k(index(i), index(j)) += sign * values.stiffness;
         b(index(i), index(j)) += sign * values.damping;
       }
@@ -116,7 +119,8 @@ class Block {
     const Eigen::Index by_springs = floating_groups([](const Values& values) { return values.damping > 0; });
     std::vector<Relaxation> relaxations;
     for (Eigen::Index i = 0; i < inner_count(); ++i) {
-      const RealVector p = drive_stiffness_.transpose() * pencil.vectors.col(i), q = drive_damping_.transpose() * pencil.vectors.col(i);
+      const RealVector p = drive_stiffness_.transpose() * pencil.vectors.col(i),
+                       q = drive_damping_.transpose() * pencil.vectors.col(i);
       if (i < by_dampers) {
         damping_ -= q * q.transpose() * pencil.shift;
       } else if (i >= inner_count() - by_springs) {
@@ -125,11 +129,13 @@ class Block {
         const Real m = pencil.mu(i), d = (1 - m) / pencil.shift, rate = m / d;
         const RealVector drive = p - q * rate;
         damping_ -= q * q.transpose() / d;
-        stiffness_ -= (p * q.transpose() + q * p.transpose() - q * q.transpose() * rate) / d + drive * drive.transpose() / m;
+        stiffness_ -=
+            (p * q.transpose() + q * p.transpose() - q * q.transpose() * rate) / d + drive * drive.transpose() / m;
         relaxations.push_back({rate, drive, m});
       }
     }
-    for (const Relaxation& relaxation : taken_apart(std::move(relaxations))) add_mode(form, relaxation.drive, relaxation.rate, relaxation.m);
+    for (const Relaxation& relaxation : taken_apart(std::move(relaxations)))
+      add_mode(form, relaxation.drive, relaxation.rate, relaxation.m);
   }
 
   struct Relaxation {
@@ -138,7 +144,8 @@ class Block {
     Real m;
   };
 
-  // Modes of one rate are any of many: their sum is taken apart terminal by terminal, so that equal parts give equal laws.
+  // Modes of one rate are any of many: their sum is taken apart terminal by terminal, so that equal parts give equal
+  // laws.
   std::vector<Relaxation> taken_apart(std::vector<Relaxation> all) const {
     std::vector<Relaxation> result;
     for (std::size_t first = 0, last = 0; first < all.size(); first = last) {
@@ -190,11 +197,10 @@ class Block {
       for (std::size_t b = a + 1; b < outer_.size(); ++b) {
         const Real value = -matrix(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
         if (groups.find(outer_[a]) != groups.find(outer_[b]) || value <= negligible_share * largest_) continue;
-        const auto known = std::find_if(ties.begin(), ties.end(), [&](const Tie& tie) { return tie.a == a && tie.b == b; });
-        if (known == ties.end())
-          ties.push_back({a, b, value});
-        else
-          known->value += value;
+        const auto known =
+            std::find_if(ties.begin(), ties.end(), [&](const Tie& tie) { return tie.a == a && tie.b == b; });
+        if (known == ties.end()) ties.push_back({a, b, value});
+        else known->value += value;
       }
   }
 
@@ -229,13 +235,16 @@ std::vector<NodeIndex> terminals_of(const Network& network, const std::vector<st
 
 MultiportForm multiport_form(const Network& network, const std::vector<std::size_t>& elements,
                              const std::vector<NodeIndex>& terminals) {
-  const auto is_outer = [&](NodeIndex node) { return node == ground || std::find(terminals.begin(), terminals.end(), node) != terminals.end(); };
+  const auto is_outer = [&](NodeIndex node) {
+    return node == ground || std::find(terminals.begin(), terminals.end(), node) != terminals.end();
+  };
   Groups inner;
   for (std::size_t element : elements) {
     const Element& e = network.elements[element];
     if (!is_outer(e.a) && !is_outer(e.b)) inner.unite(e.a, e.b);
   }
-  std::map<std::size_t, std::vector<std::size_t>> blocks;  // by the group of inner nodes, or the element where there is none
+  std::map<std::size_t, std::vector<std::size_t>>
+      blocks;  // by the group of inner nodes, or the element where there is none
   for (std::size_t element : elements) {
     const Element& e = network.elements[element];
     const bool is_direct = is_outer(e.a) && is_outer(e.b);

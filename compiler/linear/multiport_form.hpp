@@ -23,13 +23,13 @@ struct MultiportMode {
 };
 
 struct MultiportForm {
-  std::vector<NodeIndex> terminals;  // without the ground
+  std::vector<NodeIndex> terminals;   // without the ground
   std::vector<Tie> springs, dampers;  // one a pair at most
   std::vector<MultiportMode> modes;
 };
 
-// In: springs and dampers, the nodes at which they are looked at. Every other node is tied to terminals or the ground by
-// them. Ensures: what nothing joins has no tie and no weight in common, exactly.
+// In: springs and dampers, the nodes at which they are looked at. Every other node is tied to terminals or the ground
+// by them. Ensures: what nothing joins has no tie and no weight in common, exactly.
 MultiportForm multiport_form(const Network& network, const std::vector<std::size_t>& elements,
                              const std::vector<NodeIndex>& terminals);
 

@@ -96,12 +96,10 @@ NormalForm form_by_parts(const Network& network) {
   NormalForm form;
   std::vector<std::size_t> linear;
   for (Part& part : independent_parts(network, effective_elements(network), tool, ground)) {
-    if (!has_slips(network, part.elements))
-      linear.insert(linear.end(), part.elements.begin(), part.elements.end());
+    if (!has_slips(network, part.elements)) linear.insert(linear.end(), part.elements.begin(), part.elements.end());
     else if (const std::optional<Tree> tree = tree_of(network, part.elements))
       form.components.push_back(normal(*tree, network));
-    else
-      form.networks.push_back(std::move(part.elements));
+    else form.networks.push_back(std::move(part.elements));
   }
   std::sort(linear.begin(), linear.end());
   form.linear = linear_form(network, linear, tool, ground);
@@ -126,10 +124,8 @@ NormalForm normal_form(const Network& network) {
     return form;
   }
   for (NormalTree& child : root.children) {
-    if (child.kind == NormalTree::Kind::block)
-      form.linear = std::move(child.form);
-    else
-      form.components.push_back(std::move(child));
+    if (child.kind == NormalTree::Kind::block) form.linear = std::move(child.form);
+    else form.components.push_back(std::move(child));
   }
   return form;
 }
@@ -154,11 +150,13 @@ NormalTree whole_tree(const NormalForm& form, const Network& network) {
   return whole.children.size() == 1 ? whole.children.front() : whole;
 }
 
-std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network, const std::vector<std::size_t>& elements) {
+std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network,
+                                                                const std::vector<std::size_t>& elements) {
   std::map<std::pair<NodeIndex, NodeIndex>, double> slips;
   for (std::size_t index : elements) {
     const Element& element = network.elements[index];
-    if (const Slip* slip = std::get_if<Slip>(&element.law)) slips[std::minmax(element.a, element.b)] += slip->yield_force;
+    if (const Slip* slip = std::get_if<Slip>(&element.law))
+      slips[std::minmax(element.a, element.b)] += slip->yield_force;
   }
   return slips;
 }

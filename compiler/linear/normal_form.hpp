@@ -1,5 +1,5 @@
-// A network with slips as a tree of linear blocks and slips (theory, section 5): every linear part is one block with its
-// canonical form, every part of slips alone one slip.
+// A network with slips as a tree of linear blocks and slips (theory, section 5): every linear part is one block with
+// its canonical form, every part of slips alone one slip.
 #pragma once
 
 #include <map>
@@ -16,15 +16,15 @@ namespace dashpot::compiler {
 struct NormalTree {
   enum class Kind { block, slip, series, parallel };
   Kind kind;
-  LinearForm form;                     // of a block
-  double yield_force = 0;              // of a slip [N] or [N·m]
-  std::vector<std::size_t> elements;   // of a block or slip: indices into Network::elements
-  std::vector<NormalTree> children;    // of series and parallel: no two blocks, no two slips, none of its own kind
+  LinearForm form;                    // of a block
+  double yield_force = 0;             // of a slip [N] or [N·m]
+  std::vector<std::size_t> elements;  // of a block or slip: indices into Network::elements
+  std::vector<NormalTree> children;   // of series and parallel: no two blocks, no two slips, none of its own kind
 };
 
 struct NormalForm {
-  LinearForm linear;                   // what reaches from tool to ground without a slip
-  std::vector<NormalTree> components;  // series with at least one slip each, in parallel with it
+  LinearForm linear;                               // what reaches from tool to ground without a slip
+  std::vector<NormalTree> components;              // series with at least one slip each, in parallel with it
   std::vector<std::vector<std::size_t>> networks;  // the same of parts that are no tree: indices into Network::elements
 
   bool has_slips() const { return !components.empty() || !networks.empty(); }
@@ -40,7 +40,8 @@ Network linear_part(const Network& network, const NormalForm& form);
 NormalTree whole_tree(const NormalForm& form, const Network& network);
 
 // Yield forces by the nodes that slips join, among these elements; side by side they add.
-std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network, const std::vector<std::size_t>& elements);
+std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network,
+                                                                const std::vector<std::size_t>& elements);
 
 // These slips, each with those side by side with it, in the order of slips_between(). Indices into Network::elements.
 std::vector<std::vector<std::size_t>> slips_together(const Network& network, const std::vector<std::size_t>& elements);

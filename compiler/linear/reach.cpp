@@ -18,8 +18,8 @@ bool are_near(const Network& network, std::string_view kinds, Diagnostics& diagn
     if (most == nullptr || value_of(element.law) > value_of(most->law)) most = &element;
   }
   if (least == nullptr || value_of(most->law) / widest_spread <= value_of(least->law)) return true;
-  diagnostics.report<DiagnosticCode::values_far_apart>(least->span, kinds, least->name, value_of(least->law), most->name,
-                                                       value_of(most->law), widest_spread);
+  diagnostics.report<DiagnosticCode::values_far_apart>(least->span, kinds, least->name, value_of(least->law),
+                                                       most->name, value_of(most->law), widest_spread);
   return false;
 }
 

@@ -1,4 +1,5 @@
-// What Eigen must know to work in extended precision. Boost's own traits of this version lack members that Eigen asks for.
+// What Eigen must know to work in extended precision. Boost's own traits of this version lack members that Eigen asks
+// for.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,5 +11,13 @@ struct Eigen::NumTraits<dashpot::compiler::Real> : Eigen::GenericNumTraits<dashp
   using Real = dashpot::compiler::Real;
   using NonInteger = Real;
   using Nested = Real;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 1, AddCost = 40, MulCost = 60 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 1,
+    AddCost = 40,
+    MulCost = 60
+  };
 };

@@ -65,8 +65,7 @@ std::vector<Real> zeros(const LinearForm& form) {
   std::vector<Real> found;
   if (is_solid) found.push_back(zero_between(form, no_pole, 0, 0, form.modes[0].relaxation_rate));
   for (std::size_t i = 0; i + 1 < count; ++i)
-    found.push_back(
-        zero_between(form, i, i + 1, form.modes[i].relaxation_rate, form.modes[i + 1].relaxation_rate));
+    found.push_back(zero_between(form, i, i + 1, form.modes[i].relaxation_rate, form.modes[i + 1].relaxation_rate));
   if (has_feedthrough) found.push_back(zero_above(form));
   return found;
 }

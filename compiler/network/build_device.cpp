@@ -136,7 +136,8 @@ class DeviceBuilder {
     reader.read("jitter", dimensions::time, Bound::zero_or_more, loop.jitter);
     reader.is_within("jitter", loop.jitter, 0, longest_time, "s");
     reader.read_count("delay_samples", 0, loop.delay_samples);
-    if (!reader.is_within("delay_samples", loop.delay_samples, 0, most_delay_samples, "samples")) loop.delay_samples = 0;
+    if (!reader.is_within("delay_samples", loop.delay_samples, 0, most_delay_samples, "samples"))
+      loop.delay_samples = 0;
     reader.read_pair("band", dimensions::frequency, Bound::above_zero, loop.band_low, loop.band_high);
     reader.read("reference_frequency", dimensions::frequency, Bound::zero_or_more, loop.reference_frequency);
     reader.read_count("missed_deadlines_allowed", 0, loop.missed_deadlines_allowed);

@@ -105,7 +105,8 @@ class NetworkBuilder {
     std::sort(given.begin(), given.end(),
               [](const auto& x, const auto& y) { return x.first->span.begin < y.first->span.begin; });
     if (decl_.name && decl_.name->text.size() > longest_network_name)
-      diagnostics_.report<DiagnosticCode::name_too_long>(decl_.name->span, decl_.name->text.size(), longest_network_name);
+      diagnostics_.report<DiagnosticCode::name_too_long>(decl_.name->span, decl_.name->text.size(),
+                                                         longest_network_name);
     for (const auto& [name, owner] : given)
       if (check_name(*name, owner, diagnostics_)) names_.add(*name, diagnostics_);
   }
@@ -146,10 +147,8 @@ class NetworkBuilder {
     const double greatest = tunable ? table_[*read.parameter].max : read.value;
     const bool negative = least < 0;
     if (!negative && !(leaf.kind == ElementKind::slip && greatest == 0)) return true;
-    if (negative)
-      report_negative(leaf, element, least);
-    else
-      report_zero_yield(leaf, element);
+    if (negative) report_negative(leaf, element, least);
+    else report_zero_yield(leaf, element);
     if (read.parameter) diagnostics_.note<DiagnosticCode::given_here>(table_.place_of_least(*read.parameter));
     return false;
   }
@@ -209,8 +208,7 @@ class NetworkBuilder {
     else if (*high < *low)
       diagnostics_.report<DiagnosticCode::range_reversed>(decl->span, excerpt(decl->high.text),
                                                           decl->low ? excerpt(decl->low->text) : "0");
-    else
-      return Range{decl->low || !is_signed ? *low : 0 - *high, *high};
+    else return Range{decl->low || !is_signed ? *low : 0 - *high, *high};
     return std::nullopt;
   }
 

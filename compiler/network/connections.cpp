@@ -96,10 +96,8 @@ void warn_about(const Network& network, const Element& element, bool may_carry, 
   if (!may_carry)
     diagnostics.report<DiagnosticCode::zero_value>(element.span, element.name,
                                                    unit_of(element.law, network.port_motion));
-  else if (end != ground)
-    warn_about_loose_end(network, element, end, diagnostics);
-  else
-    diagnostics.report<DiagnosticCode::no_effect>(element.span, element.name);
+  else if (end != ground) warn_about_loose_end(network, element, end, diagnostics);
+  else diagnostics.report<DiagnosticCode::no_effect>(element.span, element.name);
 }
 
 }  // namespace

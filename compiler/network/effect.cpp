@@ -40,8 +40,7 @@ class BlockOfClosingEdge {
     while (!path_.empty())
       if (path_.back().next < adjacency_[path_.back().node].size())
         follow(adjacency_[path_.back().node][path_.back().next++]);
-      else
-        leave();
+      else leave();
     return in_block_;
   }
 

@@ -33,9 +33,9 @@ struct Element {
   Law law;
   NodeIndex a;  // the end nearer the tool in a tree
   NodeIndex b;
-  Span span;                               // of the leaf in the file
-  std::optional<std::size_t> parameter;    // index into Network::parameters where the value is one
-  bool has_effect = true;                  // false: no force can pass through it, whatever the motion
+  Span span;                             // of the leaf in the file
+  std::optional<std::size_t> parameter;  // index into Network::parameters where the value is one
+  bool has_effect = true;                // false: no force can pass through it, whatever the motion
 };
 
 }  // namespace dashpot::compiler

@@ -33,10 +33,10 @@ constexpr std::string_view keywords[] = {
 
 // Members of the emitted class (architecture, section 5), names inside its functions, and the namespaces around it.
 constexpr std::string_view members[] = {
-    "scalar",        "sample_period", "parameters",    "reset",     "output",    "update",     "step",
-    "set",           "stored_energy", "added_damping", "position",      "velocity",  "command",   "damping",    "force",
-    "port_motion",   "motion",        "certified_for", "estimator", "device",    "loop_delay", "any_device",
-    "device_digest", "now",           "stored",        "dashpot",   "generated", "std"};
+    "scalar",     "sample_period", "parameters",    "reset",         "output",    "update",    "step",
+    "set",        "stored_energy", "added_damping", "position",      "velocity",  "command",   "damping",
+    "force",      "port_motion",   "motion",        "certified_for", "estimator", "device",    "loop_delay",
+    "any_device", "device_digest", "now",           "stored",        "dashpot",   "generated", "std"};
 
 bool is_letter(char byte) { return (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z'); }
 bool is_name_byte(char byte) { return is_letter(byte) || is_digit(byte) || byte == '_'; }
@@ -59,10 +59,8 @@ bool is_legal(std::string_view name) {
 std::optional<std::string> legal_proposal(std::string_view name) {
   std::string proposal;
   for (const char byte : name)
-    if (is_letter(byte) || is_digit(byte))
-      proposal += byte;
-    else if (!proposal.empty() && proposal.back() != '_')
-      proposal += '_';
+    if (is_letter(byte) || is_digit(byte)) proposal += byte;
+    else if (!proposal.empty() && proposal.back() != '_') proposal += '_';
   if (proposal.ends_with('_')) proposal.pop_back();
   if (!proposal.empty() && is_digit(proposal.front())) proposal.insert(0, 1, 'n');
   if (!proposal.empty() && !is_legal(proposal)) proposal += "_1";
@@ -70,14 +68,12 @@ std::optional<std::string> legal_proposal(std::string_view name) {
 }
 
 void report_name(const Text& name, std::string_view owner, Diagnostics& diagnostics) {
-  if (!has_name_form(name.text))
-    diagnostics.report<DiagnosticCode::name_form>(name.span, owner, excerpt(name.text));
+  if (!has_name_form(name.text)) diagnostics.report<DiagnosticCode::name_form>(name.span, owner, excerpt(name.text));
   else if (name.text.find("__") != std::string::npos)
     diagnostics.report<DiagnosticCode::name_with_double_underscore>(name.span, owner, excerpt(name.text));
   else if (contains(keywords, name.text))
     diagnostics.report<DiagnosticCode::name_is_keyword>(name.span, owner, name.text);
-  else
-    diagnostics.report<DiagnosticCode::name_is_member>(name.span, owner, name.text);
+  else diagnostics.report<DiagnosticCode::name_is_member>(name.span, owner, name.text);
 }
 
 }  // namespace

@@ -85,10 +85,8 @@ std::optional<ReadValue> ParameterTable::use(Entry& entry, const ValueDecl& decl
   if (entry.dimension == expected.dimension) return ReadValue{entry.parameter.value, index};
   diagnostics_.report<DiagnosticCode::parameter_of_wrong_unit>(decl.span, decl.text, describe(*entry.dimension),
                                                                expected.taker, describe(expected.dimension));
-  if (entry.first_use)
-    diagnostics_.note<DiagnosticCode::first_used_here>(*entry.first_use);
-  else
-    diagnostics_.note<DiagnosticCode::given_here>(entry.decl.value->span);
+  if (entry.first_use) diagnostics_.note<DiagnosticCode::first_used_here>(*entry.first_use);
+  else diagnostics_.note<DiagnosticCode::given_here>(entry.decl.value->span);
   return std::nullopt;
 }
 

@@ -45,8 +45,7 @@ void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const Unit
   diagnostics.report<DiagnosticCode::unknown_unit>(place, excerpt(symbol));
   if (const std::string spaced = spaced_unit(symbol); !spaced.empty())
     diagnostics.note<DiagnosticCode::write_instead>({}, spaced);
-  else
-    diagnostics.note<DiagnosticCode::known_units>({});
+  else diagnostics.note<DiagnosticCode::known_units>({});
 }
 
 // A plain number where nothing but blanks follows.
@@ -65,8 +64,7 @@ std::optional<double> read_number(const ValueDecl& decl, std::string_view litera
   if (rounded.rounding == Rounding::finite) return rounded.value;
   if (rounded.rounding == Rounding::overflow)
     diagnostics.report<DiagnosticCode::number_too_large>(decl.span, excerpt(decl.text));
-  else
-    diagnostics.report<DiagnosticCode::number_too_small>(decl.span, excerpt(decl.text));
+  else diagnostics.report<DiagnosticCode::number_too_small>(decl.span, excerpt(decl.text));
   return std::nullopt;
 }
 

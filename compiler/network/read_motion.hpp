@@ -10,7 +10,8 @@
 
 namespace dashpot::compiler {
 
-// Translation where absent. Reports words other than translation and rotation, and goes on with what was probably meant.
+// Translation where absent. Reports words other than translation and rotation, and goes on with what was probably
+// meant.
 motion read_motion(const std::optional<Text>& text, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

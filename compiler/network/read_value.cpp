@@ -55,10 +55,8 @@ std::optional<double> read_quantity_as(const ValueDecl& decl, const Expectation&
 }
 
 void report_no_quantity(const ValueDecl& decl, Diagnostics& diagnostics) {
-  if (is_not_finite_word(decl.text))
-    diagnostics.report<DiagnosticCode::not_finite>(decl.span, decl.text);
-  else
-    diagnostics.report<DiagnosticCode::malformed_quantity>(decl.span, excerpt(decl.text));
+  if (is_not_finite_word(decl.text)) diagnostics.report<DiagnosticCode::not_finite>(decl.span, decl.text);
+  else diagnostics.report<DiagnosticCode::malformed_quantity>(decl.span, excerpt(decl.text));
 }
 
 bool is_not_finite_word(const std::string& text) {

@@ -62,8 +62,7 @@ void SectionReader::read_count(std::string_view key, unsigned least, unsigned& t
   if (!value) return;
   if (*value >= least && *value <= std::numeric_limits<unsigned>::max() && std::floor(*value) == *value)
     target = static_cast<unsigned>(*value);
-  else
-    diagnostics_.report<DiagnosticCode::not_a_count>(decl->span, dotted(key), excerpt(decl->text), least);
+  else diagnostics_.report<DiagnosticCode::not_a_count>(decl->span, dotted(key), excerpt(decl->text), least);
 }
 
 bool SectionReader::is_within(std::string_view key, double value, double low, double high, const char* unit) const {
@@ -71,7 +70,7 @@ bool SectionReader::is_within(std::string_view key, double value, double low, do
   const ValueDecl* decl = find_single(key);
   if (decl == nullptr) return true;
   diagnostics_.report<DiagnosticCode::device_limit>(decl->span, name_ + "." + std::string(key), excerpt(decl->text),
-                                                         fmt::format("{} to {} {}", low, high, unit));
+                                                    fmt::format("{} to {} {}", low, high, unit));
   return false;
 }
 
@@ -118,10 +117,8 @@ std::optional<double> SectionReader::value_of(const ValueDecl& decl, std::string
   if (!value || bound == Bound::any || *value > 0 || (bound == Bound::zero_or_more && *value == 0)) return value;
   const std::string text =
       due == dimensions::number ? fmt::format("{}", *value) : fmt::format("{} {}", *value, unit_of(due));
-  if (bound == Bound::zero_or_more)
-    diagnostics_.report<DiagnosticCode::negative_value>(decl.span, dotted(key), text);
-  else
-    diagnostics_.report<DiagnosticCode::not_above_zero>(decl.span, dotted(key), text);
+  if (bound == Bound::zero_or_more) diagnostics_.report<DiagnosticCode::negative_value>(decl.span, dotted(key), text);
+  else diagnostics_.report<DiagnosticCode::not_above_zero>(decl.span, dotted(key), text);
   return std::nullopt;
 }
 

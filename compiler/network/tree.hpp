@@ -19,8 +19,8 @@ struct Tree {
   std::vector<Tree> children;
 };
 
-// Empty for a network that is no tree (a bridge), or one nested more than 1,000 deep (a long ladder). A network in which
-// nothing has an effect is a parallel of nothing.
+// Empty for a network that is no tree (a bridge), or one nested more than 1,000 deep (a long ladder). A network in
+// which nothing has an effect is a parallel of nothing.
 std::optional<Tree> series_parallel_tree(const Network& network);
 
 std::string to_text(const Tree& tree, const Network& network);

@@ -57,7 +57,7 @@ Real closed_form(const LinearForm& form, double added_damping, const RampAndHold
 
 struct Comparison {
   LawRun run;
-  std::vector<std::size_t> shown;      // samples that are compared
+  std::vector<std::size_t> shown;          // samples that are compared
   std::vector<double> closed, difference;  // at those
   double peak = 0, largest = 0;
 
@@ -67,7 +67,8 @@ struct Comparison {
 Comparison compare(const Compilation& c, const RampAndHold& press) {
   Comparison result;
   const std::size_t count = 4 * press.samples;
-  result.run = run_law(c.law, count, [&](double t) { return press.position(t); }, [&](double t) { return press.velocity(t); });
+  result.run = run_law(
+      c.law, count, [&](double t) { return press.position(t); }, [&](double t) { return press.velocity(t); });
   for (std::size_t i = 0; i <= agreement_points; ++i) {
     const std::size_t sample = i * count / agreement_points;
     if (!result.shown.empty() && sample == result.shown.back()) continue;
@@ -100,9 +101,14 @@ std::vector<double> at_shown(const Comparison& c, const std::vector<double>& all
 Plot forces(const Comparison& c, const PortUnits& units) {
   std::vector<double> total;
   for (const std::size_t sample : c.shown) total.push_back(c.run.force(sample));
-  Curve dots = of_samples("emitted code", Channel::total, c, total, std::max<std::size_t>(1, c.shown.size() / agreement_dots));
+  Curve dots =
+      of_samples("emitted code", Channel::total, c, total, std::max<std::size_t>(1, c.shown.size() / agreement_dots));
   dots.dots = true;
-  return {"Press and hold", {"time", "s"}, {"force", units.force}, AxisScale::linear, AxisScale::linear,
+  return {"Press and hold",
+          {"time", "s"},
+          {"force", units.force},
+          AxisScale::linear,
+          AxisScale::linear,
           {of_samples("brake b·v̂", Channel::brake, c, at_shown(c, c.run.brake), 1),
            of_samples("motor m", Channel::motor, c, at_shown(c, c.run.motor), 1),
            of_samples("closed form", Channel::closed_form, c, c.closed, 1), dots},
@@ -114,8 +120,13 @@ Plot difference(const Comparison& c) {
   for (const double value : c.difference) relative.push_back(c.peak > 0 ? value / c.peak : 0);
   Curve dots = of_samples("", Channel::total, c, relative, 1);
   dots.dots = true;
-  return {"Emitted code − closed form", {"time", "s"}, {"difference / peak", "1"}, AxisScale::linear, AxisScale::linear,
-          {dots}, true};
+  return {"Emitted code − closed form",
+          {"time", "s"},
+          {"difference / peak", "1"},
+          AxisScale::linear,
+          AxisScale::linear,
+          {dots},
+          true};
 }
 
 }  // namespace
@@ -127,12 +138,13 @@ std::string agreement_html(const Compilation& c) {
   const bool is_exact = c.law.scheme == Scheme::exact && !(c.law.tunable && !c.law.tunable->mesh_elements.empty());
   const char* scheme = is_exact ? "The scheme is exact for this motion: what is left is rounding."
                                 : "Backward Euler errs by the order of the period.";
-  return fmt::format("<p>The law's statements, run in the order of the emitted code, against the network's closed form: {} {} "
-                     "in {} s, then held, at {} Hz. {} The largest difference is <b>{}</b> of the peak of {} {}.</p>\n"
-                     "<div class=\"figures\">\n",
-                     number_text(press.rate * press.length()), units.position, number_text(press.length()),
-                     number_text(c.rate, 6), scheme,
-                     number_text(comparison.relative(), 2), number_text(comparison.peak), units.force) +
+  return fmt::format(
+             "<p>The law's statements, run in the order of the emitted code, against the network's closed form: {} {} "
+             "in {} s, then held, at {} Hz. {} The largest difference is <b>{}</b> of the peak of {} {}.</p>\n"
+             "<div class=\"figures\">\n",
+             number_text(press.rate * press.length()), units.position, number_text(press.length()),
+             number_text(c.rate, 6), scheme, number_text(comparison.relative(), 2), number_text(comparison.peak),
+             units.force) +
          plot_figure(forces(comparison, units)) + plot_figure(difference(comparison)) + "</div>\n";
 }
 

@@ -38,7 +38,8 @@ Axis linear_axis(Interval values, int wanted) {
   const double step = round_step((values.high - values.low) / wanted);
   const double first = std::floor(values.low / step + 1e-9);
   const double last = std::max(first + 1, std::ceil(values.high / step - 1e-9));
-  Axis axis{AxisScale::linear, {first * step, last * step}, power_for(std::max(std::abs(first), std::abs(last)) * step), {}};
+  Axis axis{
+      AxisScale::linear, {first * step, last * step}, power_for(std::max(std::abs(first), std::abs(last)) * step), {}};
   for (double i = first; i <= last; ++i)
     axis.ticks.push_back({i * step, number_text(i * step / std::pow(10, axis.power_of_ten), 6)});
   return axis;

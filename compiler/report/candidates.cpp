@@ -29,7 +29,8 @@ std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
       {"motor noise", units.force, [=](const Candidate& k) { return known(k.motor_noise); }},
       {"velocity gain of the motor", units.damping, [](const Candidate& k) { return k.velocity_gain; }},
       {"minimum damping", units.damping, [=](const Candidate& k) { return known(k.minimum_damping); }},
-      {"extra damping under any delay", units.damping, [=](const Candidate& k) { return known(k.extra_damping_any_delay); }},
+      {"extra damping under any delay", units.damping,
+       [=](const Candidate& k) { return known(k.extra_damping_any_delay); }},
       {"largest error in the band", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
       {"damping asked of the brake", units.damping, [](const Candidate& k) { return k.damping; }}};
   const auto is_known = [&](const FigureOfMerit& figure) {
@@ -47,13 +48,15 @@ std::string cell(double value) { return "<td>" + (value == value ? number_text(v
 
 std::string reason(const Candidate& candidate) {
   if (!candidate.capped()) return candidate.reason;
-  return fmt::format("{} (capped from {} at what the brake can give)", candidate.reason, number_text(candidate.wanted_damping));
+  return fmt::format("{} (capped from {} at what the brake can give)", candidate.reason,
+                     number_text(candidate.wanted_damping));
 }
 
 // The figures, and under them why this damping.
 std::string rows(const Candidate& candidate, bool chosen, const std::vector<FigureOfMerit>& figures) {
-  std::string html = fmt::format("<tbody{}>\n<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td>",
-                                 chosen ? " class=\"chosen\"" : "", escaped(candidate.name), name_of(candidate.state_input));
+  std::string html =
+      fmt::format("<tbody{}>\n<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td>",
+                  chosen ? " class=\"chosen\"" : "", escaped(candidate.name), name_of(candidate.state_input));
   for (const FigureOfMerit& figure : figures) html += cell(figure.value(candidate));
   return html + fmt::format("</tr>\n<tr class=\"why\"><td colspan=\"{}\">{}</td></tr>\n</tbody>\n", figures.size() + 2,
                             escaped(reason(candidate)));
@@ -64,7 +67,8 @@ std::string rows(const Candidate& candidate, bool chosen, const std::vector<Figu
 std::string candidates_table_html(const Compilation& c) {
   const std::vector<FigureOfMerit> figures = figures_of_merit(c);
   std::string html =
-      "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>candidate</th><th class=\"word\">states driven by</th>";
+      "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>candidate</th><th class=\"word\">states driven "
+      "by</th>";
   for (const FigureOfMerit& figure : figures) html += fmt::format("<th>{} [{}]</th>", figure.label, figure.unit);
   html += "</tr></thead>\n";
   for (const Candidate& candidate : c.decomposition.candidates)
@@ -80,7 +84,8 @@ std::string candidates_json(const Compilation& c) {
                           json_literal(figure.unit));
   for (const Candidate& candidate : c.decomposition.candidates) {
     std::string values;
-    for (const FigureOfMerit& figure : figures) values += (values.empty() ? "" : ",") + json_literal(figure.value(candidate));
+    for (const FigureOfMerit& figure : figures)
+      values += (values.empty() ? "" : ",") + json_literal(figure.value(candidate));
     candidates += fmt::format("{}{{\"name\":{},\"chosen\":{},\"values\":[{}]}}", candidates.empty() ? "" : ",",
                               json_literal(candidate.name), &candidate == &c.decomposition.choice(), values);
   }

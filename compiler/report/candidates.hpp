@@ -9,8 +9,8 @@ namespace dashpot::compiler {
 
 std::string candidates_table_html(const Compilation& compilation);
 
-// {"figures": [{"label", "unit"}], "candidates": [{"name", "chosen", "values": […]}]}: figures of merit of which less is
-// better, only those that were computed for some candidate.
+// {"figures": [{"label", "unit"}], "candidates": [{"name", "chosen", "values": […]}]}: figures of merit of which less
+// is better, only those that were computed for some candidate.
 std::string candidates_json(const Compilation& compilation);
 
 }  // namespace dashpot::compiler

@@ -12,7 +12,8 @@ constexpr std::size_t most_written_modes = 4;  // more stand in the table alone
 
 std::string display(const std::string& inner) {
   return "<math display=\"block\"><mrow><mi>D</mi><mo stretchy=\"false\">(</mo><mi>s</mi><mo stretchy=\"false\">)</mo>"
-         "<mo>=</mo>" + inner + "</mrow></math>\n";
+         "<mo>=</mo>" +
+         inner + "</mrow></math>\n";
 }
 
 std::string in_letters() {
@@ -33,7 +34,8 @@ std::string in_numbers(const LinearForm& form) {
   if (form.static_stiffness > 0) add(number_mathml(to_double(form.static_stiffness)));
   if (form.feedthrough_damping > 0) add(number_mathml(to_double(form.feedthrough_damping)) + "<mi>s</mi>");
   if (form.modes.size() > most_written_modes)
-    add("<munder><mo>∑</mo><mi>i</mi></munder><msub><mi>k</mi><mi>i</mi></msub><mfrac><mi>s</mi><mrow><mi>s</mi><mo>+</mo>"
+    add("<munder><mo>∑</mo><mi>i</mi></munder><msub><mi>k</mi><mi>i</mi></msub><mfrac><mi>s</mi><mrow><mi>s</mi><mo>+</"
+        "mo>"
         "<msub><mi>λ</mi><mi>i</mi></msub></mrow></mfrac>");
   else
     for (const Mode& mode : form.modes) add(term(mode));
@@ -46,13 +48,16 @@ std::string row(const std::string& name, const std::string& value, const std::st
 
 std::string modes_table(const Compilation& c, const PortUnits& units) {
   std::string table = fmt::format(
-      "<div class=\"wide\"><table><thead><tr><th>mode of</th><th><i>k</i> [{}]</th><th><i>λ</i> [1/s]</th><th>1/<i>λ</i> [s]</th>"
-      "<th><i>k</i>/<i>λ</i> [{}]</th></tr></thead><tbody>\n", units.stiffness, units.damping);
+      "<div class=\"wide\"><table><thead><tr><th>mode of</th><th><i>k</i> [{}]</th><th><i>λ</i> "
+      "[1/s]</th><th>1/<i>λ</i> [s]</th>"
+      "<th><i>k</i>/<i>λ</i> [{}]</th></tr></thead><tbody>\n",
+      units.stiffness, units.damping);
   for (const Mode& mode : c.form.linear.modes)
-    table += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                         escaped(name_of(mode.elements, c.network)), number_text(to_double(mode.stiffness), 6),
-                         number_text(to_double(mode.relaxation_rate), 6), number_text(to_double(1 / mode.relaxation_rate), 6),
-                         number_text(to_double(mode.damping()), 6));
+    table +=
+        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                    escaped(name_of(mode.elements, c.network)), number_text(to_double(mode.stiffness), 6),
+                    number_text(to_double(mode.relaxation_rate), 6),
+                    number_text(to_double(1 / mode.relaxation_rate), 6), number_text(to_double(mode.damping()), 6));
   return table + "</tbody></table></div>\n";
 }
 
@@ -62,8 +67,10 @@ std::string canonical_form_html(const Compilation& c) {
   const LinearForm& form = c.form.linear;
   const PortUnits units = page_units(c.network.port_motion);
   std::string html = in_letters() + in_numbers(form) + "<table class=\"facts\"><tbody>\n";
-  html += row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness), 6), units.stiffness);
-  html += row("feedthrough damping <i>b</i><sub>∞</sub>", number_text(to_double(form.feedthrough_damping), 6), units.damping);
+  html +=
+      row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness), 6), units.stiffness);
+  html += row("feedthrough damping <i>b</i><sub>∞</sub>", number_text(to_double(form.feedthrough_damping), 6),
+              units.damping);
   html += row("viscosity at low frequency <i>b</i><sub>∞</sub> + ∑<i>k</i>/<i>λ</i>",
               number_text(to_double(zero_frequency_damping(form)), 6), units.damping);
   html += "</tbody></table>\n";

@@ -25,7 +25,8 @@ Curve margin(const Compilation& c, const Candidate& candidate, const std::string
     const double frequency = range.low * std::pow(range.high / range.low, double(i) / (delay_points - 1));
     const MotorImpedance motor = motor_impedance(form, candidate.damping, candidate.state_input, 2 * pi * frequency);
     curve.x.push_back(frequency);
-    curve.y.push_back((1 - tolerance_of(c)) * candidate.damping + motor.position_driven.real() - std::abs(motor.velocity_driven));
+    curve.y.push_back((1 - tolerance_of(c)) * candidate.damping + motor.position_driven.real() -
+                      std::abs(motor.velocity_driven));
   }
   return curve;
 }
@@ -35,8 +36,13 @@ Curve margin(const Compilation& c, const Candidate& candidate, const std::string
 std::string delay_margin_html(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
   const PortUnits units = page_units(c.network.port_motion);
-  Plot plot{"Damping left under any delay of the estimate", {"frequency", "Hz"}, {"margin", units.damping},
-            AxisScale::logarithmic, AxisScale::linear, {margin(c, choice, choice.name, false)}, true};
+  Plot plot{"Damping left under any delay of the estimate",
+            {"frequency", "Hz"},
+            {"margin", units.damping},
+            AxisScale::logarithmic,
+            AxisScale::linear,
+            {margin(c, choice, choice.name, false)},
+            true};
   for (const Candidate& candidate : c.decomposition.candidates)
     if (candidate.name == "virtual" && choice.name != "virtual")
       plot.curves.push_back(margin(c, candidate, "virtual (no brake)", true));

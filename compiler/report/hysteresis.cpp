@@ -13,7 +13,7 @@ namespace dashpot::compiler {
 namespace {
 
 using std::numbers::pi;
-constexpr std::size_t cycles = 3;              // the last one is drawn
+constexpr std::size_t cycles = 3;                            // the last one is drawn
 constexpr double least_samples = 40, most_samples = 20'000;  // a cycle
 constexpr std::size_t drawn_points = 180, drawn_dots = 30;
 
@@ -30,12 +30,14 @@ struct Oscillation {
 
 Oscillation oscillation(const Compilation& c, double amplitude, double frequency) {
   const double samples = std::round(std::clamp(c.rate / frequency, least_samples, most_samples));
-  return {amplitude, static_cast<std::size_t>(samples), c.rate / samples, c.network.contact ? c.network.contact->at : 0};
+  return {amplitude, static_cast<std::size_t>(samples), c.rate / samples,
+          c.network.contact ? c.network.contact->at : 0};
 }
 
 LawRun run(const Compilation& c, const Oscillation& motion, std::size_t cycle_count = cycles) {
-  return run_law(c.law, cycle_count * motion.samples, [&](double t) { return motion.position(t); },
-                 [&](double t) { return motion.velocity(t); });
+  return run_law(
+      c.law, cycle_count * motion.samples, [&](double t) { return motion.position(t); },
+      [&](double t) { return motion.velocity(t); });
 }
 
 // The last cycle, closed.
@@ -71,7 +73,8 @@ double default_amplitude(const Network& network) {
 }
 
 Plot empty_plot(const std::string& title, const PortUnits& units) {
-  return {title, {"displacement", units.position}, {"force", units.force}, AxisScale::linear, AxisScale::linear, {}, true};
+  return {title, {"displacement", units.position}, {"force", units.force}, AxisScale::linear, AxisScale::linear, {},
+          true};
 }
 
 void add_shares(const Oscillation& motion, const LawRun& all, Plot& plot) {

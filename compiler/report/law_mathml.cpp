@@ -14,25 +14,24 @@ namespace {
 // The letters of theory, sections 3 and 4, for the names of the law.
 const std::map<std::string, std::string>& letters() {
   static const std::string change = "<mrow><mi mathvariant=\"normal\">Δ</mi><mi>u</mi></mrow>";
-  static const std::map<std::string, std::string> all = {
-      {"position", "<mi>u</mi>"},
-      {"velocity", "<mover><mi>v</mi><mo>^</mo></mover>"},
-      {"position_change", change},
-      {"last_position", "<msub><mi>u</mi><mo>−</mo></msub>"},
-      {"sampled_position", "<mi>u</mi>"},
-      {"sampled_position_change", change},
-      {"sampled_velocity", "<mover><mi>v</mi><mo>^</mo></mover>"},
-      {"damping", "<mi>b</mi>"},
-      {"force", "<mi>m</mi>"},
-      {"relaxed_force", "<mi>S</mi>"},
-      {"mode_force", "<mi>F</mi>"},
-      {"mode_error", "<mi>e</mi>"},
-      {"mode_increment", "<mi>y</mi>"},
-      {"mode_next", "<mi>t</mi>"},
-      {"mode_decay", "<mi>a</mi>"},
-      {"mode_gain", "<mi>g</mi>"},
-      {"mode_velocity_drive", "<mi>w</mi>"},
-      {"mode_loss", "<mi>α</mi>"}};
+  static const std::map<std::string, std::string> all = {{"position", "<mi>u</mi>"},
+                                                         {"velocity", "<mover><mi>v</mi><mo>^</mo></mover>"},
+                                                         {"position_change", change},
+                                                         {"last_position", "<msub><mi>u</mi><mo>−</mo></msub>"},
+                                                         {"sampled_position", "<mi>u</mi>"},
+                                                         {"sampled_position_change", change},
+                                                         {"sampled_velocity", "<mover><mi>v</mi><mo>^</mo></mover>"},
+                                                         {"damping", "<mi>b</mi>"},
+                                                         {"force", "<mi>m</mi>"},
+                                                         {"relaxed_force", "<mi>S</mi>"},
+                                                         {"mode_force", "<mi>F</mi>"},
+                                                         {"mode_error", "<mi>e</mi>"},
+                                                         {"mode_increment", "<mi>y</mi>"},
+                                                         {"mode_next", "<mi>t</mi>"},
+                                                         {"mode_decay", "<mi>a</mi>"},
+                                                         {"mode_gain", "<mi>g</mi>"},
+                                                         {"mode_velocity_drive", "<mi>w</mi>"},
+                                                         {"mode_loss", "<mi>α</mi>"}};
   return all;
 }
 
@@ -42,7 +41,9 @@ std::string symbol(const std::string& name, bool indexed) {
   return indexed ? "<msub>" + letter + "<mi>i</mi></msub>" : letter;
 }
 
-std::string bracketed(const std::string& inner) { return "<mo stretchy=\"false\">(</mo>" + inner + "<mo stretchy=\"false\">)</mo>"; }
+std::string bracketed(const std::string& inner) {
+  return "<mo stretchy=\"false\">(</mo>" + inner + "<mo stretchy=\"false\">)</mo>";
+}
 
 class Writer {
  public:
@@ -57,9 +58,11 @@ class Writer {
       case Operation::subtract: return grouped(e.left, 1) + "<mo>−</mo>" + grouped(e.right, 2);
       case Operation::multiply: return product(grouped(e.left, 2), grouped(e.right, 3));
       case Operation::flush: return written(e.left);
-      case Operation::clamp: return "<mi>clamp</mi>" + bracketed(written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3));
+      case Operation::clamp:
+        return "<mi>clamp</mi>" + bracketed(written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3));
       case Operation::where: return choice(e);
-      case Operation::pick: return "<msub>" + coefficient_mathml(law_.coefficients[e.left]) + written(e.right) + "</msub>";
+      case Operation::pick:
+        return "<msub>" + coefficient_mathml(law_.coefficients[e.left]) + written(e.right) + "</msub>";
       case Operation::sum: return summed(law_.variables[law_.expressions[e.left].left]);
     }
     return "";
@@ -83,18 +86,22 @@ class Writer {
     std::string right = grouped(e.right, 2);
     const std::size_t number = right.find("<mn>");
     const bool comes_first = number != right.npos && right.substr(0, number).find_first_not_of("<mrow>") == right.npos;
-    if (!comes_first || right.compare(number, minus.size(), minus) != 0) return grouped(e.left, 1) + "<mo>+</mo>" + right;
+    if (!comes_first || right.compare(number, minus.size(), minus) != 0)
+      return grouped(e.left, 1) + "<mo>+</mo>" + right;
     right.replace(number, minus.size(), "<mn>");
     return grouped(e.left, 1) + "<mo>−</mo>" + right;
   }
 
-  static std::string summed(const Variable& vector) { return "<munder><mo>∑</mo><mi>i</mi></munder>" + variable_mathml(vector); }
+  static std::string summed(const Variable& vector) {
+    return "<munder><mo>∑</mo><mi>i</mi></munder>" + variable_mathml(vector);
+  }
 
   std::string choice(const Expression& e) const {
     const std::string condition = grouped(e.condition, 1) + "<mo>&gt;</mo><mn>0</mn>";
     return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.left) +
-           "</mtd><mtd><mspace width=\"1em\"/><mtext>if</mtext><mspace width=\"0.4em\"/>" + condition + "</mtd></mtr><mtr><mtd>" +
-           written(e.right) + "</mtd><mtd><mspace width=\"1em\"/><mtext>else</mtext></mtd></mtr></mtable></mrow>";
+           "</mtd><mtd><mspace width=\"1em\"/><mtext>if</mtext><mspace width=\"0.4em\"/>" + condition +
+           "</mtd></mtr><mtr><mtd>" + written(e.right) +
+           "</mtd><mtd><mspace width=\"1em\"/><mtext>else</mtext></mtd></mtr></mtable></mrow>";
   }
 
   std::string grouped(ExpressionId id, int least_precedence) const {
@@ -114,6 +121,8 @@ class Writer {
 std::string expression_mathml(const UpdateLaw& law, ExpressionId expression) { return Writer(law).written(expression); }
 
 std::string variable_mathml(const Variable& variable) { return symbol(variable.name, variable.size > 1); }
-std::string coefficient_mathml(const Coefficient& coefficient) { return symbol(coefficient.name, coefficient.values.size() > 1); }
+std::string coefficient_mathml(const Coefficient& coefficient) {
+  return symbol(coefficient.name, coefficient.values.size() > 1);
+}
 
 }  // namespace dashpot::compiler

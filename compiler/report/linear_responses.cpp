@@ -16,7 +16,8 @@ constexpr int points = 160;
 
 std::vector<double> logarithmic(const Interval& range) {
   std::vector<double> values;
-  for (int i = 0; i < points; ++i) values.push_back(range.low * std::pow(range.high / range.low, double(i) / (points - 1)));
+  for (int i = 0; i < points; ++i)
+    values.push_back(range.low * std::pow(range.high / range.low, double(i) / (points - 1)));
   return values;
 }
 
@@ -38,15 +39,20 @@ Plot relaxation(const LinearForm& form, const PortUnits& units) {
   for (const Mode& mode : form.modes) rates.push_back(to_double(mode.relaxation_rate));
   const auto modulus = [&](double t) {
     double force = to_double(form.static_stiffness);
-    for (const Mode& mode : form.modes) force += to_double(mode.stiffness) * std::exp(-to_double(mode.relaxation_rate) * t);
+    for (const Mode& mode : form.modes)
+      force += to_double(mode.stiffness) * std::exp(-to_double(mode.relaxation_rate) * t);
     return force;
   };
-  Plot plot{"Relaxation: force after a unit step", {"time", "s"}, {"force per step", units.stiffness},
-            AxisScale::logarithmic, AxisScale::linear,
-            {curve("", logarithmic(times_around(rates, frequencies_of_interest(form))), modulus)}, true};
+  Plot plot{"Relaxation: force after a unit step",
+            {"time", "s"},
+            {"force per step", units.stiffness},
+            AxisScale::logarithmic,
+            AxisScale::linear,
+            {curve("", logarithmic(times_around(rates, frequencies_of_interest(form))), modulus)},
+            true};
   if (form.feedthrough_damping > 0)
-    plot.note = fmt::format("An impulse of {} {} at t = 0 is not drawn.", number_text(to_double(form.feedthrough_damping)),
-                            units.damping);
+    plot.note = fmt::format("An impulse of {} {} at t = 0 is not drawn.",
+                            number_text(to_double(form.feedthrough_damping)), units.damping);
   return plot;
 }
 
@@ -61,11 +67,16 @@ Plot creep(const LinearForm& form, const PortUnits& units) {
       displacement -= std::expm1(-to_double(e.stiffness / e.damping) * t) / to_double(e.stiffness);
     return displacement;
   };
-  Plot plot{"Creep: displacement under a unit force", {"time", "s"}, {"displacement per force", units.compliance},
-            AxisScale::logarithmic, AxisScale::linear,
-            {curve("", logarithmic(times_around(rates, frequencies_of_interest(form))), compliance)}, true};
+  Plot plot{"Creep: displacement under a unit force",
+            {"time", "s"},
+            {"displacement per force", units.compliance},
+            AxisScale::logarithmic,
+            AxisScale::linear,
+            {curve("", logarithmic(times_around(rates, frequencies_of_interest(form))), compliance)},
+            true};
   if (kelvin.fluidity > 0)
-    plot.note = fmt::format("It flows on at {} {} for each {}.", number_text(to_double(kelvin.fluidity)), units.velocity, units.force);
+    plot.note = fmt::format("It flows on at {} {} for each {}.", number_text(to_double(kelvin.fluidity)),
+                            units.velocity, units.force);
   return plot;
 }
 
@@ -75,10 +86,14 @@ std::complex<double> stiffness_at(const LinearForm& form, double frequency) {
 }
 
 Plot moduli(const LinearForm& form, const PortUnits& units, const std::vector<double>& frequencies) {
-  return {"Storage and loss modulus", {"frequency", "Hz"}, {"modulus", units.stiffness}, AxisScale::logarithmic,
+  return {"Storage and loss modulus",
+          {"frequency", "Hz"},
+          {"modulus", units.stiffness},
+          AxisScale::logarithmic,
           AxisScale::logarithmic,
           {curve("storage, Re D(jω)", frequencies, [&](double f) { return stiffness_at(form, f).real(); }),
-           curve("loss, Im D(jω)", frequencies, [&](double f) { return stiffness_at(form, f).imag(); }, true)}};
+           curve(
+               "loss, Im D(jω)", frequencies, [&](double f) { return stiffness_at(form, f).imag(); }, true)}};
 }
 
 Plot loss_tangent(const LinearForm& form, const std::vector<double>& frequencies) {
@@ -87,8 +102,12 @@ Plot loss_tangent(const LinearForm& form, const std::vector<double>& frequencies
     return d.imag() / d.real();
   };
   const bool stores = form.static_stiffness > 0;
-  return {"Loss tangent", {"frequency", "Hz"}, {"loss / storage", "1"}, AxisScale::logarithmic,
-          stores && form.feedthrough_damping == 0 ? AxisScale::linear : AxisScale::logarithmic, {curve("", frequencies, tangent)},
+  return {"Loss tangent",
+          {"frequency", "Hz"},
+          {"loss / storage", "1"},
+          AxisScale::logarithmic,
+          stores && form.feedthrough_damping == 0 ? AxisScale::linear : AxisScale::logarithmic,
+          {curve("", frequencies, tangent)},
           stores && form.feedthrough_damping == 0};
 }
 
@@ -96,7 +115,8 @@ Plot loss_tangent(const LinearForm& form, const std::vector<double>& frequencies
 
 Interval frequencies_of_interest(const LinearForm& form) {
   if (!form.modes.empty())
-    return {to_double(form.modes.front().relaxation_rate) / (200 * pi), to_double(form.modes.back().relaxation_rate) * 50 / pi};
+    return {to_double(form.modes.front().relaxation_rate) / (200 * pi),
+            to_double(form.modes.back().relaxation_rate) * 50 / pi};
   const bool is_kelvin = form.static_stiffness > 0 && form.feedthrough_damping > 0;
   const double corner = is_kelvin ? to_double(form.static_stiffness / form.feedthrough_damping) / (2 * pi) : 1;
   return {corner / 100, corner * 100};
@@ -106,8 +126,8 @@ std::string linear_responses_html(const Compilation& c) {
   const LinearForm& form = c.form.linear;
   const PortUnits units = page_units(c.network.port_motion);
   const std::vector<double> frequencies = logarithmic(frequencies_of_interest(form));
-  return plot_figure(relaxation(form, units)) + plot_figure(creep(form, units)) + plot_figure(moduli(form, units, frequencies)) +
-         plot_figure(loss_tangent(form, frequencies));
+  return plot_figure(relaxation(form, units)) + plot_figure(creep(form, units)) +
+         plot_figure(moduli(form, units, frequencies)) + plot_figure(loss_tangent(form, frequencies));
 }
 
 }  // namespace dashpot::compiler

@@ -66,16 +66,19 @@ std::string number_mathml(double value, int digits) {
 
 PortUnits page_units(motion port_motion) {
   PortUnits units = port_units(port_motion);
-  for (std::string* unit : {&units.force, &units.stiffness, &units.damping, &units.compliance, &units.fluidity}) *unit = dotted(*unit);
+  for (std::string* unit : {&units.force, &units.stiffness, &units.damping, &units.compliance, &units.fluidity})
+    *unit = dotted(*unit);
   return units;
 }
 
 std::string value_text(const Element& element, motion port_motion) {
-  const double value = std::visit([](const auto& law) {
-    if constexpr (requires { law.stiffness; }) return law.stiffness;
-    else if constexpr (requires { law.damping; }) return law.damping;
-    else return law.yield_force;
-  }, element.law);
+  const double value = std::visit(
+      [](const auto& law) {
+        if constexpr (requires { law.stiffness; }) return law.stiffness;
+        else if constexpr (requires { law.damping; }) return law.damping;
+        else return law.yield_force;
+      },
+      element.law);
   return number_text(value) + " " + dotted(unit_of(element.law, port_motion));
 }
 

@@ -8,7 +8,8 @@
 
 namespace dashpot::compiler {
 
-// At most `digits` significant digits, without trailing zeros; outside 10⁻³ … 10⁵ as 1.5×10⁻⁷. The minus sign is U+2212.
+// At most `digits` significant digits, without trailing zeros; outside 10⁻³ … 10⁵ as 1.5×10⁻⁷. The minus sign is
+// U+2212.
 std::string number_text(double value, int digits = 4);
 
 // The same as MathML.

@@ -48,8 +48,8 @@ class Drawing {
   bool is_empty() const { return !(x_range_.high > x_range_.low); }
 
   std::string svg() const {
-    std::string text = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height,
-                                   escaped(plot_.title));
+    std::string text = fmt::format("<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width,
+                                   height, escaped(plot_.title));
     text += grid() + frame() + tick_labels() + axis_labels();
     for (const Curve& curve : plot_.curves) text += drawn(curve);
     return text + "</svg>\n";
@@ -96,10 +96,12 @@ class Drawing {
     std::string text;
     for (const Tick& tick : x_.ticks)
       if (is_inside(tick) && !tick.label.empty())
-        text += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{}\">{}</text>", x_at(tick.value), bottom + 17, tick.label);
+        text += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{}\">{}</text>", x_at(tick.value), bottom + 17,
+                            tick.label);
     for (const Tick& tick : y_.ticks)
       if (!tick.label.empty())
-        text += fmt::format("<text class=\"tick y\" x=\"{}\" y=\"{:.1f}\">{}</text>", left - 7, y_at(tick.value) + 4, tick.label);
+        text += fmt::format("<text class=\"tick y\" x=\"{}\" y=\"{:.1f}\">{}</text>", left - 7, y_at(tick.value) + 4,
+                            tick.label);
     return text + "\n";
   }
 
@@ -117,12 +119,13 @@ class Drawing {
     for (std::size_t i = 0; i < curve.x.size(); ++i) {
       const bool shown = is_shown(curve.x[i], curve.y[i]);
       // A line of no length with a round cap is a dot.
-      if (shown) path += fmt::format("{}{:.1f} {:.1f}{}", pen_down && !curve.dots ? "L" : "M", x_at(curve.x[i]), y_at(curve.y[i]),
-                                     curve.dots ? "h0" : "");
+      if (shown)
+        path += fmt::format("{}{:.1f} {:.1f}{}", pen_down && !curve.dots ? "L" : "M", x_at(curve.x[i]),
+                            y_at(curve.y[i]), curve.dots ? "h0" : "");
       pen_down = shown;
     }
-    return fmt::format("<path class=\"curve {}{}{}\" d=\"{}\"/>\n", class_of(curve.channel), curve.dashed ? " dashed" : "",
-                       curve.dots ? " dots" : "", path);
+    return fmt::format("<path class=\"curve {}{}{}\" d=\"{}\"/>\n", class_of(curve.channel),
+                       curve.dashed ? " dashed" : "", curve.dots ? " dots" : "", path);
   }
 
   const Plot& plot_;
@@ -135,8 +138,8 @@ std::string legend(const Plot& plot) {
   std::string keys;
   for (const Curve& curve : plot.curves)
     if (!curve.name.empty())
-      keys += fmt::format("<span class=\"key {}{}{}\">{}</span>", class_of(curve.channel), curve.dashed ? " dashed" : "",
-                          curve.dots ? " dots" : "", escaped(curve.name));
+      keys += fmt::format("<span class=\"key {}{}{}\">{}</span>", class_of(curve.channel),
+                          curve.dashed ? " dashed" : "", curve.dots ? " dots" : "", escaped(curve.name));
   return keys.empty() ? "" : "<p class=\"legend\">" + keys + "</p>\n";
 }
 

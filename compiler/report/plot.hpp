@@ -31,7 +31,7 @@ struct Plot {
   AxisTitle x_title, y_title;
   AxisScale x_scale, y_scale;
   std::vector<Curve> curves;
-  bool zero_line = false;            // shows 0 on the vertical axis, and its line
+  bool zero_line = false;                          // shows 0 on the vertical axis, and its line
   std::optional<std::string> note = std::nullopt;  // below
 };
 

@@ -112,10 +112,8 @@ class Rails {
   void order_rows() {
     place_.resize(rows_);
     std::iota(place_.begin(), place_.end(), 0);
-    if (rows_ <= most_permuted_rows)
-      try_all_orders();
-    else
-      exchange_neighbours();
+    if (rows_ <= most_permuted_rows) try_all_orders();
+    else exchange_neighbours();
   }
 
   void try_all_orders() {
@@ -133,10 +131,8 @@ class Rails {
     for (std::size_t round = 0; round < rows_ && least > 0; ++round)
       for (std::size_t i = 1; i < rows_; ++i) {
         std::swap(place_[i - 1], place_[i]);
-        if (const std::size_t count = crossings(place_); count < least)
-          least = count;
-        else
-          std::swap(place_[i - 1], place_[i]);
+        if (const std::size_t count = crossings(place_); count < least) least = count;
+        else std::swap(place_[i - 1], place_[i]);
       }
   }
 
@@ -147,7 +143,9 @@ class Rails {
     for (std::size_t column = 1; column < x_.size(); ++column) x_[column] = x_[column - 1] + gap[column - 1];
   }
 
-  double length_of(const Bar& bar) const { return element_length(network_.elements[bar.element], network_.port_motion); }
+  double length_of(const Bar& bar) const {
+    return element_length(network_.elements[bar.element], network_.port_motion);
+  }
   double y(const Bar& bar) const { return row_height * double(place_[bar.row]) + label_rise; }
 
   std::string drawn(const Bar& bar) const {

@@ -18,11 +18,12 @@ std::string joined(const std::vector<std::string>& names) {
 std::string row(const ComponentSplit& split, std::size_t i, const Network& network) {
   const Regime& regime = split.regimes.regimes[i];
   const BrakeShare& share = split.shares[i];
-  return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                     escaped(joined(slip_names(split.regimes, regime, true, network))),
-                     escaped(joined(slip_names(split.regimes, regime, false, network))), number_text(share.damping),
-                     number_text(to_double(regime.feedthrough())), number_text(share.compensation),
-                     number_text(to_double(regime.form.static_stiffness)));
+  return fmt::format(
+      "<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+      escaped(joined(slip_names(split.regimes, regime, true, network))),
+      escaped(joined(slip_names(split.regimes, regime, false, network))), number_text(share.damping),
+      number_text(to_double(regime.feedthrough())), number_text(share.compensation),
+      number_text(to_double(regime.form.static_stiffness)));
 }
 
 std::string table(const ComponentSplit& split, const Network& network) {
@@ -41,7 +42,8 @@ std::string table(const ComponentSplit& split, const Network& network) {
 std::string regimes_html(const Compilation& c) {
   std::string html;
   if (c.law.tunable)
-    html = fmt::format("<p>Chosen: <b>{}</b>; {}.</p>\n", escaped(c.decomposition.choice().name), escaped(c.decomposition.choice().reason));
+    html = fmt::format("<p>Chosen: <b>{}</b>; {}.</p>\n", escaped(c.decomposition.choice().name),
+                       escaped(c.decomposition.choice().reason));
   for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) {
     html += "<p>" + escaped(to_text(likes)) + "</p>\n";
     if (!likes.first->regimes.regimes.empty()) html += table(*likes.first, c.network);

@@ -38,7 +38,8 @@ std::vector<Fields> facts(const Compilation& c) {
   std::vector<Fields> list;
   list.push_back(fact("brake b", brake_text(c.law), units.damping, "brake"));
   if (is_linear(c)) {
-    list.push_back(fact("motor, velocity gain", number_text(c.decomposition.choice().velocity_gain), units.damping, "motor"));
+    list.push_back(
+        fact("motor, velocity gain", number_text(c.decomposition.choice().velocity_gain), units.damping, "motor"));
     list.push_back(fact("static stiffness", number_text(to_double(c.form.linear.static_stiffness)), units.stiffness));
     list.push_back(fact("modes", std::to_string(c.form.linear.modes.size()), ""));
     const double viscosity = to_double(zero_frequency_damping(c.form.linear));
@@ -75,8 +76,9 @@ void add_live_part(const Compilation& c, bool there, CodeModel& model) {
   const PortUnits units = page_units(c.network.port_motion);
   for (const char* list : {"live", "live_end", "still", "sliders"}) model.lists[list];
   if (!there) {
-    model.lists["still"].push_back({{"why", "Left out: when this page was written there was no clang with lld to compile the "
-                                            "emitted code to WebAssembly."}});
+    model.lists["still"].push_back({{"why",
+                                     "Left out: when this page was written there was no clang with lld to compile the "
+                                     "emitted code to WebAssembly."}});
     return;
   }
   model.lists["live"].push_back({{"depth", c.network.port_motion == motion::rotation ? "0.1" : "0.001"},
@@ -90,17 +92,18 @@ std::string tunables_json(const UpdateLaw& law) {
   std::string json;
   for (const Tunable& t : law.tunable ? law.tunable->tunables : std::vector<Tunable>())
     json += fmt::format("{}{{\"name\":{},\"unit\":{},\"value\":{},\"min\":{},\"max\":{}}}", json.empty() ? "" : ",",
-                        json_literal(t.name), json_literal(t.unit), json_literal(t.range.value), json_literal(t.range.min),
-                        json_literal(t.range.max));
+                        json_literal(t.name), json_literal(t.unit), json_literal(t.range.value),
+                        json_literal(t.range.min), json_literal(t.range.max));
   return "[" + json + "]";
 }
 
 std::string live_json(const Compilation& c, const std::string& module) {
   const PortUnits units = page_units(c.network.port_motion);
-  return fmt::format("{{\"period\":{},\"rate\":{},\"scalar\":\"{}\",\"position_unit\":{},\"force_unit\":{},\"tunables\":{},"
-                     "\"module\":\"{}\"}}",
-                     c.law.sample_period, c.rate, name_of(c.law.scalar), json_literal(units.position), json_literal(units.force),
-                     tunables_json(c.law), base64(module));
+  return fmt::format(
+      "{{\"period\":{},\"rate\":{},\"scalar\":\"{}\",\"position_unit\":{},\"force_unit\":{},\"tunables\":{},"
+      "\"module\":\"{}\"}}",
+      c.law.sample_period, c.rate, name_of(c.law.scalar), json_literal(units.position), json_literal(units.force),
+      tunables_json(c.law), base64(module));
 }
 
 std::string data_json(const Compilation& c, const std::optional<std::string>& module) {
@@ -122,7 +125,8 @@ void add_page(CodeModel& model, Diagnostics& diagnostics) {
   fields["uplot_style"] = built_in("uPlot.min.css", diagnostics);
   fields["uplot"] = built_in("uPlot.iife.min.js", diagnostics);
   fields["uplot_licence"] = escaped_lines(built_in("uPlot-LICENSE", diagnostics));
-  for (const char* part : {"page.js", "pareto.js", "motion.js", "pad.js", "forces.js", "tunables.js", "live.js", "start.js"})
+  for (const char* part :
+       {"page.js", "pareto.js", "motion.js", "pad.js", "forces.js", "tunables.js", "live.js", "start.js"})
     fields["script"] += built_in(part, diagnostics);
 }
 

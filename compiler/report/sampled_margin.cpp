@@ -44,8 +44,13 @@ std::string sampled_margin_html(const Compilation& c) {
   Curve curve = needed(loop, *motor);
   const double sure = c.certificate.assured;
   const Curve assured{"assured by brake and device", Channel::brake, {curve.x.front(), curve.x.back()}, {sure, sure}};
-  return plot_figure({"Damping of the sampled loop", {"frequency", "Hz"}, {"damping", units.damping}, AxisScale::logarithmic,
-                      AxisScale::linear, {std::move(curve), assured}, true});
+  return plot_figure({"Damping of the sampled loop",
+                      {"frequency", "Hz"},
+                      {"damping", units.damping},
+                      AxisScale::logarithmic,
+                      AxisScale::linear,
+                      {std::move(curve), assured},
+                      true});
 }
 
 }  // namespace dashpot::compiler

@@ -7,8 +7,8 @@
 
 namespace dashpot::compiler {
 
-// The need over frequency below what the certificate's loop is assured of; empty text where nothing is proved or the law is
-// not linear.
+// The need over frequency below what the certificate's loop is assured of; empty text where nothing is proved or the
+// law is not linear.
 std::string sampled_margin_html(const Compilation& compilation);
 
 }  // namespace dashpot::compiler

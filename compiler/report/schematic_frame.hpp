@@ -12,7 +12,7 @@ struct Inside {
   std::string svg;
   double length;
   double height;
-  double tool_height;  // where the tool's wire meets the inside
+  double tool_height;                // where the tool's wire meets the inside
   double ground_top, ground_bottom;  // what the wall must cover
 };
 

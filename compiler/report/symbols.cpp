@@ -28,7 +28,8 @@ std::string strokes(const Spring&, Place p) {
 
 std::string strokes(const Damper&, Place p) {
   const std::string rod = fmt::format("M{} {}h34m0 -7.5v15", p.x, p.y);
-  const std::string cup = fmt::format("M{} {}h28v23h-28M{} {}H{}", p.x + 22, p.y - 11.5, p.x + 50, p.y, p.x + symbol_length);
+  const std::string cup =
+      fmt::format("M{} {}h28v23h-28M{} {}H{}", p.x + 22, p.y - 11.5, p.x + 50, p.y, p.x + symbol_length);
   return stroke(rod) + stroke(cup);
 }
 
@@ -52,7 +53,8 @@ std::string element_symbol(const Element& element, motion port_motion, Place sta
   std::string svg = wire(start, {first, start.y});
   svg += std::visit([&](const auto& law) { return strokes(law, {first, start.y}); }, element.law);
   svg += wire({first + symbol_length, start.y}, {start.x + length, start.y});
-  svg += fmt::format("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", middle, start.y - 30, escaped(element.name));
+  svg += fmt::format("<text class=\"name\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>", middle, start.y - 30,
+                     escaped(element.name));
   return svg + fmt::format("<text class=\"value\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", middle, start.y - 17,
                            value_text(element, port_motion));
 }

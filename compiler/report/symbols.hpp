@@ -21,11 +21,11 @@ double element_length(const Element& element, motion port_motion);
 // The element with its name and value above it; `start` is its end nearer the tool.
 std::string element_symbol(const Element& element, motion port_motion, Place start, double length);
 
-std::string wire(Place from, Place to);                // one straight line
-std::string junction(Place at);                        // a dot where wires meet
-std::string tool_symbol(Place at);                     // a handle, with the directions of u and f; its wire starts at `at`
+std::string wire(Place from, Place to);  // one straight line
+std::string junction(Place at);          // a dot where wires meet
+std::string tool_symbol(Place at);       // a handle, with the directions of u and f; its wire starts at `at`
 std::string ground_symbol(double x, double top, double bottom);  // a hatched wall
-std::string contact_symbol(Place at);                  // a gap between two plates, `contact_length` long
+std::string contact_symbol(Place at);                            // a gap between two plates, `contact_length` long
 
 inline constexpr double tool_length = 78;     // [px]
 inline constexpr double contact_length = 26;  // [px]

@@ -6,8 +6,8 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double rail_lead = 12;   // from a rail to where its children start [px]
-constexpr double row_gap = 8;      // between rows of a parallel [px]
+constexpr double rail_lead = 12;  // from a rail to where its children start [px]
+constexpr double row_gap = 8;     // between rows of a parallel [px]
 
 // A part around its axis, the line on which it meets its neighbours.
 struct Extent {
@@ -27,7 +27,8 @@ double step_between(const Part& upper, const Part& lower) { return upper.extent.
 Extent row(const std::vector<Part>& children) {
   Extent all;
   for (const Part& child : children)
-    all = {all.length + child.extent.length, std::max(all.above, child.extent.above), std::max(all.below, child.extent.below)};
+    all = {all.length + child.extent.length, std::max(all.above, child.extent.above),
+           std::max(all.below, child.extent.below)};
   return all;
 }
 
@@ -42,7 +43,8 @@ Extent stack(const std::vector<Part>& children, double rails) {
 Part measured(const Tree& tree, const Network& network) {
   Part part{&tree, {}, 0, {}};
   for (const Tree& child : tree.children) part.children.push_back(measured(child, network));
-  for (std::size_t i = 1; i < part.children.size(); ++i) part.rails += step_between(part.children[i - 1], part.children[i]);
+  for (std::size_t i = 1; i < part.children.size(); ++i)
+    part.rails += step_between(part.children[i - 1], part.children[i]);
   switch (tree.kind) {
     case Tree::Kind::leaf:
       part.extent = {element_length(network.elements[tree.element], network.port_motion), label_rise, symbol_drop};
@@ -84,7 +86,8 @@ std::string drawn(const Part& part, Place start, double length, const Network& n
   const Place inner{start.x + lead, start.y};
   const std::string wires = wire(start, inner) + wire({inner.x + own, start.y}, {start.x + length, start.y});
   switch (part.tree->kind) {
-    case Tree::Kind::leaf: return wires + element_symbol(network.elements[part.tree->element], network.port_motion, inner, own);
+    case Tree::Kind::leaf:
+      return wires + element_symbol(network.elements[part.tree->element], network.port_motion, inner, own);
     case Tree::Kind::series: return wires + drawn_row(part, inner, network);
     case Tree::Kind::parallel: return wires + drawn_stack(part, inner, network);
   }

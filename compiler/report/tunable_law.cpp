@@ -8,12 +8,14 @@ namespace dashpot::compiler {
 namespace {
 
 std::string parameters_table(const TunableTables& tables) {
-  std::string html = "<div class=\"wide\"><table><thead><tr><th>parameter</th><th>default</th><th>least</th><th>most</th>"
-                     "<th class=\"word\">unit</th></tr></thead><tbody>\n";
+  std::string html =
+      "<div class=\"wide\"><table><thead><tr><th>parameter</th><th>default</th><th>least</th><th>most</th>"
+      "<th class=\"word\">unit</th></tr></thead><tbody>\n";
   for (const Tunable& t : tables.tunables)
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td class=\"word\">{}</td></tr>\n",
-                        escaped(t.name), number_text(t.range.value), number_text(t.range.min), number_text(t.range.max),
-                        escaped(t.unit));
+    html +=
+        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td class=\"word\">{}</td></tr>\n",
+                    escaped(t.name), number_text(t.range.value), number_text(t.range.min), number_text(t.range.max),
+                    escaped(t.unit));
   return html + "</tbody></table></div>\n";
 }
 
@@ -21,9 +23,11 @@ std::string parameters_table(const TunableTables& tables) {
 std::string command(const Compilation& c) {
   const bool has_slips = !c.law.tunable->yields.empty();
   return fmt::format(
-      "<ul class=\"law\">\n<li><math><mrow><mi>m</mi><mo>=</mo><mi>s</mi><mo>&#x2062;</mo><mrow><mi mathvariant=\"normal\">Δ</mi>"
+      "<ul class=\"law\">\n<li><math><mrow><mi>m</mi><mo>=</mo><mi>s</mi><mo>&#x2062;</mo><mrow><mi "
+      "mathvariant=\"normal\">Δ</mi>"
       "<mi>u</mi></mrow><mo>+</mo><mi>S</mi>{}<mo>+</mo>"
-      "<mrow><mo stretchy=\"false\">(</mo><msub><mi>b</mi><mo>∞</mo></msub><mo>−</mo><mi>b</mi><mo stretchy=\"false\">)</mo>"
+      "<mrow><mo stretchy=\"false\">(</mo><msub><mi>b</mi><mo>∞</mo></msub><mo>−</mo><mi>b</mi><mo "
+      "stretchy=\"false\">)</mo>"
       "</mrow><mover><mi>v</mi><mo>^</mo></mover></mrow></math> <span class=\"purpose\">{}</span></li>\n</ul>\n",
       has_slips ? "<mo>+</mo><mi>σ</mi>" : "",
       has_slips ? "s, S, σ: what springs answer in a sample, hold, and what is behind slips"
@@ -41,15 +45,18 @@ std::string joined(const std::vector<std::string>& names) {
 std::string tunable_law_html(const Compilation& c) {
   const TunableTables& tables = *c.law.tunable;
   const TunableCost cost = cost_of(tables);
-  std::string html = "<p>The constants follow the parameters: <code>set()</code> takes the law to others between two samples, "
-                     "and injects no energy. Everything else on this page holds for their defaults.</p>\n";
+  std::string html =
+      "<p>The constants follow the parameters: <code>set()</code> takes the law to others between two samples, "
+      "and injects no energy. Everything else on this page holds for their defaults.</p>\n";
   html += parameters_table(tables) + command(c);
   html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake) + ".";
   if (!tables.mesh_elements.empty())
-    html += " By backward Euler, since their relaxations mix with a parameter or at several slips: " + escaped(joined(tables.mesh_elements)) + ".";
-  return html + fmt::format(" Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
-                            "{} state{}.</p>\n",
-                            cost.output, cost.update, cost.set, cost.states, cost.states == 1 ? "" : "s");
+    html += " By backward Euler, since their relaxations mix with a parameter or at several slips: " +
+            escaped(joined(tables.mesh_elements)) + ".";
+  return html + fmt::format(
+                    " Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
+                    "{} state{}.</p>\n",
+                    cost.output, cost.update, cost.set, cost.states, cost.states == 1 ? "" : "s");
 }
 
 }  // namespace dashpot::compiler

@@ -25,7 +25,8 @@ bool only_copies(const UpdateLaw& law, const Statement& statement) {
 std::string coupled(const UpdateLaw& law, const Statement& statement) {
   const Coupling& coupling = law.couplings[statement.coupling];
   return line(variable_mathml(law.variables[statement.target]), "=",
-              "<mi>slips</mi><mo stretchy=\"false\">(</mo>" + expression_mathml(law, statement.value) + "<mo stretchy=\"false\">)</mo>",
+              "<mi>slips</mi><mo stretchy=\"false\">(</mo>" + expression_mathml(law, statement.value) +
+                  "<mo stretchy=\"false\">)</mo>",
               fmt::format("{} slip{} at most {} operations", coupling.slips.size(),
                           coupling.slips.size() == 1 ? "," : "s together,", coupling.operations()));
 }
@@ -36,7 +37,8 @@ std::string program(const UpdateLaw& law, const std::vector<Statement>& statemen
     const Variable& target = law.variables[s.target];
     if (s.coupling != no_coupling) list += coupled(law, s);
     else if (target.role == Role::local || !only_copies(law, s))
-      list += line(variable_mathml(target), target.role == Role::local ? "=" : "←", expression_mathml(law, s.value), s.purpose);
+      list += line(variable_mathml(target), target.role == Role::local ? "=" : "←", expression_mathml(law, s.value),
+                   s.purpose);
     else if (target.name == "last_position")
       list += line(variable_mathml(target), "←", expression_mathml(law, s.value), s.purpose);
   }
@@ -47,7 +49,8 @@ std::string program(const UpdateLaw& law, const std::vector<Statement>& statemen
 std::string place_name(const Coefficient& c, std::size_t place) {
   const std::string& name = c.element_names[place];
   std::size_t same = 0;
-  while (same < name.size() && same < c.name.size() && name[name.size() - 1 - same] == c.name[c.name.size() - 1 - same]) ++same;
+  while (same < name.size() && same < c.name.size() && name[name.size() - 1 - same] == c.name[c.name.size() - 1 - same])
+    ++same;
   return name.substr(0, name.size() - same);
 }
 
@@ -88,9 +91,10 @@ std::string brake_text(const UpdateLaw& law) {
 
 std::string update_law_html(const Compilation& c) {
   const PortUnits units = page_units(c.network.port_motion);
-  std::string html = fmt::format("<p>At each sample, with the position <i>u</i> and an estimate <i>v̂</i> of the velocity: "
-                                 "<b class=\"brake\">brake</b> <i>b</i>{} {}, <b class=\"motor\">motor</b> <i>m</i> [{}].</p>\n",
-                                 (c.law.largest_damping > c.law.damping ? " from " : " = ") + brake_text(c.law), units.damping, units.force);
+  std::string html = fmt::format(
+      "<p>At each sample, with the position <i>u</i> and an estimate <i>v̂</i> of the velocity: "
+      "<b class=\"brake\">brake</b> <i>b</i>{} {}, <b class=\"motor\">motor</b> <i>m</i> [{}].</p>\n",
+      (c.law.largest_damping > c.law.damping ? " from " : " = ") + brake_text(c.law), units.damping, units.force);
   if (c.law.tunable) return html + tunable_law_html(c);
   html += "<h4>Before the command leaves</h4>\n" + program(c.law, c.law.output);
   const std::string after = program(c.law, c.law.update);

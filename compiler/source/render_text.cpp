@@ -57,10 +57,11 @@ Picture cut_to_window(Picture picture) {
   if (picture.columns.size() <= widest_line) return picture;
   const std::size_t first = picture.underline_begin > context_before ? picture.underline_begin - context_before : 0;
   const std::size_t last = std::min(first + widest_line, picture.columns.size());
-  Picture window{{picture.columns.begin() + static_cast<std::ptrdiff_t>(first),
-                  picture.columns.begin() + static_cast<std::ptrdiff_t>(last)},
-                 picture.underline_begin - first,
-                 std::max(picture.underline_begin + 1, std::min(picture.underline_end, last)) - first};  // a file may end there
+  Picture window{
+      {picture.columns.begin() + static_cast<std::ptrdiff_t>(first),
+       picture.columns.begin() + static_cast<std::ptrdiff_t>(last)},
+      picture.underline_begin - first,
+      std::max(picture.underline_begin + 1, std::min(picture.underline_end, last)) - first};  // a file may end there
   if (first > 0) window.columns.front() = "…";
   if (last < picture.columns.size()) window.columns.back() = "…";
   return window;

@@ -16,8 +16,7 @@ bool is_other_kind(FileKind kind, const ObjectReader& reader, Diagnostics& diagn
     diagnostics.report<DiagnosticCode::device_instead_of_network>(device->key_span);
   else if (kind == FileKind::device && device == nullptr && network != nullptr)
     diagnostics.report<DiagnosticCode::network_instead_of_device>(network->key_span);
-  else
-    return false;
+  else return false;
   return true;
 }
 
@@ -37,8 +36,7 @@ bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics)
     report_wrong_type(format->key, format->value, "the number 1", diagnostics);
   else if (format->value.text != "1")
     diagnostics.report<DiagnosticCode::unknown_format>(format->value.span, excerpt(format->value.text));
-  else
-    return true;
+  else return true;
   return false;
 }
 

@@ -87,10 +87,8 @@ std::optional<std::string> report_unknown_key(const Text& key, std::string_view 
                                               const std::vector<std::string>& keys, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::unknown_key>(key.span, owner, excerpt(key.text));
   const std::optional<std::string> nearest = nearest_name(key.text, keys);
-  if (nearest)
-    diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
-  else
-    diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
+  if (nearest) diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
+  else diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
   return nearest;
 }
 

@@ -28,7 +28,8 @@ Json json_of(const Network& network) {
 Json json_of(const LinearForm& form) {
   Json modes = Json::array();
   for (const Mode& mode : form.modes)
-    modes.push_back({{"stiffness", digits(mode.stiffness)}, {"relaxation_rate", digits(mode.relaxation_rate)},
+    modes.push_back({{"stiffness", digits(mode.stiffness)},
+                     {"relaxation_rate", digits(mode.relaxation_rate)},
                      {"spring_share", digits(mode.spring_share)}});
   return {{"static_stiffness", digits(form.static_stiffness)},
           {"feedthrough_damping", digits(form.feedthrough_damping)},

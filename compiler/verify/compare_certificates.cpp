@@ -36,7 +36,8 @@ class Comparison {
     if (std::find(std::begin(free_to_differ), std::end(free_to_differ), path) != std::end(free_to_differ)) return true;
     if (stated.kind == again.kind) {
       if (stated.kind == Kind::object) return objects_agree(path, stated, again);
-      if (stated.kind == Kind::array && stated.items.size() == again.items.size()) return lists_agree(path, stated, again);
+      if (stated.kind == Kind::array && stated.items.size() == again.items.size())
+        return lists_agree(path, stated, again);
       if (stated.kind != Kind::array && values_agree(stated, again)) return true;
     }
     diagnostics_.report<DiagnosticCode::certificate_differs>(stated.span, path, shown(stated), shown(again));
@@ -48,12 +49,15 @@ class Comparison {
     const std::string inside = path.empty() ? "" : path + ".";
     for (const JsonMember& member : stated.members) {
       const JsonMember* const other = find_member(again, member.key);
-      if (other == nullptr) diagnostics_.report<DiagnosticCode::certificate_differs>(member.key_span, inside + member.key, "there", "nothing of that name");
+      if (other == nullptr)
+        diagnostics_.report<DiagnosticCode::certificate_differs>(member.key_span, inside + member.key, "there",
+                                                                 "nothing of that name");
       if (other == nullptr || !agree(inside + member.key, member.value, other->value)) return false;
     }
     for (const JsonMember& member : again.members)
       if (find_member(stated, member.key) == nullptr) {
-        diagnostics_.report<DiagnosticCode::certificate_differs>(stated.span, inside + member.key, "missing", shown(member.value));
+        diagnostics_.report<DiagnosticCode::certificate_differs>(stated.span, inside + member.key, "missing",
+                                                                 shown(member.value));
         return false;
       }
     return true;

@@ -18,7 +18,8 @@ std::optional<double> number(std::string_view text, ScalarType scalar) {
   const char* end = text.data() + text.size();
   double wide = 0;
   float narrow = 0;
-  const auto [stop, error] = single ? std::from_chars(text.data(), end, narrow) : std::from_chars(text.data(), end, wide);
+  const auto [stop, error] =
+      single ? std::from_chars(text.data(), end, narrow) : std::from_chars(text.data(), end, wide);
   const double value = single ? static_cast<double>(narrow) : wide;
   if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
   return value;
@@ -31,7 +32,8 @@ std::string without_remarks(std::string_view header) {
     const bool is_remark = code.compare(at, 2, "//") == 0;
     if (!is_remark && code[at] != '"') continue;
     const std::size_t end = std::min(code.find(is_remark ? '\n' : '"', at + 1), code.size());
-    std::fill(code.begin() + std::ptrdiff_t(at), code.begin() + std::ptrdiff_t(end + (is_remark || end == code.size() ? 0 : 1)), ' ');
+    std::fill(code.begin() + std::ptrdiff_t(at),
+              code.begin() + std::ptrdiff_t(end + (is_remark || end == code.size() ? 0 : 1)), ' ');
     at = end;
   }
   return code;
@@ -39,15 +41,20 @@ std::string without_remarks(std::string_view header) {
 
 bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == ':'; }
 
-// The next number or name from `at` on, which is then behind it. An exponent's sign is part of a number, and so is one in
-// front of it that has nothing to its left.
+// The next number or name from `at` on, which is then behind it. An exponent's sign is part of a number, and so is one
+// in front of it that has nothing to its left.
 std::string_view next_word(std::string_view code, std::size_t& at) {
   while (at < code.size() && !is_of_word(code[at])) ++at;
   std::size_t start = at;
-  const auto digit_at = [&](std::size_t i) { return i < code.size() && std::isdigit(static_cast<unsigned char>(code[i])) != 0; };
+  const auto digit_at = [&](std::size_t i) {
+    return i < code.size() && std::isdigit(static_cast<unsigned char>(code[i])) != 0;
+  };
   const bool is_number = digit_at(at);
-  while (at < code.size() && (is_of_word(code[at]) || (is_number && (code[at] == '-' || code[at] == '+') && code[at - 1] == 'e' && digit_at(at + 1)))) ++at;
-  if (is_number && start > 0 && code[start - 1] == '-' && code.substr(0, start - 1).find_last_not_of(" \n") != code.npos &&
+  while (at < code.size() && (is_of_word(code[at]) || (is_number && (code[at] == '-' || code[at] == '+') &&
+                                                       code[at - 1] == 'e' && digit_at(at + 1))))
+    ++at;
+  if (is_number && start > 0 && code[start - 1] == '-' &&
+      code.substr(0, start - 1).find_last_not_of(" \n") != code.npos &&
       std::string_view("{(,=").find(code[code.find_last_not_of(" \n", start - 2)]) != code.npos)
     --start;
   return code.substr(start, at - start);
@@ -122,8 +129,13 @@ std::size_t behind_banner(std::string_view header) {
   while (start < header.size()) {
     const std::size_t stop = std::min(header.find('\n', start), header.size());
     const std::string_view line = header.substr(start, stop - start);
-    // A backslash joins the next line to this one, or this one to the next; some compilers end a line at a carriage return.
-    const bool is_remark = line.starts_with("//") && !line.ends_with('\\') && !line.ends_with("?" "?/") && line.find('\r') == line.npos;
+    // A backslash joins the next line to this one, or this one to the next; some compilers end a line at a carriage
+    // return.
+    const bool is_remark = line.starts_with("//") && !line.ends_with('\\') &&
+                           !line.ends_with(
+                               "?"
+                               "?/") &&
+                           line.find('\r') == line.npos;
     if (!is_remark && !line.empty()) return start;
     start = stop + 1;
   }

@@ -20,12 +20,12 @@ struct HeaderConstants {
   std::vector<HeaderConstant> all;  // in the order of the text
 };
 
-// The name under which the numbers come that stand in no constant's declaration: what begins a state or a parameter, or is
-// an argument. Zeros are left out.
+// The name under which the numbers come that stand in no constant's declaration: what begins a state or a parameter, or
+// is an argument. Zeros are left out.
 inline constexpr const char* literals_in_code = "literals";
 
-// Every number of the scalar's type that is code. Empty where a constant's value is no finite number, or the scalar is neither
-// double nor float.
+// Every number of the scalar's type that is code. Empty where a constant's value is no finite number, or the scalar is
+// neither double nor float.
 std::optional<HeaderConstants> header_constants(std::string_view header);
 
 // Where a header's code begins: at the first line that is no comment, or one that a compiler may not take as one.

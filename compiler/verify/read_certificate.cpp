@@ -16,11 +16,12 @@ using Kind = JsonValue::Kind;
 
 const double largest = largest_finite(ScalarType::float64);
 
-// One object of the certificate. Every key that is read has to be there; where one is not what is due, that is reported, and
-// something harmless read in its place.
+// One object of the certificate. Every key that is read has to be there; where one is not what is due, that is
+// reported, and something harmless read in its place.
 class Section {
  public:
-  Section(const JsonValue& object, const char* name, Diagnostics& faults) : keys_(object, name, faults), faults_(faults) {}
+  Section(const JsonValue& object, const char* name, Diagnostics& faults)
+      : keys_(object, name, faults), faults_(faults) {}
 
   const JsonValue* of_kind(const char* key, Kind kind, std::string_view expected) const {
     const JsonMember* member = keys_.require(key);
@@ -44,8 +45,9 @@ class Section {
     if (value == nullptr) return 0;
     const double number = number_in(*value);
     if (!(number >= low && number <= high))
-      faults_.report<DiagnosticCode::device_limit>(value->span, key, value->text,
-                                                   high == largest ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high));
+      faults_.report<DiagnosticCode::device_limit>(
+          value->span, key, value->text,
+          high == largest ? fmt::format("{} or more", low) : fmt::format("{} to {}", low, high));
     return number;
   }
 
@@ -59,7 +61,8 @@ class Section {
       if (told != nullptr && names[i] == told->text) return values[i];
     }
     if (told != nullptr)
-      faults_.report<DiagnosticCode::unknown_word>(told->span, fmt::format("'{}'", key), excerpt(told->text), fmt::format("{}", fmt::join(names, ", ")));
+      faults_.report<DiagnosticCode::unknown_word>(told->span, fmt::format("'{}'", key), excerpt(told->text),
+                                                   fmt::format("{}", fmt::join(names, ", ")));
     return values[0];
   }
 
@@ -83,13 +86,12 @@ Choices choices_of(const Section& law) {
   choices.scheme = law.named("scheme", {Scheme::exact, Scheme::backward_euler});
   choices.scalar = law.named("scalar", {ScalarType::float64, ScalarType::float32});
   if (law.has("vector"))
-    choices.registers = law.named("vector", {VectorRegisters::none, VectorRegisters::sse2, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon});
+    choices.registers = law.named("vector", {VectorRegisters::none, VectorRegisters::sse2, VectorRegisters::avx2,
+                                             VectorRegisters::avx512, VectorRegisters::neon});
   choices.guards_each_sample = law.has("guards_each_sample") && law.flag("guards_each_sample");
   choices.state_input = law.named("state_input", {StateInput::position, StateInput::velocity, StateInput::nodal});
-  if (law.is_of("decomposition", Kind::number))
-    choices.decomposition = law.number("decomposition", 0, largest);
-  else
-    choices.decomposition = law.text("decomposition");
+  if (law.is_of("decomposition", Kind::number)) choices.decomposition = law.number("decomposition", 0, largest);
+  else choices.decomposition = law.text("decomposition");
   return choices;
 }
 
@@ -106,7 +108,8 @@ std::vector<double> numbers_of(const std::string& name, const JsonValue& list, D
 CertificateFile file_of(const JsonValue& root, Diagnostics& faults) {
   const Section all(root, "the file", faults);
   CertificateFile file;
-  if (const JsonValue* format = all.of_kind("dashpot_certificate", Kind::number, "a number"); format && number_in(*format) != 1)
+  if (const JsonValue* format = all.of_kind("dashpot_certificate", Kind::number, "a number");
+      format && number_in(*format) != 1)
     faults.report<DiagnosticCode::unknown_format>(format->span, format->text);
   file.network_text = all.text("network_file");
   if (!all.is_of("device_file", Kind::null)) file.device_text = all.text("device_file");

@@ -13,7 +13,8 @@ Network realised(const Network& network, const CertificateFile& certificate, con
   const std::optional<Tree> tree = series_parallel_tree(network);
   if (certificate.choices.state_input != StateInput::nodal || !tree) return network;
   const auto* name = std::get_if<std::string>(&certificate.choices.decomposition);
-  const ObserverRule rule = name && *name == "largest-observer" ? ObserverRule::largest : ObserverRule::most_dissipative;
+  const ObserverRule rule =
+      name && *name == "largest-observer" ? ObserverRule::largest : ObserverRule::most_dissipative;
   return observe(*tree, network, rule, device.reference_frequency()).realisation;
 }
 

@@ -1,4 +1,5 @@
-// What a law was made from, as its certificate states it: the choices, and the network whose canonical form its modes are taken from.
+// What a law was made from, as its certificate states it: the choices, and the network whose canonical form its modes
+// are taken from.
 #pragma once
 
 #include "verify/certificate_file.hpp"

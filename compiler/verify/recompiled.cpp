@@ -6,8 +6,8 @@ void expect_bound(const char* what, double stated, double found, Diagnostics& di
   if (stated != found) diagnostics.report<DiagnosticCode::bound_wrong>({}, what, stated, found);
 }
 
-void compare_with_recompiled(const CertificateFile& certificate, const Compilation& again, const std::optional<ReferenceGain>& gain,
-                             ScalarType scalar, Diagnostics& diagnostics) {
+void compare_with_recompiled(const CertificateFile& certificate, const Compilation& again,
+                             const std::optional<ReferenceGain>& gain, ScalarType scalar, Diagnostics& diagnostics) {
   const Certificate& found = again.certificate;
   if (!agrees(certificate.quantisation_gain, found.quantisation_gain, gain, scalar))
     diagnostics.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");

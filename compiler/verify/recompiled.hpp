@@ -10,8 +10,9 @@ namespace dashpot::compiler {
 // Reports a number that is not the one found, to the last bit.
 void expect_bound(const char* what, double stated, double found, Diagnostics& diagnostics);
 
-// Reports every disagreement: dampings, proof, and the gain from the encoder's step, which has to agree with `gain` as well.
-void compare_with_recompiled(const CertificateFile& certificate, const Compilation& again, const std::optional<ReferenceGain>& gain,
-                             ScalarType scalar, Diagnostics& diagnostics);
+// Reports every disagreement: dampings, proof, and the gain from the encoder's step, which has to agree with `gain` as
+// well.
+void compare_with_recompiled(const CertificateFile& certificate, const Compilation& again,
+                             const std::optional<ReferenceGain>& gain, ScalarType scalar, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

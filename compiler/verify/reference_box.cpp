@@ -11,7 +11,9 @@ struct SumCut {
   ReferenceSum stiffness, damping;
 };
 
-SumCut added(const SumCut& x, const SumCut& y) { return {added(x.stiffness, y.stiffness), added(x.damping, y.damping)}; }
+SumCut added(const SumCut& x, const SumCut& y) {
+  return {added(x.stiffness, y.stiffness), added(x.damping, y.damping)};
+}
 
 // ψ: the largest of g·(F, δ) − A F² − B F δ − C δ², with g = (a − 1, φ); never above 0.57.
 Reference hold_of(const ModeFactors& factors, const Reference& stiffness) {
@@ -84,11 +86,14 @@ class Box {
   SumCut cut_of(const ReferenceBlock& block) const {
     SumCut cut = cut_but_for_dampers(block);
     cut.damping = added(cut.damping, block.damping);
-    cut.stiffness.base += Reference(tables_.head.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) * Reference(facts_.rate));
+    cut.stiffness.base +=
+        Reference(tables_.head.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) * Reference(facts_.rate));
     return cut;
   }
 
-  Reference cost(const SumCut& cut) const { return most(cut.stiffness) * loop_.lateness * loop_.lateness / Reference(facts_.rate) + most(cut.damping); }
+  Reference cost(const SumCut& cut) const {
+    return most(cut.stiffness) * loop_.lateness * loop_.lateness / Reference(facts_.rate) + most(cut.damping);
+  }
 
   std::optional<SumCut> least_cut(const ReferencePart& part, std::vector<ReferenceBlock>::const_iterator& block) const {
     if (part.kind == ReferencePart::Kind::slip) return std::nullopt;
@@ -122,7 +127,9 @@ class Box {
     };
     for (std::size_t pattern = 0; pattern < std::size_t{1} << graph.ends.size(); ++pattern) {
       const auto at_tool = [&](NodeIndex node) { return is_at_tool(pattern, node); };
-      if (std::any_of(graph.slips.begin(), graph.slips.end(), [&](const auto& slip) { return at_tool(slip.first) != at_tool(slip.second); })) continue;
+      if (std::any_of(graph.slips.begin(), graph.slips.end(),
+                      [&](const auto& slip) { return at_tool(slip.first) != at_tool(slip.second); }))
+        continue;
       Reference sum = 0;
       for (std::size_t i = 0; i < cuts.size(); ++i)
         if (at_tool(graph.ties[i].from) != at_tool(graph.ties[i].to)) sum += costs[i];
@@ -132,7 +139,8 @@ class Box {
     }
     SumCut cut;
     for (std::size_t i = 0; i < cuts.size(); ++i)
-      if (is_at_tool(best.value(), graph.ties[i].from) != is_at_tool(best.value(), graph.ties[i].to)) cut = added(cut, cuts[i]);
+      if (is_at_tool(best.value(), graph.ties[i].from) != is_at_tool(best.value(), graph.ties[i].to))
+        cut = added(cut, cuts[i]);
     return cut;
   }
 
@@ -159,13 +167,16 @@ class Box {
     return sum;
   }
 
-  // k + 2 c, and twice the dampers where they are not the brake's; of a mesh twice what its edges at the port answer within a sample.
+  // k + 2 c, and twice the dampers where they are not the brake's; of a mesh twice what its edges at the port answer
+  // within a sample.
   ReferenceSum gain_of(const ReferenceBlock& block, bool with_dampers) const {
     ReferenceSum sum = block.stiffness;
     const Reference rate(facts_.rate);
     if (with_dampers) sum = added(sum, block.damping, 2 * rate);
-    for (const ReferenceRelaxation& r : block.relaxations) sum = added(sum, r.stiffness, r.is_fixed ? Reference(2 * r.factors.gain / r.stiffness.base) : Reference(2));
-    for (const std::vector<ReferenceEdge>& mesh : block.meshes) sum = added(added(sum, port_of(mesh).stiffness, 4), port_of(mesh).damping, 2 * rate);
+    for (const ReferenceRelaxation& r : block.relaxations)
+      sum = added(sum, r.stiffness, r.is_fixed ? Reference(2 * r.factors.gain / r.stiffness.base) : Reference(2));
+    for (const std::vector<ReferenceEdge>& mesh : block.meshes)
+      sum = added(added(sum, port_of(mesh).stiffness, 4), port_of(mesh).damping, 2 * rate);
     return sum;
   }
 
@@ -175,7 +186,8 @@ class Box {
       const ReferencePart& component = tunables_.tree.components[i];
       auto block = tunables_.blocks[i].begin();
       for (const ReferencePart& child : component.children) {
-        if (child.kind == ReferencePart::Kind::block) sum += most(gain_of(*block, true)) * (1 + 2 * Reference(tables_.head.least_share));
+        if (child.kind == ReferencePart::Kind::block)
+          sum += most(gain_of(*block, true)) * (1 + 2 * Reference(tables_.head.least_share));
         block += std::ptrdiff_t(blocks_of(child).size());
       }
     }
@@ -185,10 +197,13 @@ class Box {
       largest = std::max(largest, most(brake));
     }
     follows += made_up;
-    const Reference rounding = largest * Reference(facts_.scalar == ScalarType::float64 ? 0x1p-49 : 0x1p-20);  // of b∞ − b
-    if (!(follows > rounding)) return ReferenceGain{sum, loop_.pulse ? Reference(sum + 2 * rounding * loop_.pulse->most) : sum};
+    const Reference rounding =
+        largest * Reference(facts_.scalar == ScalarType::float64 ? 0x1p-49 : 0x1p-20);  // of b∞ − b
+    if (!(follows > rounding))
+      return ReferenceGain{sum, loop_.pulse ? Reference(sum + 2 * rounding * loop_.pulse->most) : sum};
     if (!loop_.pulse) return std::nullopt;
-    return ReferenceGain{sum + (follows - rounding) * loop_.pulse->least, sum + (follows + rounding) * loop_.pulse->most};
+    return ReferenceGain{sum + (follows - rounding) * loop_.pulse->least,
+                         sum + (follows + rounding) * loop_.pulse->most};
   }
 
   Reference largest_behind_slips() const {
@@ -211,7 +226,8 @@ class Box {
   ReferenceSum observed() const {
     const tunable_number<double>& number = tables_.numbers[std::size_t(tables_.head.observed)];
     ReferenceSum sum{number.base, std::vector<Reference>(tunables_.parameters.size(), 0)};
-    for (int i = number.first; i < number.first + number.count; ++i) sum.factors[std::size_t(tables_.terms[std::size_t(i)])] += 1;
+    for (int i = number.first; i < number.first + number.count; ++i)
+      sum.factors[std::size_t(tables_.terms[std::size_t(i)])] += 1;
     return sum;
   }
 
@@ -244,8 +260,8 @@ class Box {
 
 }  // namespace
 
-std::optional<ReferenceBox> reference_box(const ReferenceTunables& tunables, const TunableTables& tables, const ReferenceLoop& loop,
-                                          const LawFacts& facts) {
+std::optional<ReferenceBox> reference_box(const ReferenceTunables& tunables, const TunableTables& tables,
+                                          const ReferenceLoop& loop, const LawFacts& facts) {
   return Box(tunables, tables, loop, facts).find();
 }
 

@@ -1,5 +1,5 @@
-// What a law with tunable parameters asks for over its declared box once more (certify/box_motor.hpp), from the network's own
-// parts and in 100 digits.
+// What a law with tunable parameters asks for over its declared box once more (certify/box_motor.hpp), from the
+// network's own parts and in 100 digits.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ struct ReferenceLoop {
 };
 
 // `tables`: what the brake's rule is, and what it reaches; choices. Empty where nothing is proved.
-std::optional<ReferenceBox> reference_box(const ReferenceTunables& tunables, const TunableTables& tables, const ReferenceLoop& loop,
-                                          const LawFacts& facts);
+std::optional<ReferenceBox> reference_box(const ReferenceTunables& tunables, const TunableTables& tables,
+                                          const ReferenceLoop& loop, const LawFacts& facts);
 
 }  // namespace dashpot::compiler

@@ -28,7 +28,8 @@ double neighbour(double value, double towards, ScalarType scalar) {
 
 }  // namespace
 
-// exact: a = e^{−x}, c = k (1 − a)/x. backward-euler: a = 1/(1 + x), c = k a. x = λ h; 1 − e^{−x} = 2 e^{−x/2} sinh(x/2).
+// exact: a = e^{−x}, c = k (1 − a)/x. backward-euler: a = 1/(1 + x), c = k a. x = λ h; 1 − e^{−x} = 2 e^{−x/2}
+// sinh(x/2).
 ModeFactors mode_factors(const ReferenceMode& mode, const LawFacts& facts) {
   const Reference x = mode.relaxation_rate / Reference(facts.rate);
   if (facts.scheme == Scheme::backward_euler) return {1 / (1 + x), x / (1 + x), mode.stiffness / (1 + x)};
@@ -58,7 +59,7 @@ std::map<std::string, std::vector<Reference>> reference_constants(const Referenc
     all["gain"].push_back(f.decay * f.gain * share);
     all["velocity_drive"].push_back(f.decay * f.gain * (1 - share) * period);
     all["energy_weight"].push_back(f.decay < vanishing ? Reference(0)
-                                                        : Reference(1 / (2 * mode.stiffness * f.decay * f.decay)));
+                                                       : Reference(1 / (2 * mode.stiffness * f.decay * f.decay)));
   }
   const double brake = nearest(facts.damping, facts.scalar);
   const bool all_in_brake = nearest(form.feedthrough_damping, facts.scalar) == brake;
@@ -67,7 +68,8 @@ std::map<std::string, std::vector<Reference>> reference_constants(const Referenc
   all["static_stiffness"] = {form.static_stiffness};
   all["half_static_stiffness"] = {form.static_stiffness / 2};
   all["step_stiffness"] = {step};
-  const Reference of_motor = all_in_brake ? Reference(0) : Reference(form.feedthrough_damping - brake), together = of_motor + from_velocity;
+  const Reference of_motor = all_in_brake ? Reference(0) : Reference(form.feedthrough_damping - brake),
+                  together = of_motor + from_velocity;
   const bool is_left_over = abs(together) <= cancellation_share * abs(from_velocity);  // from cancellation
   all["velocity_gain"] = {is_left_over ? Reference(0) : together};
   all["no_force"] = all["no_energy"] = {0};

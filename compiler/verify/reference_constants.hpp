@@ -1,5 +1,5 @@
-// What every constant of a linear law must be, recomputed in 100 digits from the network: theory, section 3, written down
-// once more, apart from discretise/.
+// What every constant of a linear law must be, recomputed in 100 digits from the network: theory, section 3, written
+// down once more, apart from discretise/.
 #pragma once
 
 #include <map>

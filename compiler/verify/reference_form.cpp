@@ -56,7 +56,8 @@ void stamp(Laplacian& matrix, const std::vector<int>& row, const Element& e, dou
 }
 
 // −(p + s q)²/(m + s d), with m = μ, d = (1 − μ)/ω0 (theory, section 2).
-void add_mode(ReferenceForm& form, const Reference& mu, const Reference& shift, const Reference& p, const Reference& q) {
+void add_mode(ReferenceForm& form, const Reference& mu, const Reference& shift, const Reference& p,
+              const Reference& q) {
   const Reference nothing("1e-60");
   const Reference d = (1 - mu) / shift;
   if (mu < nothing) {
@@ -74,11 +75,13 @@ void add_mode(ReferenceForm& form, const Reference& mu, const Reference& shift, 
 void add_component(ReferenceForm& form, Laplacian springs, Laplacian dampers) {
   std::vector<Row> drives = {std::move(springs.to_tool), std::move(dampers.to_tool)};
   const ReferencePencil pencil = reference_pencil(springs.inner, dampers.inner, drives);
-  for (std::size_t i = 0; i < pencil.mu.size(); ++i) add_mode(form, pencil.mu[i], pencil.shift, drives[0][i], drives[1][i]);
+  for (std::size_t i = 0; i < pencil.mu.size(); ++i)
+    add_mode(form, pencil.mu[i], pencil.shift, drives[0][i], drives[1][i]);
 }
 
 void merge_equal_rates(std::vector<ReferenceMode>& modes) {
-  std::stable_sort(modes.begin(), modes.end(), [](const auto& x, const auto& y) { return x.relaxation_rate < y.relaxation_rate; });
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const auto& x, const auto& y) { return x.relaxation_rate < y.relaxation_rate; });
   std::vector<ReferenceMode> distinct;
   for (const ReferenceMode& mode : modes) {
     const Reference equal("1e-12");
@@ -107,7 +110,8 @@ Reference weight_at(const ReferenceForm& form, const Reference& w) {
 // Cancellation to nothing leaves some 1e-95 of the whole; what is there is never below 1e-30 of it.
 void drop_leftovers(ReferenceForm& form) {
   Reference glass = abs(form.static_stiffness), viscosity = abs(form.feedthrough_damping);
-  for (const ReferenceMode& mode : form.modes) glass += mode.stiffness, viscosity += mode.stiffness / mode.relaxation_rate;
+  for (const ReferenceMode& mode : form.modes)
+    glass += mode.stiffness, viscosity += mode.stiffness / mode.relaxation_rate;
   const Reference leftover("1e-60"), negligible("1e-30");
   if (abs(form.static_stiffness) < leftover * glass) form.static_stiffness = 0;
   if (abs(form.feedthrough_damping) < leftover * viscosity) form.feedthrough_damping = 0;

@@ -10,7 +10,8 @@
 
 namespace dashpot::compiler {
 
-using Reference = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
+using Reference =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
 struct ReferenceMode {
   Reference stiffness;        // k [N/m] or [N·m/rad]
@@ -21,7 +22,7 @@ struct ReferenceMode {
 struct ReferenceForm {
   Reference static_stiffness = 0;     // k0
   Reference feedthrough_damping = 0;  // b∞
-  std::vector<ReferenceMode> modes;   // by ascending relaxation rate; rates equal to 1e-12 merged, keeping Σk and Σk/λ
+  std::vector<ReferenceMode> modes;  // by ascending relaxation rate; rates equal to 1e-12 merged, keeping Σk and Σk/λ
 };
 
 // Of springs and dampers only.

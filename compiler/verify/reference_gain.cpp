@@ -38,7 +38,8 @@ struct PulseLaw {
   std::vector<PulseMode> modes;
 
   bool follows_estimate() const {
-    return velocity_gain != 0 || std::any_of(modes.begin(), modes.end(), [](const PulseMode& mode) { return mode.velocity_drive != 0; });
+    return velocity_gain != 0 ||
+           std::any_of(modes.begin(), modes.end(), [](const PulseMode& mode) { return mode.velocity_drive != 0; });
   }
   bool estimate_drives_modes() const {
     return std::any_of(modes.begin(), modes.end(), [](const PulseMode& mode) { return mode.velocity_drive != 0; });
@@ -67,16 +68,23 @@ ReferenceGain pulse_of(const PulseLaw& law, const std::vector<double>& averages,
   }
   long double to_come = std::abs(modes_force);
   for (const long double sum : sums) to_come += std::abs(sum);
-  const long double rounding = addends * std::numeric_limits<double>::epsilon() * static_cast<long double>(sums.size() + 4);
+  const long double rounding =
+      addends * std::numeric_limits<double>::epsilon() * static_cast<long double>(sums.size() + 4);
   return {Reference(total - rounding), Reference(total + to_come + rounding)};
 }
 
 PulseLaw pulse_law(const ReferenceForm& form, const LawFacts& facts) {
   const auto constants = reference_constants(form, facts);
-  const auto numbers = [&](const char* kind) { return constants.count(kind) > 0 ? constants.at(kind) : std::vector<Reference>{}; };
+  const auto numbers = [&](const char* kind) {
+    return constants.count(kind) > 0 ? constants.at(kind) : std::vector<Reference>{};
+  };
   const auto number = [&](const Reference& value) { return value.convert_to<long double>(); };
-  PulseLaw law{number(numbers("static_stiffness").front()), number(numbers("step_stiffness").front()), number(numbers("velocity_gain").front()), {}};
-  const auto decays = numbers("decay"), losses = numbers("loss"), gains = numbers("gain"), drives = numbers("velocity_drive");
+  PulseLaw law{number(numbers("static_stiffness").front()),
+               number(numbers("step_stiffness").front()),
+               number(numbers("velocity_gain").front()),
+               {}};
+  const auto decays = numbers("decay"), losses = numbers("loss"), gains = numbers("gain"),
+             drives = numbers("velocity_drive");
   for (std::size_t i = 0; i < decays.size(); ++i)
     law.modes.push_back({number(decays[i]), number(losses[i]), number(gains[i]), number(drives[i])});
   return law;
@@ -114,12 +122,16 @@ std::optional<Reference> held_companion(const ReferencePart& part, const LawFact
   return is_held ? std::nullopt : std::optional(sum);
 }
 
-// The same of a part that is no tree: ends that slips join are one, and those that are neither tool nor ground are eliminated.
-Reference held_companion(const ReferenceNetwork& form, const Network& network, const std::vector<std::size_t>& elements, const LawFacts& facts) {
+// The same of a part that is no tree: ends that slips join are one, and those that are neither tool nor ground are
+// eliminated.
+Reference held_companion(const ReferenceNetwork& form, const Network& network, const std::vector<std::size_t>& elements,
+                         const LawFacts& facts) {
   const std::size_t count = form.ends.size();
   std::vector<std::size_t> leader(count);
   for (std::size_t i = 0; i < count; ++i) leader[i] = i;
-  const auto place = [&](NodeIndex node) { return std::size_t(std::find(form.ends.begin(), form.ends.end(), node) - form.ends.begin()); };
+  const auto place = [&](NodeIndex node) {
+    return std::size_t(std::find(form.ends.begin(), form.ends.end(), node) - form.ends.begin());
+  };
   for (std::size_t pass = 0; pass < count; ++pass)
     for (std::size_t i : elements) {
       const Element& e = network.elements[i];
@@ -153,7 +165,8 @@ ReferenceForm held_form(const Network& network, const std::vector<std::size_t>& 
 }
 
 // k0 + 2 Σ c + 2 |b∞ − x|/h, with g = k0 + Σ c + b∞/h.
-Reference gain_of(const Reference& g, const ReferenceForm& held, const std::vector<BrakeShare>* shares, const LawFacts& facts) {
+Reference gain_of(const Reference& g, const ReferenceForm& held, const std::vector<BrakeShare>* shares,
+                  const LawFacts& facts) {
   const Reference rate(facts.rate), b = held.feedthrough_damping;
   Reference left = shares == nullptr || shares->empty() ? b : Reference(0);
   if (shares != nullptr)
@@ -165,19 +178,22 @@ Reference gain_of(const Reference& g, const ReferenceForm& held, const std::vect
 
 std::optional<ReferenceGain> reference_gain(const MotorConstants& motor, const SampledLoop& loop) {
   PulseLaw law{motor.static_stiffness, motor.step_stiffness, motor.velocity_gain, {}};
-  for (const MotorMode& mode : motor.modes) law.modes.push_back({mode.decay, mode.loss, mode.position_drive, mode.velocity_drive});
+  for (const MotorMode& mode : motor.modes)
+    law.modes.push_back({mode.decay, mode.loss, mode.position_drive, mode.velocity_drive});
   return gain_of(std::move(law), loop);
 }
 
 std::optional<ReferenceGain> reference_pulse(const SampledLoop& loop) { return gain_of(PulseLaw{0, 0, 1, {}}, loop); }
 
-std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const ReferenceForm& linear, const Network& network,
-                                            const SlipDecomposition& slips, const SlipMotor& motor, const LawFacts& facts, const SampledLoop& loop) {
+std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const ReferenceForm& linear,
+                                            const Network& network, const SlipDecomposition& slips,
+                                            const SlipMotor& motor, const LawFacts& facts, const SampledLoop& loop) {
   const bool touches = network.contact.has_value();
   ReferenceForm behind = linear;  // f′ leaves the dampers out
   behind.feedthrough_damping = 0;
   const Reference of_surface = 2 * companion(behind, facts) - behind.static_stiffness;
-  std::optional<ReferenceGain> sum = touches ? ReferenceGain{of_surface, of_surface} : gain_of(pulse_law(linear, facts), loop);
+  std::optional<ReferenceGain> sum =
+      touches ? ReferenceGain{of_surface, of_surface} : gain_of(pulse_law(linear, facts), loop);
   const Reference compensation(motor.compensation + motor.held_compensation);
   const std::optional<ReferenceGain> pulse = compensation > 0 ? reference_pulse(loop) : ReferenceGain{0, 0};
   if (!sum || !pulse) return std::nullopt;
@@ -185,7 +201,8 @@ std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const Ref
   for (std::size_t i = 0; i < tree.components.size(); ++i) {
     const std::vector<std::size_t> elements = elements_of(tree.components[i]);
     const bool is_split = !touches && i < slips.components.size();
-    held += gain_of(held_companion(tree.components[i], facts).value(), held_form(network, elements), is_split ? &slips.components[i].shares : nullptr, facts);
+    held += gain_of(held_companion(tree.components[i], facts).value(), held_form(network, elements),
+                    is_split ? &slips.components[i].shares : nullptr, facts);
   }
   for (std::size_t i = 0; i < tree.networks.size(); ++i) {
     const Reference g = held_companion(reference_network(network, tree.networks[i]), network, tree.networks[i], facts);
@@ -195,7 +212,8 @@ std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const Ref
   return ReferenceGain{sum->least + held + compensation * pulse->least, sum->most + held + compensation * pulse->most};
 }
 
-bool agrees(const std::optional<double>& stated, const std::optional<double>& compiled, const std::optional<ReferenceGain>& gain, ScalarType scalar) {
+bool agrees(const std::optional<double>& stated, const std::optional<double>& compiled,
+            const std::optional<ReferenceGain>& gain, ScalarType scalar) {
   if (stated != compiled) return false;
   return !stated || (gain && is_within(*stated, *gain, scalar));
 }

@@ -1,5 +1,5 @@
-// K of the encoder's step once more (certify/quantisation.hpp), by other ways: the velocity estimate as the runtime's own estimator
-// answers a step, and what is behind slips from what it answers within one sample.
+// K of the encoder's step once more (certify/quantisation.hpp), by other ways: the velocity estimate as the runtime's
+// own estimator answers a step, and what is behind slips from what it answers within one sample.
 #pragma once
 
 #include <optional>
@@ -20,16 +20,18 @@ struct ReferenceGain {
 // Of a linear law, by its constants, which have been found right. Empty where nothing is known of the estimator in it.
 std::optional<ReferenceGain> reference_gain(const MotorConstants& motor, const SampledLoop& loop);
 
-// Of a law with slips or a contact; `motor`: what compensates with an estimate, a choice. That no slip gives way within a step is
-// not looked at.
-std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const ReferenceForm& linear, const Network& network,
-                                            const SlipDecomposition& slips, const SlipMotor& motor, const LawFacts& facts, const SampledLoop& loop);
+// Of a law with slips or a contact; `motor`: what compensates with an estimate, a choice. That no slip gives way within
+// a step is not looked at.
+std::optional<ReferenceGain> reference_gain(const ReferenceTree& tree, const ReferenceForm& linear,
+                                            const Network& network, const SlipDecomposition& slips,
+                                            const SlipMotor& motor, const LawFacts& facts, const SampledLoop& loop);
 
 // Σ|h_j| of the velocity estimate itself [1/s].
 std::optional<ReferenceGain> reference_pulse(const SampledLoop& loop);
 
 // Whether a certificate's K, or that there is none, is what the law's own says, which has to be between.
-bool agrees(const std::optional<double>& stated, const std::optional<double>& compiled, const std::optional<ReferenceGain>& gain, ScalarType scalar);
+bool agrees(const std::optional<double>& stated, const std::optional<double>& compiled,
+            const std::optional<ReferenceGain>& gain, ScalarType scalar);
 
 // Whether a stated K is between, but for rounding.
 bool is_within(double stated, const ReferenceGain& gain, ScalarType scalar);

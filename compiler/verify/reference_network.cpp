@@ -26,7 +26,8 @@ const Slip* slip_of(const Element& e) { return std::get_if<Slip>(&e.law); }
 // Nodes with the numbers they have in a matrix: those that are eliminated come first, then the ends.
 class TerminalLaplacian {
  public:
-  TerminalLaplacian(std::size_t inner, std::size_t ends) : inner_(inner), all_(inner + ends, ReferenceVector(inner + ends, 0)) {}
+  TerminalLaplacian(std::size_t inner, std::size_t ends)
+      : inner_(inner), all_(inner + ends, ReferenceVector(inner + ends, 0)) {}
 
   void stamp(std::size_t i, std::size_t j, double value) {
     all_[i][i] += value;
@@ -36,7 +37,8 @@ class TerminalLaplacian {
   }
   ReferenceMatrix inner() const {
     ReferenceMatrix part;
-    for (std::size_t i = 0; i < inner_; ++i) part.emplace_back(all_[i].begin(), all_[i].begin() + std::ptrdiff_t(inner_));
+    for (std::size_t i = 0; i < inner_; ++i)
+      part.emplace_back(all_[i].begin(), all_[i].begin() + std::ptrdiff_t(inner_));
     return part;
   }
   ReferenceVector drive(std::size_t end) const {
@@ -153,8 +155,8 @@ class Builder {
   }
 
   // −(p + s q)(p + s q)ᵀ/(m + s d), with m = μ, d = (1 − μ)/ω0 (theory, section 2, with vectors).
-  void add_mode(const Reference& mu, const Reference& shift, const std::vector<ReferenceVector>& drives, std::size_t mode,
-                std::vector<Relaxation>& relaxations) {
+  void add_mode(const Reference& mu, const Reference& shift, const std::vector<ReferenceVector>& drives,
+                std::size_t mode, std::vector<Relaxation>& relaxations) {
     const Reference d = (1 - mu) / shift, rate = 1 - mu < nothing ? Reference(0) : Reference(mu / d);
     const auto p = [&](std::size_t end) { return drives[end][mode]; };
     const auto q = [&](std::size_t end) { return drives[count() + end][mode]; };
@@ -206,7 +208,8 @@ class Builder {
     for (std::size_t end = 0; end + 1 < drive.size(); ++end) largest = std::max(largest, Reference(abs(drive[end])));
     if (largest * largest <= negligible * widest_) return;
     ReferenceNetworkMode mode{largest * largest, rate, {}};
-    for (const Reference& pull : drive) mode.weights.push_back(abs(pull) <= negligible * largest ? Reference(0) : Reference(pull / largest));
+    for (const Reference& pull : drive)
+      mode.weights.push_back(abs(pull) <= negligible * largest ? Reference(0) : Reference(pull / largest));
     result_.modes.push_back(std::move(mode));
   }
 

@@ -1,5 +1,5 @@
-// Slips that meet in a part of a network that is no tree, once more by code that shares nothing with linear/multiport_form:
-// what springs and dampers do between the slips' ends, the tool and the ground, in 100 digits.
+// Slips that meet in a part of a network that is no tree, once more by code that shares nothing with
+// linear/multiport_form: what springs and dampers do between the slips' ends, the tool and the ground, in 100 digits.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,8 @@ struct ReferenceNetwork {
   std::vector<Reference> yield_forces;  // slips side by side are one
 };
 
-// Of some of a network's elements. Modes of one rate, to 1e-25, stand for the sum of their k w wᵀ, taken apart end by end.
+// Of some of a network's elements. Modes of one rate, to 1e-25, stand for the sum of their k w wᵀ, taken apart end by
+// end.
 ReferenceNetwork reference_network(const Network& network, const std::vector<std::size_t>& elements);
 
 }  // namespace dashpot::compiler

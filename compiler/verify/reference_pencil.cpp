@@ -40,7 +40,8 @@ void reflect(Row& x, const Row& v, std::size_t first) {
   for (std::size_t i = first; i < x.size(); ++i) x[i] -= 2 * along * v[i];
 }
 
-// The unit vector whose reflection takes column k of `a` below `first` to its first place; empty where all of it is zero.
+// The unit vector whose reflection takes column k of `a` below `first` to its first place; empty where all of it is
+// zero.
 Row reflection_of(const Square& a, std::size_t k, std::size_t first) {
   const std::size_t n = a.size();
   Reference square = 0, own = 0;
@@ -126,7 +127,8 @@ Row eigenvalues(Square a, std::vector<Row>& vectors) {
 
 }  // namespace
 
-ReferencePencil reference_pencil(const ReferenceMatrix& springs, const ReferenceMatrix& dampers, std::vector<ReferenceVector>& vectors) {
+ReferencePencil reference_pencil(const ReferenceMatrix& springs, const ReferenceMatrix& dampers,
+                                 std::vector<ReferenceVector>& vectors) {
   Reference springs_trace = 0, dampers_trace = 0;
   const std::size_t n = springs.size();
   for (std::size_t i = 0; i < n; ++i) springs_trace += springs[i][i], dampers_trace += dampers[i][i];

@@ -1,5 +1,5 @@
-// The pencil of stiffness and damping over inner nodes once more (linear/pencil.hpp), in 100 digits, by Cholesky's factors,
-// Householder's reduction and the QL method.
+// The pencil of stiffness and damping over inner nodes once more (linear/pencil.hpp), in 100 digits, by Cholesky's
+// factors, Householder's reduction and the QL method.
 #pragma once
 
 #include "verify/reference_form.hpp"
@@ -16,6 +16,7 @@ struct ReferencePencil {
 };
 
 // Both matrices positive semidefinite, their sum definite. Every vector x becomes Vᵀx.
-ReferencePencil reference_pencil(const ReferenceMatrix& springs, const ReferenceMatrix& dampers, std::vector<ReferenceVector>& vectors);
+ReferencePencil reference_pencil(const ReferenceMatrix& springs, const ReferenceMatrix& dampers,
+                                 std::vector<ReferenceVector>& vectors);
 
 }  // namespace dashpot::compiler

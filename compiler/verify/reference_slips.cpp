@@ -38,7 +38,8 @@ class Constants {
       pool_["gain"].push_back(f.decay * f.gain);
       pool_["decay"].push_back(f.decay);
       pool_["loss"].push_back(f.loss);
-      pool_["energy_weight"].push_back(f.decay < vanishing ? Reference(0) : Reference(1 / (2 * mode.stiffness * f.decay * f.decay)));
+      pool_["energy_weight"].push_back(f.decay < vanishing ? Reference(0)
+                                                           : Reference(1 / (2 * mode.stiffness * f.decay * f.decay)));
     }
   }
 
@@ -54,7 +55,8 @@ class Constants {
       if (of_child > 0) compliance += 1 / of_child;
     }
     if (part.kind == Kind::series) g = is_flat ? Reference(0) : Reference(1 / compliance);
-    for (const Reference& value : {g, g > 0 ? Reference(1 / g) : Reference(0), part.yield_force}) pool_["table"].push_back(value);
+    for (const Reference& value : {g, g > 0 ? Reference(1 / g) : Reference(0), part.yield_force})
+      pool_["table"].push_back(value);
     if (part.kind == Kind::block) add_form(part.form);
     return g;
   }
@@ -69,7 +71,8 @@ class Constants {
     const SlipRows rows = slip_rows(component, stiffness);
     add_row(rows.trial);
     add_row(rows.force);
-    for (const BrakeShare& share : shares) add_row_number(rows.force.change - Reference(share.feedthrough) * Reference(facts_.rate));
+    for (const BrakeShare& share : shares)
+      add_row_number(rows.force.change - Reference(share.feedthrough) * Reference(facts_.rate));
     for (std::size_t i = 0; i < blocks.size(); ++i) {
       add_row(rows.elongation[i]);
       ReferenceRow spring = rows.elongation[i];
@@ -87,8 +90,10 @@ class Constants {
   void add_regimes(const ReferencePart& component) {
     const std::size_t slips = slip_count(component);
     for (std::size_t pattern = 0; slips <= most_listed_slips && pattern < std::size_t{1} << slips; ++pattern)
-      if (const auto b = feedthrough_in(component, pattern)) pool_["feedthrough_by_regime"].push_back(*b * Reference(facts_.rate));
-    if (const auto b = feedthrough_in(component, ~std::size_t{0})) pool_["feedthrough_by_regime"].push_back(*b * Reference(facts_.rate));
+      if (const auto b = feedthrough_in(component, pattern))
+        pool_["feedthrough_by_regime"].push_back(*b * Reference(facts_.rate));
+    if (const auto b = feedthrough_in(component, ~std::size_t{0}))
+      pool_["feedthrough_by_regime"].push_back(*b * Reference(facts_.rate));
   }
 
   // The same of a part that is no tree.
@@ -108,15 +113,16 @@ class Constants {
     else add_network(reference_network(network, elements_behind_slips(tree)), &tree.linear);
   }
 
-  // What joins the ends over one sample, k + b/h − Σ c w wᵀ. `beside`: behind a contact, whose surface stands in the tool's place
-  // and has it to the ground.
+  // What joins the ends over one sample, k + b/h − Σ c w wᵀ. `beside`: behind a contact, whose surface stands in the
+  // tool's place and has it to the ground.
   void add_network(const ReferenceNetwork& form, const ReferenceForm* beside) {
     const std::size_t count = form.ends.size();
     add("tie", 0);
     for (std::size_t a = 0; a < count; ++a)
       for (std::size_t b = a + 1; b < count; ++b) {
         Reference tie = form.springs[a][b] + form.dampers[a][b] * Reference(facts_.rate);
-        for (const ReferenceNetworkMode& mode : form.modes) tie -= mode_factors(plain(mode), facts_).gain * mode.weights[a] * mode.weights[b];
+        for (const ReferenceNetworkMode& mode : form.modes)
+          tie -= mode_factors(plain(mode), facts_).gain * mode.weights[a] * mode.weights[b];
         const bool joins_ends = a + 2 == count && b + 1 == count;
         if (beside != nullptr && joins_ends) tie += companion(*beside, facts_);
         add(joins_ends && beside == nullptr ? literals_in_code : "tie", tie);
@@ -126,7 +132,8 @@ class Constants {
       add_form({0, 0, {plain(mode)}});
       for (const Reference& weight : mode.weights) add("weight", abs(weight));
     }
-    add("links", facts_.scalar == ScalarType::float64 ? Reference(std::numeric_limits<double>::max()) : Reference(std::numeric_limits<float>::max()));
+    add("links", facts_.scalar == ScalarType::float64 ? Reference(std::numeric_limits<double>::max())
+                                                      : Reference(std::numeric_limits<float>::max()));
     add("links", 0);
     for (const Reference& yield : form.yield_forces) add("links", yield), add("links", -yield);
   }
@@ -143,7 +150,9 @@ class Constants {
 
  private:
   // Nothing recovers behind a surface that gives no force.
-  void add_recovery(const Reference& stiffness) { add("recovery_compliance", stiffness == 0 ? Reference(0) : Reference(-1 / stiffness)); }
+  void add_recovery(const Reference& stiffness) {
+    add("recovery_compliance", stiffness == 0 ? Reference(0) : Reference(-1 / stiffness));
+  }
   void add_row_number(const Reference& value) { pool_["row"].push_back(abs(value)); }
   void add_row(const ReferenceRow& row) {
     add_row_number(row.change);
@@ -155,7 +164,8 @@ class Constants {
   void add_slip(const ReferencePart& part, const Reference& trial_by_change) {
     if (part.kind == Kind::slip) {
       const Reference& Y = part.yield_force;
-      const Reference back = std::max(Reference(Reference(hysteresis_) * trial_by_change), Reference(Y * Reference("1e-6")));
+      const Reference back =
+          std::max(Reference(Reference(hysteresis_) * trial_by_change), Reference(Y * Reference("1e-6")));
       pool_["yield"].push_back(Y);
       pool_["leave"].push_back(Y * std::max(Reference(Y - back), Reference(0)));
     }
@@ -194,13 +204,16 @@ std::optional<ReferenceCut> least_cut(const ReferencePart& part, const LawFacts&
 }
 
 // The same of a part that is no tree: all ways to part its ends that no slip crosses.
-ReferenceCut least_cut(const Network& network, const std::vector<std::size_t>& elements, const LawFacts& facts, const Reference& weight) {
+ReferenceCut least_cut(const Network& network, const std::vector<std::size_t>& elements, const LawFacts& facts,
+                       const Reference& weight) {
   const ReferenceNetwork form = reference_network(network, elements);
   const std::size_t inner = form.ends.size() - 2;
   std::optional<ReferenceCut> least;
   for (std::size_t pattern = 0; pattern < std::size_t{1} << inner; ++pattern) {
     const auto at_tool = [&](std::size_t end) { return end < inner ? (pattern >> end & 1u) != 0 : end == inner; };
-    const auto place = [&](NodeIndex node) { return std::size_t(std::find(form.ends.begin(), form.ends.end(), node) - form.ends.begin()); };
+    const auto place = [&](NodeIndex node) {
+      return std::size_t(std::find(form.ends.begin(), form.ends.end(), node) - form.ends.begin());
+    };
     const bool is_crossed = std::any_of(elements.begin(), elements.end(), [&](std::size_t i) {
       const Element& e = network.elements[i];
       return std::holds_alternative<Slip>(e.law) && at_tool(place(e.a)) != at_tool(place(e.b));
@@ -229,16 +242,18 @@ ReferenceTree rendered_tree(ReferenceTree tree, const Network& network, const Sl
     tree.components.clear();
   }
   for (std::size_t i = 0; i < std::min(tree.components.size(), slips.components.size()); ++i)
-    if (slips.components[i].law == SlipLaw::gated) tree.components[i] = without_dampers_beside_slips(std::move(tree.components[i]));
+    if (slips.components[i].law == SlipLaw::gated)
+      tree.components[i] = without_dampers_beside_slips(std::move(tree.components[i]));
   for (std::size_t i = 0; i < std::min(tree.networks.size(), slips.networks.size()); ++i) {
     if (slips.networks[i].law != SlipLaw::gated) continue;
     const std::vector<std::size_t> all = tree.networks[i];
     std::erase_if(tree.networks[i], [&](std::size_t index) {
       const Element& damper = network.elements[index];
       return std::holds_alternative<Damper>(damper.law) && std::any_of(all.begin(), all.end(), [&](std::size_t other) {
-        const Element& slip = network.elements[other];
-        return std::holds_alternative<Slip>(slip.law) && std::minmax(slip.a, slip.b) == std::minmax(damper.a, damper.b);
-      });
+               const Element& slip = network.elements[other];
+               return std::holds_alternative<Slip>(slip.law) &&
+                      std::minmax(slip.a, slip.b) == std::minmax(damper.a, damper.b);
+             });
     });
   }
   return tree;
@@ -257,19 +272,22 @@ std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree) {
 std::vector<std::string_view> kinds_behind_slips(std::string_view name) {
   std::vector<std::string_view> kinds;
   if (name == "velocity_gain" || name == "slips_feedthrough") return kinds;
-  const bool is_picked = name.ends_with("_by_regime") && !name.ends_with("feedthrough_by_regime");  // b, which is chosen
+  const bool is_picked =
+      name.ends_with("_by_regime") && !name.ends_with("feedthrough_by_regime");  // b, which is chosen
   if (name.find("_by_") != name.npos && !is_picked) kinds.push_back("row");
   if (name.find("_weight_") != name.npos) kinds.push_back("weight");
   if (name.ends_with("_feedthrough")) kinds.push_back("feedthrough_by_regime");
   if (name.starts_with("coupled_")) kinds.push_back("table");
   if (name.ends_with("_between") || name.ends_with("_to_tool") || name.ends_with("_to_ground")) kinds.push_back("tie");
-  for (const std::string_view kind : {"feedthrough_by_regime", "feedthrough_stiffness", "recovery_compliance", "energy_weight", "compliance", "stiffness", "yield",
-                                      "leave", "gain", "decay", "loss", "velocity_drive", "links"})
+  for (const std::string_view kind :
+       {"feedthrough_by_regime", "feedthrough_stiffness", "recovery_compliance", "energy_weight", "compliance",
+        "stiffness", "yield", "leave", "gain", "decay", "loss", "velocity_drive", "links"})
     if (name.ends_with(kind)) kinds.push_back(kind);
   return kinds;
 }
 
-Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts) {
+Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips,
+                            const LawFacts& facts) {
   Constants constants(facts, slips.hysteresis);
   constants.add_form(tree.linear);
   if (network.contact) {
@@ -278,20 +296,23 @@ Pool constants_behind_slips(const ReferenceTree& tree, const Network& network, c
     for (std::size_t i = 0; i < tree.components.size(); ++i) {
       const ReferencePart& component = tree.components[i];
       const std::vector<BrakeShare> none;
-      if (slip_count(component) == 1) constants.add_single_slip(component, i < slips.components.size() ? slips.components[i].shares : none);
+      if (slip_count(component) == 1)
+        constants.add_single_slip(component, i < slips.components.size() ? slips.components[i].shares : none);
       else constants.add_table(component);
     }
-    for (const std::vector<std::size_t>& part : tree.networks) constants.add_network(reference_network(network, part), nullptr);
+    for (const std::vector<std::size_t>& part : tree.networks)
+      constants.add_network(reference_network(network, part), nullptr);
   }
   for (const ReferencePart& component : tree.components) constants.add_regimes(component);
   for (std::size_t i = 0; i < slips.networks.size(); ++i)
-    constants.add_regimes(slips.networks[i].regimes, network, network.contact ? elements_behind_slips(tree) : tree.networks[i]);
+    constants.add_regimes(slips.networks[i].regimes, network,
+                          network.contact ? elements_behind_slips(tree) : tree.networks[i]);
   for (const ComponentSplit* split : slips.all()) constants.add_capped(*split);
   return constants.take();
 }
 
-ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips, const LawFacts& facts,
-                           double lateness) {
+ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips,
+                           const LawFacts& facts, double lateness) {
   const Reference weight = Reference(lateness) * Reference(lateness) / Reference(facts.rate);
   const bool with_contact = network.contact.has_value();
   ReferenceCut sum{0, 0};

@@ -54,7 +54,9 @@ struct Gathered {
     } else if (part.kind == Kind::slip) {
       const bool is_series = kind == Kind::series;
       slips.push_back(std::move(part.elements));
-      yield_force = !yield_force ? part.yield_force : is_series ? std::min(*yield_force, part.yield_force) : Reference(*yield_force + part.yield_force);
+      yield_force = !yield_force ? part.yield_force
+                    : is_series  ? std::min(*yield_force, part.yield_force)
+                                 : Reference(*yield_force + part.yield_force);
     } else {
       others.push_back(std::move(part));
     }
@@ -78,7 +80,8 @@ struct Gathered {
 ReferencePart part_of(const Tree& tree, const Network& network) {
   if (tree.kind == Tree::Kind::leaf) {
     const Slip* slip = std::get_if<Slip>(&network.elements[tree.element].law);
-    return slip ? ReferencePart{Kind::slip, tree, {}, slip->yield_force, {}} : ReferencePart{Kind::block, tree, {}, 0, {}};
+    return slip ? ReferencePart{Kind::slip, tree, {}, slip->yield_force, {}}
+                : ReferencePart{Kind::block, tree, {}, 0, {}};
   }
   Gathered gathered{tree.kind == Tree::Kind::series ? Kind::series : Kind::parallel, {}, {}, {}, {}};
   for (const Tree& child : tree.children) gathered.take(part_of(child, network));
@@ -144,14 +147,13 @@ ReferenceTree reference_tree(const Network& network) {
   for (Element& element : result.linear_network.elements) element.has_effect = false;
   for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
     const Network alone = only(part, network);
-    const bool slips = std::any_of(part.begin(), part.end(), [&](std::size_t i) { return std::holds_alternative<Slip>(network.elements[i].law); });
+    const bool slips = std::any_of(
+        part.begin(), part.end(), [&](std::size_t i) { return std::holds_alternative<Slip>(network.elements[i].law); });
     const std::optional<Tree> tree = series_parallel_tree(alone);
     if (!slips)
       for (std::size_t i : part) result.linear_network.elements[i].has_effect = true;
-    else if (tree)
-      result.components.push_back(part_of(*tree, network));
-    else
-      result.networks.push_back(part);
+    else if (tree) result.components.push_back(part_of(*tree, network));
+    else result.networks.push_back(part);
   }
   for (ReferencePart& component : result.components) fill_forms(component, network);
   result.linear = reference_form(result.linear_network);
@@ -186,11 +188,14 @@ ReferencePart without_dampers_beside_slips(ReferencePart part) {
       if (alone(child) && (sole == nullptr || yields_sooner(child, *sole))) sole = &child;
   const bool beside = part.kind == Kind::parallel && std::any_of(part.children.begin(), part.children.end(), is_slip);
   for (ReferencePart& child : part.children) {
-    if (child.kind == Kind::block) child.form.feedthrough_damping = beside ? Reference(0) : child.form.feedthrough_damping;
-    else if (part.kind != Kind::series || &child == sole || !alone(child)) child = without_dampers_beside_slips(std::move(child));
+    if (child.kind == Kind::block)
+      child.form.feedthrough_damping = beside ? Reference(0) : child.form.feedthrough_damping;
+    else if (part.kind != Kind::series || &child == sole || !alone(child))
+      child = without_dampers_beside_slips(std::move(child));
   }
   std::erase_if(part.children, [](const ReferencePart& child) {
-    return child.kind == Kind::block && child.form.static_stiffness == 0 && child.form.feedthrough_damping == 0 && child.form.modes.empty();
+    return child.kind == Kind::block && child.form.static_stiffness == 0 && child.form.feedthrough_damping == 0 &&
+           child.form.modes.empty();
   });
   if (part.children.size() != 1) return part;
   return ReferencePart(std::move(part.children.front()));

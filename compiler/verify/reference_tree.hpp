@@ -1,5 +1,5 @@
-// A network with slips as blocks and slips once more, by code that shares nothing with linear/ and decompose/: every block's
-// canonical form in 100 digits, from a network of its own elements.
+// A network with slips as blocks and slips once more, by code that shares nothing with linear/ and decompose/: every
+// block's canonical form in 100 digits, from a network of its own elements.
 #pragma once
 
 #include <optional>
@@ -43,7 +43,8 @@ std::vector<std::size_t> elements_of(const ReferencePart& part);
 // The same component without the dampers that lie beside its slips.
 ReferencePart without_dampers_beside_slips(ReferencePart part);
 
-// b∞ where slip i, in the order of the parts, slides if bit i of the pattern is set and holds else; empty where that is rigid.
+// b∞ where slip i, in the order of the parts, slides if bit i of the pattern is set and holds else; empty where that is
+// rigid.
 std::optional<Reference> feedthrough_in(const ReferencePart& part, std::size_t pattern);
 
 }  // namespace dashpot::compiler

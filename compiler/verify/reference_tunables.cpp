@@ -37,7 +37,8 @@ class Blocks {
     ReferenceBlock block;
     Network fixed = network;
     for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
-      if (std::none_of(part.begin(), part.end(), [&](std::size_t i) { return is_tunable(network.elements[i]); })) continue;
+      if (std::none_of(part.begin(), part.end(), [&](std::size_t i) { return is_tunable(network.elements[i]); }))
+        continue;
       for (std::size_t i : part) fixed.elements[i].has_effect = false;
       add_part(network, part, block);
     }
@@ -111,7 +112,8 @@ class Blocks {
       sum = added(sum, value(e));
     }
     block.meshes.emplace_back();
-    for (auto& [place, sum] : edges) block.meshes.back().push_back({std::get<0>(place) == tool, std::get<2>(place), std::move(sum)});
+    for (auto& [place, sum] : edges)
+      block.meshes.back().push_back({std::get<0>(place) == tool, std::get<2>(place), std::move(sum)});
   }
 
   void add_fixed(const ReferenceForm& form, ReferenceBlock& block) const {
@@ -120,15 +122,16 @@ class Blocks {
     block.has_spring = block.has_spring || form.static_stiffness > 0;
     block.has_damper = block.has_damper || form.feedthrough_damping > 0;
     for (const ReferenceMode& mode : form.modes)
-      block.relaxations.push_back({{mode.stiffness, {}}, {mode.stiffness / mode.relaxation_rate, {}}, true, mode_factors(mode, facts_)});
+      block.relaxations.push_back(
+          {{mode.stiffness, {}}, {mode.stiffness / mode.relaxation_rate, {}}, true, mode_factors(mode, facts_)});
   }
 
   const LawFacts& facts_;
   std::vector<int> place_;
 };
 
-void add_blocks(const ReferencePart& part, const Network& network, const Blocks& blocks, std::vector<ReferenceBlock>& all,
-                std::vector<std::vector<ReferenceSum>>& yields) {
+void add_blocks(const ReferencePart& part, const Network& network, const Blocks& blocks,
+                std::vector<ReferenceBlock>& all, std::vector<std::vector<ReferenceSum>>& yields) {
   if (part.kind == Kind::block) all.push_back(blocks.block(laid_out(part.elements, network)));
   if (part.kind == Kind::slip) yields.push_back(blocks.cuts(part.elements, network));
   for (const ReferencePart& child : part.children) add_blocks(child, network, blocks, all, yields);
@@ -170,7 +173,8 @@ class GraphBuilder {
       if (node > tool) graph.ends.push_back(node);
     for (auto& [nodes, port] : ports_) {
       std::sort(port.begin(), port.end());
-      graph.ties.push_back({nodes.first, nodes.second, blocks_.block(between(nodes.first, nodes.second, port, network_))});
+      graph.ties.push_back(
+          {nodes.first, nodes.second, blocks_.block(between(nodes.first, nodes.second, port, network_))});
     }
     for (const auto& [nodes, yield] : yields_) {
       graph.slips.push_back(nodes);
@@ -209,7 +213,8 @@ class GraphBuilder {
     }
     std::map<NodeIndex, std::vector<std::size_t>> all;
     for (std::size_t i : elements_)
-      if (!is_slip(i) && !(is_end(element(i).a) && is_end(element(i).b))) all[leader[is_end(element(i).a) ? element(i).b : element(i).a]].push_back(i);
+      if (!is_slip(i) && !(is_end(element(i).a) && is_end(element(i).b)))
+        all[leader[is_end(element(i).a) ? element(i).b : element(i).a]].push_back(i);
     return all;
   }
 
@@ -320,8 +325,10 @@ Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& net
   const Reference offset_time("0.1");  // [s], in which a rest length goes home
   const bool is_double = facts.scalar == ScalarType::float64;
   const Reference period = 1 / Reference(facts.rate);
-  pool["tables"] = {period, facts.rate, exp(-period / offset_time), is_double ? 0x1p-200 : 0x1p-60, is_double ? 0x1p-24 : 0x1p-10, 0};
-  if (network.contact) pool["tables"].push_back(network.contact->at), pool[literals_in_code].push_back(network.contact->at);
+  pool["tables"] = {
+      period, facts.rate, exp(-period / offset_time), is_double ? 0x1p-200 : 0x1p-60, is_double ? 0x1p-24 : 0x1p-10, 0};
+  if (network.contact)
+    pool["tables"].push_back(network.contact->at), pool[literals_in_code].push_back(network.contact->at);
   return pool;
 }
 

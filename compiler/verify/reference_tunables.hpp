@@ -1,5 +1,6 @@
-// A network with tunable parameters once more, by code that shares nothing with discretise/: every linear block as parts in
-// parallel whose stiffnesses and dampings are affine functions of the parameters, and every yield force as the least of some.
+// A network with tunable parameters once more, by code that shares nothing with discretise/: every linear block as
+// parts in parallel whose stiffnesses and dampings are affine functions of the parameters, and every yield force as the
+// least of some.
 #pragma once
 
 #include <vector>
@@ -48,12 +49,13 @@ struct ReferenceGraph {
   std::vector<ReferenceTie> ties;
 };
 
-// As ReferenceTree with every parameter at its largest; blocks and slips in the order of the parts, the linear block first.
+// As ReferenceTree with every parameter at its largest; blocks and slips in the order of the parts, the linear block
+// first.
 struct ReferenceTunables {
   std::vector<const Parameter*> parameters;
   ReferenceTree tree;
   ReferenceBlock linear;
-  std::vector<std::vector<ReferenceBlock>> blocks;      // of each component
+  std::vector<std::vector<ReferenceBlock>> blocks;  // of each component
   std::vector<ReferenceGraph> graphs;
   std::vector<std::vector<ReferenceSum>> yield_forces;  // one list of cuts a slip, of all components and graphs
 };

@@ -14,7 +14,8 @@ struct Branch {
   std::size_t block = 0;
 };
 
-void lay(const ReferencePart& part, std::size_t from, std::size_t to, std::size_t& nodes, std::vector<Branch>& branches) {
+void lay(const ReferencePart& part, std::size_t from, std::size_t to, std::size_t& nodes,
+         std::vector<Branch>& branches) {
   if (part.children.empty()) return branches.push_back({&part, from, to});
   std::size_t here = from;
   for (std::size_t i = 0; i < part.children.size(); ++i) {
@@ -28,7 +29,8 @@ void lay(const ReferencePart& part, std::size_t from, std::size_t to, std::size_
 // Gauss's elimination of A x = b for several b, pivots by size.
 void solve(std::vector<std::vector<Reference>>& rows, std::size_t unknowns) {
   for (std::size_t i = 0; i < unknowns; ++i) {
-    const auto pivot = std::max_element(rows.begin() + std::ptrdiff_t(i), rows.end(), [i](const auto& x, const auto& y) { return abs(x[i]) < abs(y[i]); });
+    const auto pivot = std::max_element(rows.begin() + std::ptrdiff_t(i), rows.end(),
+                                        [i](const auto& x, const auto& y) { return abs(x[i]) < abs(y[i]); });
     std::swap(rows[i], *pivot);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (k == i || rows[k][i] == 0) continue;
@@ -54,7 +56,9 @@ class Step {
   std::size_t sliding() const { return inputs_ - 1; }
   Reference slip_force(std::size_t input) const { return solution(unknowns() - 1, input); }
 
-  Reference elongation(const Branch& branch, std::size_t input) const { return moved(branch.from, input) - moved(branch.to, input); }
+  Reference elongation(const Branch& branch, std::size_t input) const {
+    return moved(branch.from, input) - moved(branch.to, input);
+  }
   const std::vector<Branch>& branches() const { return branches_; }
 
   Reference tool_force(std::size_t input) const {
@@ -138,9 +142,12 @@ SlipRows slip_rows(const ReferencePart& component, const std::vector<Reference>&
     for (std::size_t i = 1; i < step.sliding(); ++i) r.held.push_back(value(i));
     return r;
   };
-  SlipRows rows{row([&](std::size_t input) { return step.slip_force(input); }), row([&](std::size_t input) { return step.tool_force(input); }), {}};
+  SlipRows rows{row([&](std::size_t input) { return step.slip_force(input); }),
+                row([&](std::size_t input) { return step.tool_force(input); }),
+                {}};
   for (const Branch& branch : step.branches())
-    if (branch.part->kind == Kind::block) rows.elongation.push_back(row([&](std::size_t input) { return step.elongation(branch, input); }));
+    if (branch.part->kind == Kind::block)
+      rows.elongation.push_back(row([&](std::size_t input) { return step.elongation(branch, input); }));
   return rows;
 }
 

@@ -1,6 +1,6 @@
-// One step of a component with a single slip, as rows of coefficients (theory, section 5, closed form), once more in 100
-// digits: what a displacement of the tool, a force held in a block and the slip's excess make of the trial force, the
-// component's force and every block's elongation.
+// One step of a component with a single slip, as rows of coefficients (theory, section 5, closed form), once more in
+// 100 digits: what a displacement of the tool, a force held in a block and the slip's excess make of the trial force,
+// the component's force and every block's elongation.
 #pragma once
 
 #include <vector>

@@ -121,7 +121,8 @@ class Verification {
     expect("brake command", certificate_.brake_command, expected);
     expect("added damping", certificate_.added_damping, of_it);
     const MotorConstants motor = motor_of(groups_);
-    if (!agrees(certificate_.quantisation_gain, quantisation_gain(motor, loop), reference_gain(motor, loop), header_.scalar))
+    if (!agrees(certificate_.quantisation_gain, quantisation_gain(motor, loop), reference_gain(motor, loop),
+                header_.scalar))
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed gain", "quantisation");
   }
 
@@ -149,19 +150,20 @@ class Verification {
 
 bool is_plainly_linear(const Network& network) {
   const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
-  return !network.contact && !has_tunables(network) && std::none_of(network.elements.begin(), network.elements.end(), is_slip);
+  return !network.contact && !has_tunables(network) &&
+         std::none_of(network.elements.begin(), network.elements.end(), is_slip);
 }
 
-std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network, const PortDevice& device,
-                                    const HeaderConstants& header, Diagnostics& diagnostics) {
+std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network,
+                                    const PortDevice& device, const HeaderConstants& header, Diagnostics& diagnostics) {
   Verification verification(certificate, header, diagnostics);
   verification.compare_with_certificate();
   verification.recompute_constants(realised(network, certificate, device));
   return verification.constants();
 }
 
-std::size_t verify_constants(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
-                             const Compilation& compiled, Diagnostics& diagnostics) {
+std::size_t verify_constants(const CertificateFile& certificate, const PortDevice& device,
+                             const HeaderConstants& header, const Compilation& compiled, Diagnostics& diagnostics) {
   Verification verification(certificate, header, diagnostics);
   verification.compare_with_certificate();
   if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_constants();
@@ -171,12 +173,9 @@ std::size_t verify_constants(const CertificateFile& certificate, const PortDevic
 
 void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
                    const Compilation& compiled, Diagnostics& diagnostics) {
-  if (is_plainly_linear(compiled.network))
-    Verification(certificate, header, diagnostics).recompute_bounds(device);
-  else if (compiled.law.tunable)
-    TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
-  else
-    SlipVerification(certificate, header, device, compiled, diagnostics).recompute_bounds();
+  if (is_plainly_linear(compiled.network)) Verification(certificate, header, diagnostics).recompute_bounds(device);
+  else if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
+  else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_bounds();
 }
 
 }  // namespace dashpot::compiler

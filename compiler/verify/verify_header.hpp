@@ -16,13 +16,13 @@ bool is_plainly_linear(const Network& network);
 // network in 100 digits by code of its own and requires the nearest number. Reports every disagreement. Out: how many
 // constants were checked. The code around the constants is compared by its callers, who can compile the network again.
 // Requires a plainly linear network with parts no larger than that.
-std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network, const PortDevice& device,
-                                    const HeaderConstants& header, Diagnostics& diagnostics);
+std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network,
+                                    const PortDevice& device, const HeaderConstants& header, Diagnostics& diagnostics);
 
-// The same of a network with slips, a contact or tunable parameters, from what it compiles to: what is chosen, as what the
-// brake is given of a slip's dampers, must be as it compiles.
-std::size_t verify_constants(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
-                             const Compilation& compiled, Diagnostics& diagnostics);
+// The same of a network with slips, a contact or tunable parameters, from what it compiles to: what is chosen, as what
+// the brake is given of a slip's dampers, must be as it compiles.
+std::size_t verify_constants(const CertificateFile& certificate, const PortDevice& device,
+                             const HeaderConstants& header, const Compilation& compiled, Diagnostics& diagnostics);
 
 // The bounds in the certificate, recomputed from the header's constants. Those must have been found right, and so must
 // the code around them: there are no bounds of any numbers whatever.

@@ -10,11 +10,17 @@ namespace dashpot::compiler {
 
 TunableVerification::TunableVerification(const CertificateFile& certificate, const HeaderConstants& header,
                                          const Compilation& compiled, Diagnostics& diagnostics)
-    : certificate_(certificate), header_(header), compiled_(compiled), diagnostics_(diagnostics), facts_(facts_of(certificate)),
-      tunables_(reference_tunables(compiled.network, facts_)), pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
+    : certificate_(certificate),
+      header_(header),
+      compiled_(compiled),
+      diagnostics_(diagnostics),
+      facts_(facts_of(certificate)),
+      tunables_(reference_tunables(compiled.network, facts_)),
+      pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
   const TunableTables& tables = *compiled.law.tunable;
   const tunable_tables<double>& head = tables.head;
-  for (const double chosen : {head.damping, head.max_damping, head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share, head.slip_rule.assured_share})
+  for (const double chosen : {head.damping, head.max_damping, head.contact.encoder_step, head.slip_rule.hysteresis,
+                              head.slip_rule.coil_share, head.slip_rule.assured_share})
     pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(head.observed)].base);
   pool_["sample_period"] = {1 / Reference(facts_.rate)};
@@ -33,15 +39,19 @@ void TunableVerification::recompute_constants() {
 // In the order of the network's parameters: value, least and largest.
 void TunableVerification::compare_ranges(const HeaderConstant& constant) {
   const std::vector<Reference>& expected = pool_["tunables"];
-  if (constant.values.size() != expected.size()) return diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  if (constant.values.size() != expected.size())
+    return diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
   for (std::size_t i = 0; i < expected.size(); ++i)
     if (!is_correctly_rounded(constant.values[i], expected[i], header_.scalar))
-      diagnostics_.report<DiagnosticCode::constant_wrong>({}, constant.name, i + 1, constant.values[i], expected[i].str(25));
+      diagnostics_.report<DiagnosticCode::constant_wrong>({}, constant.name, i + 1, constant.values[i],
+                                                          expected[i].str(25));
 }
 
 void TunableVerification::compare_with_pool(const HeaderConstant& constant, const std::vector<Reference>& pool) {
   for (std::size_t i = 0; i < constant.values.size(); ++i)
-    if (std::none_of(pool.begin(), pool.end(), [&](const Reference& exact) { return is_correctly_rounded(constant.values[i], exact, header_.scalar); }))
+    if (std::none_of(pool.begin(), pool.end(), [&](const Reference& exact) {
+          return is_correctly_rounded(constant.values[i], exact, header_.scalar);
+        }))
       diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
 }
 
@@ -50,7 +60,8 @@ bool TunableVerification::covers(double stated, const ReferenceBox& box, const R
   const bool is_double = header_.scalar == ScalarType::float64;
   const Reference found = share * box.least_brake + box.lacking, size = found + box.largest_brake;
   const Reference rounding = is_double ? 0x1p-49 : 0x1p-20, margin = is_double ? Reference("1e-12") : Reference("1e-4");
-  return Reference(stated) >= found - rounding * size && Reference(stated) <= found + margin * size + Reference("1e-60");
+  return Reference(stated) >= found - rounding * size &&
+         Reference(stated) <= found + margin * size + Reference("1e-60");
 }
 
 // The certificate asks for no less than the box once more, but for rounding, and, but for its margin, no more.
@@ -59,13 +70,18 @@ void TunableVerification::recompute_bounds() {
   const auto gain = estimate_gain(loop);
   const Rational exact_share = assured_share(loop);
   const Reference share = Reference(numerator(exact_share)) / Reference(denominator(exact_share));
-  const Reference hold = loop.amplifier_lag > 0 ? Reference(1) : Reference(Reference(loop.longest_hold()) / Reference(loop.sample_period));
-  const ReferenceLoop around{hold, lateness(loop), share, gain ? std::optional(Reference(*gain)) : std::nullopt, reference_pulse(loop)};
-  const auto box = compiled_.network.contact ? std::nullopt : reference_box(tunables_, *compiled_.law.tunable, around, facts_);
+  const Reference hold =
+      loop.amplifier_lag > 0 ? Reference(1) : Reference(Reference(loop.longest_hold()) / Reference(loop.sample_period));
+  const ReferenceLoop around{hold, lateness(loop), share, gain ? std::optional(Reference(*gain)) : std::nullopt,
+                             reference_pulse(loop)};
+  const auto box =
+      compiled_.network.contact ? std::nullopt : reference_box(tunables_, *compiled_.law.tunable, around, facts_);
   const bool is_proved = certificate_.proof != name_of(Proof::none);
-  if (is_proved && !box) diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed box", "proof");
+  if (is_proved && !box)
+    diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed box", "proof");
   if (is_proved && box && !covers(certificate_.needed_damping, *box, share))
-    expect_bound("needed damping", certificate_.needed_damping, (share * box->least_brake + box->lacking).convert_to<double>(), diagnostics_);
+    expect_bound("needed damping", certificate_.needed_damping,
+                 (share * box->least_brake + box->lacking).convert_to<double>(), diagnostics_);
   compare_with_recompiled(certificate_, compiled_, box ? box->gain : std::nullopt, header_.scalar, diagnostics_);
 }
 

@@ -16,8 +16,7 @@ std::int64_t read_clock() noexcept {
 
 void sleep_until(std::int64_t instant) noexcept {
   const timespec until{static_cast<time_t>(instant / nanoseconds), static_cast<long>(instant % nanoseconds)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {}
 }
 
 }  // namespace

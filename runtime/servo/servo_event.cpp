@@ -35,7 +35,8 @@ std::string evidence(const fault_report& report, motion joint) {
   switch (report.kind) {
     case fault::none: return {};
     case fault::missed_deadlines: return at_most(digits_of(report.seen) + " in a row", digits_of(report.limit));
-    case fault::no_data: return at_most(digits_of(report.seen) + " periods without a fresh sample", digits_of(report.limit));
+    case fault::no_data:
+      return at_most(digits_of(report.seen) + " periods without a fresh sample", digits_of(report.limit));
     case fault::device_error:
       return std::string("the device answers '") + name_of(static_cast<device_status>(report.seen)) + "'";
     case fault::position_not_finite: return "the device reads " + digits_of(report.seen);

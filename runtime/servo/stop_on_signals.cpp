@@ -13,7 +13,8 @@ extern "C" void ask_to_stop(int) {
 
 }  // namespace
 
-stop_on_signals::stop_on_signals(servo_control& control) noexcept : before_interrupt_{}, before_terminate_{}, before_hangup_{} {
+stop_on_signals::stop_on_signals(servo_control& control) noexcept
+    : before_interrupt_{}, before_terminate_{}, before_hangup_{} {
   listener.store(&control);
   struct sigaction action {};
   action.sa_handler = ask_to_stop;

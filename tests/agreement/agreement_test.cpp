@@ -14,8 +14,8 @@ using compiler::ground;
 using compiler::Network;
 using compiler::tool;
 
-// Maxwell branches enough for rolled loops, and for the last round of a loop to be of any length. Every other time all relax
-// slowly, so that their guards take turns.
+// Maxwell branches enough for rolled loops, and for the last round of a loop to be of any length. Every other time all
+// relax slowly, so that their guards take turns.
 Network many_branches(std::uint64_t seed, std::size_t count) {
   Random random(seed);
   const bool is_slow = seed % 100 == 0;
@@ -25,8 +25,20 @@ Network many_branches(std::uint64_t seed, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t inner = network.nodes.size();
     network.nodes.push_back(fmt::format("n{}", i));
-    network.elements.push_back({fmt::format("K{}", i), compiler::Spring{random.log_uniform(1e-2, is_slow ? 10 : 1e4)}, tool, inner, {}, {}, true});
-    network.elements.push_back({fmt::format("B{}", i), compiler::Damper{random.log_uniform(is_slow ? 1 : 1e-4, 1e2)}, inner, ground, {}, {}, true});
+    network.elements.push_back({fmt::format("K{}", i),
+                                compiler::Spring{random.log_uniform(1e-2, is_slow ? 10 : 1e4)},
+                                tool,
+                                inner,
+                                {},
+                                {},
+                                true});
+    network.elements.push_back({fmt::format("B{}", i),
+                                compiler::Damper{random.log_uniform(is_slow ? 1 : 1e-4, 1e2)},
+                                inner,
+                                ground,
+                                {},
+                                {},
+                                true});
   }
   return network;
 }
@@ -61,7 +73,8 @@ std::string first_disagreement(const std::string& scalar) {
   for (std::size_t i = 0; i < complaints.size(); ++i) {
     if (complaints[i].empty()) continue;
     const auto complain = [&](const Network& network) { return complaint_about(network, cases[i].choice, scalar); };
-    return fmt::format("seed {}: {}\n{}", i + 1, complaints[i], json_text(smallest_failing(cases[i].network, complain)));
+    return fmt::format("seed {}: {}\n{}", i + 1, complaints[i],
+                       json_text(smallest_failing(cases[i].network, complain)));
   }
   return "";
 }

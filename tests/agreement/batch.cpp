@@ -85,7 +85,8 @@ class Batch {
   }
   fs::path emitted_output(const Case& c) const { return folder_ / (c.name() + ".emitted"); }
   std::string command_line(const char* command, const Choice& choice) const {
-    return fmt::format("'{}' {} --rate {} --scalar {} {}", DASHPOT_EXECUTABLE, command, choice.rate, scalar_, choice.options);
+    return fmt::format("'{}' {} --rate {} --scalar {} {}", DASHPOT_EXECUTABLE, command, choice.rate, scalar_,
+                       choice.options);
   }
 
   void write_inputs() const {
@@ -118,14 +119,15 @@ class Batch {
     write_text(program.string() + ".cpp", includes + "int main() {\n" + calls + "}\n");
     // Half of the programs in the widest registers that this machine has.
     const char* machine = first / cases_a_program % 2 == 0 ? "-O2" : "-O3 -march=native";
-    run_or_throw(fmt::format("'{}' -std=c++17 {} -ffp-contract=off -I'{}' -I'{}' -I'{}' '{}.cpp' -o '{}' && '{}'", DASHPOT_CXX, machine,
-                             DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder_.string(), program.string(), program.string(),
-                             program.string()));
+    run_or_throw(fmt::format("'{}' -std=c++17 {} -ffp-contract=off -I'{}' -I'{}' -I'{}' '{}.cpp' -o '{}' && '{}'",
+                             DASHPOT_CXX, machine, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder_.string(),
+                             program.string(), program.string(), program.string()));
   }
 
   std::string complaint_about(const Case& c) const {
     const fs::path output = folder_ / (c.name() + ".simulated");
-    run_or_throw(command_line("simulate", c.choice) + fmt::format(" '{}' --input '{}' -o '{}'", network_file(c).string(),
+    run_or_throw(command_line("simulate", c.choice) + fmt::format(" '{}' --input '{}' -o '{}'",
+                                                                  network_file(c).string(),
                                                                   motion_file(c.choice).string(), output.string()));
     const std::string csv = text_of(output);
     return scalar_ == "double" ? compare<double>(c, csv) : compare<float>(c, csv);
@@ -148,8 +150,8 @@ class Batch {
         std::memcpy(&emitted, bytes.data() + place, sizeof(Scalar));
         place += sizeof(Scalar);
         if (std::memcmp(&simulated, &emitted, sizeof(Scalar)) != 0)
-          return fmt::format("{} {} at {} Hz, {}, row {}: simulated {}, emitted {}", scalar_, c.choice.options, c.choice.rate, column,
-                             n + 1, simulated, emitted);
+          return fmt::format("{} {} at {} Hz, {}, row {}: simulated {}, emitted {}", scalar_, c.choice.options,
+                             c.choice.rate, column, n + 1, simulated, emitted);
       }
     }
     if (place != bytes.size() || place != motion_rows * std::size(columns) * sizeof(Scalar)) return "rows are missing";
@@ -171,23 +173,26 @@ std::vector<Choice> all_choices() {
                                      "--scheme backward-euler --state-input position",
                                      "--scheme backward-euler --state-input velocity",
                                      "--scheme backward-euler --state-input nodal"};
-  static const char* const decompositions[] = {"most-dissipative", "zero-frequency",   "quietest-passive", "velocity-free",
-                                               "largest-observer", "virtual",          "0.375"};
+  static const char* const decompositions[] = {
+      "most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
+      "virtual",          "0.375"};
   static const char* const registers[] = {"sse2", "avx512", "none", "avx2", "neon"};
   static const double rates[] = {1000, 100, 10000, 333.25, 5};
   std::vector<Choice> choices;
   for (std::size_t law = 0; law < std::size(laws); ++law)
     for (std::size_t shift : {0u, 2u, 5u}) {
       const std::size_t i = choices.size();
-      choices.push_back({rates[i % std::size(rates)],
-                         fmt::format("{} --decomposition {} --vector {}", laws[law], decompositions[(law + shift) % std::size(decompositions)],
-                                     registers[i % std::size(registers)]),
-                         i % 2 == 0, i % 4 < 2 ? "" : " --constant-time"});
+      choices.push_back(
+          {rates[i % std::size(rates)],
+           fmt::format("{} --decomposition {} --vector {}", laws[law],
+                       decompositions[(law + shift) % std::size(decompositions)], registers[i % std::size(registers)]),
+           i % 2 == 0, i % 4 < 2 ? "" : " --constant-time"});
     }
   return choices;
 }
 
-std::vector<std::string> complaints_about(const std::vector<Case>& cases, const std::string& scalar, const fs::path& folder) {
+std::vector<std::string> complaints_about(const std::vector<Case>& cases, const std::string& scalar,
+                                          const fs::path& folder) {
   return Batch(cases, scalar, folder).run();
 }
 

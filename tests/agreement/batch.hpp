@@ -11,9 +11,9 @@ namespace dashpot::testing {
 
 // What is compiled, for the command line.
 struct Choice {
-  double rate;          // [Hz]
-  std::string options;  // without --rate and --scalar
-  bool gives_velocity;  // the motion has a velocity of its own; else `simulate` takes the slope
+  double rate;                // [Hz]
+  std::string options;        // without --rate and --scalar
+  bool gives_velocity;        // the motion has a velocity of its own; else `simulate` takes the slope
   std::string emission = "";  // options of `compile` alone: they change no bit
 };
 

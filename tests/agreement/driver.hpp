@@ -1,5 +1,5 @@
-// Runs emitted classes over a motion as architecture, section 4, says that `dashpot simulate` does, and writes what they
-// return without rounding it. Compiled at the time of the test, with the headers that it is to run.
+// Runs emitted classes over a motion as architecture, section 4, says that `dashpot simulate` does, and writes what
+// they return without rounding it. Compiled at the time of the test, with the headers that it is to run.
 #pragma once
 
 #include <cstdio>
@@ -21,7 +21,8 @@ inline std::vector<Row> read_motion(const char* path, double rate) {
   if (file == nullptr) std::exit(1);
   double time = 0, position = 0, velocity = 0, last = 0;
   char line[256];
-  const bool has_velocity = std::fgets(line, sizeof line, file) != nullptr && std::string(line).find("velocity") != std::string::npos;
+  const bool has_velocity =
+      std::fgets(line, sizeof line, file) != nullptr && std::string(line).find("velocity") != std::string::npos;
   while (std::fgets(line, sizeof line, file) != nullptr) {
     std::sscanf(line, "%lf,%lf,%lf", &time, &position, &velocity);
     if (!has_velocity) velocity = rows.empty() ? 0 : (position - last) * rate;

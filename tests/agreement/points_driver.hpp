@@ -1,5 +1,5 @@
-// Runs one network in three ways over samples that are not all finite, and says where they differ in a bit. Compiled at the
-// time of the test, with the headers that it is to run.
+// Runs one network in three ways over samples that are not all finite, and says where they differ in a bit. Compiled at
+// the time of the test, with the headers that it is to run.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,9 @@ namespace points {
 constexpr int samples = 300;
 
 template <class Scalar>
-bool same(Scalar a, Scalar b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same(Scalar a, Scalar b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 // Moves of all sizes, rests and returns, another one at each point; now and then something that is no number.
 template <class Scalar>
@@ -38,22 +40,40 @@ auto dampings_of(const Batch&, typename Batch::scalar* dampings, long long point
 inline void dampings_of(...) {}
 
 template <class Batch, class Scalar>
-auto step(Batch& batch, const Scalar* p, const Scalar* v, Scalar*, Scalar* f) -> decltype(batch.step(p, v, f)) { batch.step(p, v, f); }
+auto step(Batch& batch, const Scalar* p, const Scalar* v, Scalar*, Scalar* f) -> decltype(batch.step(p, v, f)) {
+  batch.step(p, v, f);
+}
 template <class Batch, class Scalar>
-auto step(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f) -> decltype(batch.step(p, v, d, f)) { batch.step(p, v, d, f); }
+auto step(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f) -> decltype(batch.step(p, v, d, f)) {
+  batch.step(p, v, d, f);
+}
 template <class Batch, class Scalar>
-auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar*, Scalar* f) -> decltype(batch.output(p, v, f)) { batch.output(p, v, f); }
+auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar*, Scalar* f) -> decltype(batch.output(p, v, f)) {
+  batch.output(p, v, f);
+}
 template <class Batch, class Scalar>
-auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f) -> decltype(batch.output(p, v, d, f)) { batch.output(p, v, d, f); }
+auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f)
+    -> decltype(batch.output(p, v, d, f)) {
+  batch.output(p, v, d, f);
+}
 
 template <class Law, class Timed, class Batch>
 struct Run {
   using scalar = typename Law::scalar;
 
   explicit Run(int points)
-      : laws(static_cast<std::size_t>(points)), timed(laws.size()), storage(static_cast<std::size_t>(Batch::storage_size(points))),
-        split_storage(storage.size()), batch(storage.data(), points), split(split_storage.data(), points), p(laws.size()), v(laws.size()),
-        f(laws.size()), d(laws.size()), split_f(laws.size()), split_d(laws.size()) {
+      : laws(static_cast<std::size_t>(points)),
+        timed(laws.size()),
+        storage(static_cast<std::size_t>(Batch::storage_size(points))),
+        split_storage(storage.size()),
+        batch(storage.data(), points),
+        split(split_storage.data(), points),
+        p(laws.size()),
+        v(laws.size()),
+        f(laws.size()),
+        d(laws.size()),
+        split_f(laws.size()),
+        split_d(laws.size()) {
     const scalar start = static_cast<scalar>(0.001);
     for (std::size_t i = 0; i < laws.size(); ++i) {
       laws[i].reset(start);
@@ -75,9 +95,12 @@ struct Run {
     split.update(p.data(), v.data());
     for (std::size_t i = 0; i < laws.size(); ++i) {
       const auto expected = laws[i].step(p[i], v[i]), found = timed[i].step(p[i], v[i]);
-      if (!same(expected.force, found.force) || !same(expected.damping, found.damping)) return says("constant time", n, i, expected.force, found.force);
-      if (!same(expected.force, f[i]) || !same(expected.damping, d[i])) return says("batch", n, i, expected.force, f[i]);
-      if (!same(expected.force, split_f[i]) || !same(expected.damping, split_d[i])) return says("batch in two phases", n, i, expected.force, split_f[i]);
+      if (!same(expected.force, found.force) || !same(expected.damping, found.damping))
+        return says("constant time", n, i, expected.force, found.force);
+      if (!same(expected.force, f[i]) || !same(expected.damping, d[i]))
+        return says("batch", n, i, expected.force, f[i]);
+      if (!same(expected.force, split_f[i]) || !same(expected.damping, split_d[i]))
+        return says("batch in two phases", n, i, expected.force, split_f[i]);
       const scalar energy = laws[i].stored_energy(), others = batch.stored_energy(static_cast<long long>(i));
       if (!same(energy, others) || !same(energy, timed[i].stored_energy())) return says("energy", n, i, energy, others);
     }
@@ -85,7 +108,8 @@ struct Run {
   }
 
   static bool says(const char* what, int n, std::size_t point, scalar expected, scalar found) {
-    std::printf("%s, sample %d, point %zu: %.17g, single %.17g\n", what, n, point, static_cast<double>(found), static_cast<double>(expected));
+    std::printf("%s, sample %d, point %zu: %.17g, single %.17g\n", what, n, point, static_cast<double>(found),
+                static_cast<double>(expected));
     return true;
   }
 

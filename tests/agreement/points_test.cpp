@@ -1,5 +1,5 @@
-// A batch's points are single networks: every one of them gives the bits that the single class gives, which are the same
-// with and without jumps.
+// A batch's points are single networks: every one of them gives the bits that the single class gives, which are the
+// same with and without jumps.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,9 +29,10 @@ void run_or_throw(const std::string& line) {
 // Linear ones, closed-form slips with a brake that changes and without, a contact, and loops.
 std::vector<std::string> networks(const fs::path& folder) {
   std::vector<std::string> files;
-  for (const char* name : {"twenty_branches", "lone_spring", "lone_damper"}) files.push_back(fmt::format(DASHPOT_CORNER_CASES "/{}.json", name));
-  for (const char* name : {"second_order_maxwell", "generalised_kelvin_four", "visco_elasto_plastic", "visco_elasto_plastic_organ",
-                           "maxwell_slip_ten", "virtual_wall"})
+  for (const char* name : {"twenty_branches", "lone_spring", "lone_damper"})
+    files.push_back(fmt::format(DASHPOT_CORNER_CASES "/{}.json", name));
+  for (const char* name : {"second_order_maxwell", "generalised_kelvin_four", "visco_elasto_plastic",
+                           "visco_elasto_plastic_organ", "maxwell_slip_ten", "virtual_wall"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
   for (std::uint64_t seed = 1; seed <= random_networks; ++seed) {
     NetworkRecipe recipe;
@@ -52,29 +53,42 @@ std::string program_of(const std::vector<std::string>& files) {
     const std::string name = class_of(file);
     headers += fmt::format("#include \"plain/{0}.hpp\"\n#include \"plain/{0}_batch.hpp\"\n", name);
     timed += fmt::format("#include \"timed/{}.hpp\"\n", name);
-    calls += fmt::format("  failed |= points::differ<dashpot::generated::{0}, dashpot::timed::{0}, dashpot::generated::{0}_batch>(\"{0}\");\n", name);
+    calls += fmt::format(
+        "  failed |= points::differ<dashpot::generated::{0}, dashpot::timed::{0}, "
+        "dashpot::generated::{0}_batch>(\"{0}\");\n",
+        name);
     if (name == "second_order_maxwell")
-      calls += fmt::format("  failed |= points::own_storage_differs<dashpot::generated::{0}, dashpot::generated::{0}_points<19>>(\"{0}_points\");\n", name);
+      calls += fmt::format(
+          "  failed |= points::own_storage_differs<dashpot::generated::{0}, "
+          "dashpot::generated::{0}_points<19>>(\"{0}_points\");\n",
+          name);
   }
-  return headers + "#define generated timed\n" + timed + "#undef generated\n#include \"points_driver.hpp\"\nint main() {\n  bool failed = false;\n" + calls +
+  return headers + "#define generated timed\n" + timed +
+         "#undef generated\n#include \"points_driver.hpp\"\nint main() {\n  bool failed = false;\n" + calls +
          "  return failed;\n}\n";
 }
 
 // Of `files`, compiled into `folder`.
-void expect_agreement(const TemporaryFolder& folder, const std::vector<std::string>& files, const std::string& choices) {
+void expect_agreement(const TemporaryFolder& folder, const std::vector<std::string>& files,
+                      const std::string& choices) {
   std::string all;
   for (const std::string& file : files) all += fmt::format(" '{}'", file);
-  const std::string compile = fmt::format("'{}' compile {}{} -o '{}/", DASHPOT_EXECUTABLE, choices, all, folder.path().string());
+  const std::string compile =
+      fmt::format("'{}' compile {}{} -o '{}/", DASHPOT_EXECUTABLE, choices, all, folder.path().string());
   run_or_throw(compile + "plain' --batch");
   run_or_throw(compile + "timed' --constant-time");
   write_text(folder.path() / "points.cpp", program_of(files));
   for (const Machine& machine : machines) {
     const std::string program = (folder.path() / "points").string();
-    run_or_throw(fmt::format("'{0}' -std=c++17 {1} -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow -Werror "
-                             "-I'{2}' -I'{3}' -I'{4}' '{5}.cpp' -o '{5}'",
-                             machine.compiler, machine.flags, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder.path().string(), program));
+    run_or_throw(fmt::format(
+        "'{0}' -std=c++17 {1} -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wdouble-promotion -Wshadow "
+        "-Werror "
+        "-I'{2}' -I'{3}' -I'{4}' '{5}.cpp' -o '{5}'",
+        machine.compiler, machine.flags, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder.path().string(), program));
     const Finished finished = run_command("'" + program + "'");
-    EXPECT_TRUE(finished.status == 0 && finished.output.empty()) << machine.compiler << " " << machine.flags << " " << choices << "\n" << finished.output;
+    EXPECT_TRUE(finished.status == 0 && finished.output.empty())
+        << machine.compiler << " " << machine.flags << " " << choices << "\n"
+        << finished.output;
   }
 }
 
@@ -83,8 +97,8 @@ void expect_agreement(const std::string& choices) {
   expect_agreement(folder, networks(folder.path()), choices);
 }
 
-// Fails if a point's force, damping or energy differs in any bit from the single class's, at any sample, finite or not, in the
-// fused step or in two phases, or if masks give other bits than jumps.
+// Fails if a point's force, damping or energy differs in any bit from the single class's, at any sample, finite or not,
+// in the fused step or in two phases, or if masks give other bits than jumps.
 TEST(Points, are_single_networks_in_double) { expect_agreement("--scheme exact"); }
 
 // Fails likewise in float, where modes are in delta form and registers hold twice as many.
@@ -93,7 +107,8 @@ TEST(Points, are_single_networks_in_float) { expect_agreement("--scalar float --
 // Fails likewise where rounding is carried along.
 TEST(Points, are_single_networks_with_compensation) { expect_agreement("--scalar float --rate 100000"); }
 
-// Fails likewise where the brake's coil needs twenty samples from one regime to another, and the motor makes up for it on its way.
+// Fails likewise where the brake's coil needs twenty samples from one regime to another, and the motor makes up for it
+// on its way.
 TEST(Points, are_single_networks_behind_a_slow_coil) {
   const TemporaryFolder folder;
   const std::string device = (folder.path() / "coil.json").string();
@@ -102,7 +117,8 @@ TEST(Points, are_single_networks_behind_a_slow_coil) {
                           "brake": { "kind": "shorted_motor", "max_damping": "50 N s/m", "coil_lag": "20 ms" } })");
   const std::vector<std::string> files = {DASHPOT_NETWORKS "/paper/visco_elasto_plastic.json"};
   expect_agreement(folder, files, fmt::format("--device '{}' --decomposition gated", device));
-  EXPECT_NE(text_of(folder.path() / "plain/visco_elasto_plastic_batch.hpp").find("coil_share"), std::string::npos) << "no command waits for the coil";
+  EXPECT_NE(text_of(folder.path() / "plain/visco_elasto_plastic_batch.hpp").find("coil_share"), std::string::npos)
+      << "no command waits for the coil";
 }
 
 }  // namespace

@@ -55,7 +55,8 @@ struct Case {
   }
 
   std::string command(const char* verb, const fs::path& folder) const {
-    return fmt::format("'{}' {} '{}/{}.json' --rate 1000 --scalar {} -o", DASHPOT_EXECUTABLE, verb, folder.string(), name(), scalar);
+    return fmt::format("'{}' {} '{}/{}.json' --rate 1000 --scalar {} -o", DASHPOT_EXECUTABLE, verb, folder.string(),
+                       name(), scalar);
   }
 
   // What is different; empty where nothing is.
@@ -76,7 +77,8 @@ struct Case {
         return scalar[0] == 'd' ? one == other : static_cast<float>(one) == static_cast<float>(other);
       };
       if (!same(columns[4], answer[0]) || !same(columns[5], answer[1]))
-        return fmt::format("row {}: simulated {} and {}, emitted {} and {}", n, columns[4], columns[5], answer[0], answer[1]);
+        return fmt::format("row {}: simulated {} and {}, emitted {} and {}", n, columns[4], columns[5], answer[0],
+                           answer[1]);
     }
     return place == emitted.size() && place > 0 ? "" : "rows are missing";
   }
@@ -84,7 +86,8 @@ struct Case {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (std::uint64_t seed = 1; seed <= repetitions(24, 240); ++seed) all.push_back({seed, seed % 5 == 0 ? "float" : "double"});
+  for (std::uint64_t seed = 1; seed <= repetitions(24, 240); ++seed)
+    all.push_back({seed, seed % 5 == 0 ? "float" : "double"});
   return all;
 }
 
@@ -99,13 +102,16 @@ TEST(Agreement, of_simulated_and_emitted_set) {
   for (Case& each : all) {
     each.write(folder);
     run_or_fail(each.command("compile", folder) + fmt::format(" '{}'", folder.string()));
-    run_or_fail(each.command("simulate", folder) + fmt::format(" '{0}/{1}.simulated' --input '{0}/{1}.csv'", folder.string(), each.name()));
+    run_or_fail(each.command("simulate", folder) +
+                fmt::format(" '{0}/{1}.simulated' --input '{0}/{1}.csv'", folder.string(), each.name()));
     includes += fmt::format("#include \"{}.hpp\"\n", each.name());
-    calls += fmt::format("  tunables::run<dashpot::generated::{0}, {1}>(\"{2}/{0}.in\", \"{2}/{0}.out\");\n", each.name(), each.tunables, folder.string());
+    calls += fmt::format("  tunables::run<dashpot::generated::{0}, {1}>(\"{2}/{0}.in\", \"{2}/{0}.out\");\n",
+                         each.name(), each.tunables, folder.string());
   }
   write_text(folder / "run.cpp", includes + "int main() {\n" + calls + "}\n");
-  run_or_fail(fmt::format("'{0}' -std=c++17 -O1 -ffp-contract=off -I'{1}' -I'{2}' -I'{3}' '{3}/run.cpp' -o '{3}/run' && '{3}/run'", DASHPOT_CXX,
-                          DASHPOT_RUNTIME_INCLUDE, DASHPOT_TUNABLES_DRIVER, folder.string()));
+  run_or_fail(fmt::format(
+      "'{0}' -std=c++17 -O1 -ffp-contract=off -I'{1}' -I'{2}' -I'{3}' '{3}/run.cpp' -o '{3}/run' && '{3}/run'",
+      DASHPOT_CXX, DASHPOT_RUNTIME_INCLUDE, DASHPOT_TUNABLES_DRIVER, folder.string()));
   for (const Case& each : all) EXPECT_EQ(each.complaint(folder), "") << "seed " << each.seed;
 }
 

@@ -49,7 +49,9 @@ Usage run(std::vector<std::string> words) {
   rusage used{};
   ::wait4(child, &status, 0, &used);
   if (status != 0) throw std::runtime_error(words[0] + " failed");
-  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
           seconds(used.ru_utime) + seconds(used.ru_stime), static_cast<double>(used.ru_maxrss) / 1024};
 }

@@ -1,4 +1,5 @@
-// The stages of the compiler over the size of the network: 1 to 1,000 Maxwell branches, random graphs of 10 to 100 nodes.
+// The stages of the compiler over the size of the network: 1 to 1,000 Maxwell branches, random graphs of 10 to 100
+// nodes.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -25,7 +26,8 @@ std::string graph(std::int64_t nodes) {
   recipe.topology = dashpot::testing::Topology::graph;
   recipe.most_nodes = static_cast<std::size_t>(nodes);
   for (std::uint64_t seed = 1;; ++seed)
-    if (const Network network = dashpot::testing::random_network(seed, recipe); network.nodes.size() == recipe.most_nodes)
+    if (const Network network = dashpot::testing::random_network(seed, recipe);
+        network.nodes.size() == recipe.most_nodes)
       return dashpot::testing::json_text(network);
 }
 
@@ -68,7 +70,9 @@ void emission(benchmark::State& state, Text text) {
   for (auto _ : state) benchmark::DoNotOptimize(emit_cpp(compilation, {}, diagnostics).value());
 }
 
-void with_branches(benchmark::internal::Benchmark* b) { b->RangeMultiplier(10)->Range(1, 1000)->Unit(benchmark::kMillisecond); }
+void with_branches(benchmark::internal::Benchmark* b) {
+  b->RangeMultiplier(10)->Range(1, 1000)->Unit(benchmark::kMillisecond);
+}
 void with_graphs(benchmark::internal::Benchmark* b) { b->Arg(10)->Arg(30)->Arg(100)->Unit(benchmark::kMillisecond); }
 
 BENCHMARK_CAPTURE(front_end, branches, branches)->Apply(with_branches);

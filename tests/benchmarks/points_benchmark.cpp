@@ -1,5 +1,5 @@
-// A million points of Fig. 5's network in a stream, against copying the same memory, in turn within one run. Bytes are those that the
-// program reads and writes: of a point its two inputs, its force, and each state twice.
+// A million points of Fig. 5's network in a stream, against copying the same memory, in turn within one run. Bytes are
+// those that the program reads and writes: of a point its two inputs, its force, and each state twice.
 #include <benchmark/benchmark.h>
 
 #include <time.h>
@@ -47,7 +47,8 @@ double median(std::vector<double> values) {
 // Medians of rounds in which all three are timed in turn.
 void stream(benchmark::State& state) {
   const auto points = static_cast<std::size_t>(state.range(0));
-  const std::size_t copied = static_cast<std::size_t>(bytes_a_point) / 16 * points / 8 * 8;  // doubles, read once, written once
+  const std::size_t copied =
+      static_cast<std::size_t>(bytes_a_point) / 16 * points / 8 * 8;  // doubles, read once, written once
   std::vector<double> storage(static_cast<std::size_t>(second_order_maxwell_batch::storage_size(state.range(0))));
   std::vector<double> positions(points, 1e-3), velocities(points, 0.01), forces(points), from(copied, 1), to(copied, 2);
   second_order_maxwell_batch batch(storage.data(), state.range(0));

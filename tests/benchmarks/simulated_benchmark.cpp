@@ -1,5 +1,5 @@
-// How much faster than real time the simulated device runs: an arm with everything that a real one has, at 10 kHz, led by a
-// hand against an end stop. Processor time of one thread, so that it does not depend on how busy the machine is.
+// How much faster than real time the simulated device runs: an arm with everything that a real one has, at 10 kHz, led
+// by a hand against an end stop. Processor time of one thread, so that it does not depend on how busy the machine is.
 #include <benchmark/benchmark.h>
 
 #include <cmath>

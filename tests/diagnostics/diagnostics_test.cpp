@@ -118,10 +118,8 @@ bool is_provoked(std::size_t code, const std::vector<std::string>& lines) {
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines(1);
   for (const char byte : text)
-    if (byte == '\n')
-      lines.emplace_back();
-    else
-      lines.back() += byte;
+    if (byte == '\n') lines.emplace_back();
+    else lines.back() += byte;
   return lines;
 }
 

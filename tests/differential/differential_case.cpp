@@ -44,8 +44,8 @@ NetworkRecipe recipe_of(Family family, Random& random) {
 }
 
 Choices linear_choices(Scheme scheme, Random& random) {
-  static const char* const decompositions[] = {"most-dissipative", "zero-frequency",   "quietest-passive", "velocity-free",
-                                               "largest-observer", "virtual"};
+  static const char* const decompositions[] = {"most-dissipative", "zero-frequency",   "quietest-passive",
+                                               "velocity-free",    "largest-observer", "virtual"};
   Choices choices;
   choices.scheme = scheme;
   choices.decomposition = one_of(decompositions, random);
@@ -54,7 +54,8 @@ Choices linear_choices(Scheme scheme, Random& random) {
     case 0: break;
     case 1: choices.state_input = StateInput::position; break;
     case 2: choices.state_input = StateInput::velocity; break;
-    default: if (scheme == Scheme::backward_euler) choices.state_input = StateInput::nodal;
+    default:
+      if (scheme == Scheme::backward_euler) choices.state_input = StateInput::nodal;
   }
   return choices;
 }
@@ -70,7 +71,8 @@ Choices slip_choices(Family family, Random& random) {
 Choices choices_of(Family family, Random& random) {
   static const double rates[] = {1000, 100, 10000, 333.25, 5};
   const bool exact = family == Family::linear_exact, linear = exact || family == Family::linear_backward_euler;
-  Choices choices = linear ? linear_choices(exact ? Scheme::exact : Scheme::backward_euler, random) : slip_choices(family, random);
+  Choices choices =
+      linear ? linear_choices(exact ? Scheme::exact : Scheme::backward_euler, random) : slip_choices(family, random);
   choices.rate = one_of(rates, random);
   if (random.chance(0.2)) choices.scalar = ScalarType::float32;
   return choices;
@@ -78,11 +80,13 @@ Choices choices_of(Family family, Random& random) {
 
 std::string text_of(const Network& network) {
   std::string text = json_text(network);
-  if (network.contact) text.insert(text.find(',') + 1, fmt::format(" \"contact\": {{ \"at\": {:#} }},", network.contact->at));
+  if (network.contact)
+    text.insert(text.find(',') + 1, fmt::format(" \"contact\": {{ \"at\": {:#} }},", network.contact->at));
   return text;
 }
 
-// Brakes that lack what the network wants, loops that are late: a law then has less in the brake, or more than the network.
+// Brakes that lack what the network wants, loops that are late: a law then has less in the brake, or more than the
+// network.
 compiler::Device random_device(double rate, Random& random) {
   compiler::Device device;
   device.name = "random";
@@ -90,7 +94,15 @@ compiler::Device random_device(double rate, Random& random) {
   device.description.loop.delay_samples = static_cast<unsigned>(random.index(3));
   device.description.encoder.step = random.chance(0.5) ? 0 : 1e-5;
   device.description.velocity.window = static_cast<unsigned>(random.between(1, 5));
-  device.description.brake = {brake_kind::eddy_current, random.log_uniform(1e-2, 1e3), 0, 0, random.uniform(0, 0.2), random.chance(0.5) ? 0 : 0.01, 0, 0, 0};
+  device.description.brake = {brake_kind::eddy_current,
+                              random.log_uniform(1e-2, 1e3),
+                              0,
+                              0,
+                              random.uniform(0, 0.2),
+                              random.chance(0.5) ? 0 : 0.01,
+                              0,
+                              0,
+                              0};
   return device;
 }
 
@@ -98,7 +110,8 @@ bool is_refused_law(const compiler::Diagnostics& diagnostics) {
   return compiler::render_text(diagnostics).find("[no-such-slip-law]") != std::string::npos;
 }
 
-compiler::Compilation compiled_text(const std::string& text, const Choices& choices, const std::optional<compiler::Device>& device) {
+compiler::Compilation compiled_text(const std::string& text, const Choices& choices,
+                                    const std::optional<compiler::Device>& device) {
   const compiler::SourceFile file("random.json", text);
   compiler::Diagnostics diagnostics;
   std::optional<compiler::Compilation> compilation = compiler::compile(file, choices, device, diagnostics);
@@ -113,8 +126,8 @@ compiler::Compilation compiled_text(const std::string& text, const Choices& choi
 
 double rounded(double value, ScalarType scalar) { return scalar == ScalarType::float64 ? value : double(float(value)); }
 
-// The velocity is the slope to this sample from the tool's last position, or from where the surface is behind a contact: so
-// that brake and motor make the network's own force.
+// The velocity is the slope to this sample from the tool's last position, or from where the surface is behind a
+// contact: so that brake and motor make the network's own force.
 template <class Scalar>
 void evaluate(DifferentialCase& one, const std::vector<double>& positions) {
   const compiler::UpdateLaw& law = one.compilation.law;
@@ -134,9 +147,9 @@ void evaluate(DifferentialCase& one, const std::vector<double>& positions) {
 }
 
 bool is_linear(const Network& network) {
-  return !network.contact && std::none_of(network.elements.begin(), network.elements.end(), [](const compiler::Element& e) {
-    return std::holds_alternative<compiler::Slip>(e.law);
-  });
+  return !network.contact &&
+         std::none_of(network.elements.begin(), network.elements.end(),
+                      [](const compiler::Element& e) { return std::holds_alternative<compiler::Slip>(e.law); });
 }
 
 bool has_modes(const compiler::NormalTree& tree) {
@@ -145,7 +158,8 @@ bool has_modes(const compiler::NormalTree& tree) {
 
 // Where every linear part is a spring, a damper or both side by side, the schemes are one.
 bool schemes_are_one(const compiler::NormalForm& form) {
-  return form.networks.empty() && form.linear.modes.empty() && std::none_of(form.components.begin(), form.components.end(), has_modes);
+  return form.networks.empty() && form.linear.modes.empty() &&
+         std::none_of(form.components.begin(), form.components.end(), has_modes);
 }
 
 std::vector<double> reference_forces(const DifferentialCase& one) {
@@ -153,7 +167,8 @@ std::vector<double> reference_forces(const DifferentialCase& one) {
   std::vector<double> positions, forces;
   for (const Sample& sample : one.motion) positions.push_back(sample.position);
   if (law.scheme == Scheme::exact && is_linear(one.compilation.network))
-    return force_by_ramps(ramp_response(one.compilation.network, law.sample_period, positions.size()), positions, law.sample_period);
+    return force_by_ramps(ramp_response(one.compilation.network, law.sample_period, positions.size()), positions,
+                          law.sample_period);
   ElementReference elements(one.compilation.network, law.sample_period);
   for (const double position : positions) forces.push_back(elements.step(position));
   return forces;
@@ -163,10 +178,13 @@ std::vector<double> reference_forces(const DifferentialCase& one) {
 // from it what slips do not hold [N].
 double largest_trial(const DifferentialCase& one) {
   const double period = one.compilation.law.sample_period;
-  double stiffest = 0, move = std::abs(one.compilation.law.surface_at.value_or(0));  // against which positions are rounded
+  double stiffest = 0,
+         move = std::abs(one.compilation.law.surface_at.value_or(0));  // against which positions are rounded
   for (const compiler::Element& element : one.compilation.network.elements) {
-    if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) stiffest = std::max(stiffest, spring->stiffness);
-    if (const auto* damper = std::get_if<compiler::Damper>(&element.law)) stiffest = std::max(stiffest, damper->damping / period);
+    if (const auto* spring = std::get_if<compiler::Spring>(&element.law))
+      stiffest = std::max(stiffest, spring->stiffness);
+    if (const auto* damper = std::get_if<compiler::Damper>(&element.law))
+      stiffest = std::max(stiffest, damper->damping / period);
   }
   for (const Sample& sample : one.motion) move = std::max(move, std::abs(sample.velocity) * period);
   return stiffest * move;
@@ -183,9 +201,11 @@ DifferentialCase differential_case(Family family, std::uint64_t seed) {
   Random random(4 * seed + static_cast<std::uint64_t>(family));
   const NetworkRecipe recipe = recipe_of(family, random);
   Network network = random_network(4 * seed + static_cast<std::uint64_t>(family), recipe);
-  for (std::uint64_t more = seed << 32; family == Family::slips && is_linear(network); ++more) network = random_network(more, recipe);
+  for (std::uint64_t more = seed << 32; family == Family::slips && is_linear(network); ++more)
+    network = random_network(more, recipe);
   network.name = fmt::format("network_{}_{}", static_cast<int>(family), seed);
-  if (family == Family::contact) network.contact = compiler::Contact{random.chance(0.5) ? 0 : random.uniform(-1, 1), {}};
+  if (family == Family::contact)
+    network.contact = compiler::Contact{random.chance(0.5) ? 0 : random.uniform(-1, 1), {}};
   Choices choices = choices_of(family, random);
   std::optional<compiler::Device> device;
   if (random.chance(0.25)) device = random_device(*std::exchange(choices.rate, std::nullopt), random);

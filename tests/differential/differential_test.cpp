@@ -1,5 +1,5 @@
-// Random networks, their text through the whole compiler: emitted code, built and run, against evaluate() bit for bit, and
-// against integrators that know elements and nodes alone.
+// Random networks, their text through the whole compiler: emitted code, built and run, against evaluate() bit for bit,
+// and against integrators that know elements and nodes alone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,9 @@ TEST_P(Differential, EmittedCodeIsTheNetwork) {
   EXPECT_GE(3 * against_reference_, networks());
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Differential, ::testing::Values(Family::linear_exact, Family::linear_backward_euler, Family::slips, Family::contact),
+INSTANTIATE_TEST_SUITE_P(Of, Differential,
+                         ::testing::Values(Family::linear_exact, Family::linear_backward_euler, Family::slips,
+                                           Family::contact),
                          [](const ::testing::TestParamInfo<Family>& one) { return name_of(one.param); });
 
 }  // namespace

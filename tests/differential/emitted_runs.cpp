@@ -36,10 +36,12 @@ std::string program_of(const std::vector<DifferentialCase>& cases) {
   std::string includes = "#include <dashpot/command.hpp>\n#include \"emitted_driver.hpp\"\n", calls;
   for (const DifferentialCase& one : cases) {
     includes += fmt::format("#include \"{}.hpp\"\n", one.compilation.network.name);
-    calls += fmt::format("  differential::run<dashpot::generated::{}>(motions, answers);\n", one.compilation.network.name);
+    calls +=
+        fmt::format("  differential::run<dashpot::generated::{}>(motions, answers);\n", one.compilation.network.name);
   }
-  return includes + "int main(int, char** files) {\n  std::FILE* motions = std::fopen(files[1], \"rb\");\n"
-                    "  std::FILE* answers = std::fopen(files[2], \"wb\");\n  if (!motions || !answers) return 1;\n" +
+  return includes +
+         "int main(int, char** files) {\n  std::FILE* motions = std::fopen(files[1], \"rb\");\n"
+         "  std::FILE* answers = std::fopen(files[2], \"wb\");\n  if (!motions || !answers) return 1;\n" +
          calls + "  return std::fclose(answers);\n}\n";
 }
 
@@ -51,9 +53,10 @@ std::vector<std::vector<Answer>> emitted_answers(const std::vector<DifferentialC
   for (const DifferentialCase& one : cases) emit(one, folder);
   write_text(folder / "motions", motions_of(cases));
   write_text(folder / "program.cpp", program_of(cases));
-  const Finished finished = run_command(
-      fmt::format("cd '{}' && '{}' -std=c++17 -O1 -ffp-contract=off -I'{}' -I'{}' -I. program.cpp -o program && ./program motions answers",
-                  folder.string(), DASHPOT_CXX, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER));
+  const Finished finished =
+      run_command(fmt::format("cd '{}' && '{}' -std=c++17 -O1 -ffp-contract=off -I'{}' -I'{}' -I. program.cpp -o "
+                              "program && ./program motions answers",
+                              folder.string(), DASHPOT_CXX, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER));
   if (finished.status != 0) throw std::runtime_error(finished.output.substr(0, 4000));
   const std::string bytes = text_of(folder / "answers");
   std::vector<std::vector<Answer>> answers;
@@ -71,8 +74,9 @@ std::vector<std::vector<Answer>> emitted_answers(const std::vector<DifferentialC
 std::string first_difference(const std::vector<Answer>& evaluated, const std::vector<Answer>& emitted) {
   for (std::size_t k = 0; k < evaluated.size(); ++k)
     if (std::memcmp(&evaluated[k], &emitted[k], sizeof(Answer)) != 0)
-      return fmt::format("sample {}: damping {}, force {}, energy {} evaluated; {}, {}, {} emitted", k, evaluated[k].damping,
-                         evaluated[k].force, evaluated[k].energy, emitted[k].damping, emitted[k].force, emitted[k].energy);
+      return fmt::format("sample {}: damping {}, force {}, energy {} evaluated; {}, {}, {} emitted", k,
+                         evaluated[k].damping, evaluated[k].force, evaluated[k].energy, emitted[k].damping,
+                         emitted[k].force, emitted[k].energy);
   return "";
 }
 

@@ -59,7 +59,8 @@ std::vector<Exact> ramp_response(const compiler::Network& network, double period
   return ramp;
 }
 
-std::vector<double> force_by_ramps(const std::vector<Exact>& ramp, const std::vector<double>& positions, double period) {
+std::vector<double> force_by_ramps(const std::vector<Exact>& ramp, const std::vector<double>& positions,
+                                   double period) {
   std::vector<Exact> bend;  // change of the velocity at the beginning of each period
   Exact last = 0, before = 0;
   for (const double position : positions) {

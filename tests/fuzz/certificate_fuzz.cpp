@@ -1,7 +1,7 @@
 // Any text as a certificate, any as a header: `verify` refuses them in words, or says how many constants are right.
 //
-// The two stand in one input, the certificate first, with a form feed between them; `verify` of a certificate without one
-// sees an empty header.
+// The two stand in one input, the certificate first, with a form feed between them; `verify` of a certificate without
+// one sees an empty header.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

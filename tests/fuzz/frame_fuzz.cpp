@@ -1,4 +1,5 @@
-// Any bytes on the wire, with whole frames among them: the same frames are found whether they come at once or in pieces.
+// Any bytes on the wire, with whole frames among them: the same frames are found whether they come at once or in
+// pieces.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -41,7 +42,8 @@ std::vector<std::uint8_t> wire_of(const std::uint8_t* data, std::size_t size) {
 }
 
 // Takes the wire in pieces of 1 to `largest` bytes, or at once where `largest` exceeds it.
-std::vector<Seen> frames_in(const std::vector<std::uint8_t>& wire, std::size_t largest, decoder_statistics& statistics) {
+std::vector<Seen> frames_in(const std::vector<std::uint8_t>& wire, std::size_t largest,
+                            decoder_statistics& statistics) {
   const std::size_t size = wire.size();
   frame_decoder decoder;
   std::vector<Seen> seen;

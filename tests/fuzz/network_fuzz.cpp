@@ -1,5 +1,5 @@
-// Any text as a network file, compiled with any choices for any device: it is refused in words, or it becomes a law whose
-// commands are finite or safe, and headers, certificates and explanations of it are written.
+// Any text as a network file, compiled with any choices for any device: it is refused in words, or it becomes a law
+// whose commands are finite or safe, and headers, certificates and explanations of it are written.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -19,7 +19,8 @@ namespace {
 
 using namespace dashpot::compiler;
 
-// What stands behind the last bracket of the text, where a file has its last line's end: one byte a choice, 0 where none is.
+// What stands behind the last bracket of the text, where a file has its last line's end: one byte a choice, 0 where
+// none is.
 class Tail {
  public:
   explicit Tail(std::string bytes) : bytes_(std::move(bytes)) {}
@@ -31,8 +32,9 @@ class Tail {
 };
 
 std::variant<std::string, double> decomposition_for(std::uint8_t choice) {
-  static const char* const names[] = {"most-dissipative", "zero-frequency",   "quietest-passive", "velocity-free", "virtual",
-                                      "largest-observer", "gated",            "compensated",      "no such name"};
+  static const char* const names[] = {
+      "most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "virtual",
+      "largest-observer", "gated",          "compensated",      "no such name"};
   constexpr std::size_t count = std::size(names);
   if (choice % 16 < count) return names[choice % 16];
   return std::ldexp(1.0, choice / 16 * 8 - 60);
@@ -81,7 +83,8 @@ void run(const UpdateLaw& law, Tail& tail) {
   for (int k = 0; k < 20; ++k) {
     if (k % 7 == 6) {
       std::vector<Scalar> values(law.tunable ? law.tunable->tunables.size() : 0);
-      for (Scalar& value : values) value = tail.next() == 0xFF ? Scalar(NAN) : Scalar(std::ldexp(1.0, tail.next() - 128));
+      for (Scalar& value : values)
+        value = tail.next() == 0xFF ? Scalar(NAN) : Scalar(std::ldexp(1.0, tail.next() - 128));
       model.set(values);
     }
     const Scalar position = k == 10 ? Scalar(NAN) : Scalar(0.001 * (k % 5));

@@ -90,7 +90,8 @@ TEST(Generated, is_what_the_compiler_writes) {
     if (!fs::exists(recorded / name))
       ADD_FAILURE() << "generated/" << name << " is not recorded; generated_test --update writes it";
     else
-      EXPECT_EQ(text_of(recorded / name), text) << "generated/" << name << "; if it is meant, generated_test --update records it";
+      EXPECT_EQ(text_of(recorded / name), text)
+          << "generated/" << name << "; if it is meant, generated_test --update records it";
   }
 }
 

@@ -27,7 +27,8 @@ std::string plain_number(double value) {
 Axis logarithmic_axis(Interval range) {
   Axis axis{Scale::logarithmic, range.low, range.high, {}};
   const bool decades_alone = range.high / range.low > 200;
-  for (double decade = std::pow(10, std::floor(std::log10(range.low) - 1e-9)); decade <= range.high * (1 + 1e-9); decade *= 10)
+  for (double decade = std::pow(10, std::floor(std::log10(range.low) - 1e-9)); decade <= range.high * (1 + 1e-9);
+       decade *= 10)
     for (const double multiple : {1.0, 2.0, 5.0}) {
       const double value = multiple * decade;
       const bool is_inside = value >= range.low * (1 - 1e-9) && value <= range.high * (1 + 1e-9);
@@ -59,7 +60,8 @@ double Axis::share(double value) const {
 }
 
 Axis axis_for(Interval values, int wanted, Scale scale) {
-  if (scale == Scale::logarithmic) return axis_within({round_number_below(values.low), round_number_above(values.high)}, wanted, scale);
+  if (scale == Scale::logarithmic)
+    return axis_within({round_number_below(values.low), round_number_above(values.high)}, wanted, scale);
   const Ticks ticks = ticks_for(values, wanted);
   Axis axis{scale, ticks.low(), ticks.high(), {}};
   for (long i = ticks.first; i <= ticks.last; ++i) axis.ticks.push_back({double(i) * ticks.step, tick_label(ticks, i)});

@@ -39,8 +39,8 @@ struct Axis {
   double share(double value) const;
 };
 
-// In: the values to be shown, positive where the scale is logarithmic. Linear: ends at ticks. Logarithmic: ends at 1, 2 or 5
-// times a power of ten, which are its ticks; over more than two decades the powers alone.
+// In: the values to be shown, positive where the scale is logarithmic. Linear: ends at ticks. Logarithmic: ends at 1, 2
+// or 5 times a power of ten, which are its ticks; over more than two decades the powers alone.
 Axis axis_for(Interval values, int wanted, Scale scale);
 
 // The same without extending it: ends at the interval, ticks within.

@@ -1,4 +1,5 @@
-// Every number that the paper does not print and its experiments need, with the reason for it: chosen.json, in one place.
+// Every number that the paper does not print and its experiments need, with the reason for it: chosen.json, in one
+// place.
 #pragma once
 
 #include <string>
@@ -27,11 +28,12 @@ std::vector<Choice> all_choices();
 const compiler::Device& rig();
 compiler::Device device_of(const std::string& name);
 
-// A device without faults for the paper's numerical experiments (section 5): a translating tool, true position and velocity,
-// no lag; `sample_period` [s].
+// A device without faults for the paper's numerical experiments (section 5): a translating tool, true position and
+// velocity, no lag; `sample_period` [s].
 device_description ideal_plant(double sample_period);
 
-// The rig without jitter, quantisation, delay, lag and friction of the drives: the same mechanics under a true velocity.
+// The rig without jitter, quantisation, delay, lag and friction of the drives: the same mechanics under a true
+// velocity.
 device_description ideal_rig();
 
 // A stiff grasp, the hand of the experiments.

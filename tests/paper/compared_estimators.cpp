@@ -13,7 +13,8 @@ NamedEstimator named(const char* name, estimator_kind kind) {
   NamedEstimator it{name, {}};
   it.velocity.estimator = kind;
   it.velocity.window = 1;
-  it.velocity.acceleration = chosen(kind == estimator_kind::kalman ? "fig7.kalman_acceleration" : "fig7.acceleration_bound");
+  it.velocity.acceleration =
+      chosen(kind == estimator_kind::kalman ? "fig7.kalman_acceleration" : "fig7.acceleration_bound");
   it.velocity.filter_factor = chosen("fig7.filter_factor");
   return it;
 }
@@ -23,7 +24,7 @@ NamedEstimator named(const char* name, estimator_kind kind) {
 std::vector<NamedEstimator> compared_estimators() {
   const velocity_description paper = rig().description.velocity;
   std::vector<NamedEstimator> all = {named("difference of one sample", estimator_kind::backward_difference),
-                            {"Butterworth, 4th order, 120 Hz: the paper's", paper}};
+                                     {"Butterworth, 4th order, 120 Hz: the paper's", paper}};
   NamedEstimator second{"Butterworth, 2nd order, 120 Hz", paper};
   second.velocity.order = 2;
   NamedEstimator window = named("difference over 15 samples", estimator_kind::backward_difference);
@@ -34,10 +35,11 @@ std::vector<NamedEstimator> compared_estimators() {
   NamedEstimator best = end;
   best.name = "FOAW, best fit, up to 64 samples";
   best.velocity.best_fit = true;
-  for (const NamedEstimator& each : {second, window, slope, end, best, named("inverse time", estimator_kind::inverse_time),
-                            named("Kalman, 200 rad/s²", estimator_kind::kalman),
-                            named("super-twisting, 200 rad/s²", estimator_kind::super_twisting),
-                            named("tracking differentiator, 200 rad/s², 20 samples", estimator_kind::tracking_differentiator)})
+  for (const NamedEstimator& each :
+       {second, window, slope, end, best, named("inverse time", estimator_kind::inverse_time),
+        named("Kalman, 200 rad/s²", estimator_kind::kalman),
+        named("super-twisting, 200 rad/s²", estimator_kind::super_twisting),
+        named("tracking differentiator, 200 rad/s², 20 samples", estimator_kind::tracking_differentiator)})
     all.push_back(each);
   return all;
 }

@@ -17,7 +17,8 @@ Curve curve_of(const std::string& name, const Style& style, const Trace& trace, 
 }
 
 // `values` beside the times of the trace.
-inline Curve curve_of(const std::string& name, const Style& style, const Trace& trace, const std::vector<double>& values) {
+inline Curve curve_of(const std::string& name, const Style& style, const Trace& trace,
+                      const std::vector<double>& values) {
   Curve curve{name, style, {}, values};
   for (const Sample& sample : trace) curve.x.push_back(sample.time);
   return curve;

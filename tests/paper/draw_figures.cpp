@@ -1,5 +1,5 @@
-// draw_figures FOLDER [--without-map]: every experiment of the paper, its figures as SVG and an index page. The map of walls
-// takes minutes and goes on where it was interrupted: what is done of it is in FOLDER/z_width.csv.
+// draw_figures FOLDER [--without-map]: every experiment of the paper, its figures as SVG and an index page. The map of
+// walls takes minutes and goes on where it was interrupted: what is done of it is in FOLDER/z_width.csv.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -25,9 +25,11 @@ void print_progress(std::size_t done, std::size_t all) {
 void draw(const std::filesystem::path& folder, bool with_map) {
   std::filesystem::create_directories(folder);
   std::vector<Section> sections = all_experiments();
-  if (with_map) sections.push_back(show(measure_z_width(map_places(false), (folder / "z_width.csv").string(), print_progress)));
+  if (with_map)
+    sections.push_back(show(measure_z_width(map_places(false), (folder / "z_width.csv").string(), print_progress)));
   for (const Section& section : sections)
-    for (std::size_t i = 0; i < section.figures.size(); ++i) write(folder / file_of(section, i), to_svg(section.figures[i]));
+    for (std::size_t i = 0; i < section.figures.size(); ++i)
+      write(folder / file_of(section, i), to_svg(section.figures[i]));
   write(folder / "index.html", index_page(sections, table_of_choices()));
 }
 

@@ -7,7 +7,8 @@
 namespace dashpot::paper {
 
 // E(k) = E(k − 1) + f(k) v(k) Δt [J]
-inline std::vector<double> energy_of(const std::vector<double>& force, const std::vector<double>& velocity, double period) {
+inline std::vector<double> energy_of(const std::vector<double>& force, const std::vector<double>& velocity,
+                                     double period) {
   std::vector<double> energy(force.size());
   double sum = 0;
   for (std::size_t k = 0; k < force.size(); ++k) energy[k] = sum += force[k] * velocity[k] * period;

@@ -23,12 +23,14 @@ class EvaluatedLaw final : public Law {
 };
 
 std::string network_file(const char* kind, const std::string& elements) {
-  return fmt::format(R"({{ "dashpot": 1, "name": "wall", "motion": "translation", "network": {{ "{}": [ {} ] }} }})", kind, elements);
+  return fmt::format(R"({{ "dashpot": 1, "name": "wall", "motion": "translation", "network": {{ "{}": [ {} ] }} }})",
+                     kind, elements);
 }
 
 }  // namespace
 
-Compiled compiled(const std::string& network, const compiler::Choices& choices, const std::optional<compiler::Device>& device) {
+Compiled compiled(const std::string& network, const compiler::Choices& choices,
+                  const std::optional<compiler::Device>& device) {
   compiler::Diagnostics diagnostics;
   const compiler::SourceFile file("swept network", network);
   std::optional<compiler::Compilation> result = compiler::compile(file, choices, device, diagnostics);

@@ -1,5 +1,5 @@
-// Laws of networks that are made while the program runs, for sweeps over their values. evaluate() gives what the emitted code
-// gives, bit for bit (tests/agreement).
+// Laws of networks that are made while the program runs, for sweeps over their values. evaluate() gives what the
+// emitted code gives, bit for bit (tests/agreement).
 #pragma once
 
 #include <memory>

@@ -1,5 +1,5 @@
-// The one form in which every experiment is described: a plant, what is done to it, and the realisations of a network that
-// are compared on it. Everything of the tool is in [m], [N], [s]; the plant is a device file or a struct like it.
+// The one form in which every experiment is described: a plant, what is done to it, and the realisations of a network
+// that are compared on it. Everything of the tool is in [m], [N], [s]; the plant is a device file or a struct like it.
 #pragma once
 
 #include <dashpot/device_description.hpp>
@@ -30,15 +30,15 @@ struct Experiment {
 
 // One sample of a run, at the tool. Forces oppose it.
 struct Sample {
-  double time = 0;                // [s]
-  double position = 0;            // true [m]
-  double velocity = 0;            // true [m/s]
-  double measured = 0;            // position by the encoder [m]
-  double estimate = 0;            // of the velocity [m/s]
+  double time = 0;                 // [s]
+  double position = 0;             // true [m]
+  double velocity = 0;             // true [m/s]
+  double measured = 0;             // position by the encoder [m]
+  double estimate = 0;             // of the velocity [m/s]
   command<double> commanded = {};  // at this sample
-  double motor = 0;               // what acts at this instant, of commands before [N]
-  double damping = 0;             // likewise [N·s/m]
-  double hand = 0;                // of the hand on the device, along the motion [N]
+  double motor = 0;                // what acts at this instant, of commands before [N]
+  double damping = 0;              // likewise [N·s/m]
+  double hand = 0;                 // of the hand on the device, along the motion [N]
 
   double felt() const { return motor + damping * velocity; }
   double commanded_force() const { return commanded.force + commanded.damping * velocity; }

@@ -13,14 +13,14 @@
 namespace dashpot::paper {
 namespace {
 
-constexpr double strokes = 3;  // of the hand's sine [periods]
+constexpr double strokes = 3;     // of the hand's sine [periods]
 constexpr double at_rest = 1e-3;  // below, the arm has no direction: friction holds it for a while [m/s]
-constexpr double after = 0.015;  // a reversal: four delays of the filter [s]
+constexpr double after = 0.015;   // a reversal: four delays of the filter [s]
 
 LawMaker printed(PrintedNeedle::Dampers dampers) {
   return [dampers] {
-    return std::make_unique<LawOf<PrintedNeedle>>(
-        PrintedNeedle(chosen("needle.stiffness"), chosen("needle.yield"), chosen("needle.B1"), chosen("needle.B2"), dampers));
+    return std::make_unique<LawOf<PrintedNeedle>>(PrintedNeedle(chosen("needle.stiffness"), chosen("needle.yield"),
+                                                                chosen("needle.B1"), chosen("needle.B2"), dampers));
   };
 }
 
@@ -69,7 +69,8 @@ double mean_of_largest(const Trace& trace, double duration, Value value) {
   double sum = 0;
   for (const std::size_t reversal : reversals) {
     double largest = 0;
-    for (std::size_t k = reversal; k < std::min(reversal + samples, trace.size()); ++k) largest = std::max(largest, std::abs(value(k)));
+    for (std::size_t k = reversal; k < std::min(reversal + samples, trace.size()); ++k)
+      largest = std::max(largest, std::abs(value(k)));
     sum += largest;
   }
   return sum / static_cast<double>(reversals.size());
@@ -106,7 +107,8 @@ Figure figure_of(const Fig11& fig11) {
   const auto damping = [](const Sample& s) { return s.commanded.damping; };
   const double instant = fig11.reversals.at(2);
   const Interval around{instant, instant + 0.16}, whole{0, fig11.parts[0].trace.back().time};
-  std::vector<Curve> felt_around = {curve_of("network under the same motion", ideal, fig11.parts[1].trace, fig11.parts[1].truth)};
+  std::vector<Curve> felt_around = {
+      curve_of("network under the same motion", ideal, fig11.parts[1].trace, fig11.parts[1].truth)};
   for (const Curve& curve : all(felt)) felt_around.push_back(curve);
   return {"Fig. 11: a needle that sticks and slides, led to and fro",
           {fmt::format("K = {} N/m, Y = {} N, B1 = {}, B2 = {} N·s/m on the rig at 10 kHz.", chosen("needle.stiffness"),
@@ -125,28 +127,41 @@ Fig11 measure_fig11() {
   Fig11 fig11;
   for (std::size_t i = 0; i < experiment.realisations.size(); ++i)
     fig11.parts.push_back(part_of(experiment, experiment.realisations[i], styles[i]));
-  for (const std::size_t k : reversals_of(fig11.parts[0].trace)) fig11.reversals.push_back(fig11.parts[0].trace[k].time);
+  for (const std::size_t k : reversals_of(fig11.parts[0].trace))
+    fig11.reversals.push_back(fig11.parts[0].trace[k].time);
   return fig11;
 }
 
 Section show(const Fig11& fig11) {
   Table table{"Force errors against the network under the same motion",
-              {"realisation", "rms error [mN]", "largest error after a reversal [mN]", "jump of the motor’s command [mN]",
-               "changes of the brake"}, {}};
+              {"realisation", "rms error [mN]", "largest error after a reversal [mN]",
+               "jump of the motor’s command [mN]", "changes of the brake"},
+              {}};
   for (const Fig11::Part& part : fig11.parts)
-    table.rows.push_back({part.name, fmt::format("{:.2f}", part.rms_error * 1e3), fmt::format("{:.1f}", part.spike * 1e3),
-                          fmt::format("{:.1f}", part.jump * 1e3), fmt::format("{}", part.toggles)});
-  return {"fig11", "Fig. 11: a needle that sticks and slides",
-          {fmt::format("By the motor alone, (21) jumps by {:.0f} mN some 90 ms after each reversal, when sliding begins and B2 times the late "
-                       "estimate comes on: the paper’s spikes. Motor and brake together jump by {:.1f} mN, an encoder’s step of the spring. "
-                       "That comes out as in the paper’s panels. So does a toggling that the paper does not mention: in steady sliding an "
-                       "encoder’s step can look like sticking for a sample, and B2 u̇ goes and comes, in the motor alone as a spike.", fig11.parts[0].jump * 1e3, fig11.parts[1].jump * 1e3),
-           fmt::format("Felt, the errors are small: {:.1f} mN rms by the motor alone, {:.1f} by both, {:.1f} by dashpot’s law, which leaves B2 to "
-                       "the spring and slip that it stands behind and never switches its brake. Without any dampers it would be {:.0f} mN. Right "
-                       "after a reversal, where velocities are small, the motor alone is off by {:.1f} mN, both by {:.1f}.",
-                       fig11.parts[0].rms_error * 1e3, fig11.parts[1].rms_error * 1e3, fig11.parts[3].rms_error * 1e3,
-                       fig11.parts[2].rms_error * 1e3, fig11.parts[0].spike * 1e3, fig11.parts[1].spike * 1e3)},
-          {figure_of(fig11)}, {table}};
+    table.rows.push_back({part.name, fmt::format("{:.2f}", part.rms_error * 1e3),
+                          fmt::format("{:.1f}", part.spike * 1e3), fmt::format("{:.1f}", part.jump * 1e3),
+                          fmt::format("{}", part.toggles)});
+  return {
+      "fig11",
+      "Fig. 11: a needle that sticks and slides",
+      {fmt::format("By the motor alone, (21) jumps by {:.0f} mN some 90 ms after each reversal, when sliding begins "
+                   "and B2 times the late "
+                   "estimate comes on: the paper’s spikes. Motor and brake together jump by {:.1f} mN, an encoder’s "
+                   "step of the spring. "
+                   "That comes out as in the paper’s panels. So does a toggling that the paper does not mention: in "
+                   "steady sliding an "
+                   "encoder’s step can look like sticking for a sample, and B2 u̇ goes and comes, in the motor alone as "
+                   "a spike.",
+                   fig11.parts[0].jump * 1e3, fig11.parts[1].jump * 1e3),
+       fmt::format("Felt, the errors are small: {:.1f} mN rms by the motor alone, {:.1f} by both, {:.1f} by dashpot’s "
+                   "law, which leaves B2 to "
+                   "the spring and slip that it stands behind and never switches its brake. Without any dampers it "
+                   "would be {:.0f} mN. Right "
+                   "after a reversal, where velocities are small, the motor alone is off by {:.1f} mN, both by {:.1f}.",
+                   fig11.parts[0].rms_error * 1e3, fig11.parts[1].rms_error * 1e3, fig11.parts[3].rms_error * 1e3,
+                   fig11.parts[2].rms_error * 1e3, fig11.parts[0].spike * 1e3, fig11.parts[1].spike * 1e3)},
+      {figure_of(fig11)},
+      {table}};
 }
 
 }  // namespace dashpot::paper

@@ -1,5 +1,5 @@
-// The paper's Fig. 11: a needle that sticks and slides (Fig. 10), through several reversals by hand, on the rig: (21) by the motor
-// alone and by motor and brake, and what dashpot emits for the network.
+// The paper's Fig. 11: a needle that sticks and slides (Fig. 10), through several reversals by hand, on the rig: (21)
+// by the motor alone and by motor and brake, and what dashpot emits for the network.
 #pragma once
 
 #include "experiment.hpp"
@@ -15,8 +15,8 @@ struct Fig11 {
     std::vector<double> truth;  // of the network under the same motion [N]
     double rms_error = 0;       // of the felt force, after the first half stroke [N]
     double spike = 0;           // largest error within 15 ms after a reversal, mean of the reversals [N]
-    double jump = 0;            // of the motor's command within one sample, largest of a stroke, mean of the strokes [N]
-    int toggles = 0;            // changes of the brake's command
+    double jump = 0;  // of the motor's command within one sample, largest of a stroke, mean of the strokes [N]
+    int toggles = 0;  // changes of the brake's command
   };
   std::vector<double> reversals;  // of the first part [s]
   std::vector<Part> parts;        // (21) by the motor alone, by both, without the brake; dashpot's own

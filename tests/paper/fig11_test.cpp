@@ -13,13 +13,15 @@ const Fig11& fig11() {
   return measured;
 }
 
-// Fails if the motor's command does not jump where sliding begins after a reversal, by B2 times the estimate, as the paper shows.
+// Fails if the motor's command does not jump where sliding begins after a reversal, by B2 times the estimate, as the
+// paper shows.
 TEST(Fig11, jumps_after_each_reversal_by_the_motor_alone) {
   EXPECT_EQ(fig11().reversals.size(), 6U);
   EXPECT_NEAR(fig11().parts[0].jump, 0.0203, 0.002);
 }
 
-// Fails if the jump is not gone from the motor's command with the brake: what is left is the spring's force of some encoder steps.
+// Fails if the jump is not gone from the motor's command with the brake: what is left is the spring's force of some
+// encoder steps.
 TEST(Fig11, does_not_jump_by_motor_and_brake) {
   const double step = chosen("needle.stiffness") * rig().description.encoder.step * rig().description.arm_radius;
   EXPECT_LT(fig11().parts[1].jump, 2.5 * step);

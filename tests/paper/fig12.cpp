@@ -76,7 +76,8 @@ Fig12::Part part_of(const Experiment& experiment, const Realisation& realisation
   return part;
 }
 
-Curve energy_curve(const std::string& name, const Style& style, const Fig12::Part& part, const std::vector<double>& force) {
+Curve energy_curve(const std::string& name, const Style& style, const Fig12::Part& part,
+                   const std::vector<double>& force) {
   const double period = rig().description.loop.sample_period;
   std::vector<double> energy = energy_of(force, part.velocity, period);
   const double origin = energy[part.reversal];
@@ -101,8 +102,7 @@ Figure figure_of(const Fig12& fig12) {
            "Force: the motor’s command, and b times the velocity computed offline, as in the paper."},
           {{"Energy since the reversal", "time [s]", "energy [mJ]", energy, around},
            {"Force", "time [s]", "force [N]", force, around},
-           {"Velocity", "time [s]", "velocity [mm/s]",
-            {curve_of("", plain, single.trace, velocity)}, whole},
+           {"Velocity", "time [s]", "velocity [mm/s]", {curve_of("", plain, single.trace, velocity)}, whole},
            {"Force, whole run", "time [s]", "force [N]", force, whole}}};
 }
 
@@ -118,15 +118,23 @@ Fig12 measure_fig12() {
 }
 
 Section show(const Fig12& fig12) {
-  Table table{"Energy returned after the reversal",
-              {"realisation", "returned [mJ]", "ideal, same motion [mJ]", "excess [%]", "by the true force and velocity [mJ]"}, {}};
+  Table table{
+      "Energy returned after the reversal",
+      {"realisation", "returned [mJ]", "ideal, same motion [mJ]", "excess [%]", "by the true force and velocity [mJ]"},
+      {}};
   for (const Fig12::Part& part : fig12.parts)
-    table.rows.push_back({part.name, fmt::format("{:.4f}", part.returned * 1e3), fmt::format("{:.4f}", part.ideal_returned * 1e3),
-                          fmt::format("{:+.1f}", 100 * part.excess()), fmt::format("{:.4f}", part.felt_returned * 1e3)});
-  return {"fig12", "Fig. 12: energy of a Maxwell element at a reversal",
-          {fmt::format("The single motor returns {:.1f} % more than the element under the same motion, the dual channel {:.1f} % "
-                       "less: the order of the paper.", 100 * fig12.parts[0].excess(), -100 * fig12.parts[1].excess())},
-          {figure_of(fig12)}, {table}};
+    table.rows.push_back({part.name, fmt::format("{:.4f}", part.returned * 1e3),
+                          fmt::format("{:.4f}", part.ideal_returned * 1e3), fmt::format("{:+.1f}", 100 * part.excess()),
+                          fmt::format("{:.4f}", part.felt_returned * 1e3)});
+  return {
+      "fig12",
+      "Fig. 12: energy of a Maxwell element at a reversal",
+      {fmt::format(
+          "The single motor returns {:.1f} % more than the element under the same motion, the dual channel {:.1f} % "
+          "less: the order of the paper.",
+          100 * fig12.parts[0].excess(), -100 * fig12.parts[1].excess())},
+      {figure_of(fig12)},
+      {table}};
 }
 
 }  // namespace dashpot::paper

@@ -1,5 +1,5 @@
-// The paper's Fig. 12: the energy that a Maxwell element gives back at a reversal of the velocity, on the rig, led by a hand.
-// The ideal is computed offline from the recorded positions, through a filter without delay (paper, 6.4).
+// The paper's Fig. 12: the energy that a Maxwell element gives back at a reversal of the velocity, on the rig, led by a
+// hand. The ideal is computed offline from the recorded positions, through a filter without delay (paper, 6.4).
 #pragma once
 
 #include "experiment.hpp"
@@ -12,11 +12,11 @@ struct Fig12 {
     std::string name;
     Style style;
     Trace trace;
-    std::vector<double> velocity;      // offline, without delay [m/s]
-    std::vector<double> force, ideal;  // of brake and motor, and of the element under the same motion [N]
-    std::size_t reversal = 0;          // sample
+    std::vector<double> velocity;             // offline, without delay [m/s]
+    std::vector<double> force, ideal;         // of brake and motor, and of the element under the same motion [N]
+    std::size_t reversal = 0;                 // sample
     double returned = 0, ideal_returned = 0;  // [J]
-    double felt_returned = 0;          // with the true velocity and the force that acts, brake's residual included [J]
+    double felt_returned = 0;  // with the true velocity and the force that acts, brake's residual included [J]
 
     double excess() const { return returned / ideal_returned - 1; }
   };

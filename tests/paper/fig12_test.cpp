@@ -11,7 +11,8 @@ const Fig12& fig12() {
   return measured;
 }
 
-// Fails if the paper's order does not come out: more energy back than the element's by the single motor, less by the dual channel.
+// Fails if the paper's order does not come out: more energy back than the element's by the single motor, less by the
+// dual channel.
 TEST(Fig12, returns_most_energy_by_the_single_motor_and_least_by_the_dual_channel) {
   EXPECT_GT(fig12().parts[0].returned, fig12().parts[0].ideal_returned);
   EXPECT_LT(fig12().parts[1].returned, fig12().parts[1].ideal_returned);

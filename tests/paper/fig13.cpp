@@ -50,7 +50,8 @@ Fig13::Part part_of(const Experiment& experiment, const Realisation& realisation
   part.undershoot = lowest / arm;
   part.overshoot = extreme(part.trace, where(part.trace, release, lowest), false) / arm;
   std::size_t last = part.trace.size() - 1;
-  while (last > release && std::abs(part.trace[last].velocity) < settled * std::abs(part.trace[release].velocity)) --last;
+  while (last > release && std::abs(part.trace[last].velocity) < settled * std::abs(part.trace[release].velocity))
+    --last;
   part.settling = part.trace[last].time - part.trace[release].time;
   return part;
 }
@@ -84,8 +85,8 @@ Figure figure_of(const Fig13& fig13) {
   };
   const Interval shown{0, chosen("fig13.drag") + watched};
   return {"Fig. 13: a Maxwell element is dragged at 1.8 rad/s and let go",
-          {fmt::format("K = {} N/m, B = {} N·s/m at 50 mm, 0.1 g·m² of inertia; let go at {} s.", chosen("tissue.stiffness"),
-                       chosen("tissue.damping"), fig13.release)},
+          {fmt::format("K = {} N/m, B = {} N·s/m at 50 mm, 0.1 g·m² of inertia; let go at {} s.",
+                       chosen("tissue.stiffness"), chosen("tissue.damping"), fig13.release)},
           {{"Velocity", "time [s]", "velocity [rad/s]", all(velocity), shown},
            {"Angle", "time [s]", "angle [rad]", all(angle), shown},
            {"Torque of motor and brake", "time [s]", "torque [mN·m]", all(torque), shown},
@@ -104,35 +105,49 @@ Fig13 measure_fig13() {
       part_of(experiment, {"single motor", law_of<laws::maxwell_single>(), plant.velocity, 0}, single_motor),
       part_of(experiment, {"dual channel", law_of<laws::maxwell_dual>(), plant.velocity, 0}, dual_channel),
       part_of(experiment, {"dashpot’s choice for this device", law_of<laws::maxwell_own>(), plant.velocity, 0}, third)};
-  for (const double factor : {1, 2, 4, 8}) fig13.variations.push_back(variation_of(experiment, factor * chosen("tissue.stiffness")));
+  for (const double factor : {1, 2, 4, 8})
+    fig13.variations.push_back(variation_of(experiment, factor * chosen("tissue.stiffness")));
   return fig13;
 }
 
 Section show(const Fig13& fig13) {
   Table table{"After the release",
-              {"realisation", "let go at [rad/s]", "first undershoot [rad/s]", "overshoot after it [rad/s]", "settled after [s]"}, {}};
+              {"realisation", "let go at [rad/s]", "first undershoot [rad/s]", "overshoot after it [rad/s]",
+               "settled after [s]"},
+              {}};
   for (const Fig13::Part& part : fig13.parts)
-    table.rows.push_back({part.name, fmt::format("{:.3f}", part.release_velocity), fmt::format("{:.3f}", part.undershoot),
-                          fmt::format("{:.3f}", part.overshoot), fmt::format("{:.3f}", part.settling)});
+    table.rows.push_back({part.name, fmt::format("{:.3f}", part.release_velocity),
+                          fmt::format("{:.3f}", part.undershoot), fmt::format("{:.3f}", part.overshoot),
+                          fmt::format("{:.3f}", part.settling)});
   Table variations{"The same with stiffer springs: what the ratio depends on",
-                   {"K [N/m]", "single motor [rad/s]", "dual channel [rad/s]", "ratio"}, {}};
+                   {"K [N/m]", "single motor [rad/s]", "dual channel [rad/s]", "ratio"},
+                   {}};
   for (const Fig13::Variation& v : fig13.variations)
-    variations.rows.push_back({fmt::format("{}", v.stiffness), fmt::format("{:.2f}", v.single), fmt::format("{:.2f}", v.dual),
-                               fmt::format("{:.2f}", v.single / v.dual)});
+    variations.rows.push_back({fmt::format("{}", v.stiffness), fmt::format("{:.2f}", v.single),
+                               fmt::format("{:.2f}", v.dual), fmt::format("{:.2f}", v.single / v.dual)});
   const double ratio = fig13.parts[1].undershoot / fig13.parts[2].undershoot;
-  return {"fig13", "Fig. 13: drag and release",
-          {fmt::format("First undershoot: single motor {:.2f}, dual channel {:.2f} rad/s, a ratio of {:.2f}; the paper has −3.8 and −2, a "
-                       "ratio of 1.9. The ideal element, on the same arm without delay and quantisation, has {:.2f}: the single motor exceeds it, the "
-                       "dual channel stays below.", fig13.parts[1].undershoot, fig13.parts[2].undershoot, ratio,
-                       fig13.parts[0].undershoot),
-           "That the size does not come out has a reason. With Z_d the element’s impedance and τ the delay, both realisations lose the "
-           "same damping to first order, ωτ·|Im Z_d|, because the brake’s b is real; what the dual channel gains is an apparent "
-           "inertia bτ, which slows the swing, and damping to second order. The ratio grows with the stiffness (second table). "
+  return {"fig13",
+          "Fig. 13: drag and release",
+          {fmt::format("First undershoot: single motor {:.2f}, dual channel {:.2f} rad/s, a ratio of {:.2f}; the paper "
+                       "has −3.8 and −2, a "
+                       "ratio of 1.9. The ideal element, on the same arm without delay and quantisation, has {:.2f}: "
+                       "the single motor exceeds it, the "
+                       "dual channel stays below.",
+                       fig13.parts[1].undershoot, fig13.parts[2].undershoot, ratio, fig13.parts[0].undershoot),
+           "That the size does not come out has a reason. With Z_d the element’s impedance and τ the delay, both "
+           "realisations lose the "
+           "same damping to first order, ωτ·|Im Z_d|, because the brake’s b is real; what the dual channel gains is an "
+           "apparent "
+           "inertia bτ, which slows the swing, and damping to second order. The ratio grows with the stiffness (second "
+           "table). "
            "Which stiffness and inertia the paper’s rig had is not printed.",
-           fmt::format("Settling does not come out either: {:.0f} ms by the single motor, {:.0f} ms by the dual channel, {:.0f} ms ideally. "
-                       "The assumed friction of 20 mN stops the arm after one swing in each case, and the dual channel’s is slower.",
+           fmt::format("Settling does not come out either: {:.0f} ms by the single motor, {:.0f} ms by the dual "
+                       "channel, {:.0f} ms ideally. "
+                       "The assumed friction of 20 mN stops the arm after one swing in each case, and the dual "
+                       "channel’s is slower.",
                        fig13.parts[1].settling * 1e3, fig13.parts[2].settling * 1e3, fig13.parts[0].settling * 1e3)},
-          {figure_of(fig13)}, {table, variations}};
+          {figure_of(fig13)},
+          {table, variations}};
 }
 
 }  // namespace dashpot::paper

@@ -18,10 +18,10 @@ struct Fig13 {
   };
   // The same with another spring.
   struct Variation {
-    double stiffness;       // [N/m]
-    double single, dual;    // first undershoots [rad/s]
+    double stiffness;     // [N/m]
+    double single, dual;  // first undershoots [rad/s]
   };
-  double release = 0;       // [s]
+  double release = 0;  // [s]
   std::vector<Variation> variations;
   std::vector<Part> parts;  // ideal, single motor, dual channel, dashpot's own choice for the device
 };

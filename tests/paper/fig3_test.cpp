@@ -18,7 +18,8 @@ constexpr std::size_t five_ms = 5;
 
 double most(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 
-// Fails if an observer with an exact brake is active under some delay: the tool-damper theorem (theory, section 4) forbids it.
+// Fails if an observer with an exact brake is active under some delay: the tool-damper theorem (theory, section 4)
+// forbids it.
 TEST(Fig3, is_passive_under_any_delay_whichever_element_is_observed) {
   for (const Fig3::Case& each : fig3().cases)
     for (std::size_t observed = 0; observed < 2; ++observed)
@@ -41,8 +42,8 @@ TEST(Fig3, merges_equal_elements) {
   EXPECT_NEAR(equal.observers[0].error[five_ms], 0.129, 0.001);
 }
 
-// Fails if theory's own example does not come out: at 0.5 Hz and 5 ms b = 10 is 47 % wrong (theory says 46, in time and not at one
-// frequency), b = 0.1 is not wrong by a thousandth of a percent.
+// Fails if theory's own example does not come out: at 0.5 Hz and 5 ms b = 10 is 47 % wrong (theory says 46, in time and
+// not at one frequency), b = 0.1 is not wrong by a thousandth of a percent.
 TEST(Fig3, observes_the_soft_element_of_theorys_example) {
   const Fig3::Case& unequal = fig3().cases[2];
   EXPECT_GT(unequal.pair.share(2), 1000 * unequal.pair.share(1));
@@ -50,8 +51,8 @@ TEST(Fig3, observes_the_soft_element_of_theorys_example) {
   EXPECT_LT(unequal.observers[1].slow_error[five_ms], 1e-5);
 }
 
-// Fails if what the page says of the rules changes: of random pairs at 5 ms, below 5 Hz, neither the larger share nor the larger
-// damping is the better observer more often than not; the smaller damping is.
+// Fails if what the page says of the rules changes: of random pairs at 5 ms, below 5 Hz, neither the larger share nor
+// the larger damping is the better observer more often than not; the smaller damping is.
 TEST(Fig3, errs_least_by_the_smaller_damping_more_often_than_by_any_rule) {
   EXPECT_NEAR(fig3().polls[0].share(&Fig3::Poll::less_error), 0.464, 0.01);
   EXPECT_NEAR(fig3().polls[1].share(&Fig3::Poll::less_error), 0.113, 0.01);

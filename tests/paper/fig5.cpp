@@ -1,7 +1,7 @@
 // fig5 FOLDER: the paper's Fig. 5 by emitted code. Prints and writes FOLDER/fig5.csv and FOLDER/fig5.svg: the 2nd-order
 // Maxwell solid through a ramp and a hold in steps of 200 ms; then takes a published tissue through the same motion.
-// Exit status 1 if a law emitted with the scheme `exact` is not the closed form, or if the paper's scheme errs otherwise
-// than it is known to.
+// Exit status 1 if a law emitted with the scheme `exact` is not the closed form, or if the paper's scheme errs
+// otherwise than it is known to.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -31,8 +31,9 @@ const MaxwellSolid heel{{{0.3612, 361.2}, {46.354, 4635.4}, {1204, 120.4}}, 903}
 using Samples = std::vector<ResponseSample>;
 
 std::string csv(const Samples& exact, const Samples& euler) {
-  std::string text = "time [s],position [m],closed form [N],exact [N],brake [N],motor [N],error [N],"
-                     "backward Euler [N],error of backward Euler [N]\n";
+  std::string text =
+      "time [s],position [m],closed form [N],exact [N],brake [N],motor [N],error [N],"
+      "backward Euler [N],error of backward Euler [N]\n";
   for (std::size_t i = 0; i < exact.size(); ++i)
     text += fmt::format("{},{},{},{},{},{},{},{},{}\n", exact[i].time, exact[i].position, exact[i].closed_form,
                         exact[i].emitted(), exact[i].brake, exact[i].motor, exact[i].error(), euler[i].emitted(),
@@ -65,8 +66,9 @@ bool errs_as_known(const Samples& euler) {
 bool run_solid(const std::filesystem::path& folder) {
   const Samples exact = respond<second_order_maxwell>(solid, insertion, end);
   const Samples euler = respond<second_order_maxwell_euler>(solid, insertion, end);
-  fmt::print("\nFig. 5: K1 = 12, K2 = 10, K3 = 5 N/m, B1 = 5, B2 = 6 N s/m; {} mm/s for {} s, then held; every {} s\n\n",
-             insertion.rate * 1e3, insertion.ramp_time, second_order_maxwell::sample_period);
+  fmt::print(
+      "\nFig. 5: K1 = 12, K2 = 10, K3 = 5 N/m, B1 = 5, B2 = 6 N s/m; {} mm/s for {} s, then held; every {} s\n\n",
+      insertion.rate * 1e3, insertion.ramp_time, second_order_maxwell::sample_period);
   print_rows(exact, 2);
   const bool exact_agrees = is_closed_form(exact), euler_agrees = errs_as_known(euler);
   std::ofstream(folder / "fig5.csv") << csv(exact, euler);

@@ -7,7 +7,8 @@ namespace {
 
 using Samples = std::vector<ResponseSample>;
 
-Curve curve(const std::string& name, const Style& style, const Samples& samples, double (*value)(const ResponseSample&)) {
+Curve curve(const std::string& name, const Style& style, const Samples& samples,
+            double (*value)(const ResponseSample&)) {
   Curve result{name, style, {}, {}};
   for (const ResponseSample& sample : samples) {
     result.x.push_back(sample.time);
@@ -37,9 +38,10 @@ Figure figure(const Samples& exact, const Samples& euler, double damping) {
   const auto motor = [](const ResponseSample& s) { return s.motor; };
   const Samples line = closed_form(damping);
   const auto panel = [&](const char* title, const char* label, double (*value)(const ResponseSample&)) {
-    return Panel{title, "time [s]", label,
-                 {curve("closed form (6)", ideal, line, value),
-                  curve("emitted, exact", emitted, exact, value),
+    return Panel{title,
+                 "time [s]",
+                 label,
+                 {curve("closed form (6)", ideal, line, value), curve("emitted, exact", emitted, exact, value),
                   curve("emitted, backward Euler", emitted_euler, euler, value)}};
   };
   return {"Fig. 5: 2nd-order Maxwell solid, ramp and hold in steps of 200 ms",
@@ -47,7 +49,8 @@ Figure figure(const Samples& exact, const Samples& euler, double damping) {
                        insertion.rate * 1e3, insertion.ramp_time),
            fmt::format("Largest error of the emitted law, relative to the peak: exact {:.0e}, backward Euler {:.3f} %.",
                        relative_error(exact), 100 * relative_error(euler))},
-          {panel("Total force", "force [N]", force), panel("Brake: b·u̇", "force [N]", brake),
+          {panel("Total force", "force [N]", force),
+           panel("Brake: b·u̇", "force [N]", brake),
            {"Displacement applied", "time [s]", "displacement [mm]", {curve("", plain, line, millimetres)}},
            panel("Motor: m", "force [N]", motor)}};
 }

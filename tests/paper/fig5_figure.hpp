@@ -1,4 +1,5 @@
-// The paper's Fig. 5: the 2nd-order Maxwell solid through a ramp and a hold in steps of 200 ms, in the paper's four panels.
+// The paper's Fig. 5: the 2nd-order Maxwell solid through a ramp and a hold in steps of 200 ms, in the paper's four
+// panels.
 #pragma once
 
 #include <vector>

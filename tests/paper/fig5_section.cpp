@@ -15,12 +15,17 @@ Fig5 measure_fig5() {
 
 Section show(const Fig5& measured) {
   const double damping = laws::fig5_exact{}.output(0, 0).damping;
-  return {"fig5", "Fig. 5: realisation and closed form of a 2nd-order Maxwell solid",
-          {fmt::format("In steps of 200 ms, chosen by the paper to exaggerate the error, its scheme departs from the closed form (6) by {:.3f} % "
-                       "of the peak, at {} s. The scheme `exact` departs by {:.0e}: rounding, since the motion is linear between samples.",
-                       100 * relative_error(measured.euler), worst(measured.euler).time, relative_error(measured.exact)),
-           "Brake and motor add up to the force of the solid in both."},
-          {fig5::figure(measured.exact, measured.euler, damping)}, {}};
+  return {
+      "fig5",
+      "Fig. 5: realisation and closed form of a 2nd-order Maxwell solid",
+      {fmt::format("In steps of 200 ms, chosen by the paper to exaggerate the error, its scheme departs from the "
+                   "closed form (6) by {:.3f} % "
+                   "of the peak, at {} s. The scheme `exact` departs by {:.0e}: rounding, since the motion is linear "
+                   "between samples.",
+                   100 * relative_error(measured.euler), worst(measured.euler).time, relative_error(measured.exact)),
+       "Brake and motor add up to the force of the solid in both."},
+      {fig5::figure(measured.exact, measured.euler, damping)},
+      {}};
 }
 
 }  // namespace dashpot::paper

@@ -19,7 +19,8 @@ TEST(Fig5, errs_as_known_by_backward_euler) {
   EXPECT_EQ(worst(euler).time, fig5::euler_error_time);
 }
 
-// Fails if the brake's part is not b u̇ with the dampers of both Maxwell elements, or the parts do not add up to the force.
+// Fails if the brake's part is not b u̇ with the dampers of both Maxwell elements, or the parts do not add up to the
+// force.
 TEST(Fig5, gives_the_dampers_to_the_brake_and_the_rest_to_the_motor) {
   for (const auto& sample : measure_fig5().exact) {
     EXPECT_EQ(sample.brake, 11 * fig5::insertion.velocity(sample.time)) << sample.time;

@@ -29,7 +29,9 @@ double velocity(double t) { return std::sin(angular * t); }
 simulated::scenario sine_of_velocity() {
   simulated::scenario motion;
   motion.prescribed = true;
-  motion.intended = [](double t) { return simulated::motion_point{(1 - std::cos(angular * t)) / angular, velocity(t)}; };
+  motion.intended = [](double t) {
+    return simulated::motion_point{(1 - std::cos(angular * t)) / angular, velocity(t)};
+  };
   return motion;
 }
 
@@ -69,13 +71,19 @@ double relative_error(const std::vector<double>& force, const std::vector<double
 
 // The largest b that Colgate and Schenkel's condition asks for, beyond the one that is there.
 double minimum_damping(const Fig6::Candidate& candidate) {
-  const SampledMaxwell loop{K, B, candidate.realisation.law()->output(0, 0).damping, period, lateness,
-                            candidate.scheme == "exact", candidate.state_input == "velocity"};
+  const SampledMaxwell loop{K,
+                            B,
+                            candidate.realisation.law()->output(0, 0).damping,
+                            period,
+                            lateness,
+                            candidate.scheme == "exact",
+                            candidate.state_input == "velocity"};
   return least_extra_damping(loop);
 }
 
 Fig6::Candidate candidate_of(const Kind& kind, const Experiment& experiment, const Fig6& truth) {
-  Fig6::Candidate candidate{{kind.name, kind.law, true_velocity(), lateness}, kind.scheme, kind.state_input, {}, {}, 0, 0, 0};
+  Fig6::Candidate candidate{
+      {kind.name, kind.law, true_velocity(), lateness}, kind.scheme, kind.state_input, {}, {}, 0, 0, 0};
   candidate.trace = run(experiment, candidate.realisation);
   const std::vector<double> force = forces(candidate.trace);
   candidate.energy = energy_of(force, truth.velocity, period);
@@ -121,9 +129,10 @@ Curve energy_curve(const Fig6& fig6, const Fig6::Candidate& candidate, const cha
 Figure figure_of(const Fig6& fig6) {
   const auto commanded = [](const Sample& s) { return s.commanded_force(); };
   const Trace &single = fig6.candidates[0].trace, &dual = fig6.candidates[1].trace;
-  const std::vector<Curve> force = {ideal_curve(fig6, fig6.force, 1),
-                                    curve_of("single motor, (19) with the late velocity", single_motor, single, commanded),
-                                    curve_of("brake B u̇, motor −B ẋ", dual_channel, dual, commanded)};
+  const std::vector<Curve> force = {
+      ideal_curve(fig6, fig6.force, 1),
+      curve_of("single motor, (19) with the late velocity", single_motor, single, commanded),
+      curve_of("brake B u̇, motor −B ẋ", dual_channel, dual, commanded)};
   Curve returned = ideal_curve(fig6, fig6.energy, 1);
   for (double& y : returned.y) y = (y - fig6.energy[reversal]) * 1e3;
   const std::vector<Curve> energy = {returned, energy_curve(fig6, fig6.candidates[0], "", single_motor),
@@ -164,22 +173,28 @@ Fig6 measure_fig6() {
 
 Section show(const Fig6& fig6) {
   Table table{"Force error over 0–4 s, energy returned after the reversal at 1 s, and the damping still needed",
-              {"realisation", "scheme", "states driven by", "rms error [%]", "returned [mJ]", "extra damping [N·s/m]"}, {}};
+              {"realisation", "scheme", "states driven by", "rms error [%]", "returned [mJ]", "extra damping [N·s/m]"},
+              {}};
   table.rows.push_back({"ideal", "closed form", "", "", fmt::format("{:.2f}", fig6.returned * 1e3), ""});
   for (const Fig6::Candidate& c : fig6.candidates)
     table.rows.push_back({c.realisation.name, c.scheme, c.state_input, fmt::format("{:.5f}", 100 * c.relative_error),
                           fmt::format("{:.2f}", c.returned * 1e3), fmt::format("{:.4f}", c.minimum_damping)});
-  return {"fig6", "Fig. 6: a Maxwell element through a late velocity",
-          {fmt::format("The single motor returns {:.2f} mJ after the reversal, the ideal element {:.2f}, the dual channel "
-                       "{:.2f}: the order that the paper shows.", fig6.candidates[0].returned * 1e3, fig6.returned * 1e3,
-                       fig6.candidates[1].returned * 1e3),
-           "What the paper does not compare: the same single motor, its states driven by the encoder's position, needs no "
-           "velocity at all for this element and errs least of all (last row of each scheme). The dual channel's gain is over "
-           "(19) with a late velocity, and in the damping that a sampled loop needs.",
-           fmt::format("(14), f = Bẋ made by a damper, fails at a reversal: for {:.0f} ms after it force and velocity are "
-                       "opposed, the element gives back {:.2f} mJ, and the damping f/u̇ that a brake would have to make is "
-                       "negative.", fig6.unreachable * 1e3, fig6.returned * 1e3)},
-          {figure_of(fig6)}, {table}};
+  return {
+      "fig6",
+      "Fig. 6: a Maxwell element through a late velocity",
+      {fmt::format("The single motor returns {:.2f} mJ after the reversal, the ideal element {:.2f}, the dual channel "
+                   "{:.2f}: the order that the paper shows.",
+                   fig6.candidates[0].returned * 1e3, fig6.returned * 1e3, fig6.candidates[1].returned * 1e3),
+       "What the paper does not compare: the same single motor, its states driven by the encoder's position, needs no "
+       "velocity at all for this element and errs least of all (last row of each scheme). The dual channel's gain is "
+       "over "
+       "(19) with a late velocity, and in the damping that a sampled loop needs.",
+       fmt::format("(14), f = Bẋ made by a damper, fails at a reversal: for {:.0f} ms after it force and velocity are "
+                   "opposed, the element gives back {:.2f} mJ, and the damping f/u̇ that a brake would have to make is "
+                   "negative.",
+                   fig6.unreachable * 1e3, fig6.returned * 1e3)},
+      {figure_of(fig6)},
+      {table}};
 }
 
 }  // namespace dashpot::paper

@@ -1,5 +1,5 @@
-// The paper's Fig. 6: a Maxwell element, K = 50 N/m, B = 5 N·s/m, 1 ms, under a sine of velocity of 0.5 Hz, by an estimate
-// 5 ms late: ideal, single motor, dual channel; with the energy (20).
+// The paper's Fig. 6: a Maxwell element, K = 50 N/m, B = 5 N·s/m, 1 ms, under a sine of velocity of 0.5 Hz, by an
+// estimate 5 ms late: ideal, single motor, dual channel; with the energy (20).
 #pragma once
 
 #include <array>
@@ -21,7 +21,8 @@ struct Fig6 {
   };
   std::vector<double> time, force, velocity, energy;  // ideal [s], [N], [m/s], [J]
   double returned = 0;                                // ideal [J]
-  std::vector<Candidate> candidates;  // scheme by scheme: single velocity, dual velocity, dual position, single position
+  std::vector<Candidate>
+      candidates;          // scheme by scheme: single velocity, dual velocity, dual position, single position
   double unreachable = 0;  // for how long after the reversal force and velocity are opposed: no damper makes that [s]
 };
 

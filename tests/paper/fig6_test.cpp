@@ -43,8 +43,8 @@ TEST(Fig6, holds_them_against_the_ideal_element) {
   EXPECT_NEAR(fig6_force(1.50), -4.55085, last_digit);
 }
 
-// Fails if the paper's claim does not come out: the single motor gives back more than the element stored, the dual channel
-// less.
+// Fails if the paper's claim does not come out: the single motor gives back more than the element stored, the dual
+// channel less.
 TEST(Fig6, returns_most_energy_by_the_single_motor) {
   constexpr double two_hundredths_of_a_millijoule = 0.02e-3;
   EXPECT_NEAR(fig6().candidates[0].returned, 8.20e-3, two_hundredths_of_a_millijoule);
@@ -52,14 +52,15 @@ TEST(Fig6, returns_most_energy_by_the_single_motor) {
   EXPECT_NEAR(fig6().candidates[1].returned, 7.02e-3, two_hundredths_of_a_millijoule);
 }
 
-// Fails if the dual channel of the paper needs damping beside its brake, which theory's half-viscosity theorem rules out but
-// for the hold's, or if the single motor needs none.
+// Fails if the dual channel of the paper needs damping beside its brake, which theory's half-viscosity theorem rules
+// out but for the hold's, or if the single motor needs none.
 TEST(Fig6, needs_damping_in_the_single_motor_alone) {
   EXPECT_GT(fig6().candidates[0].minimum_damping, 0.2);
   EXPECT_EQ(fig6().candidates[1].minimum_damping, 0);
 }
 
-// Fails if the scan over frequencies and the compiler's certificate, which bounds them all, disagree about the law that both know.
+// Fails if the scan over frequencies and the compiler's certificate, which bounds them all, disagree about the law that
+// both know.
 TEST(Fig6, needs_what_the_certificate_says) {
   dashpot::compiler::Choices choices;
   choices.rate = 1000;

@@ -12,7 +12,7 @@ namespace dashpot::paper {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double duration = 2;       // [s]
+constexpr double duration = 2;         // [s]
 constexpr std::size_t settled = 1000;  // samples; every estimator here remembers less
 
 // Only the velocity is wanted: no brake, no motor.
@@ -104,7 +104,8 @@ double smallest_step(const std::vector<double>& values) {
   return least;
 }
 
-Curve curve(const char* name, const Style& style, const Fig7& fig7, const std::vector<double>& values, double scale = 1) {
+Curve curve(const char* name, const Style& style, const Fig7& fig7, const std::vector<double>& values,
+            double scale = 1) {
   Curve result{name, style, fig7.time, values};
   for (double& y : result.y) y *= scale;
   return result;
@@ -116,13 +117,19 @@ Figure figure_of(const Fig7& fig7) {
   const Curve average = curve("100 samples, centred: not causal", plain, fig7, fig7.averaged);
   const Curve filtered = curve("Butterworth, 4th order, 120 Hz", single_motor, fig7, fig7.estimates[1].velocity);
   const Interval strip{0.02, 0.14}, around{0.94, 1.06};
-  return {"Fig. 7: velocity from an encoder of 65,536 counts, at 10 kHz",
-          {fmt::format("One quantum is {:.3f} rad/s. The filter’s velocity crosses zero {:.2f} ms late.", fig7.quantum,
-                       fig7.crossing_delay * 1e3)},
-          {{"a. Raw", "time [s]", "velocity [rad/s]", {truth, raw}, strip, Interval{-1, 2.2}},
-           {"Position as counted", "time [s]", "angle [mrad]", {curve("counted", dual_channel, fig7, fig7.position, 1e3)}},
-           {"b. Filtered", "time [s]", "velocity [rad/s]", {truth, average, filtered}},
-           {"b. Around a reversal", "time [s]", "velocity [rad/s]", {truth, average, filtered}, around, Interval{-0.4, 0.4}}}};
+  return {
+      "Fig. 7: velocity from an encoder of 65,536 counts, at 10 kHz",
+      {fmt::format("One quantum is {:.3f} rad/s. The filter’s velocity crosses zero {:.2f} ms late.", fig7.quantum,
+                   fig7.crossing_delay * 1e3)},
+      {{"a. Raw", "time [s]", "velocity [rad/s]", {truth, raw}, strip, Interval{-1, 2.2}},
+       {"Position as counted", "time [s]", "angle [mrad]", {curve("counted", dual_channel, fig7, fig7.position, 1e3)}},
+       {"b. Filtered", "time [s]", "velocity [rad/s]", {truth, average, filtered}},
+       {"b. Around a reversal",
+        "time [s]",
+        "velocity [rad/s]",
+        {truth, average, filtered},
+        around,
+        Interval{-0.4, 0.4}}}};
 }
 
 }  // namespace
@@ -130,7 +137,8 @@ Figure figure_of(const Fig7& fig7) {
 Fig7 measure_fig7() {
   Fig7 fig7;
   const Experiment experiment = slow_motion();
-  for (const NamedEstimator& which : compared_estimators()) fig7.estimates.push_back(estimate_of(which, experiment, fig7));
+  for (const NamedEstimator& which : compared_estimators())
+    fig7.estimates.push_back(estimate_of(which, experiment, fig7));
   fig7.quantum = smallest_step(fig7.estimates[0].velocity);
   fig7.averaged = centred_average(fig7.estimates[0].velocity, 100);
   fig7.crossing_delay = crossing_delay(fig7);
@@ -139,20 +147,27 @@ Fig7 measure_fig7() {
 
 Section show(const Fig7& fig7) {
   Table table{"All estimators on the same positions, peak velocity 1 rad/s",
-              {"estimator", "rms error [rad/s]", "largest [rad/s]", "delay [ms]", "rms without the delay [rad/s]"}, {}};
+              {"estimator", "rms error [rad/s]", "largest [rad/s]", "delay [ms]", "rms without the delay [rad/s]"},
+              {}};
   for (const Fig7::Estimate& e : fig7.estimates)
     table.rows.push_back({e.name, fmt::format("{:.4f}", e.rms_error), fmt::format("{:.3f}", e.worst),
                           fmt::format("{:.2f}", e.delay * 1e3), fmt::format("{:.4f}", e.noise)});
-  return {"fig7", "Fig. 7: noise and delay of the velocity",
-          {fmt::format("The quantum of the one-sample difference is {:.3f} rad/s; the paper prints 0.95, which fixes its rate: "
-                       "10 kHz.", fig7.quantum),
-           fmt::format("The paper says that its filter, 4th order at 120 Hz, crosses zero about 5 ms late. Its delay is {:.2f} "
-                       "ms here: 2.613/(2π·120 Hz) = 3.47 ms, and half a sample of the difference before it. Zero itself it "
-                       "crosses {:.2f} ms late, because the encoder has nothing to say while the arm turns. 5 ms would be a cutoff of 83 Hz, or the 6th order at 120 Hz (5.1 ms), or one and "
-                       "a half milliseconds of the loop beside the filter. The printed text also calls the filter FIR, which "
-                       "a Butterworth is not. Everything here uses 120 Hz and the 4th order, and Fig. 6 the 5 ms.",
-                       fig7.estimates[1].delay * 1e3, fig7.crossing_delay * 1e3)},
-          {figure_of(fig7)}, {table}};
+  return {"fig7",
+          "Fig. 7: noise and delay of the velocity",
+          {fmt::format(
+               "The quantum of the one-sample difference is {:.3f} rad/s; the paper prints 0.95, which fixes its rate: "
+               "10 kHz.",
+               fig7.quantum),
+           fmt::format(
+               "The paper says that its filter, 4th order at 120 Hz, crosses zero about 5 ms late. Its delay is {:.2f} "
+               "ms here: 2.613/(2π·120 Hz) = 3.47 ms, and half a sample of the difference before it. Zero itself it "
+               "crosses {:.2f} ms late, because the encoder has nothing to say while the arm turns. 5 ms would be a "
+               "cutoff of 83 Hz, or the 6th order at 120 Hz (5.1 ms), or one and "
+               "a half milliseconds of the loop beside the filter. The printed text also calls the filter FIR, which "
+               "a Butterworth is not. Everything here uses 120 Hz and the 4th order, and Fig. 6 the 5 ms.",
+               fig7.estimates[1].delay * 1e3, fig7.crossing_delay * 1e3)},
+          {figure_of(fig7)},
+          {table}};
 }
 
 }  // namespace dashpot::paper

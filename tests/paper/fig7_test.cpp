@@ -14,8 +14,8 @@ const Fig7& fig7() {
 // Fails if the encoder or the rate is not the paper's: its one-sample difference jumps by 0.95 rad/s.
 TEST(Fig7, has_the_printed_quantum_of_velocity) { EXPECT_NEAR(fig7().quantum, 0.95, 0.01); }
 
-// Fails if the paper's filter has another delay than its order and cutoff give it. The paper says "approximately 5 ms": that
-// does not come out, also not where the velocity crosses zero and the encoder is silent.
+// Fails if the paper's filter has another delay than its order and cutoff give it. The paper says "approximately 5 ms":
+// that does not come out, also not where the velocity crosses zero and the encoder is silent.
 TEST(Fig7, is_late_by_the_delay_of_the_filter) {
   constexpr double tenth_of_a_millisecond = 1e-4;
   EXPECT_NEAR(fig7().estimates[1].delay, 3.5e-3, tenth_of_a_millisecond);

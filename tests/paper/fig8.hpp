@@ -1,5 +1,6 @@
-// The paper's Fig. 8: contact with a Kelvin element and release, on the rig. A hand presses and withdraws, presses again and
-// lets go. The wall of the literature is active while the tool is inside; a contact lets go when the tissue would pull.
+// The paper's Fig. 8: contact with a Kelvin element and release, on the rig. A hand presses and withdraws, presses
+// again and lets go. The wall of the literature is active while the tool is inside; a contact lets go when the tissue
+// would pull.
 #pragma once
 
 #include "experiment.hpp"
@@ -23,7 +24,8 @@ struct Fig8 {
     Release withdrawn;  // by the hand
     Release let_go;
   };
-  std::vector<Part> parts;  // single and dual with the wall of the literature, single and dual with the contact, and that without the coil’s lag
+  std::vector<Part> parts;  // single and dual with the wall of the literature, single and dual with the contact, and
+                            // that without the coil’s lag
 };
 
 Fig8 measure_fig8();

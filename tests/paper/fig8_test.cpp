@@ -33,8 +33,9 @@ TEST(Fig8, does_not_pull_with_a_contact_by_the_single_motor) {
   EXPECT_LT(fig8().parts[2].let_go.impulse, 1e-6);
 }
 
-// Fails if a contact pulls by the dual channel more than the coil keeps of b when it is told to let go, ∫ b e^{−2t/τ} u̇ dt with
-// τ = 2 ms and u̇ as fast as the stroke, and an encoder step of b a release. The claim "none" comes out but for that.
+// Fails if a contact pulls by the dual channel more than the coil keeps of b when it is told to let go, ∫ b e^{−2t/τ} u̇
+// dt with τ = 2 ms and u̇ as fast as the stroke, and an encoder step of b a release. The claim "none" comes out but for
+// that.
 TEST(Fig8, pulls_with_a_contact_by_the_dual_channel_only_while_the_coil_lets_go) {
   constexpr double b = 2.5, lag = 2e-3, fastest = 0.094, step = 4.8e-6;
   const Fig8::Release& release = fig8().parts[3].withdrawn;

@@ -113,26 +113,39 @@ Fig9 measure_fig9() {
 Section show(const Fig9& fig9) {
   Table table{"The motor’s command at the obstacle",
               {"realisation", "speed before [mm/s]", "just before [N]", "50 ms after [N]", "jump [N]",
-               "felt, off by at most [N]", "off by a fifth for [ms]"}, {}};
+               "felt, off by at most [N]", "off by a fifth for [ms]"},
+              {}};
   for (const Fig9::Part& part : fig9.parts)
     table.rows.push_back({part.name, fmt::format("{:.2f}", part.speed * 1e3), fmt::format("{:+.4f}", part.before_stop),
-                          fmt::format("{:+.4f}", part.after_stop), fmt::format("{:+.4f}", part.after_stop - part.before_stop),
+                          fmt::format("{:+.4f}", part.after_stop),
+                          fmt::format("{:+.4f}", part.after_stop - part.before_stop),
                           fmt::format("{:.4f}", part.felt_error), fmt::format("{:.1f}", part.felt_error_time * 1e3)});
-  return {"fig9", "Fig. 9: a 2nd-order Maxwell solid, stopped by a rigid obstacle",
-          {fmt::format("Relaxation: single motor and dual channel differ by at most {:.2f} % of the peak, dual channel and ideal by "
-                       "{:.2f} %.", 100 * fig9.relaxation_difference, 100 * fig9.relaxation_error),
-           "Both come to the relaxation with a little too much: their states are driven by the estimate, which enters the object "
-           "with what it remembers of free motion and leaves it 3.5 ms late.",
-           "During compression the single motor’s command has the shape of Fig. 5’s total force, the dual channel’s that of the "
-           "motor’s part: below zero, since the brake makes more than the solid and the motor takes it back. When the obstacle "
-           "stops the arm, the brake’s part ends at once and the motor’s command jumps by as much.",
-           fmt::format("The paper says that these transients are not felt, because the brake acts at the same time. That does not come "
-                       "out: at contact the motor takes back at once what the coil needs its 2 ms to build up, and at the stop the "
-                       "brake’s part is gone 3.5 ms before the estimate knows. Felt is a force that is off by up to {:.2f} N, for {:.0f} "
-                       "ms together, where the solid’s peak is {:.2f} N. The single motor is off by {:.3f} N.",
-                       fig9.parts[2].felt_error, fig9.parts[2].felt_error_time * 1e3, peak_of(fig9.parts[0].trace),
-                       fig9.parts[1].felt_error)},
-          {figure_of(fig9)}, {table}};
+  return {
+      "fig9",
+      "Fig. 9: a 2nd-order Maxwell solid, stopped by a rigid obstacle",
+      {fmt::format("Relaxation: single motor and dual channel differ by at most {:.2f} % of the peak, dual channel and "
+                   "ideal by "
+                   "{:.2f} %.",
+                   100 * fig9.relaxation_difference, 100 * fig9.relaxation_error),
+       "Both come to the relaxation with a little too much: their states are driven by the estimate, which enters the "
+       "object "
+       "with what it remembers of free motion and leaves it 3.5 ms late.",
+       "During compression the single motor’s command has the shape of Fig. 5’s total force, the dual channel’s that "
+       "of the "
+       "motor’s part: below zero, since the brake makes more than the solid and the motor takes it back. When the "
+       "obstacle "
+       "stops the arm, the brake’s part ends at once and the motor’s command jumps by as much.",
+       fmt::format(
+           "The paper says that these transients are not felt, because the brake acts at the same time. That does not "
+           "come "
+           "out: at contact the motor takes back at once what the coil needs its 2 ms to build up, and at the stop the "
+           "brake’s part is gone 3.5 ms before the estimate knows. Felt is a force that is off by up to {:.2f} N, for "
+           "{:.0f} "
+           "ms together, where the solid’s peak is {:.2f} N. The single motor is off by {:.3f} N.",
+           fig9.parts[2].felt_error, fig9.parts[2].felt_error_time * 1e3, peak_of(fig9.parts[0].trace),
+           fig9.parts[1].felt_error)},
+      {figure_of(fig9)},
+      {table}};
 }
 
 }  // namespace dashpot::paper

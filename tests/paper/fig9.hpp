@@ -11,15 +11,17 @@ struct Fig9 {
     std::string name;
     Style style;
     Trace trace;
-    double before_stop = 0, after_stop = 0;  // motor's command just before the obstacle, and when estimates have settled [N]
-    double speed = 0;                        // just before the obstacle [m/s]
-    double felt_error = 0;                   // largest |felt − ideal|, from contact until the stop has settled [N]
-    double felt_error_time = 0;              // for how long it is more than a fifth of the ideal's peak [s]
+    double before_stop = 0,
+           after_stop = 0;       // motor's command just before the obstacle, and when estimates have settled [N]
+    double speed = 0;            // just before the obstacle [m/s]
+    double felt_error = 0;       // largest |felt − ideal|, from contact until the stop has settled [N]
+    double felt_error_time = 0;  // for how long it is more than a fifth of the ideal's peak [s]
   };
   double touch = 0, stop = 0;  // when the tool meets the object, and the obstacle [s]
   std::vector<Part> parts;     // ideal, single motor, dual channel
-  double relaxation_difference = 0;  // largest |single − dual| of the motor's command after the stop has settled, over the peak [1]
-  double relaxation_error = 0;       // largest |dual − ideal| there, over the peak [1]
+  double relaxation_difference =
+      0;  // largest |single − dual| of the motor's command after the stop has settled, over the peak [1]
+  double relaxation_error = 0;  // largest |dual − ideal| there, over the peak [1]
 };
 
 Fig9 measure_fig9();

@@ -17,8 +17,8 @@ TEST(Fig9, relaxes_alike_in_both) { EXPECT_LT(fig9().relaxation_difference, 0.01
 // Fails if the relaxation is not the solid's but for the delay at entry and exit, 3.6 ms of the 200 ms of compression.
 TEST(Fig9, relaxes_as_the_solid_does) { EXPECT_LT(fig9().relaxation_error, 3.6 / 200); }
 
-// Fails if the motor's command at the obstacle is not as the paper describes it: a jump by b·u̇ in the dual channel, none in the
-// single motor.
+// Fails if the motor's command at the obstacle is not as the paper describes it: a jump by b·u̇ in the dual channel,
+// none in the single motor.
 TEST(Fig9, jumps_at_the_obstacle_in_the_dual_channel_alone) {
   const Fig9::Part &single = fig9().parts[1], &dual = fig9().parts[2];
   const double brake = 2.75 * dual.speed;  // b = B1 + B2
@@ -32,7 +32,8 @@ TEST(Fig9, takes_back_from_the_brake_under_compression) {
   EXPECT_GT(fig9().parts[1].before_stop, 0);
 }
 
-// Fails if what the page says of the transients changes: the paper's "not felt" does not come out, and the single motor has none.
+// Fails if what the page says of the transients changes: the paper's "not felt" does not come out, and the single motor
+// has none.
 TEST(Fig9, is_felt_at_contact_and_stop_in_the_dual_channel) {
   EXPECT_NEAR(fig9().parts[2].felt_error, 0.135, 0.015);
   EXPECT_LT(fig9().parts[1].felt_error, 0.01);

@@ -41,18 +41,20 @@ std::string line(Point from, Point to, const char* attributes) {
 std::string marker(const Style& style, Point at) {
   constexpr double r = marker_radius;
   if (style.marker == Marker::circle)
-    return fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"white\" stroke=\"{}\" stroke-width=\"1.4\"/>\n",
-                       at.x, at.y, r, style.colour);
-  return fmt::format("<path d=\"M{0:.2f} {1:.2f}l{2} {2}m0 -{2}l-{2} {2}\" stroke=\"{3}\" stroke-width=\"1.3\"/>\n", at.x - r,
-                     at.y - r, 2 * r, style.colour);
+    return fmt::format(
+        "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{}\" fill=\"white\" stroke=\"{}\" stroke-width=\"1.4\"/>\n", at.x,
+        at.y, r, style.colour);
+  return fmt::format("<path d=\"M{0:.2f} {1:.2f}l{2} {2}m0 -{2}l-{2} {2}\" stroke=\"{3}\" stroke-width=\"1.3\"/>\n",
+                     at.x - r, at.y - r, 2 * r, style.colour);
 }
 
 std::string polyline(const Style& style, const std::vector<Point>& points) {
   std::string path;
   for (const Point& p : points) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", p.x, p.y);
-  return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\" "
-                     "stroke-linejoin=\"round\"/>\n", path,
-                     style.colour, style.width, *style.dashes ? style.dashes : "none");
+  return fmt::format(
+      "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\" "
+      "stroke-linejoin=\"round\"/>\n",
+      path, style.colour, style.width, *style.dashes ? style.dashes : "none");
 }
 
 std::string drawn(const Style& style, const std::vector<Point>& points) {
@@ -67,7 +69,7 @@ bool shows(const std::optional<Interval>& range, double value) {
 }
 
 // Of the numbers, x or y, of all points that lie in the panel's range of x.
-Interval extent(const Panel& panel, std::vector<double> Curve::* numbers, Scale scale) {
+Interval extent(const Panel& panel, std::vector<double> Curve::*numbers, Scale scale) {
   constexpr double unset = std::numeric_limits<double>::infinity();
   Interval all{unset, -unset};
   for (const Curve& curve : panel.curves)
@@ -79,7 +81,7 @@ Interval extent(const Panel& panel, std::vector<double> Curve::* numbers, Scale 
   return {std::min(all.low, 0.0), std::max(all.high, 0.0)};  // zero is shown: forces and motions start there
 }
 
-Axis axis_of(const Panel& panel, std::vector<double> Curve::* numbers, const std::optional<Interval>& range, Scale scale,
+Axis axis_of(const Panel& panel, std::vector<double> Curve::*numbers, const std::optional<Interval>& range, Scale scale,
              int wanted) {
   return range ? axis_within(*range, wanted, scale) : axis_for(extent(panel, numbers, scale), wanted, scale);
 }
@@ -87,8 +89,12 @@ Axis axis_of(const Panel& panel, std::vector<double> Curve::* numbers, const std
 constexpr const char* grid = "stroke=\"#e6e6e6\" stroke-width=\"1\"";
 constexpr const char* frame = "stroke=\"#1a1a1a\" stroke-width=\"1\"";
 
-double across(const Axis& axis, double value, const Box& box) { return box.left + axis.share(value) * (box.right - box.left); }
-double up(const Axis& axis, double value, const Box& box) { return box.bottom + axis.share(value) * (box.top - box.bottom); }
+double across(const Axis& axis, double value, const Box& box) {
+  return box.left + axis.share(value) * (box.right - box.left);
+}
+double up(const Axis& axis, double value, const Box& box) {
+  return box.bottom + axis.share(value) * (box.top - box.bottom);
+}
 
 std::string x_axis(const Axis& axis, const Box& box) {
   std::string svg;
@@ -148,8 +154,10 @@ std::vector<Point> placed(const Curve& curve, const Axis& x, const Axis& y, cons
 // Curves do not leave a panel whose range is given.
 std::string clipped(const std::string& svg, const Panel& panel, const Box& box) {
   if (!panel.x_range && !panel.y_range) return svg;
-  return fmt::format("<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" viewBox=\"{0:.1f} {1:.1f} {2:.1f} "
-                     "{3:.1f}\">\n{4}</svg>\n", box.left, box.top, box.right - box.left, box.bottom - box.top, svg);
+  return fmt::format(
+      "<svg x=\"{0:.1f}\" y=\"{1:.1f}\" width=\"{2:.1f}\" height=\"{3:.1f}\" viewBox=\"{0:.1f} {1:.1f} {2:.1f} "
+      "{3:.1f}\">\n{4}</svg>\n",
+      box.left, box.top, box.right - box.left, box.bottom - box.top, svg);
 }
 
 std::string drawn(const Panel& panel, const Box& box) {
@@ -209,7 +217,8 @@ std::vector<Box> places(const Figure& figure, double heading, double& end) {
     if (panel.wide && right) top += row_height, right = false;
     const double left = right ? page_width / 2 : 0;
     const double width = panel.wide ? page_width : page_width / 2;
-    boxes.push_back({left + margin.left, top + margin.top, left + width - margin.right, top + row_height - margin.bottom});
+    boxes.push_back(
+        {left + margin.left, top + margin.top, left + width - margin.right, top + row_height - margin.bottom});
     if (panel.wide || right) top += row_height;
     right = !panel.wide && !right;
   }
@@ -233,7 +242,8 @@ std::string to_svg(const Figure& figure) {
   svg += text({margin.left, 20}, figure.title, "font-weight=\"bold\" font-size=\"15\"") + legend(entries);
   for (std::size_t i = 0; i < figure.panels.size(); ++i) svg += drawn(figure.panels[i], boxes[i]);
   for (std::size_t i = 0; i < figure.caption.size(); ++i)
-    svg += text({margin.left, panels_end + 10 + caption_line * double(i)}, figure.caption[i], "font-size=\"12\" fill=\"#444\"");
+    svg += text({margin.left, panels_end + 10 + caption_line * double(i)}, figure.caption[i],
+                "font-size=\"12\" fill=\"#444\"");
   return svg + "</svg>\n";
 }
 

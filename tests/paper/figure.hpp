@@ -46,7 +46,7 @@ struct Panel {
 struct Figure {
   std::string title;
   std::vector<std::string> caption;  // lines under the panels
-  std::vector<Panel> panels;  // two a row or one that is wide, left to right, then down
+  std::vector<Panel> panels;         // two a row or one that is wide, left to right, then down
 };
 
 // The whole file, standing alone: no fonts, styles or scripts from elsewhere. 180 mm wide in print.

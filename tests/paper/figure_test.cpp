@@ -62,7 +62,7 @@ TEST(Figure, draws_points_where_the_axes_say) {
   std::smatch circle;
   ASSERT_TRUE(std::regex_search(panel, circle, std::regex("<circle cx=\"([0-9.]+)\" cy=\"([0-9.]+)\"")));
   const double tick_6 = tick_at(svg, "6", "x"), tick_8 = tick_at(svg, "8", "x");
-  EXPECT_NEAR(number(circle, 1), (tick_6 + tick_8) / 2, 0.1);  // positions are written to a tenth
+  EXPECT_NEAR(number(circle, 1), (tick_6 + tick_8) / 2, 0.1);          // positions are written to a tenth
   EXPECT_NEAR(number(circle, 2), tick_at(svg, "−300", "y") - 4, 0.1);  // 4 down: the middle of a digit
 }
 

@@ -11,9 +11,9 @@ namespace dashpot::paper {
 class Law {
  public:
   virtual ~Law() = default;
-  virtual void reset(double position) = 0;                                // at rest there [m]
+  virtual void reset(double position) = 0;                               // at rest there [m]
   virtual command<double> output(double position, double velocity) = 0;  // [m], [m/s]
-  virtual void update() = 0;                                              // after the command has left
+  virtual void update() = 0;                                             // after the command has left
 };
 
 // A new law for every run.

@@ -39,7 +39,8 @@ std::size_t letters(const std::string& text) {
   return count;
 }
 
-// Fails if words run over the edge of the print: its 180 mm hold about 104 letters of a caption, forty of a panel's title.
+// Fails if words run over the edge of the print: its 180 mm hold about 104 letters of a caption, forty of a panel's
+// title.
 TEST(Page, keeps_words_within_the_print) {
   for (const Section& section : sections())
     for (const Figure& figure : section.figures) {
@@ -54,7 +55,8 @@ TEST(Page, labels_every_axis_with_a_unit) {
   for (const Section& section : sections())
     for (const Figure& figure : section.figures)
       for (const Panel& panel : figure.panels)
-        for (const std::string& label : {panel.x_label, panel.y_label}) EXPECT_EQ(label.back(), ']') << figure.title << label;
+        for (const std::string& label : {panel.x_label, panel.y_label})
+          EXPECT_EQ(label.back(), ']') << figure.title << label;
 }
 
 // Fails if a table has a row that does not fit its headings.
@@ -87,7 +89,8 @@ TEST(Chosen, holds_what_is_used_with_its_reason) {
   for (const auto& [name, choice] : file.items()) {
     EXPECT_GT(choice.at("reason").get<std::string>().size(), 10U) << name;
     if (choice.contains("device")) continue;  // of the device file, which the plant is made of
-    const bool is_used = sources.find('"' + name + '"') != std::string::npos || sources.find('@' + name + '@') != std::string::npos;
+    const bool is_used =
+        sources.find('"' + name + '"') != std::string::npos || sources.find('@' + name + '@') != std::string::npos;
     EXPECT_TRUE(is_used) << name;
   }
 }

@@ -57,7 +57,8 @@ Pareto::Sweep sweep_of(const NetworkFile& network, compiler::StateInput input, c
   const double viscosity = compiled(network.text, {})->decomposition.candidates[1].damping;  // zero-frequency
   Pareto::Sweep sweep{network.title, estimator, std::string(name_of(input)), viscosity, {}};
   for (int i = 0; i <= steps; ++i)
-    sweep.splits.push_back(split_of(network.text, chosen("pareto.reach") * viscosity * i / steps, input, estimator.velocity));
+    sweep.splits.push_back(
+        split_of(network.text, chosen("pareto.reach") * viscosity * i / steps, input, estimator.velocity));
   return sweep;
 }
 
@@ -100,7 +101,8 @@ Figure figure_of(const Pareto& pareto, const char* network) {
     return Panel{title, b, label, with_marks(curves_of(pareto, network, value), viscosity)};
   };
   return {fmt::format("Decompositions of {}’s network on the rig", network),
-          {"Solid: states driven by the velocity; dotted: by the position.", "Extra damping: beyond (1 − ε) b and the arm’s own."},
+          {"Solid: states driven by the velocity; dotted: by the position.",
+           "Extra damping: beyond (1 − ε) b and the arm’s own."},
           {panel("Extra damping, exact brake", "damping [N·s/m]", [](const Split& s) { return s.missing[0]; }),
            panel("Extra damping, brake 5 % short", "damping [N·s/m]", [](const Split& s) { return s.missing[2]; }),
            panel("Motor’s noise", "force, rms [mN]", [](const Split& s) { return s.noise * 1e3; }),
@@ -108,14 +110,17 @@ Figure figure_of(const Pareto& pareto, const char* network) {
 }
 
 Table winners(const Pareto& pareto) {
-  Table table{"The b that needs least extra damping; of equals, the one of least error",
-              {"network", "states by", "estimator", "brake error [%]", "b [N·s/m]", "extra [N·s/m]", "noise [mN]", "error [%]"}, {}};
+  Table table{
+      "The b that needs least extra damping; of equals, the one of least error",
+      {"network", "states by", "estimator", "brake error [%]", "b [N·s/m]", "extra [N·s/m]", "noise [mN]", "error [%]"},
+      {}};
   for (const Pareto::Sweep& sweep : pareto.sweeps)
     for (std::size_t i = 0; i < brake_errors.size(); ++i) {
       const Split& best = sweep.best(i);
-      table.rows.push_back({sweep.network, sweep.state_input, sweep.estimator.name, fmt::format("{}", 100 * brake_errors[i]),
-                            fmt::format("{:.2f}", best.brake), fmt::format("{:.4f}", best.missing[i]),
-                            fmt::format("{:.3g}", best.noise * 1e3), fmt::format("{:.3g}", 100 * best.error)});
+      table.rows.push_back({sweep.network, sweep.state_input, sweep.estimator.name,
+                            fmt::format("{}", 100 * brake_errors[i]), fmt::format("{:.2f}", best.brake),
+                            fmt::format("{:.4f}", best.missing[i]), fmt::format("{:.3g}", best.noise * 1e3),
+                            fmt::format("{:.3g}", 100 * best.error)});
     }
   return table;
 }
@@ -124,7 +129,8 @@ Table winners(const Pareto& pareto) {
 
 const Split& Pareto::Sweep::best(std::size_t brake_error) const {
   return *std::min_element(splits.begin(), splits.end(), [&](const Split& a, const Split& b) {
-    return a.missing[brake_error] != b.missing[brake_error] ? a.missing[brake_error] < b.missing[brake_error] : a.error < b.error;
+    return a.missing[brake_error] != b.missing[brake_error] ? a.missing[brake_error] < b.missing[brake_error]
+                                                            : a.error < b.error;
   });
 }
 
@@ -138,18 +144,29 @@ Pareto measure_pareto() {
 }
 
 Section show(const Pareto& pareto) {
-  return {"pareto", "Pareto: what every split costs",
-          {"Neither network has a damper at its feedthrough, so that position drives all of it without any estimate: b = 0 then has no "
-           "noise, no error but that of the late loop, and at 10 kHz needs no more damping than the arm has. It wins for every estimator and every error of the brake. "
+  return {"pareto",
+          "Pareto: what every split costs",
+          {"Neither network has a damper at its feedthrough, so that position drives all of it without any estimate: b "
+           "= 0 then has no "
+           "noise, no error but that of the late loop, and at 10 kHz needs no more damping than the arm has. It wins "
+           "for every estimator and every error of the brake. "
            "That is not the paper’s answer; the paper drives the states by the velocity, (17).",
-           "Driven by the velocity there is no one winner. With the paper’s filter and an exact brake no b below about ½ Z_d(0) is "
-           "passive for Fig. 5 without help, as the theorem of half the viscosity says, and b from 6.6 N·s/m on is; but a brake that is 2 or 5 % "
-           "short needs more the larger b is, and the best b falls to 0.4 and to 0. With a difference over 1 or 15 samples b = 0 "
+           "Driven by the velocity there is no one winner. With the paper’s filter and an exact brake no b below about "
+           "½ Z_d(0) is "
+           "passive for Fig. 5 without help, as the theorem of half the viscosity says, and b from 6.6 N·s/m on is; "
+           "but a brake that is 2 or 5 % "
+           "short needs more the larger b is, and the best b falls to 0.4 and to 0. With a difference over 1 or 15 "
+           "samples b = 0 "
            "needs nothing for Fig. 5 at all. Noise and error grow with b throughout.",
-           "The rig’s brake of 2.8 N·s/m is below ½ Z_d(0) = 5.5 N·s/m of Fig. 5: on that rig the network of Fig. 5 cannot be rendered in the "
-           "paper’s form with a passivity that holds for any delay, however good the brake. With its own filter it lacks about a hundredth of a "
-           "N·s/m, which friction or a hand supplies; driven by position it lacks nothing. Fig. 6’s element, ½ Z_d(0) = 2.5 N·s/m, is just "
-           "within its reach."}, {figure_of(pareto, "Fig. 5"), figure_of(pareto, "Fig. 6")}, {winners(pareto)}};
+           "The rig’s brake of 2.8 N·s/m is below ½ Z_d(0) = 5.5 N·s/m of Fig. 5: on that rig the network of Fig. 5 "
+           "cannot be rendered in the "
+           "paper’s form with a passivity that holds for any delay, however good the brake. With its own filter it "
+           "lacks about a hundredth of a "
+           "N·s/m, which friction or a hand supplies; driven by position it lacks nothing. Fig. 6’s element, ½ Z_d(0) "
+           "= 2.5 N·s/m, is just "
+           "within its reach."},
+          {figure_of(pareto, "Fig. 5"), figure_of(pareto, "Fig. 6")},
+          {winners(pareto)}};
 }
 
 }  // namespace dashpot::paper

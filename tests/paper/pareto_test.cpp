@@ -20,8 +20,9 @@ const Pareto::Sweep& sweep(const char* network, const char* state_input, std::si
 
 constexpr std::size_t one_sample = 0, papers_filter = 1;
 
-// Fails if a split is said to be passive under the paper's filter below half of the network's viscosity by more than the arm's own
-// damping pays for, or not to be at it, where the theorem of half the viscosity puts the line for an exact brake.
+// Fails if a split is said to be passive under the paper's filter below half of the network's viscosity by more than
+// the arm's own damping pays for, or not to be at it, where the theorem of half the viscosity puts the line for an
+// exact brake.
 TEST(Pareto, turns_passive_near_half_the_viscosity) {
   const Pareto::Sweep& fig5 = sweep("Fig. 5", "velocity", papers_filter);
   for (const Split& split : fig5.splits) {
@@ -65,7 +66,8 @@ TEST(Pareto, is_won_by_no_brake_driven_by_position) {
       }
 }
 
-// Fails if the rig's brake reaches half of Fig. 5's viscosity, or does not reach half of Fig. 6's: the page says what that means.
+// Fails if the rig's brake reaches half of Fig. 5's viscosity, or does not reach half of Fig. 6's: the page says what
+// that means.
 TEST(Pareto, leaves_fig_5_beyond_the_rigs_brake) {
   constexpr double reach = 2.8;  // [N·s/m]
   EXPECT_GT(sweep("Fig. 5", "velocity", papers_filter).viscosity / 2, reach);

@@ -1,5 +1,6 @@
-// The paper's (21) by hand, as printed: a spring that yields at δ_max = Y/K, and dampers by regime. The printed sliding force lacks
-// its sign; here it has that of the deflection. `brake`: the dampers are the brake's, else the motor's through the estimate.
+// The paper's (21) by hand, as printed: a spring that yields at δ_max = Y/K, and dampers by regime. The printed sliding
+// force lacks its sign; here it has that of the deflection. `brake`: the dampers are the brake's, else the motor's
+// through the estimate.
 #pragma once
 
 #include <algorithm>

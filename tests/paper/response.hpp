@@ -10,10 +10,10 @@
 namespace dashpot::paper {
 
 struct ResponseSample {
-  double time;         // [s]
-  double position;     // [m]
-  double closed_form;  // force of the network [N]
-  double brake, motor; // parts of the emitted force [N]
+  double time;          // [s]
+  double position;      // [m]
+  double closed_form;   // force of the network [N]
+  double brake, motor;  // parts of the emitted force [N]
 
   double emitted() const { return brake + motor; }
   double error() const { return emitted() - closed_form; }
@@ -31,21 +31,25 @@ std::vector<ResponseSample> respond(const MaxwellSolid& solid, const RampAndHold
     const double time = double(k) / rate;
     const double position = motion.position(time), velocity = motion.velocity(time);
     const auto command = law.step(position, velocity);
-    samples.push_back({time, position, closed_form_force(solid, motion, time), command.damping * velocity, command.force});
+    samples.push_back(
+        {time, position, closed_form_force(solid, motion, time), command.damping * velocity, command.force});
   }
   return samples;
 }
 
 // The sample whose force is furthest from the closed form, the largest force [N], and the one over the other.
 inline const ResponseSample& worst(const std::vector<ResponseSample>& samples) {
-  return *std::max_element(samples.begin(), samples.end(),
-                           [](const ResponseSample& a, const ResponseSample& b) { return std::abs(a.error()) < std::abs(b.error()); });
+  return *std::max_element(samples.begin(), samples.end(), [](const ResponseSample& a, const ResponseSample& b) {
+    return std::abs(a.error()) < std::abs(b.error());
+  });
 }
 inline double peak(const std::vector<ResponseSample>& samples) {
   double force = 0;
   for (const ResponseSample& sample : samples) force = std::max(force, std::abs(sample.closed_form));
   return force;
 }
-inline double relative_error(const std::vector<ResponseSample>& samples) { return std::abs(worst(samples).error()) / peak(samples); }
+inline double relative_error(const std::vector<ResponseSample>& samples) {
+  return std::abs(worst(samples).error()) / peak(samples);
+}
 
 }  // namespace dashpot::paper

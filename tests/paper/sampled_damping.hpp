@@ -10,13 +10,13 @@
 namespace dashpot::paper {
 
 struct SampledMaxwell {
-  double stiffness;       // K [N/m]
-  double damping;         // B [N·s/m]
-  double brake;           // b [N·s/m]
-  double period;          // T [s]
-  unsigned lateness;      // of the estimate [samples]
-  bool exact;             // the scheme; else backward Euler
-  bool velocity_driven;   // the state; else by the position
+  double stiffness;      // K [N/m]
+  double damping;        // B [N·s/m]
+  double brake;          // b [N·s/m]
+  double period;         // T [s]
+  unsigned lateness;     // of the estimate [samples]
+  bool exact;            // the scheme; else backward Euler
+  bool velocity_driven;  // the state; else by the position
 };
 
 // Motor force over position: F ← a F + c Δu, m = F − b v̂.
@@ -35,8 +35,8 @@ inline double needed_damping(const SampledMaxwell& loop, double angle) {
   return loop.period / 2 * std::real(difference * motor_response(loop, angle)) / (1 - std::cos(angle));
 }
 
-// Over a grid of frequencies fine against every time constant there is: accurate to its fourth digit at least, since the
-// grid's step h changes a maximum by h² only.
+// Over a grid of frequencies fine against every time constant there is: accurate to its fourth digit at least, since
+// the grid's step h changes a maximum by h² only.
 inline double least_extra_damping(const SampledMaxwell& loop) {
   constexpr int steps = 200000;
   double most = 0;

@@ -15,9 +15,9 @@ namespace dashpot::paper {
 namespace {
 
 constexpr double least_stiffness = 1, most_stiffness = 1e5;  // [N/m]
-constexpr int halvings = 9;     // of five decades: to 2 %
-constexpr double duration = 1;  // [s]
-constexpr double speed = 0.1;   // of the tool at the start, half of the paper's typical 200 mm/s [m/s]
+constexpr int halvings = 9;                                  // of five decades: to 2 %
+constexpr double duration = 1;                               // [s]
+constexpr double speed = 0.1;  // of the tool at the start, half of the paper's typical 200 mm/s [m/s]
 
 compiler::Device rig_at(double rate, const velocity_description& velocity) {
   compiler::Device device = rig();
@@ -30,7 +30,8 @@ compiler::Device rig_at(double rate, const velocity_description& velocity) {
 }
 
 std::string network(const MapPlace& place, double stiffness) {
-  return place.kind == WallKind::kelvin ? kelvin_element(stiffness, place.damping) : maxwell_element(stiffness, place.damping);
+  return place.kind == WallKind::kelvin ? kelvin_element(stiffness, place.damping)
+                                        : maxwell_element(stiffness, place.damping);
 }
 
 // The law of one wall: b and state input as decided for the rig, without what a certificate would add.
@@ -92,7 +93,8 @@ Outcome bounce(const Wall& wall, const simulated::hand& user) {
     device.write(drive.drive(law->output(gear.tool_motion(sample.position), velocity), velocity).demand());
     law->update();
     const simulated::energy_ledger& energy = device.ledger();
-    outcome.lowest_energy = std::min(outcome.lowest_energy, energy.brake + energy.friction + energy.damping - energy.motor);
+    outcome.lowest_energy =
+        std::min(outcome.lowest_energy, energy.brake + energy.friction + energy.damping - energy.motor);
     const double now = std::abs(gear.tool_motion(device.truth().velocity));
     const bool is_late = 10 * k > 9 * last;
     if (now > 3 * speed || (is_late && now > speed / 10)) outcome.settled = false;
@@ -137,7 +139,8 @@ double lowest_energy_of(const MapPlace& place, double stiffness) {
 }
 
 std::string MapPlace::key() const {
-  return fmt::format("{},{},{},{},{:.6g}", name_of(kind), rate, realisation.decomposition, realisation.estimator.name, damping);
+  return fmt::format("{},{},{},{},{:.6g}", name_of(kind), rate, realisation.decomposition, realisation.estimator.name,
+                     damping);
 }
 
 std::vector<MapPlace> map_places(bool thinned) {
@@ -145,7 +148,8 @@ std::vector<MapPlace> map_places(bool thinned) {
   const NamedEstimator& paper = estimators[1];
   std::vector<MapPlace> places;
   for (std::size_t i = 0; i < estimators.size(); ++i)
-    if (!thinned || i < 2) add_places(places, WallKind::kelvin, {estimators[i].name, "virtual", estimators[i]}, thinned);
+    if (!thinned || i < 2)
+      add_places(places, WallKind::kelvin, {estimators[i].name, "virtual", estimators[i]}, thinned);
   add_places(places, WallKind::kelvin, {"dual channel", "most-dissipative", paper}, thinned);
   for (const char* name : {"virtual", "most-dissipative", "quietest-passive", "velocity-free"})
     if (!thinned) add_places(places, WallKind::maxwell, {name, name, paper}, thinned);
@@ -154,7 +158,8 @@ std::vector<MapPlace> map_places(bool thinned) {
 
 MapPoint measure(const MapPlace& place) {
   MapPoint point;
-  point.stable = largest_stiffness([&](double stiffness) { return bounce(wall_of(place, stiffness), simulated::no_hand()).settled; });
+  point.stable = largest_stiffness(
+      [&](double stiffness) { return bounce(wall_of(place, stiffness), simulated::no_hand()).settled; });
   point.certified = largest_stiffness([&](double stiffness) { return is_certified(wall_of(place, stiffness)); });
   point.certified = std::min(point.certified, quantisation_stiffness());
   if (point.certified == 0) return point;

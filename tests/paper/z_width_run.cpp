@@ -30,8 +30,8 @@ struct Line {
 };
 
 std::string text_of(const Line& line) {
-  return fmt::format("{},{},{},{},{},end\n", line.key, line.point.stable, line.point.certified, line.point.lowest_energy,
-                     line.point.certified_runs);
+  return fmt::format("{},{},{},{},{},end\n", line.key, line.point.stable, line.point.certified,
+                     line.point.lowest_energy, line.point.certified_runs);
 }
 
 // Empty for a line that was cut off.

@@ -46,7 +46,8 @@ TEST(ZWidth, certifies_no_wall_that_is_unstable) {
     EXPECT_LE(thinned_map().points[i].certified, thinned_map().points[i].stable) << thinned_map().places[i].key();
 }
 
-// Fails if the dual channel's brake widens neither what is stable nor what is certified against the same estimator without it.
+// Fails if the dual channel's brake widens neither what is stable nor what is certified against the same estimator
+// without it.
 TEST(ZWidth, is_wider_by_the_dual_channel) {
   const std::size_t dampings = 4, single = 2 * dampings, dual = 4 * dampings;  // of two rates each
   for (std::size_t i = 0; i < 2 * dampings; ++i) {
@@ -67,8 +68,8 @@ TEST(ZWidth, goes_on_where_it_was_interrupted) {
   std::string heading, line;
   std::getline(finished, heading);
   std::ofstream(file) << heading << "\n"
-                      << places[0].key() << ",123,45,0,7,end\n"   // as if measured
-                      << places[1].key() << ",123,45";            // cut off
+                      << places[0].key() << ",123,45,0,7,end\n"  // as if measured
+                      << places[1].key() << ",123,45";           // cut off
   const ZWidth map = measure_z_width(places, file, [](std::size_t, std::size_t) {});
   EXPECT_EQ(map.points[0].stable, 123);
   EXPECT_EQ(map.points[1].stable, thinned_map().points[1].stable);
@@ -81,7 +82,8 @@ TEST(ZWidth, begins_anew_after_a_finished_map) {
   std::vector<MapPlace> places = map_places(true);
   places.resize(1);
   std::ofstream(file) << "settings,of another map\n" << places[0].key() << ",123,45,0,7,end\n";
-  EXPECT_EQ(measure_z_width(places, file, [](std::size_t, std::size_t) {}).points[0].stable, thinned_map().points[0].stable);
+  EXPECT_EQ(measure_z_width(places, file, [](std::size_t, std::size_t) {}).points[0].stable,
+            thinned_map().points[0].stable);
 }
 
 }  // namespace

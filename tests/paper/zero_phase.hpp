@@ -21,14 +21,16 @@ inline std::vector<double> centred_average(const std::vector<double>& values, st
   return average;
 }
 
-// The Butterworth filter, of `order` 2 or 4, of a signal that is at rest before its first sample. The runtime's estimator
-// filters the difference of positions: it is given the signal's sum.
-inline std::vector<double> butterworth(const std::vector<double>& values, unsigned order, double cutoff, double period) {
+// The Butterworth filter, of `order` 2 or 4, of a signal that is at rest before its first sample. The runtime's
+// estimator filters the difference of positions: it is given the signal's sum.
+inline std::vector<double> butterworth(const std::vector<double>& values, unsigned order, double cutoff,
+                                       double period) {
   low_pass<double> filter(order, cutoff, period);
   filter.reset(0);
   double sum = 0;
   std::vector<double> filtered;
-  for (const double value : values) filtered.push_back(filter.update(sum += (value - values.front()) * period) + values.front());
+  for (const double value : values)
+    filtered.push_back(filter.update(sum += (value - values.front()) * period) + values.front());
   return filtered;
 }
 

@@ -22,7 +22,7 @@ compiler::Device random_device(Random& random) {
   d.loop.jitter = random.chance(0.5) ? 0 : random.uniform(0, 0.5) * d.loop.sample_period;
   d.motor.amplifier_lag = random.chance(0.6) ? 0 : random.log_uniform(0.05, 2) * d.loop.sample_period;
   const estimator_kind estimators[] = {estimator_kind::backward_difference, estimator_kind::least_squares,
-                                  estimator_kind::butterworth, estimator_kind::kalman, estimator_kind::foaw};
+                                       estimator_kind::butterworth, estimator_kind::kalman, estimator_kind::foaw};
   d.velocity.estimator = estimators[random.index(5)];
   d.velocity.window = unsigned(random.between(1, 20));
   d.velocity.order = random.chance(0.5) ? 2 : 4;
@@ -60,7 +60,9 @@ simulated::hand random_hand(Random& random, double inertia, double frequency) {
   switch (random.index(4)) {
     case 0: return simulated::no_hand();
     case 1: return simulated::mass_spring_damper(random.log_uniform(1e-3, 1e-1), 0, random.log_uniform(1, 100));
-    case 2: return simulated::mass_spring_damper(0, random.chance(0.5) ? 0 : random.log_uniform(0.1, 10), random.log_uniform(100, 1e5));
+    case 2:
+      return simulated::mass_spring_damper(0, random.chance(0.5) ? 0 : random.log_uniform(0.1, 10),
+                                           random.log_uniform(100, 1e5));
     default: return simulated::mass_spring_damper(0, 0, inertia * omega * omega * random.uniform(0.8, 1.25));
   }
 }
@@ -87,7 +89,8 @@ simulated::scenario random_scenario(const CompiledCase& one, Random& random, con
   const double brake_on = d.loop.delay_samples * (d.loop.sample_period + d.loop.jitter);
   simulated::scenario scene;
   scene.user = random_hand(random, d.mechanics.inertia, std::max(one.compilation->certificate.bound.frequency, 1.0));
-  const double depth = conditions.size * random.uniform(0, 0.02), frequency = random.log_uniform(0.5, 0.2 / d.loop.sample_period);
+  const double depth = conditions.size * random.uniform(0, 0.02),
+               frequency = random.log_uniform(0.5, 0.2 / d.loop.sample_period);
   scene.intended = after(brake_on, simulated::sine(depth, frequency));
   scene.initial_velocity = brake_on > 0 ? 0 : conditions.size * random.uniform(-0.2, 0.2);
   scene.gain = conditions.gain;
@@ -141,7 +144,8 @@ struct Jump {
   int holds;     // that it is still held for
 };
 
-// The old force is held until a command of the new parameters acts: over one hold, the loop's delay and ten lags of the amplifier.
+// The old force is held until a command of the new parameters acts: over one hold, the loop's delay and ten lags of the
+// amplifier.
 int holds_of_a_jump(const device_description& d) {
   return 1 + int(d.loop.delay_samples) + int(std::ceil(10 * d.motor.amplifier_lag / d.loop.sample_period));
 }
@@ -150,14 +154,16 @@ int holds_of_a_jump(const device_description& d) {
 
 RunOfLoop run_loop(const CompiledCase& one, Random& random, const Conditions& conditions, int samples) {
   const device_description description = simulated_description(one, conditions);
-  any_estimator<double> estimator(description.velocity, description.loop.sample_period, one.device.description.encoder.step);
+  any_estimator<double> estimator(description.velocity, description.loop.sample_period,
+                                  one.device.description.encoder.step);
   simulated_device device(description, random_scenario(one, random, conditions, description));
   compiler::Evaluation<double> law(one.compilation->law);
   law.reset(0);
   estimator.reset(0);
   RunOfLoop run;
   device_sample sample;
-  const std::vector<compiler::Tunable> tunables = one.compilation->law.tunable ? one.compilation->law.tunable->tunables : std::vector<compiler::Tunable>{};
+  const std::vector<compiler::Tunable> tunables =
+      one.compilation->law.tunable ? one.compilation->law.tunable->tunables : std::vector<compiler::Tunable>{};
   std::vector<double> values;
   for (const compiler::Tunable& tunable : tunables) values.push_back(tunable.range.value);
   History history(one.compilation->law);
@@ -218,7 +224,9 @@ Conditions with_encoder_steps(const CompiledCase& one, Random& random, double sh
 // K Δ²/8, with which a flooring encoder starts.
 double tension_at_start(const CompiledCase& one, const Conditions& conditions) {
   const double step = one.device.description.encoder.step;
-  return conditions.rounding == quantiser::floor ? one.compilation->certificate.quantisation_gain.value() * step * step / 8 : 0;
+  return conditions.rounding == quantiser::floor
+             ? one.compilation->certificate.quantisation_gain.value() * step * step / 8
+             : 0;
 }
 
 }  // namespace

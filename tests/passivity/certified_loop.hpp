@@ -1,4 +1,5 @@
-// Random networks on random devices, compiled, and run in closed loop on the simulated device with random passive hands.
+// Random networks on random devices, compiled, and run in closed loop on the simulated device with random passive
+// hands.
 #pragma once
 
 #include <dashpot/simulated/scenario.hpp>
@@ -47,13 +48,14 @@ struct RunOfLoop {
 // The law on the device for `samples`, in the hands of a random user.
 RunOfLoop run_loop(const CompiledCase& one, Random& random, const Conditions& conditions, int samples);
 
-// Fails where the loop, with ideal sensors and the brake at either end of its tolerance, gives out more energy than it has taken
-// up, with so many changes of parameters a sample; a force that a change could not keep is one jump, held until the next
-// command acts. Whether it holds without that. Rounding: 1e-9 of what went to and fro.
+// Fails where the loop, with ideal sensors and the brake at either end of its tolerance, gives out more energy than it
+// has taken up, with so many changes of parameters a sample; a force that a change could not keep is one jump, held
+// until the next command acts. Whether it holds without that. Rounding: 1e-9 of what went to and fro.
 bool expect_no_energy_given_out(const CompiledCase& one, Random random, double changes = 0);
 
-// Fails where the loop, with an encoder of steps, motions of two to two hundred of them, and friction that pays for `share` of what
-// they stir up, gives out more than the certificate states. Whether it gave out any: with little friction some loops do.
+// Fails where the loop, with an encoder of steps, motions of two to two hundred of them, and friction that pays for
+// `share` of what they stir up, gives out more than the certificate states. Whether it gave out any: with little
+// friction some loops do.
 bool gives_out_no_more_than_unpaid(const CompiledCase& one, Random& random, double share);
 
 }  // namespace dashpot::testing

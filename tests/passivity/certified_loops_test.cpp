@@ -26,9 +26,9 @@ TEST(CertifiedLoops, NeverGiveOutEnergy) {
   EXPECT_GE(by_hold, cases() / 20);
 }
 
-// A certified law would give out more than the certificate states for an encoder with steps: nothing where friction pays,
-// f_c ≥ K Δ/2, and else no more than (K Δ/2 − f_c) a metre. That the bound is about something: with a fiftieth of the
-// friction some loops do give out energy.
+// A certified law would give out more than the certificate states for an encoder with steps: nothing where friction
+// pays, f_c ≥ K Δ/2, and else no more than (K Δ/2 − f_c) a metre. That the bound is about something: with a fiftieth of
+// the friction some loops do give out energy.
 TEST(CertifiedLoops, GiveOutNoMoreThanFrictionLeavesUnpaid) {
   int certified = 0, gave_out = 0;
   for (std::uint64_t seed = 1; certified < cases(); ++seed) {

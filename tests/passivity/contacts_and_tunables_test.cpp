@@ -12,8 +12,8 @@ using namespace dashpot::compiler;
 
 int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 1000 : 50; }
 
-// A tool that touches and lets go, on a device with no more damping than the certificate asks for, would give out energy in some
-// passive hand.
+// A tool that touches and lets go, on a device with no more damping than the certificate asks for, would give out
+// energy in some passive hand.
 TEST(CertifiedContacts, NeverGiveOutEnergy) {
   int certified = 0, with_slips = 0;
   for (std::uint64_t seed = 1; certified < cases(); ++seed) {
@@ -27,8 +27,9 @@ TEST(CertifiedContacts, NeverGiveOutEnergy) {
   EXPECT_GT(with_slips, certified / 10);
 }
 
-// While parameters change at any time and as far as their ranges go, a certified law would give out energy in some passive hand,
-// beyond what a jump of the force brings that a change could not keep; or such jumps would count for much.
+// While parameters change at any time and as far as their ranges go, a certified law would give out energy in some
+// passive hand, beyond what a jump of the force brings that a change could not keep; or such jumps would count for
+// much.
 TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
   int certified = 0, by_hold = 0, with_slips = 0, without_jumps = 0;
   for (std::uint64_t seed = 1; certified < cases(); ++seed) {
@@ -45,14 +46,17 @@ TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
   EXPECT_GE(without_jumps, certified - certified / 50);
 }
 
-// A law with slips, a contact or parameters would give out more than its certificate states for an encoder with steps; or K
-// would be far above what any loop shows, with friction for a five-hundredth of it.
+// A law with slips, a contact or parameters would give out more than its certificate states for an encoder with steps;
+// or K would be far above what any loop shows, with friction for a five-hundredth of it.
 TEST(CertifiedSlipsContactsAndTunables, GiveOutNoMoreThanFrictionLeavesUnpaid) {
   int gave_out = 0, bounded = 0, touching = 0, tuned = 0, sliding = 0;
   for (std::uint64_t seed = 1; bounded < 2 * cases(); ++seed) {
     SCOPED_TRACE(seed);
-    const CompiledCase one = seed % 3 == 0 ? contact_case(seed, 1) : seed % 3 == 1 ? tunable_case(seed) : slip_case(seed);
-    if (!one.compilation || !one.compilation->certificate.certified || !one.compilation->certificate.quantisation_gain) continue;
+    const CompiledCase one = seed % 3 == 0   ? contact_case(seed, 1)
+                             : seed % 3 == 1 ? tunable_case(seed)
+                                             : slip_case(seed);
+    if (!one.compilation || !one.compilation->certificate.certified || !one.compilation->certificate.quantisation_gain)
+      continue;
     if (one.device.description.brake.coil_lag > 0) continue;
     if (seed % 3 == 2 && (one.compilation->network.contact || !one.compilation->form.has_slips())) continue;
     ++bounded;

@@ -5,12 +5,12 @@
 
 namespace dashpot::testing {
 
-// Trees and others, some behind a contact on a device that is heavily damped by itself. `lags`: the amplifier; then without
-// contacts.
+// Trees and others, some behind a contact on a device that is heavily damped by itself. `lags`: the amplifier; then
+// without contacts.
 CompiledCase slip_case(std::uint64_t seed, bool lags = false);
 
-// Behind a contact, with slips or without, on a device with a share of the damping that the certificate asks for; without
-// delays and lags.
+// Behind a contact, with slips or without, on a device with a share of the damping that the certificate asks for;
+// without delays and lags.
 CompiledCase contact_case(std::uint64_t seed, double share);
 
 // With tunable parameters, and slips in every other one.

@@ -1,5 +1,5 @@
-// What is proved about slips and contacts, against motions that take as much energy as they can: from sample to sample the
-// tool may go anywhere, and the brake takes what a constant damping takes at a constant speed over a hold.
+// What is proved about slips and contacts, against motions that take as much energy as they can: from sample to sample
+// the tool may go anywhere, and the brake takes what a constant damping takes at a constant speed over a hold.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -30,23 +30,26 @@ struct Exchange {
 
 bool is_compensated(const CompiledCase& one) {
   const std::vector<const ComponentSplit*> splits = one.compilation->decomposition.slips.all();
-  return std::any_of(splits.begin(), splits.end(), [](const ComponentSplit* split) { return split->law == SlipLaw::compensated; });
+  return std::any_of(splits.begin(), splits.end(),
+                     [](const ComponentSplit* split) { return split->law == SlipLaw::compensated; });
 }
 
-// The hold's physical damping: a share of what the certificate asks for, and under the compensated law, which has to earn
-// what it takes, what the brake has been told beyond its least.
+// The hold's physical damping: a share of what the certificate asks for, and under the compensated law, which has to
+// earn what it takes, what the brake has been told beyond its least.
 struct Holds {
   const CompiledCase& one;
   double needed, share, least_brake;
 
   Holds(const CompiledCase& c, double share_of_needed)
-      : one(c), needed(share_of_needed * c.compilation->certificate.bound.needed),
-        share(is_compensated(c) ? 1 - c.device.description.brake.tolerance : 0), least_brake(c.compilation->law.damping) {}
+      : one(c),
+        needed(share_of_needed * c.compilation->certificate.bound.needed),
+        share(is_compensated(c) ? 1 - c.device.description.brake.tolerance : 0),
+        least_brake(c.compilation->law.damping) {}
   double damping(double told) const { return needed + share * std::max(told - least_brake, 0.0); }
 };
 
-// Sizes of motion over many decades about what makes the slips give way; in between, and often, the motion over the next
-// hold that takes most at once, m/2 over b/Δt.
+// Sizes of motion over many decades about what makes the slips give way; in between, and often, the motion over the
+// next hold that takes most at once, m/2 over b/Δt.
 double next_change(Random& random, double pace, double force, double damping_by_hold) {
   if (random.chance(0.5)) return damping_by_hold > 0 ? -force / (2 * damping_by_hold) * random.uniform(0.5, 1.5) : 0;
   return random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
@@ -105,7 +108,8 @@ TEST(SlipHolds, LoopsThatLagGiveOutNoEnergy) {
   for (std::uint64_t seed = 1; certified < cases() / 3; ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = slip_case(seed, true);
-    if (!one.compilation || !one.compilation->certificate.certified || !one.compilation->certificate.bound.any_regime) continue;
+    if (!one.compilation || !one.compilation->certificate.certified || !one.compilation->certificate.bound.any_regime)
+      continue;
     ++certified;
     expect_no_energy_given_out(one, Random(seed + 1'000'000));
   }
@@ -127,8 +131,8 @@ TEST(SlipHolds, GiveOutEnergyFarBelowTheBound) {
   EXPECT_GT(gained, certified / 2);
 }
 
-// Laws with slips would give out energy in closed loop, held by passive hands: the brake at either end of its tolerance,
-// with jitter where the proof covers it. Without a coil's lag: a certificate speaks of a brake that is on.
+// Laws with slips would give out energy in closed loop, held by passive hands: the brake at either end of its
+// tolerance, with jitter where the proof covers it. Without a coil's lag: a certificate speaks of a brake that is on.
 TEST(SlipHolds, InPassiveHandsGiveOutNoEnergy) {
   int certified = 0;
   for (std::uint64_t seed = 1; certified < cases() / 3; ++seed) {

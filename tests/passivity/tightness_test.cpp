@@ -28,8 +28,8 @@ struct Plant {
 // What position, velocity, force and the held command of one sample leave of themselves at the next.
 using Step = Eigen::Matrix4d;
 
-// The matrix exponential of the motion over a period, by squaring a Taylor series of a 2⁻¹² of it. Without lag the force is
-// the command.
+// The matrix exponential of the motion over a period, by squaring a Taylor series of a 2⁻¹² of it. Without lag the
+// force is the command.
 Step exact_step(const Plant& plant, double period) {
   Step rates = Step::Zero();
   rates(0, 1) = 1;
@@ -111,7 +111,8 @@ std::optional<Plant> marginal(const Complex& motor, double period, double angle,
   return Plant{guess.mass, b, k, guess.lag};
 }
 
-// Where hands are tuned to: at and around the angle that binds; where that is rest, at slow ones that a run has time for.
+// Where hands are tuned to: at and around the angle that binds; where that is rest, at slow ones that a run has time
+// for.
 std::vector<double> angles_around(const Certificate& certificate) {
   const double pi = 3.14159265358979323846;
   const double bound = 2 * pi * certificate.bound.frequency * certificate.loop.sample_period;
@@ -123,8 +124,8 @@ std::vector<double> angles_around(const Certificate& certificate) {
   return angles;
 }
 
-// From heavy to light against the damping over a period; and those that swing at the angle on the motor's own stiffness,
-// with little or no spring in the hand.
+// From heavy to light against the damping over a period; and those that swing at the angle on the motor's own
+// stiffness, with little or no spring in the hand.
 std::vector<double> masses(double damped, double swinging) {
   std::vector<double> all;
   if (swinging > 0)
@@ -178,8 +179,8 @@ int destabilised_with(double share) {
 // The certificate would ask for damping that no passive hand makes necessary.
 TEST(Tightness, NineTenthsOfTheMinimumAreTooLittle) { EXPECT_GE(destabilised_with(0.9), 90); }
 
-// The hands above would be none, or what they do a mistake of the test: with the minimum, and a thousandth of it, no hand
-// makes a loop grow.
+// The hands above would be none, or what they do a mistake of the test: with the minimum, and a thousandth of it, no
+// hand makes a loop grow.
 TEST(Tightness, TheMinimumIsEnough) { EXPECT_EQ(destabilised_with(1.001), 0); }
 
 }  // namespace

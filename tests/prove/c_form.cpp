@@ -38,9 +38,11 @@ class CForm {
     constants();
     states();
     function("static int output(scalar position, scalar velocity)", law_.output);
-    text_ += fmt::format("  command_damping = {};\n  command_force = 0;\n  if (!all_finite(position, velocity, {})) return 0;\n",
-                         law_.brake_changes() ? name(law_.last_brake) : "damping", name(law_.force));
-    text_ += fmt::format("  command_damping = {};\n  command_force = {};\n", law_.brake_changes() ? name(law_.brake) : "damping", name(law_.force));
+    text_ += fmt::format(
+        "  command_damping = {};\n  command_force = 0;\n  if (!all_finite(position, velocity, {})) return 0;\n",
+        law_.brake_changes() ? name(law_.last_brake) : "damping", name(law_.force));
+    text_ += fmt::format("  command_damping = {};\n  command_force = {};\n",
+                         law_.brake_changes() ? name(law_.brake) : "damping", name(law_.force));
     assignments(law_.keep);
     text_ += "  return 1;\n}\n\n";
     text_ += "static void update(void) {\n";
@@ -55,7 +57,9 @@ class CForm {
  private:
   std::string name(compiler::VariableId id) const { return scalar_name(law_.variables[id], 0); }
 
-  std::string literal(double value) const { return fmt::format("{:#}{}", value, law_.scalar == compiler::ScalarType::float32 ? "f" : ""); }
+  std::string literal(double value) const {
+    return fmt::format("{:#}{}", value, law_.scalar == compiler::ScalarType::float32 ? "f" : "");
+  }
 
   void constants() {
     if (!law_.brake_changes()) text_ += fmt::format("static const scalar damping = {};\n", literal(law_.damping));
@@ -93,20 +97,24 @@ class CForm {
         text_ += fmt::format("    {0} = flush_below(threshold, {0});\n", scalar_name(forces, place));
       text_ += "  }\n";
     }
-    text_ += fmt::format("  {0} = {0} + {1} < {2} ? {0} + {1} : 0;\n", guard.name, guard.places, law_.padded(forces.size));
+    text_ +=
+        fmt::format("  {0} = {0} + {1} < {2} ? {0} + {1} : 0;\n", guard.name, guard.places, law_.padded(forces.size));
   }
 
   void assignments(const std::vector<compiler::Statement>& program) {
     const ScalarSpelling spelling = {
         [](const std::string& value) { return fmt::format("flush_below(threshold, {})", value); },
-        [](const std::string& value, const std::string& limit) { return fmt::format("clamp_to({}, {})", limit, value); }};
+        [](const std::string& value, const std::string& limit) {
+          return fmt::format("clamp_to({}, {})", limit, value);
+        }};
     for (const ScalarAssignment& a : scalar_program(law_, program, spelling))
       text_ += fmt::format("  {}{} = {};\n", a.is_local ? "const scalar " : "", a.target, a.value);
   }
 
   void proof() {
     text_ += "#ifdef __FRAMAC__\n";
-    for (const auto& [state, bound] : box_.states) text_ += fmt::format("static const double {}bound = {:#};\n", state, bound);
+    for (const auto& [state, bound] : box_.states)
+      text_ += fmt::format("static const double {}bound = {:#};\n", state, bound);
     text_ += "int main(void) {\n";
     for (const auto& [state, slices] : box_.slices)
       text_ += fmt::format("  //@ loop unroll {1};\n  for (int {0}at = 0; {0}at < {1}; ++{0}at) {{\n", state, slices);
@@ -115,17 +123,21 @@ class CForm {
       if (sliced == box_.slices.end()) {
         text_ += fmt::format("  {0} = Frama_C_{1}_interval({2}, {0}bound);\n", state, name_of(law_.scalar), low(state));
       } else {
-        text_ += fmt::format("  {0} = Frama_C_{3}_interval({1:#} + {0}at * {2:#}, {1:#} + ({0}at + 1) * {2:#});\n", state, -bound,
-                             2 * bound / sliced->second, name_of(law_.scalar));
+        text_ += fmt::format("  {0} = Frama_C_{3}_interval({1:#} + {0}at * {2:#}, {1:#} + ({0}at + 1) * {2:#});\n",
+                             state, -bound, 2 * bound / sliced->second, name_of(law_.scalar));
       }
     }
     for (const compiler::GuardInTurn& guard : law_.guards)
-      text_ += fmt::format("  {0} = Frama_C_interval(0, {2}) * {1};\n", guard.name, guard.places, (law_.variables[guard.state].size - 1) / guard.places);
-    text_ += fmt::format("  const scalar position = Frama_C_{0}_interval({1:#}, {2:#}), velocity = Frama_C_{0}_interval({3:#}, {4:#});\n",
-                         name_of(law_.scalar), -box_.range.position, box_.range.position, -box_.range.velocity, box_.range.velocity);
-    text_ += "  if (output(position, velocity)) update();\n"
-             "  //@ assert finite: \\is_finite(command_force) && \\is_finite(command_damping);\n"
-             "  //@ assert brakes: command_damping >= 0;\n";
+      text_ += fmt::format("  {0} = Frama_C_interval(0, {2}) * {1};\n", guard.name, guard.places,
+                           (law_.variables[guard.state].size - 1) / guard.places);
+    text_ += fmt::format(
+        "  const scalar position = Frama_C_{0}_interval({1:#}, {2:#}), velocity = Frama_C_{0}_interval({3:#}, "
+        "{4:#});\n",
+        name_of(law_.scalar), -box_.range.position, box_.range.position, -box_.range.velocity, box_.range.velocity);
+    text_ +=
+        "  if (output(position, velocity)) update();\n"
+        "  //@ assert finite: \\is_finite(command_force) && \\is_finite(command_damping);\n"
+        "  //@ assert brakes: command_damping >= 0;\n";
     for (const auto& [state, bound] : box_.states) {
       static_cast<void>(bound);
       text_ += fmt::format("  //@ assert stays: {1} <= {0} <= {0}bound;\n", state, low(state));
@@ -140,9 +152,11 @@ class CForm {
   }
 
   void run() {
-    text_ += "#else\nint main(void) {\n  double position, velocity;\n  while (scanf(\"%la %la\", &position, &velocity) == 2) {\n"
-             "    if (output((scalar)position, (scalar)velocity)) update();\n"
-             "    printf(\"%a %a\\n\", (double)command_damping, (double)command_force);\n  }\n  return 0;\n}\n#endif\n";
+    text_ +=
+        "#else\nint main(void) {\n  double position, velocity;\n  while (scanf(\"%la %la\", &position, &velocity) == "
+        "2) {\n"
+        "    if (output((scalar)position, (scalar)velocity)) update();\n"
+        "    printf(\"%a %a\\n\", (double)command_damping, (double)command_force);\n  }\n  return 0;\n}\n#endif\n";
   }
 
   const UpdateLaw& law_;

@@ -15,8 +15,8 @@ struct ProvenBox {
   std::map<std::string, int> slices;  // of states that need a distinction of cases
 };
 
-// Under Frama-C, `main` takes any state in the box and any input in the range, makes one step, and asserts that the command
-// is finite and the state in the box again. Elsewhere it reads positions and velocities and prints commands.
+// Under Frama-C, `main` takes any state in the box and any input in the range, makes one step, and asserts that the
+// command is finite and the state in the box again. Elsewhere it reads positions and velocities and prints commands.
 std::string c_form(const compiler::UpdateLaw& law, const ProvenBox& box);
 
 }  // namespace dashpot::testing

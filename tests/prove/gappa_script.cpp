@@ -27,7 +27,8 @@ std::string exact(double value) {
 }
 
 double half_ulp(double value, compiler::ScalarType scalar) {
-  const double next = scalar == compiler::ScalarType::float64 ? std::nextafter(value, INFINITY) : double(std::nextafter(float(value), INFINITY));
+  const double next = scalar == compiler::ScalarType::float64 ? std::nextafter(value, INFINITY)
+                                                              : double(std::nextafter(float(value), INFINITY));
   return (next - value) / 2;
 }
 
@@ -55,10 +56,12 @@ class Script {
     assume_inputs();
     bound_force();
     bound_states();
-    std::string all = fmt::format("@rnd = float<{}, ne>;\n", law_.scalar == compiler::ScalarType::float64 ? "ieee_64" : "ieee_32");
+    std::string all =
+        fmt::format("@rnd = float<{}, ne>;\n", law_.scalar == compiler::ScalarType::float64 ? "ieee_64" : "ieee_32");
     for (const std::string& name : floats_) all += fmt::format("{0} = rnd({0}_any);\n", name);
     for (const auto& [name, value] : constants_) all += fmt::format("{} = {};\n", name, exact(value));
-    return all + definitions_ + "{ " + joined(assumptions_, " /\\\n  ") + " ->\n  " + joined(goals_, " /\\\n  ") + " }\n";
+    return all + definitions_ + "{ " + joined(assumptions_, " /\\\n  ") + " ->\n  " + joined(goals_, " /\\\n  ") +
+           " }\n";
   }
 
  private:
@@ -70,8 +73,9 @@ class Script {
 
   // name = what is computed; name_real = the same without rounding, and with constants that were not rounded either.
   void define(const std::vector<Statement>& program, std::set<std::string>& defined) {
-    const ScalarSpelling spelling = {[](const std::string& value) { return "(" + value + ")"; },
-                                     [](const std::string&, const std::string&) { return std::string("linear laws have no slips"); }};
+    const ScalarSpelling spelling = {
+        [](const std::string& value) { return "(" + value + ")"; },
+        [](const std::string&, const std::string&) { return std::string("linear laws have no slips"); }};
     const bool is_update = &program == &law_.update;
     for (const ScalarAssignment& a : scalar_program(law_, program, spelling)) {
       const std::string rounded = with_ending(a.value, defined, is_update ? "next" : "");
@@ -79,8 +83,9 @@ class Script {
       std::set<std::string> real = is_update ? all_constants() : std::set<std::string>();
       definitions_ += fmt::format("{} rnd= {};\n", name, rounded);
       if (!is_update) real = defined;
-      definitions_ += fmt::format("{}_real = {};\n", name, is_update ? with_ending(with_ending(a.value, defined, "next"), real, "_real")
-                                                                     : with_ending(a.value, real, "_real"));
+      definitions_ += fmt::format("{}_real = {};\n", name,
+                                  is_update ? with_ending(with_ending(a.value, defined, "next"), real, "_real")
+                                            : with_ending(a.value, real, "_real"));
       defined.insert(a.target);
     }
   }
@@ -92,7 +97,9 @@ class Script {
     return names;
   }
 
-  bool appears(const std::string& name) const { return std::regex_search(definitions_, std::regex("\\b" + name + "\\b")); }
+  bool appears(const std::string& name) const {
+    return std::regex_search(definitions_, std::regex("\\b" + name + "\\b"));
+  }
 
   void assume_inputs() {
     const auto assume = [&](const std::string& name, double bound) {
@@ -108,12 +115,14 @@ class Script {
         const std::string name = scalar_name(c, place);
         if (appears(name)) constants_[name] = c.values[place];
         if (appears(name + "_real"))
-          assumptions_.push_back(fmt::format("|{0}_real - {0}| <= {1}", name, exact(half_ulp(c.values[place], law_.scalar))));
+          assumptions_.push_back(
+              fmt::format("|{0}_real - {0}| <= {1}", name, exact(half_ulp(c.values[place], law_.scalar))));
       }
   }
 
   void bound_force() {
-    const double share = 8 * compiler::unit_roundoff(law_.scalar);  // of the certificate's, which has one more for every mode
+    const double share =
+        8 * compiler::unit_roundoff(law_.scalar);  // of the certificate's, which has one more for every mode
     const std::string force = scalar_name(law_.variables[law_.force], 0);
     goals_.push_back(fmt::format("|{0} - {0}_real| <= {1}", force, exact(share * sum_of_terms(law_, range_, box_))));
   }
@@ -126,7 +135,8 @@ class Script {
         const double largest = box_.at(state);
         goals_.push_back(fmt::format("|{}next| <= {}", state, exact(largest)));
         if (const std::optional<double> loss = loss_of(statement.value, place))
-          goals_.push_back(fmt::format("|{0}next - {0}next_real| <= {1}", state, exact(law_.relative_error_bound * *loss * largest / (1 + 1e-5))));
+          goals_.push_back(fmt::format("|{0}next - {0}next_real| <= {1}", state,
+                                       exact(law_.relative_error_bound * *loss * largest / (1 + 1e-5))));
       }
   }
 
@@ -155,7 +165,8 @@ class Script {
 
 }  // namespace
 
-std::string gappa_script(const compiler::Compilation& compilation, const InputRange& range, const std::map<std::string, double>& box) {
+std::string gappa_script(const compiler::Compilation& compilation, const InputRange& range,
+                         const std::map<std::string, double>& box) {
   return Script(compilation, range, box).text();
 }
 

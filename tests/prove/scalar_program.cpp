@@ -49,7 +49,9 @@ std::vector<ScalarAssignment> scalar_program(const UpdateLaw& law, const std::ve
       all.coefficient = [&](const Coefficient& c) { return scalar_name(c, c.values.size() == 1 ? 0 : place); };
       all.flush = spelling.flush;
       all.clamp = spelling.clamp;
-      all.pick = [](const Coefficient& table, const std::string& at) { return fmt::format("{}[(int)({})]", table.name, at); };
+      all.pick = [](const Coefficient& table, const std::string& at) {
+        return fmt::format("{}[(int)({})]", table.name, at);
+      };
       all.sum = [&](const Variable& v) { return sum_text(v, law); };
       assignments.push_back({scalar_name(target, place), target.role == compiler::Role::local,
                              compiler::expression_text(law, statement.value, all)});
@@ -58,7 +60,9 @@ std::vector<ScalarAssignment> scalar_program(const UpdateLaw& law, const std::ve
   return assignments;
 }
 
-bool is_table(const Coefficient& coefficient) { return coefficient.element_names.empty() && coefficient.values.size() > 1; }
+bool is_table(const Coefficient& coefficient) {
+  return coefficient.element_names.empty() && coefficient.values.size() > 1;
+}
 
 bool is_straight(const UpdateLaw& law) { return law.couplings.empty() && law.networks.empty() && !law.tunable; }
 

@@ -1,4 +1,5 @@
-// A law's programs as assignments of scalars, one after the other: every place of every vector by itself, sums written out.
+// A law's programs as assignments of scalars, one after the other: every place of every vector by itself, sums written
+// out.
 #pragma once
 
 #include <string>
@@ -26,7 +27,8 @@ struct ScalarSpelling {
 };
 
 // Of a law without coupled slips or tunables.
-std::vector<ScalarAssignment> scalar_program(const compiler::UpdateLaw& law, const std::vector<compiler::Statement>& program,
+std::vector<ScalarAssignment> scalar_program(const compiler::UpdateLaw& law,
+                                             const std::vector<compiler::Statement>& program,
                                              const ScalarSpelling& spelling);
 
 bool is_table(const compiler::Coefficient& coefficient);  // which `pick` reads by place, in brackets

@@ -26,10 +26,12 @@ struct Affine {
 // What every variable is in terms of the step's beginning, and how large that can be.
 class Magnitudes {
  public:
-  Magnitudes(const UpdateLaw& law, const InputRange& range) : law_(law), roundoff_(compiler::unit_roundoff(law.scalar)) {
+  Magnitudes(const UpdateLaw& law, const InputRange& range)
+      : law_(law), roundoff_(compiler::unit_roundoff(law.scalar)) {
     for (const compiler::Variable& v : law.variables) {
       first_.push_back(bounds_.size());
-      for (std::size_t place = 0; place < v.size; ++place) bounds_.push_back(v.role == Role::state ? std::abs(v.rest_value) : 0.0);
+      for (std::size_t place = 0; place < v.size; ++place)
+        bounds_.push_back(v.role == Role::state ? std::abs(v.rest_value) : 0.0);
     }
     bounds_[first_[law.position]] = range.position;
     bounds_[first_[law.velocity]] = range.velocity;
@@ -66,7 +68,8 @@ class Magnitudes {
   template <class Action>
   void for_each_state(Action action) const {
     for (std::size_t i = 0; i < law_.variables.size(); ++i)
-      for (std::size_t place = 0; law_.variables[i].role == Role::state && place < law_.variables[i].size; ++place) action(first_[i] + place);
+      for (std::size_t place = 0; law_.variables[i].role == Role::state && place < law_.variables[i].size; ++place)
+        action(first_[i] + place);
   }
 
   void begin() {
@@ -76,7 +79,8 @@ class Magnitudes {
 
   void run(const std::vector<Statement>& program) {
     for (const Statement& s : program)
-      for (std::size_t place = 0; place < law_.variables[s.target].size; ++place) values_[first_[s.target] + place] = of(s.value, place);
+      for (std::size_t place = 0; place < law_.variables[s.target].size; ++place)
+        values_[first_[s.target] + place] = of(s.value, place);
   }
 
   double magnitude(const Affine& value) const {
@@ -109,7 +113,8 @@ class Magnitudes {
 
   Affine product(const compiler::Expression& e, std::size_t place) const {
     const compiler::Expression& left = law_.expressions[e.left];
-    if (left.operation != Operation::constant) return {{}, magnitude(of(e.left, place)) * magnitude(of(e.right, place))};
+    if (left.operation != Operation::constant)
+      return {{}, magnitude(of(e.left, place)) * magnitude(of(e.right, place))};
     const std::vector<double>& values = law_.coefficients[left.left].values;
     return scaled(of(e.right, place), values[values.size() == 1 ? 0 : place]);
   }
@@ -119,7 +124,9 @@ class Magnitudes {
     const auto size = [&](ExpressionId part) { return magnitude(of(part, place)); };
     switch (e.operation) {
       case Operation::read: return values_[first_[e.left] + (law_.variables[e.left].size == 1 ? 0 : place)];
-      case Operation::constant: return {{}, std::abs(law_.coefficients[e.left].values[law_.coefficients[e.left].values.size() == 1 ? 0 : place])};
+      case Operation::constant:
+        return {{},
+                std::abs(law_.coefficients[e.left].values[law_.coefficients[e.left].values.size() == 1 ? 0 : place])};
       case Operation::add: return sum(of(e.left, place), of(e.right, place), 1);
       case Operation::subtract: return sum(of(e.left, place), of(e.right, place), -1);
       case Operation::multiply: return product(e, place);
@@ -149,7 +156,8 @@ std::vector<double> after_steps(Magnitudes& run, const std::vector<double>& stat
 }
 
 // Magnitudes grow by a geometric series towards the fixed point, each state at the pace of the slowest that feeds it.
-std::vector<double> extrapolated(const std::vector<double>& x0, const std::vector<double>& x1, const std::vector<double>& x2) {
+std::vector<double> extrapolated(const std::vector<double>& x0, const std::vector<double>& x1,
+                                 const std::vector<double>& x2) {
   std::vector<double> limit = x2;
   for (std::size_t i = 0; i < limit.size(); ++i) {
     const double first = x1[i] - x0[i], second = x2[i] - x1[i];
@@ -177,7 +185,8 @@ std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, con
     std::map<std::string, double> box;
     auto value = wide.begin();
     for (const compiler::Variable& v : law.variables)
-      for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place) box[scalar_name(v, place)] = *value++;
+      for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)
+        box[scalar_name(v, place)] = *value++;
     return box;
   }
   return std::nullopt;
@@ -187,7 +196,8 @@ double sum_of_terms(const UpdateLaw& law, const InputRange& range, const std::ma
   Magnitudes run(law, range);
   std::vector<double> states;
   for (const compiler::Variable& v : law.variables)
-    for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place) states.push_back(box.at(scalar_name(v, place)));
+    for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)
+      states.push_back(box.at(scalar_name(v, place)));
   run.set_states(states);
   return run.force();
 }

@@ -15,8 +15,8 @@ struct InputRange {
   double velocity;  // [m/s]
 };
 
-// The greatest magnitude of every state, by emitted name, when the law starts at rest; empty where magnitudes alone show
-// none. A little wider than the fixed point, so that the rounding of a step stays within.
+// The greatest magnitude of every state, by emitted name, when the law starts at rest; empty where magnitudes alone
+// show none. A little wider than the fixed point, so that the rounding of a step stays within.
 std::optional<std::map<std::string, double>> state_box(const compiler::UpdateLaw& law, const InputRange& range);
 
 // The sum of the magnitudes of the terms that the force is made of, in the box [N].

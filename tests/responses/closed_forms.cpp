@@ -64,7 +64,8 @@ void expect_felt_force(const EmittedLaw& law, const Motion& motion, const std::v
   double largest_part = 0;
   for (const Sample& sample : samples) {
     commands.push_back(model->step(sample.position, sample.velocity));
-    largest_part = std::max({largest_part, std::abs(commands.back().force), commands.back().damping * std::abs(sample.velocity)});
+    largest_part =
+        std::max({largest_part, std::abs(commands.back().force), commands.back().damping * std::abs(sample.velocity)});
   }
   const double tolerance = stated_tolerance(law) * largest_part;
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -39,8 +39,8 @@ class ClosedForm {
   std::vector<ModeAnswer> modes_;
 };
 
-// How far rounding may take the felt force from the closed form, relative to its largest part: 1e-12 in double; in float
-// what the compiler states for a mode's force and one roundoff for each operation of a sample.
+// How far rounding may take the felt force from the closed form, relative to its largest part: 1e-12 in double; in
+// float what the compiler states for a mode's force and one roundoff for each operation of a sample.
 double stated_tolerance(const EmittedLaw& law);
 
 // Runs the law from reset(0) over the motion's samples; a non-fatal failure at the first that departs from `expected`.

@@ -10,8 +10,9 @@
 namespace dashpot::responses {
 namespace {
 
-const char* const candidates[] = {"exact_1khz",          "split_zero_frequency", "split_quietest_passive", "split_velocity_free",
-                                  "split_largest_observer", "split_virtual",      "split_given"};
+const char* const candidates[] = {"exact_1khz",          "split_zero_frequency",   "split_quietest_passive",
+                                  "split_velocity_free", "split_largest_observer", "split_virtual",
+                                  "split_given"};
 
 // Fails if any law, ever, asks the brake for a negative damping, or for another than its decomposition chose.
 TEST(Decomposition, gives_the_brake_what_was_chosen) {
@@ -62,7 +63,8 @@ TEST(Decomposition, velocity_free_needs_no_estimate) {
   for (const EmittedLaw& law : laws_of_variant("split_velocity_free")) {
     const std::shared_ptr<Model> one = law.make(), other = law.make();
     for (const Sample& sample : samples_of(random_motion(11, 20), law.sample_period))
-      ASSERT_EQ(one->step(sample.position, sample.velocity).force, other->step(sample.position, -3).force) << law.title();
+      ASSERT_EQ(one->step(sample.position, sample.velocity).force, other->step(sample.position, -3).force)
+          << law.title();
   }
 }
 

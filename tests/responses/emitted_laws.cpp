@@ -53,7 +53,8 @@ compiler::Choices parse_choices(const std::string& text) {
     else if (option == "--state-input" && value == "position") choices.state_input = compiler::StateInput::position;
     else if (option == "--state-input" && value == "velocity") choices.state_input = compiler::StateInput::velocity;
     else if (option == "--state-input" && value == "nodal") choices.state_input = compiler::StateInput::nodal;
-    else if (option == "--decomposition" && std::isdigit(static_cast<unsigned char>(value[0]))) choices.decomposition = std::stod(value);
+    else if (option == "--decomposition" && std::isdigit(static_cast<unsigned char>(value[0])))
+      choices.decomposition = std::stod(value);
     else if (option == "--decomposition") choices.decomposition = value;
     else if (value != "exact" && value != "double") throw std::invalid_argument(option + " " + value);
   }

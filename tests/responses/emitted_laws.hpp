@@ -45,7 +45,7 @@ struct EmittedLaw {
   std::string network;       // name
   std::string network_file;  // path
   compiler::Choices choices;
-  double sample_period;      // [s], the class's own
+  double sample_period;  // [s], the class's own
   bool is_rotary;
   std::shared_ptr<Model> (*make)();
 
@@ -125,8 +125,8 @@ struct Variant {
 
 template <class Class>
 void append(std::vector<EmittedLaw>& laws, const Variant& variant, const char* network, const char* file) {
-  laws.push_back({variant.name, network, file, parse_choices(variant.choices), static_cast<double>(Class::sample_period),
-                  Class::port_motion == dashpot::motion::rotation,
+  laws.push_back({variant.name, network, file, parse_choices(variant.choices),
+                  static_cast<double>(Class::sample_period), Class::port_motion == dashpot::motion::rotation,
                   []() -> std::shared_ptr<Model> { return std::make_shared<ModelOf<Class>>(); }});
 }
 

@@ -45,7 +45,8 @@ bool all_finite(const std::vector<double>& numbers) {
 // which every command would be refused for ever.
 TEST(ExtremeInputs, of_any_size_do_not_poison_the_states) {
   for (const EmittedLaw& law : all_laws()) {
-    const double huge = law.is_float() ? 1e30 : 1e300, most = law.is_float() ? double(std::numeric_limits<float>::max()) : largest;
+    const double huge = law.is_float() ? 1e30 : 1e300,
+                 most = law.is_float() ? double(std::numeric_limits<float>::max()) : largest;
     testing::Random random(13);
     const std::shared_ptr<Model> model = law.make();
     model->reset(0);

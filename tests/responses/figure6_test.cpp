@@ -9,11 +9,11 @@ namespace dashpot::responses {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double K = 50;              // [N/m]
-constexpr double B = 5;               // [N·s/m]
-constexpr double period = 1e-3;       // [s]
-constexpr double lateness = 5e-3;     // [s], of the velocity
-constexpr double duration = 4;        // [s]
+constexpr double K = 50;                  // [N/m]
+constexpr double B = 5;                   // [N·s/m]
+constexpr double period = 1e-3;           // [s]
+constexpr double lateness = 5e-3;         // [s], of the velocity
+constexpr double duration = 4;            // [s]
 constexpr double angular = 2 * pi * 0.5;  // [rad/s]
 
 double velocity(double t) { return t <= 0 ? 0 : std::sin(angular * t); }
@@ -42,8 +42,8 @@ double felt_error(const std::string& variant) {
 
 constexpr double printed = 0.0006;  // the figures have three decimals
 
-// Fails if the brake's part, the motor's part or the drive of the states differs from the law whose error theory, section
-// 4, states for backward Euler.
+// Fails if the brake's part, the motor's part or the drive of the states differs from the law whose error theory,
+// section 4, states for backward Euler.
 TEST(Figure6, has_the_stated_errors_with_backward_euler) {
   EXPECT_NEAR(felt_error("virtual_backward_euler_velocity"), 1.496, printed);
   EXPECT_NEAR(felt_error("euler_velocity"), 0.590, printed);

@@ -1,5 +1,5 @@
-// The paper's printed update laws, written out as printed but for the index of their inputs: theory, section 3, takes them
-// at k where the paper, for one sample of loop delay, takes them at k − 1.
+// The paper's printed update laws, written out as printed but for the index of their inputs: theory, section 3, takes
+// them at k where the paper, for one sample of loop delay, takes them at k − 1.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -82,8 +82,8 @@ TEST(PrintedLaws, of_branches_add_up) {
   }
 }
 
-// Fails if `nodal` is not the paper's generalised Kelvin model, (10) and (11), whose element 1, next to the tool, is the
-// observer: of networks/paper/generalised_kelvin_two.json it is the one with B/K² larger.
+// Fails if `nodal` is not the paper's generalised Kelvin model, (10) and (11), whose element 1, next to the tool, is
+// the observer: of networks/paper/generalised_kelvin_two.json it is the one with B/K² larger.
 TEST(PrintedLaws, of_figure_3_is_the_nodal_one) {
   constexpr double K1 = 80, B1 = 6, K2 = 200, B2 = 4;
   static_assert(B1 / (K1 * K1) > B2 / (K2 * K2));
@@ -95,7 +95,8 @@ TEST(PrintedLaws, of_figure_3_is_the_nodal_one) {
   });
 }
 
-// Fails if the three drives differ when the velocity is the backward difference of the positions, where they are one law.
+// Fails if the three drives differ when the velocity is the backward difference of the positions, where they are one
+// law.
 TEST(PrintedLaws, coincide_for_the_backward_difference) {
   for (const EmittedLaw& reference : laws_of_variant("euler_nodal"))
     for (const char* variant : {"euler_position", "euler_velocity"}) {

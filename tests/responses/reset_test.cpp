@@ -12,7 +12,8 @@ namespace {
 constexpr double rest = 384 * unit_increment;  // [m] or [rad]
 
 void move(Model& model, const EmittedLaw& law) {
-  for (const Sample& sample : samples_of(random_motion(14, 10), law.sample_period)) model.step(sample.position, sample.velocity);
+  for (const Sample& sample : samples_of(random_motion(14, 10), law.sample_period))
+    model.step(sample.position, sample.velocity);
 }
 
 // Fails if anything of the past survives a reset, even a sample that still waits for update().

@@ -19,10 +19,12 @@ constexpr float increment = float(unit_increment);
 double true_force(int n) {
   constexpr double x = 1e-6;  // λh
   const double plateau = double(stiffness) * double(increment) / x;
-  return plateau * -std::expm1(-x * std::min(n, relaxation_samples)) * std::exp(-x * std::max(0, n - relaxation_samples));
+  return plateau * -std::expm1(-x * std::min(n, relaxation_samples)) *
+         std::exp(-x * std::max(0, n - relaxation_samples));
 }
 
-// Largest error over the ramp and a hold of two relaxation times, relative to the peak, of a recurrence F ← next(F, Δu).
+// Largest error over the ramp and a hold of two relaxation times, relative to the peak, of a recurrence F ← next(F,
+// Δu).
 template <class Next>
 double largest_error(Next next) {
   double largest = 0;
@@ -34,7 +36,8 @@ double largest_error(Next next) {
   return largest / true_force(relaxation_samples);
 }
 
-// Fails if the trap that the delta form is for is not there: F ← a F + c Δu in float, its coefficients worked out in float.
+// Fails if the trap that the delta form is for is not there: F ← a F + c Δu in float, its coefficients worked out in
+// float.
 TEST(SlowModes, are_ruined_by_careless_float) {
   const float decay = std::exp(-relaxation_rate * period);
   const float gain = stiffness * (1 - decay) / (relaxation_rate * period);
@@ -65,8 +68,8 @@ double emitted_error(const EmittedLaw& law) {
   return largest;
 }
 
-// Fails if an emitted law departs from its mode's own force by more than the bound that its banner states: the mode's, and
-// one roundoff for each of the two operations that make the command of it.
+// Fails if an emitted law departs from its mode's own force by more than the bound that its banner states: the mode's,
+// and one roundoff for each of the two operations that make the command of it.
 TEST(SlowModes, keep_to_the_stated_bound) {
   for (const char* variant : {"slow_double", "slow_float", "slow_float_euler"}) {
     const EmittedLaw& law = law_of(variant, "ten_seconds");

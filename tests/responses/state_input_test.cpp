@@ -1,5 +1,5 @@
-// What drives the states is a choice that no rule makes once for all (theory, section 3): two Kelvin elements under a sine
-// of velocity of 0.5 Hz, the estimate 5 ms late.
+// What drives the states is a choice that no rule makes once for all (theory, section 3): two Kelvin elements under a
+// sine of velocity of 0.5 Hz, the estimate 5 ms late.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -47,7 +47,8 @@ struct Errors {
 };
 
 Errors errors_of(const std::string& network) {
-  return {felt_error("late_nodal", network), felt_error("late_velocity", network), felt_error("late_position", network)};
+  return {felt_error("late_nodal", network), felt_error("late_velocity", network),
+          felt_error("late_position", network)};
 }
 
 // Fails if the three drives are not three laws with errors of their own, or `nodal` never is the best.

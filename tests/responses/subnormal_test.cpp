@@ -16,8 +16,8 @@
 namespace dashpot::responses {
 namespace {
 
-// Says whether, since it was made, an operation took a subnormal operand (where the processor tells) or rounded a result
-// down into the subnormal range.
+// Says whether, since it was made, an operation took a subnormal operand (where the processor tells) or rounded a
+// result down into the subnormal range.
 class SubnormalWatch {
  public:
   SubnormalWatch() {
@@ -59,7 +59,8 @@ TEST(Subnormal, is_never_a_state_that_decays) {
       if (law.compilation().form.linear.modes.size() > 100) continue;
       const std::shared_ptr<Model> model = law.make();
       model->reset(0);
-      for (const Sample& sample : samples_of(random_motion(16, 20), law.sample_period)) model->step(sample.position, sample.velocity);
+      for (const Sample& sample : samples_of(random_motion(16, 20), law.sample_period))
+        model->step(sample.position, sample.velocity);
       const double position = 32 * unit_increment;
       for (int n = 0; n < held; ++n) {
         const SubnormalWatch watch;
@@ -87,7 +88,8 @@ TEST(Subnormal, is_forestalled_by_exactly_zero) {
   EXPECT_LT(smallest, 1e-60);
 }
 
-// Fails if emitted code guards other places at a sample than `simulate` does, where guards take turns, or one of them never.
+// Fails if emitted code guards other places at a sample than `simulate` does, where guards take turns, or one of them
+// never.
 TEST(Subnormal, is_forestalled_in_turn_as_in_simulate) {
   int laws = 0;
   for (const char* variant : {"exact_1khz", "euler_nodal"})

@@ -27,7 +27,9 @@ TEST(TwoPhases, make_a_step) {
       const Command expected = parted->output(sample.position, sample.velocity);
       parted->update();
       expect_equal(stepped->step(sample.position, sample.velocity), expected, law);
-      expect_equal(is_parted ? mixed->output(sample.position, sample.velocity) : mixed->step(sample.position, sample.velocity), expected, law);
+      expect_equal(
+          is_parted ? mixed->output(sample.position, sample.velocity) : mixed->step(sample.position, sample.velocity),
+          expected, law);
       mixed->update();
       is_parted = !is_parted;
       ASSERT_EQ(stepped->stored_energy(), parted->stored_energy()) << law.title();
@@ -57,7 +59,8 @@ TEST(TwoPhases, output_may_be_asked_again) {
     const std::shared_ptr<Model> once = law.make(), twice = law.make();
     for (const Sample& sample : some_samples(law)) {
       twice->output(-sample.position, 0.25);
-      expect_equal(twice->output(sample.position, sample.velocity), twice->output(sample.position, sample.velocity), law);
+      expect_equal(twice->output(sample.position, sample.velocity), twice->output(sample.position, sample.velocity),
+                   law);
       twice->update();
       once->output(sample.position, sample.velocity);
       once->update();
@@ -77,7 +80,8 @@ TEST(TwoPhases, a_step_drops_the_sample_that_waits) {
         mixed->step(position, 0.1);
         mixed->update();
         ASSERT_EQ(mixed->stored_energy(), plain->stored_energy()) << law.title();
-        expect_equal(mixed->output(sample.position, sample.velocity), plain->output(sample.position, sample.velocity), law);
+        expect_equal(mixed->output(sample.position, sample.velocity), plain->output(sample.position, sample.velocity),
+                     law);
       }
     }
 }

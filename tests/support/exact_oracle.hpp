@@ -1,5 +1,5 @@
-// The dynamic stiffness of a network by eliminating its nodes one by one at one frequency: no modes, no matrices, nothing
-// of the compiler's own linear stage.
+// The dynamic stiffness of a network by eliminating its nodes one by one at one frequency: no modes, no matrices,
+// nothing of the compiler's own linear stage.
 #pragma once
 
 #include <boost/multiprecision/cpp_bin_float.hpp>

@@ -36,8 +36,8 @@ TEST(ExactOracle, knows_the_maxwell_element) {
 
 // Fails if a bridge in balance is not that of its two branches, or if its cross arm counts.
 TEST(ExactOracle, knows_the_balanced_bridge) {
-  const auto bridge = network(4, {spring(2, tool, 2), spring(4, tool, 3), spring(6, 2, ground), spring(12, 3, ground),
-                                  damper(7, 2, 3)});
+  const auto bridge = network(
+      4, {spring(2, tool, 2), spring(4, tool, 3), spring(6, 2, ground), spring(12, 3, ground), damper(7, 2, 3)});
   const ExactComplex d = dynamic_stiffness_by_elimination(bridge, Exact(10));
   EXPECT_LT(abs(d.real - Exact("4.5")), rounding);
   EXPECT_LT(abs(d.imaginary), rounding);

@@ -96,7 +96,8 @@ class ValueSource {
 
 bool slips_join_ends(const Network& network) {
   std::vector<bool> is_slip;
-  for (const Element& element : network.elements) is_slip.push_back(std::holds_alternative<compiler::Slip>(element.law));
+  for (const Element& element : network.elements)
+    is_slip.push_back(std::holds_alternative<compiler::Slip>(element.law));
   const std::vector<bool> on_path = compiler::on_path_between_ends(network, is_slip);
   return std::find(on_path.begin(), on_path.end(), true) != on_path.end();
 }

@@ -70,8 +70,7 @@ bool shrink_once(Network& network, const Complaint& complaint) {
 }  // namespace
 
 Network smallest_failing(Network network, const Complaint& complaint) {
-  while (shrink_once(network, complaint)) {
-  }
+  while (shrink_once(network, complaint)) {}
   return network;
 }
 

@@ -32,7 +32,9 @@ compiler::Network branches(Random& random) {
 
 bool is_graph(Kind kind) { return kind == Kind::slips_in_graph || kind == Kind::touched_slips_in_graph; }
 bool has_slips(Kind kind) { return kind == Kind::slips || kind == Kind::touched_slips || is_graph(kind); }
-bool is_touched(Kind kind) { return kind == Kind::touched || kind == Kind::touched_slips || kind == Kind::touched_slips_in_graph; }
+bool is_touched(Kind kind) {
+  return kind == Kind::touched || kind == Kind::touched_slips || kind == Kind::touched_slips_in_graph;
+}
 
 compiler::Network network_of(std::uint64_t seed, Kind kind, Random& random) {
   if (kind == Kind::parallel_branches || kind == Kind::touched) return branches(random);
@@ -43,7 +45,8 @@ compiler::Network network_of(std::uint64_t seed, Kind kind, Random& random) {
   recipe.largest_value = 1e3;
   recipe.most_slips = has_slips(kind) ? 5 : 0;
   compiler::Network network = random_network(seed, recipe);
-  for (std::uint64_t i = 1; is_graph(kind) && compiler::normal_form(network).networks.empty(); ++i) network = random_network(1000000 * i + seed, recipe);
+  for (std::uint64_t i = 1; is_graph(kind) && compiler::normal_form(network).networks.empty(); ++i)
+    network = random_network(1000000 * i + seed, recipe);
   return network;
 }
 
@@ -71,23 +74,29 @@ std::string tunable_network(std::uint64_t seed, Kind kind) {
     const double value = compiler::value_of(e.law);
     const bool is_tunable = random.chance(0.5) || (parameters.empty() && i + 1 == network.elements.size());
     if (is_tunable) {
-      const double start = random.chance(0.05) && !has_slips(kind) ? 0 : value, least = start == 0 || random.chance(0.5) ? 0 : value / 10;
+      const double start = random.chance(0.05) && !has_slips(kind) ? 0 : value,
+                   least = start == 0 || random.chance(0.5) ? 0 : value / 10;
       parameters += fmt::format("{}\n  \"p{}\": {{ \"value\": {}, \"tunable\": true, \"min\": {}, \"max\": {} }}",
                                 parameters.empty() ? "" : ",", i, start, least, value * 10);
     }
-    elements += fmt::format("{}\n  {{ \"{}\": {}, \"nodes\": [\"{}\", \"{}\"] }}", i == 0 ? "" : ",", compiler::kind_of(e.law),
-                            is_tunable ? fmt::format("\"p{}\"", i) : fmt::format("{}", value), network.nodes[e.a], network.nodes[e.b]);
+    elements += fmt::format("{}\n  {{ \"{}\": {}, \"nodes\": [\"{}\", \"{}\"] }}", i == 0 ? "" : ",",
+                            compiler::kind_of(e.law), is_tunable ? fmt::format("\"p{}\"", i) : fmt::format("{}", value),
+                            network.nodes[e.a], network.nodes[e.b]);
   }
   const char* const contact = is_touched(kind) ? "\"contact\": { \"at\": 0 }, " : "";
-  return fmt::format("{{ \"dashpot\": 1, \"name\": \"tunable_{}\", {}\"parameters\": {{{} }},\n\"elements\": [{} ] }}\n", seed, contact, parameters, elements);
+  return fmt::format(
+      "{{ \"dashpot\": 1, \"name\": \"tunable_{}\", {}\"parameters\": {{{} }},\n\"elements\": [{} ] }}\n", seed,
+      contact, parameters, elements);
 }
 
-std::vector<double> next_values(const std::vector<compiler::Tunable>& tunables, const std::vector<double>& present, Random& random) {
+std::vector<double> next_values(const std::vector<compiler::Tunable>& tunables, const std::vector<double>& present,
+                                Random& random) {
   std::vector<double> values = present;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const tunable_range<double>& range = tunables[i].range;
     if (random.chance(0.5)) continue;
-    values[i] = random.chance(0.2) ? (random.chance(0.5) ? range.min : range.max) : random.uniform(range.min, range.max);
+    values[i] =
+        random.chance(0.2) ? (random.chance(0.5) ? range.min : range.max) : random.uniform(range.min, range.max);
   }
   return values;
 }

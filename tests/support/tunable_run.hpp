@@ -28,16 +28,26 @@ class TunableLaw {
 };
 
 // Slips in a graph are in no tree, some of them; touched ones are behind a contact at 0.
-enum class Kind { parallel_branches, tree, graph, slips, touched, touched_slips, slips_in_graph, touched_slips_in_graph };
+enum class Kind {
+  parallel_branches,
+  tree,
+  graph,
+  slips,
+  touched,
+  touched_slips,
+  slips_in_graph,
+  touched_slips_in_graph
+};
 
 inline constexpr std::uint64_t kinds = 8;
 
-// A network file of that kind in which about half of all elements are tunable, over ranges from zero or a tenth to ten times
-// their value; some start at zero, where there are no slips.
+// A network file of that kind in which about half of all elements are tunable, over ranges from zero or a tenth to ten
+// times their value; some start at zero, where there are no slips.
 std::string tunable_network(std::uint64_t seed, Kind kind);
 
 // Values within the ranges, now and then at their ends, most of them as they were.
-std::vector<double> next_values(const std::vector<compiler::Tunable>& tunables, const std::vector<double>& present, Random& random);
+std::vector<double> next_values(const std::vector<compiler::Tunable>& tunables, const std::vector<double>& present,
+                                Random& random);
 
 // Displacements [m]: rests, moves over several decades, reversals, returns to 0.
 std::vector<double> random_walk(Random& random, std::size_t samples);

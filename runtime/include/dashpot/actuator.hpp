@@ -126,13 +126,13 @@ class actuator {
   transmission<Scalar> transmission_;
   brake_coil<Scalar> coil_;
   actuator_options options_;
-  Scalar period_;             // [s]
-  Scalar max_torque_;         // [N·m] or [N]; 0: unlimited
-  Scalar torque_constant_;    // [N·m/A] or [N/A]; 0: not stated
-  Scalar max_damping_;        // joint [N·m·s/rad] or [N·s/m]
-  Scalar max_root_;           // its square root
-  Scalar per_root_;           // coil current per √b: 1/√κ; 0: not stated
-  Scalar tolerance_;          // ε of the brake
+  Scalar period_;           // [s]
+  Scalar max_torque_;       // [N·m] or [N]; 0: unlimited
+  Scalar torque_constant_;  // [N·m/A] or [N/A]; 0: not stated
+  Scalar max_damping_;      // joint [N·m·s/rad] or [N·s/m]
+  Scalar max_root_;         // its square root
+  Scalar per_root_;         // coil current per √b: 1/√κ; 0: not stated
+  Scalar tolerance_;        // ε of the brake
 };
 
 }  // namespace dashpot

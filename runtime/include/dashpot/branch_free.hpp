@@ -1,7 +1,8 @@
-// The decisions of command.hpp without a jump: the same numbers in a time that no value changes (`dashpot compile --constant-time`).
+// The decisions of command.hpp without a jump: the same numbers in a time that no value changes (`dashpot compile
+// --constant-time`).
 //
-// Compilers turn `?:` into jumps, and masks back into `?:`, as they see fit. So a mask is made of the comparison, hidden
-// from the optimiser, and the numbers are put together from bits.
+// Compilers turn `?:` into jumps, and masks back into `?:`, as they see fit. So a mask is made of the comparison,
+// hidden from the optimiser, and the numbers are put together from bits.
 #pragma once
 
 namespace dashpot::branch_free {

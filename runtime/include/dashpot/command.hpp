@@ -19,7 +19,8 @@ struct command {
   Scalar force;    // motor force opposing +u [N], or torque [N·m] in rotation
 };
 
-// True when every argument is finite: x − x is 0 for a finite x and NaN for the others, and NaN alone differs from itself.
+// True when every argument is finite: x − x is 0 for a finite x and NaN for the others, and NaN alone differs from
+// itself.
 template <class Scalar>
 constexpr bool all_finite(Scalar a) noexcept {
   const Scalar nothing = a - a;
@@ -34,9 +35,9 @@ constexpr bool all_finite(Scalar a, Scalar b, Scalar c) noexcept {
   return all_finite((a - a) + (b - b) + (c - c));
 }
 
-// Whether `value` lies beyond ± `threshold`. One question in two forms: a desktop's processor predicts two comparisons and
-// takes them out of the chain of states; a micro-controller has one instruction for the magnitude, and without a branch
-// needs the same time for either sign.
+// Whether `value` lies beyond ± `threshold`. One question in two forms: a desktop's processor predicts two comparisons
+// and takes them out of the chain of states; a micro-controller has one instruction for the magnitude, and without a
+// branch needs the same time for either sign.
 #if defined(__arm__) && defined(__GNUC__)
 constexpr bool is_beyond(float threshold, float value) noexcept { return __builtin_fabsf(value) > threshold; }
 constexpr bool is_beyond(double threshold, double value) noexcept { return __builtin_fabs(value) > threshold; }
@@ -54,8 +55,8 @@ constexpr Scalar flush_below(Scalar threshold, Scalar value) noexcept {
   return is_beyond(threshold, value) ? value : Scalar(0);
 }
 
-// drive + decay · force, where a force below ± `threshold` counts as zero. The guard looks at the force before, so that nothing waits for
-// it; on processors that predict jumps, nothing ever waits at all.
+// drive + decay · force, where a force below ± `threshold` counts as zero. The guard looks at the force before, so that
+// nothing waits for it; on processors that predict jumps, nothing ever waits at all.
 template <class Scalar>
 constexpr Scalar relaxed(Scalar threshold, Scalar decay, Scalar force, Scalar drive) noexcept {
 #if defined(__GNUC__) && !defined(__arm__)

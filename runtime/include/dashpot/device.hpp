@@ -16,12 +16,12 @@ namespace dashpot {
 enum class device_status : unsigned char { ok, no_data, stale, corrupted, disconnected, fault };
 
 struct device_sample {
-  double position = 0;              // [rad] or [m], already quantised by the encoder
-  double velocity = 0;              // [rad/s] or [m/s]; meaningful only where the device senses it
-  std::int64_t counts = 0;          // raw encoder reading
-  std::uint64_t timestamp_ns = 0;   // device clock at the sample
-  std::uint64_t edge_time_ns = 0;   // device clock at the newest encoder edge; 0: not measured
-  std::uint32_t sequence = 0;       // grows by one a sample
+  double position = 0;             // [rad] or [m], already quantised by the encoder
+  double velocity = 0;             // [rad/s] or [m/s]; meaningful only where the device senses it
+  std::int64_t counts = 0;         // raw encoder reading
+  std::uint64_t timestamp_ns = 0;  // device clock at the sample
+  std::uint64_t edge_time_ns = 0;  // device clock at the newest encoder edge; 0: not measured
+  std::uint32_t sequence = 0;      // grows by one a sample
 };
 
 struct actuation {

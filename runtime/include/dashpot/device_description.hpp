@@ -34,7 +34,7 @@ struct loop_description {
 };
 
 struct encoder_description {
-  double step = 0;        // [rad] or [m] a count; 0: ideal
+  double step = 0;  // [rad] or [m] a count; 0: ideal
   quantiser rounding = quantiser::floor;
   double range_low = 0;   // [rad] or [m]; low == high: unlimited
   double range_high = 0;  // [rad] or [m]

@@ -1,5 +1,5 @@
-// What a relaxation loses over a sample, without <cmath>: additions, products and one division in a stated order, so that
-// every IEEE target gives the same bits under -ffp-contract=off. constexpr, no heap, no loop that depends on data.
+// What a relaxation loses over a sample, without <cmath>: additions, products and one division in a stated order, so
+// that every IEEE target gives the same bits under -ffp-contract=off. constexpr, no heap, no loop that depends on data.
 #pragma once
 
 #include <dashpot/elementary.hpp>

@@ -93,8 +93,12 @@ model_facts facts_of([[maybe_unused]] const Model& model) noexcept {
     return model.facts();
   } else {
     using certified = typename Model::certified_for;
-    return {static_cast<double>(Model::sample_period), Model::port_motion,
-            certified::any_device, certified::device, certified::device_digest, certified::estimator,
+    return {static_cast<double>(Model::sample_period),
+            Model::port_motion,
+            certified::any_device,
+            certified::device,
+            certified::device_digest,
+            certified::estimator,
             certified::loop_delay};
   }
 }

@@ -39,21 +39,22 @@ template <class Model>
 model_table table_of() noexcept {
   static_assert(check_model<Model>() && std::is_trivially_destructible_v<Model>);
   using scalar = typename Model::scalar;
-  return {model_table_version,
-          static_cast<unsigned>(sizeof(Model)),
-          static_cast<unsigned>(alignof(Model)),
-          facts_of(Model()),
-          [](void* model) noexcept { ::new (model, detail::placement{}) Model(); },
-          [](void* model, double position) noexcept { static_cast<Model*>(model)->reset(static_cast<scalar>(position)); },
-          [](void* model, double position, double velocity) noexcept {
-            const command<scalar> now =
-                static_cast<Model*>(model)->output(static_cast<scalar>(position), static_cast<scalar>(velocity));
-            return command<double>{static_cast<double>(now.damping), static_cast<double>(now.force)};
-          },
-          [](void* model) noexcept { static_cast<Model*>(model)->update(); },
-          [](const void* model) noexcept {
-            return static_cast<double>(static_cast<const Model*>(model)->stored_energy());
-          }};
+  return {
+      model_table_version,
+      static_cast<unsigned>(sizeof(Model)),
+      static_cast<unsigned>(alignof(Model)),
+      facts_of(Model()),
+      [](void* model) noexcept { ::new (model, detail::placement{}) Model(); },
+      [](void* model, double position) noexcept { static_cast<Model*>(model)->reset(static_cast<scalar>(position)); },
+      [](void* model, double position, double velocity) noexcept {
+        const command<scalar> now =
+            static_cast<Model*>(model)->output(static_cast<scalar>(position), static_cast<scalar>(velocity));
+        return command<double>{static_cast<double>(now.damping), static_cast<double>(now.force)};
+      },
+      [](void* model) noexcept { static_cast<Model*>(model)->update(); },
+      [](const void* model) noexcept {
+        return static_cast<double>(static_cast<const Model*>(model)->stored_energy());
+      }};
 }
 
 }  // namespace dashpot

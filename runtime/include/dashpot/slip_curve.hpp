@@ -1,8 +1,8 @@
-// The curve of a part that gives way, p against δ: a polyline that never falls. It is read by elongation where parts stand in
-// parallel and forces add, by force where they stand in series and elongations do.
+// The curve of a part that gives way, p against δ: a polyline that never falls. It is read by elongation where parts
+// stand in parallel and forces add, by force where they stand in series and elongations do.
 //
-// Beside its kinks a curve knows its force at δ = 0. There and near by the next samples are: kinks may lie so far off that a
-// reading between two of them alone would be off by more than all that happens here.
+// Beside its kinks a curve knows its force at δ = 0. There and near by the next samples are: kinks may lie so far off
+// that a reading between two of them alone would be off by more than all that happens here.
 #pragma once
 
 namespace dashpot {
@@ -65,8 +65,12 @@ class slip_curve_reader {
     bool is_kink = false;
     while (!at_end() && next() == at) is_kink = curve_.corners[next_++].is_kink || is_kink;
     if (first == next_) return beside(at);
-    return {Way::value(curve_.corners[first]), Way::value(curve_.corners[next_ - 1]), curve_.is_open && first == 0,
-            curve_.is_open && at_end(), true, is_kink};
+    return {Way::value(curve_.corners[first]),
+            Way::value(curve_.corners[next_ - 1]),
+            curve_.is_open && first == 0,
+            curve_.is_open && at_end(),
+            true,
+            is_kink};
   }
 
  private:
@@ -112,7 +116,8 @@ constexpr int append_corner(slip_corner<Scalar>* to, int count, Scalar at, Scala
 
 // The sum of two curves; `to` has room for the corners of both. Returns how many there are.
 template <class Way, class Scalar>
-constexpr int merge_curves(const slip_curve<Scalar>& first, const slip_curve<Scalar>& second, slip_corner<Scalar>* to) noexcept {
+constexpr int merge_curves(const slip_curve<Scalar>& first, const slip_curve<Scalar>& second,
+                           slip_corner<Scalar>* to) noexcept {
   slip_curve_reader<Scalar, Way> a(first), b(second);
   const int room = first.count + second.count;
   int count = 0;
@@ -122,12 +127,14 @@ constexpr int merge_curves(const slip_curve<Scalar>& first, const slip_curve<Sca
     if (!in_a.exists || !in_b.exists) continue;
     const bool is_kink = in_a.is_kink || in_b.is_kink;
     count = append_corner<Way>(to, count, at, in_a.low + in_b.low, is_kink);
-    if (count < room && (in_a.low < in_a.high || in_b.low < in_b.high)) count = append_corner<Way>(to, count, at, in_a.high + in_b.high, is_kink);
+    if (count < room && (in_a.low < in_a.high || in_b.low < in_b.high))
+      count = append_corner<Way>(to, count, at, in_a.high + in_b.high, is_kink);
   }
   return count;
 }
 
-// Puts a point of the curve where it belongs, `count` being how many corners there are. Returns how many there then are.
+// Puts a point of the curve where it belongs, `count` being how many corners there are. Returns how many there then
+// are.
 template <class Way, class Scalar>
 constexpr int insert_corner(slip_corner<Scalar>* corners, int count, const slip_corner<Scalar>& corner) noexcept {
   int place = count;
@@ -143,8 +150,10 @@ constexpr int mark_rest(const slip_curve<Scalar>& curve, slip_corner<Scalar>* co
   int count = 0;
   for (int i = 0; i < curve.count; ++i)
     if (corners[i].is_kink) corners[count++] = corners[i];
-  const bool is_flat = curve.end_slope == Scalar(0) && (corners[0].elongation > Scalar(0) || corners[count - 1].elongation < Scalar(0));
-  return rest.is_kink || is_flat ? count : insert_corner<by_elongation<Scalar>>(corners, count, {Scalar(0), rest.low, false});
+  const bool is_flat =
+      curve.end_slope == Scalar(0) && (corners[0].elongation > Scalar(0) || corners[count - 1].elongation < Scalar(0));
+  return rest.is_kink || is_flat ? count
+                                 : insert_corner<by_elongation<Scalar>>(corners, count, {Scalar(0), rest.low, false});
 }
 
 }  // namespace dashpot

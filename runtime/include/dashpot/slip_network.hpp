@@ -1,14 +1,15 @@
-// One step of slips that are coupled through a linear part of any shape, not only a tree: exact, with a bound on the work.
+// One step of slips that are coupled through a linear part of any shape, not only a tree: exact, with a bound on the
+// work.
 //
 // Over a sample the linear part answers like springs between the ends of the slips, the tool and the ground, and forces
-// held at them. The inner ends move to where Φ = Σ ½ c (x_i − x_j)² + Σ p_i x_i + Σ Y |x_a − x_b| is least. A pattern says of each
-// slip whether it holds or to which side it gives way. With the pattern given, Φ is least where a linear system says; on the
-// way there the first slip that would turn back holds; and where none does, the first group of ends that is pulled harder
-// than its slips hold gives way. Each pattern's least value is below the one before: none comes twice, and no more are tried
-// than there are. The pattern of the sample before comes first.
+// held at them. The inner ends move to where Φ = Σ ½ c (x_i − x_j)² + Σ p_i x_i + Σ Y |x_a − x_b| is least. A pattern
+// says of each slip whether it holds or to which side it gives way. With the pattern given, Φ is least where a linear
+// system says; on the way there the first slip that would turn back holds; and where none does, the first group of ends
+// that is pulled harder than its slips hold gives way. Each pattern's least value is below the one before: none comes
+// twice, and no more are tried than there are. The pattern of the sample before comes first.
 //
-// Systems are solved without a subtraction (Grassmann, Taksar & Heyman 1985), so that stiff and soft parts do not blur, and
-// a pivot of a part that only slips hold is exactly 0. Neither heap nor recursion; every loop is bounded, also for
+// Systems are solved without a subtraction (Grassmann, Taksar & Heyman 1985), so that stiff and soft parts do not blur,
+// and a pivot of a part that only slips hold is exactly 0. Neither heap nor recursion; every loop is bounded, also for
 // non-finite inputs.
 #pragma once
 
@@ -16,8 +17,8 @@
 
 namespace dashpot {
 
-// A slip between the ends a and b: an inner one by its number, `nodes` for the tool, `nodes` + 1 for the ground. It holds forces
-// from `lowest` to `highest`: ∓Y, or for a contact of the tool 0 and infinity.
+// A slip between the ends a and b: an inner one by its number, `nodes` for the tool, `nodes` + 1 for the ground. It
+// holds forces from `lowest` to `highest`: ∓Y, or for a contact of the tool 0 and infinity.
 template <class Scalar>
 struct slip_link {
   int a;
@@ -35,14 +36,16 @@ constexpr int slip_network_patterns(const slip_link<Scalar>* links, int slips) n
 }
 
 // Floating-point additions, multiplications and divisions at most: for the forces at all ends,
-constexpr int slip_network_pull_operations(int nodes, int slips) noexcept { return nodes * (9 * nodes + 20) + 4 * slips; }
+constexpr int slip_network_pull_operations(int nodes, int slips) noexcept {
+  return nodes * (9 * nodes + 20) + 4 * slips;
+}
 
 // for one pattern,
 constexpr int slip_network_operations_each(int nodes, int slips) noexcept {
   int operations = 6 * slips + 8 * nodes + nodes * nodes;  // gathering, and the way to the new place
   for (int k = nodes - 1; k >= 0; --k) operations += k + 1 + k * (7 + 2 * k) + 2 * k + 3;
   operations += slip_network_pull_operations(nodes, slips);
-  return operations + (1 << slips) * (2 * nodes + 2 * slips + 6);        // groups that may give way
+  return operations + (1 << slips) * (2 * nodes + 2 * slips + 6);  // groups that may give way
 }
 
 // and for one step.
@@ -52,8 +55,8 @@ constexpr int slip_network_operations(const slip_link<Scalar>* links, int slips,
          slip_network_pull_operations(nodes, slips) + 4 * nodes + slips + 2;
 }
 
-// What an inner end is held by, beside slips: `between` the inner ends (nodes × nodes, symmetric, the diagonal unused), to the
-// tool and to the ground; `through` joins these two [N/m].
+// What an inner end is held by, beside slips: `between` the inner ends (nodes × nodes, symmetric, the diagonal unused),
+// to the tool and to the ground; `through` joins these two [N/m].
 template <class Scalar>
 struct slip_network_ties {
   const Scalar* between;
@@ -84,13 +87,26 @@ class slip_network {
  public:
   constexpr slip_network(const slip_link<Scalar>* links, int slips, const slip_network_ties<Scalar>& ties, int nodes,
                          const slip_network_room<Scalar>& room) noexcept
-      : links_(links), ties_(ties), slips_(slips), nodes_(nodes), tool_(nodes), ground_(nodes + 1), group_(room.group),
-        between_(room.between), to_tool_(room.numbers), to_ground_(to_tool_ + nodes), load_(to_ground_ + nodes),
-        weight_(load_ + nodes), pivot_(weight_ + nodes), target_(pivot_ + nodes), pull_(target_ + nodes),
+      : links_(links),
+        ties_(ties),
+        slips_(slips),
+        nodes_(nodes),
+        tool_(nodes),
+        ground_(nodes + 1),
+        group_(room.group),
+        between_(room.between),
+        to_tool_(room.numbers),
+        to_ground_(to_tool_ + nodes),
+        load_(to_ground_ + nodes),
+        weight_(load_ + nodes),
+        pivot_(weight_ + nodes),
+        target_(pivot_ + nodes),
+        pull_(target_ + nodes),
         pull_weight_(pull_ + nodes) {}
 
-  // In: the tool's displacement in this sample [m], the force held at every inner end and at the tool [N], the pattern of the
-  // sample before. Out: the force that opposes the tool [N], the displacement of every inner end [m], the pattern.
+  // In: the tool's displacement in this sample [m], the force held at every inner end and at the tool [N], the pattern
+  // of the sample before. Out: the force that opposes the tool [N], the displacement of every inner end [m], the
+  // pattern.
   constexpr Scalar step(Scalar change, const Scalar* held, Scalar* moved, int* sign) noexcept {
     change_ = change;
     held_ = held;
@@ -116,14 +132,18 @@ class slip_network {
   static constexpr Scalar roundoff = sizeof(Scalar) == 4 ? Scalar(0x1p-20) : Scalar(0x1p-48);  // of sums of a few dozen
 
   static constexpr Scalar size(Scalar x) noexcept { return x < Scalar(0) ? -x : x; }
-  constexpr Scalar at(int end) const noexcept { return end == tool_ ? change_ : end == ground_ ? Scalar(0) : moved_[end]; }
+  constexpr Scalar at(int end) const noexcept {
+    return end == tool_ ? change_ : end == ground_ ? Scalar(0) : moved_[end];
+  }
   constexpr Scalar target(int end) const noexcept {
     const int group = group_[end];
     return group == tool_ ? change_ : group == ground_ ? Scalar(0) : target_[group];
   }
   constexpr Scalar stretch(int k) const noexcept { return at(links_[k].a) - at(links_[k].b); }
   constexpr Scalar held_by(int k) const noexcept { return sign_[k] > 0 ? links_[k].highest : links_[k].lowest; }
-  constexpr bool is_free(int i) const noexcept { return group_[i] == i; }  // the last of a group that neither tool nor ground holds
+  constexpr bool is_free(int i) const noexcept {
+    return group_[i] == i;
+  }  // the last of a group that neither tool nor ground holds
   constexpr Scalar& link(int i, int j) noexcept { return between_[i * nodes_ + j]; }
 
   // Ends joined by slips that hold move as one. A slip between ends of one group holds, whatever was thought of it.
@@ -220,8 +240,8 @@ class slip_network {
     for (int i = 0; i < nodes_; ++i) moved_[i] = target(i);
   }
 
-  // After a guess: gives every slip the side to which it went; true where that is not what was thought. A surface that the
-  // tool would be behind is taken along first.
+  // After a guess: gives every slip the side to which it went; true where that is not what was thought. A surface that
+  // the tool would be behind is taken along first.
   constexpr bool turn_back() noexcept {
     for (int k = 0; k < slips_; ++k)
       if (is_contact(k) && stretch(k) > Scalar(0) && links_[k].b < nodes_) moved_[links_[k].b] = at(links_[k].a);
@@ -306,8 +326,8 @@ class slip_network {
     pull_weight_[i] += size(force);
   }
 
-  // True after letting go what is pulled harder than the slips around it hold: some ends of a group, in one piece, away from
-  // the others, in one piece too. What is held by tool or ground stays, else the last end.
+  // True after letting go what is pulled harder than the slips around it hold: some ends of a group, in one piece, away
+  // from the others, in one piece too. What is held by tool or ground stays, else the last end.
   constexpr bool give_way() noexcept {
     find_pulls();
     for (int group = 0; group < nodes_ + 2; ++group) {

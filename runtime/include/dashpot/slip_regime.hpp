@@ -1,6 +1,6 @@
-// The feedthrough damping b∞ of coupled slips for one pattern of those that give way (theory, section 5, "Regimes"): of a slip
-// that holds rigid, of one that slides none. In parallel any rigid part makes all rigid, else dampings add up; in series one
-// that slides makes all slide, rigid parts drop out, and the rest is 1/Σ 1/b.
+// The feedthrough damping b∞ of coupled slips for one pattern of those that give way (theory, section 5, "Regimes"): of
+// a slip that holds rigid, of one that slides none. In parallel any rigid part makes all rigid, else dampings add up;
+// in series one that slides makes all slide, rigid parts drop out, and the rest is 1/Σ 1/b.
 #pragma once
 
 #include <dashpot/slip_tree.hpp>
@@ -11,12 +11,14 @@ namespace dashpot {
 template <class Scalar>
 constexpr int slip_regime_operations(const slip_node<Scalar>* nodes, int count) noexcept {
   int operations = 0;
-  for (int k = 0; k < count; ++k) operations += nodes[k].kind == slip_part::series ? 2 * nodes[k].child_count + 1 : nodes[k].child_count;
+  for (int k = 0; k < count; ++k)
+    operations += nodes[k].kind == slip_part::series ? 2 * nodes[k].child_count + 1 : nodes[k].child_count;
   return operations;
 }
 
 template <class Scalar>
-constexpr void find_regime_in_parallel(const slip_node<Scalar>& node, slip_part_state<Scalar>* parts, slip_part_state<Scalar>& whole) noexcept {
+constexpr void find_regime_in_parallel(const slip_node<Scalar>& node, slip_part_state<Scalar>* parts,
+                                       slip_part_state<Scalar>& whole) noexcept {
   bool is_rigid = false, is_affine = false;
   Scalar sum = 0;
   for (int i = node.first_child; i < node.first_child + node.child_count; ++i) {
@@ -30,7 +32,8 @@ constexpr void find_regime_in_parallel(const slip_node<Scalar>& node, slip_part_
 }
 
 template <class Scalar>
-constexpr void find_regime_in_series(const slip_node<Scalar>& node, slip_part_state<Scalar>* parts, slip_part_state<Scalar>& whole) noexcept {
+constexpr void find_regime_in_series(const slip_node<Scalar>& node, slip_part_state<Scalar>* parts,
+                                     slip_part_state<Scalar>& whole) noexcept {
   bool slides = false, is_affine = false, is_free = false;
   Scalar inverse = 0;
   for (int i = node.first_child; i < node.first_child + node.child_count; ++i) {
@@ -46,8 +49,8 @@ constexpr void find_regime_in_series(const slip_node<Scalar>& node, slip_part_st
 
 // In: b∞ of every block by its place [N·s/m], for every slip 0 where it holds. What is in `parts` is lost.
 template <class Scalar>
-constexpr Scalar slip_regime_feedthrough(const slip_node<Scalar>* nodes, int count, const Scalar* feedthrough, const int* sign,
-                                         slip_part_state<Scalar>* parts) noexcept {
+constexpr Scalar slip_regime_feedthrough(const slip_node<Scalar>* nodes, int count, const Scalar* feedthrough,
+                                         const int* sign, slip_part_state<Scalar>* parts) noexcept {
   for (int k = count - 1; k >= 0; --k) {
     const slip_node<Scalar>& node = nodes[k];
     slip_part_state<Scalar>& part = parts[k];

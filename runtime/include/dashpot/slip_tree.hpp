@@ -1,12 +1,13 @@
-// One step of slips that are coupled through a tree of linear blocks: exact, with a bound on the work, without iteration.
+// One step of slips that are coupled through a tree of linear blocks: exact, with a bound on the work, without
+// iteration.
 //
-// In a sample each block answers its elongation δ with the force p = g δ + π, each slip holds |p| ≤ Y and gives way only
-// at ±Y. Three passes over the parts of the tree:
+// In a sample each block answers its elongation δ with the force p = g δ + π, each slip holds |p| ≤ Y and gives way
+// only at ±Y. Three passes over the parts of the tree:
 //   curves    every part is a monotone polyline in (δ, p). In parallel forces add, in series elongations do;
 //   signs     from the tool down, which slips give way, and to which side;
 //   numbers   with these known every part is rigid, a constant force, or p = g δ + π. Corners alone would lose digits.
-// Neither heap nor recursion; every loop is bounded by the tree, also for non-finite inputs. Elongations are finite where
-// the force is.
+// Neither heap nor recursion; every loop is bounded by the tree, also for non-finite inputs. Elongations are finite
+// where the force is.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -21,7 +22,7 @@ enum class slip_part : unsigned char { block, slip, series, parallel };
 template <class Scalar>
 struct slip_node {
   slip_part kind;
-  int first_child;    // of a series or parallel
+  int first_child;  // of a series or parallel
   int child_count;
   int slips;          // in this part
   int place;          // of a block or slip: where it stands in the inputs and outputs of a step
@@ -61,8 +62,8 @@ constexpr int slip_tree_push_operations(const slip_node<Scalar>* nodes, int coun
   return slip_tree_operations(nodes, count) + 9;
 }
 
-// Corners that the curve of a part needs room for: two a slip, and of each of the curves that are added up in it, and of a
-// block, the point where that part rests.
+// Corners that the curve of a part needs room for: two a slip, and of each of the curves that are added up in it, and
+// of a block, the point where that part rests.
 constexpr int slip_curve_room(int slips) noexcept { return 3 * slips + 1; }
 
 // Corners that the curves of a tree need room for.
@@ -79,14 +80,14 @@ enum class slip_hold : unsigned char { rigid, constant, affine };
 // What is known of a part in the course of a step.
 template <class Scalar>
 struct slip_part_state {
-  int corners;             // of its curve
-  int sign;                // of a slip: 0 stuck, ±1 the side to which it gives way
-  bool takes_rest;         // gets what is left over of its series' elongation
+  int corners;      // of its curve
+  int sign;         // of a slip: 0 stuck, ±1 the side to which it gives way
+  bool takes_rest;  // gets what is left over of its series' elongation
   slip_hold hold;
-  Scalar stiffness;        // g where affine [N/m]
-  Scalar compliance;       // 1/g [m/N]
-  Scalar force;            // π where affine, the force itself where constant [N]
-  Scalar elongation;       // δ [m]
+  Scalar stiffness;   // g where affine [N/m]
+  Scalar compliance;  // 1/g [m/N]
+  Scalar force;       // π where affine, the force itself where constant [N]
+  Scalar elongation;  // δ [m]
 };
 
 // Room for the steps of one tree; the contents do not matter between steps.
@@ -198,21 +199,27 @@ class slip_tree {
     for (int i = node.first_child; i < node.first_child + node.child_count; ++i)
       if (nodes_[i].kind != slip_part::block) sum = with<Way>(sum, curve<Way>(i), corners);
     for (int i = node.first_child; i < node.first_child + node.child_count; ++i)
-      if (nodes_[i].kind == slip_part::block) sum = with_block<Way>(sum, nodes_[i], held[nodes_[i].place], node.kind, corners);
+      if (nodes_[i].kind == slip_part::block)
+        sum = with_block<Way>(sum, nodes_[i], held[nodes_[i].place], node.kind, corners);
     parts_[k].corners = sum.count;
     if (node.kind == slip_part::series) parts_[k].corners = mark_rest(curve<Parallel>(k), corners);
   }
 
   // In series the point where the block rests is one of the curve too.
   template <class Way>
-  static constexpr Curve with_block(Curve sum, const Node& block, Scalar held, slip_part kind, Corner* corners) noexcept {
+  static constexpr Curve with_block(Curve sum, const Node& block, Scalar held, slip_part kind,
+                                    Corner* corners) noexcept {
     if (kind == slip_part::series) {
       const Range rest = slip_curve_at<Way>(sum, held);
-      if (rest.exists && !rest.is_kink) sum.count = insert_corner<Way>(corners, sum.count, Way::corner(held, rest.low, false));
+      if (rest.exists && !rest.is_kink)
+        sum.count = insert_corner<Way>(corners, sum.count, Way::corner(held, rest.low, false));
     }
     for (int i = 0; i < sum.count; ++i)
-      corners[i] = Way::corner(Way::at(corners[i]), Way::value(corners[i]) + Way::of_block(block, held, Way::at(corners[i])), corners[i].is_kink);
-    return {corners, sum.count, sum.end_slope + (kind == slip_part::series ? block.compliance : block.stiffness), sum.is_open};
+      corners[i] =
+          Way::corner(Way::at(corners[i]), Way::value(corners[i]) + Way::of_block(block, held, Way::at(corners[i])),
+                      corners[i].is_kink);
+    return {corners, sum.count, sum.end_slope + (kind == slip_part::series ? block.compliance : block.stiffness),
+            sum.is_open};
   }
 
   // The sum of two curves, `to` being where the first one lies and the sum shall.
@@ -298,7 +305,8 @@ class slip_tree {
     }
   }
 
-  static constexpr void become(State& state, slip_hold hold, Scalar stiffness, Scalar compliance, Scalar force) noexcept {
+  static constexpr void become(State& state, slip_hold hold, Scalar stiffness, Scalar compliance,
+                               Scalar force) noexcept {
     state.hold = hold;
     state.stiffness = stiffness;
     state.compliance = compliance;
@@ -367,7 +375,8 @@ class slip_tree {
     const State& whole = parts_[k];
     const int taker = constant_child(k);
     const bool is_undivided = taker == 0 && is_only_affine(k);
-    const Scalar force = whole.hold == slip_hold::affine ? whole.stiffness * whole.elongation + whole.force : whole.force;
+    const Scalar force =
+        whole.hold == slip_hold::affine ? whole.stiffness * whole.elongation + whole.force : whole.force;
     Scalar rest = whole.elongation;
     for (int i = nodes_[k].first_child; i < nodes_[k].first_child + nodes_[k].child_count; ++i) {
       State& part = parts_[i];

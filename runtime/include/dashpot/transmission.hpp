@@ -20,12 +20,12 @@ class transmission {
   constexpr transmission(const device_description& device, motion network) noexcept
       : ratio_(device.motion == network ? Scalar(1) : static_cast<Scalar>(device.arm_radius)) {}
 
-  constexpr Scalar ratio() const noexcept { return ratio_; }                                 // [m/rad] or 1
-  constexpr Scalar tool_motion(Scalar joint) const noexcept { return ratio_ * joint; }       // position or velocity
-  constexpr Scalar joint_motion(Scalar tool) const noexcept { return tool / ratio_; }        //
-  constexpr Scalar joint_torque(Scalar force) const noexcept { return ratio_ * force; }      // [N] → [N·m]
-  constexpr Scalar tool_force(Scalar torque) const noexcept { return torque / ratio_; }      // [N·m] → [N]
-  constexpr Scalar joint_damping(Scalar tool) const noexcept { return ratio_ * ratio_ * tool; }    // damping, stiffness
+  constexpr Scalar ratio() const noexcept { return ratio_; }                                     // [m/rad] or 1
+  constexpr Scalar tool_motion(Scalar joint) const noexcept { return ratio_ * joint; }           // position or velocity
+  constexpr Scalar joint_motion(Scalar tool) const noexcept { return tool / ratio_; }            //
+  constexpr Scalar joint_torque(Scalar force) const noexcept { return ratio_ * force; }          // [N] → [N·m]
+  constexpr Scalar tool_force(Scalar torque) const noexcept { return torque / ratio_; }          // [N·m] → [N]
+  constexpr Scalar joint_damping(Scalar tool) const noexcept { return ratio_ * ratio_ * tool; }  // damping, stiffness
   constexpr Scalar tool_damping(Scalar joint) const noexcept { return joint / (ratio_ * ratio_); }  // or inertia
 
  private:

@@ -1,10 +1,11 @@
-// A law whose parameters change while it runs. Emitted code and the compiler's evaluate() run this same class, so that they
-// agree in every bit under -ffp-contract=off.
+// A law whose parameters change while it runs. Emitted code and the compiler's evaluate() run this same class, so that
+// they agree in every bit under -ffp-contract=off.
 //
-// The states are elongations and offsets of springs (tunable/springs.hpp). V + T never rises by more than the work that the
-// tool does, set() included.
+// The states are elongations and offsets of springs (tunable/springs.hpp). V + T never rises by more than the work that
+// the tool does, set() included.
 //
-// No heap, no recursion, no division but in set(), in reset() and between coupled slips; every loop is bounded by the tables.
+// No heap, no recursion, no division but in set(), in reset() and between coupled slips; every loop is bounded by the
+// tables.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -17,7 +18,8 @@ namespace dashpot {
 
 // Sizes are those of the tables, at least 1 each but for `Slips` and `Ends`. `SlipParts` and `Corners` are those of all
 // couplings together, `Ends` those of the largest graph.
-template <class Scalar, int Tunables, int Springs, int Nodes, int Blocks, int SlipParts, int Slips, int Corners, int Ends>
+template <class Scalar, int Tunables, int Springs, int Nodes, int Blocks, int SlipParts, int Slips, int Corners,
+          int Ends>
 class tunable_law {
  public:
   using tables = tunable_tables<Scalar>;
@@ -80,15 +82,16 @@ class tunable_law {
   void update(const tables& t, Scalar change, Scalar position) noexcept {
     curves_.elongation[0] = change;
     for (int i = 0; i < t.block_count; ++i)
-      parts_.each(t, t.blocks[i], [&](const tunable_part<Scalar>& part) { parts_.advance(t, part, curves_.elongation[i]); });
+      parts_.each(t, t.blocks[i],
+                  [&](const tunable_part<Scalar>& part) { parts_.advance(t, part, curves_.elongation[i]); });
     if (t.static_spring != no_index) parts_.springs.set_elongation(t.static_spring, position);
     parts_.springs.bring_offsets_home(t);
     if constexpr (Slips > 0) slips_.keep(t);
     find_held(t);
   }
 
-  // Bit i of the result: wanted[i] was no number within the range. What is no number at all leaves its parameter as it is.
-  // Where nothing changes, no bit of the states does. To be called between samples.
+  // Bit i of the result: wanted[i] was no number within the range. What is no number at all leaves its parameter as it
+  // is. Where nothing changes, no bit of the states does. To be called between samples.
   constexpr unsigned set(const tables& t, const Scalar* wanted) noexcept {
     const auto change = parts_.values.take(t, wanted);
     if (!change.is_new) return change.clamped;
@@ -119,7 +122,8 @@ class tunable_law {
   void leave_to_brake(const tables& t, Scalar change, Scalar position, tunable_answer<Scalar>& answer) noexcept {
     if (!t.slip_rule.takes_part) return;
     answer.opposing -= left_to_brake(t, slips_.damping_now(t, curves_)) * t.rate * change;
-    const Scalar wanted = left_to_brake(t, slips_.commanded_damping(t, curves_, position)), damping = slips_.reached_damping(t, wanted);
+    const Scalar wanted = left_to_brake(t, slips_.commanded_damping(t, curves_, position)),
+                 damping = slips_.reached_damping(t, wanted);
     answer.damping += damping;
     if (!t.contact.is_there) answer.gain += clamp_to(make_up_, wanted - damping);
   }
@@ -130,16 +134,19 @@ class tunable_law {
     tune_brake(t);
     for (int i = 1; i < t.block_count; ++i) {
       curves_.feedthrough[i] = 0;
-      parts_.each(t, t.blocks[i], [&](const tunable_part<Scalar>& part) { curves_.feedthrough[i] += parts_.feedthrough(t, part); });
+      parts_.each(t, t.blocks[i],
+                  [&](const tunable_part<Scalar>& part) { curves_.feedthrough[i] += parts_.feedthrough(t, part); });
     }
     // Last, so that every mesh is left as the steps need it.
     for (int i = 0; i < t.block_count; ++i) {
       curves_.stiffness[i] = 0;
-      parts_.each(t, t.blocks[i], [&](const tunable_part<Scalar>& part) { curves_.stiffness[i] += parts_.step_stiffness(t, part); });
+      parts_.each(t, t.blocks[i],
+                  [&](const tunable_part<Scalar>& part) { curves_.stiffness[i] += parts_.step_stiffness(t, part); });
     }
     release_compliance_ = curves_.stiffness[0] > 0 ? 1 / curves_.stiffness[0] : Scalar(0);
     step_stiffness_ = 0;
-    parts_.each(t, t.blocks[0], [&](const tunable_part<Scalar>& part) { step_stiffness_ += parts_.step_stiffness_at_port(t, part); });
+    parts_.each(t, t.blocks[0],
+                [&](const tunable_part<Scalar>& part) { step_stiffness_ += parts_.step_stiffness_at_port(t, part); });
     if constexpr (Slips > 0) slips_.tune(t, curves_, numbers(t));
   }
 
@@ -156,7 +163,8 @@ class tunable_law {
     // Where a surface can be left the motor compensates nothing.
     if (t.contact.is_there && damping_ > feedthrough_) damping_ = feedthrough_;
     velocity_gain_ = feedthrough_ - damping_;
-    const Scalar assured = t.slip_rule.assured_share * damping_ - (velocity_gain_ < 0 ? -velocity_gain_ : velocity_gain_);
+    const Scalar assured =
+        t.slip_rule.assured_share * damping_ - (velocity_gain_ < 0 ? -velocity_gain_ : velocity_gain_);
     make_up_ = assured > 0 ? assured : Scalar(0);
   }
 
@@ -165,7 +173,8 @@ class tunable_law {
       case brake_rule::constant: break;
       case brake_rule::observed: return parts_.number(t, t.observed);
       case brake_rule::zero_frequency: return zero_frequency;
-      case brake_rule::half_zero_frequency: return zero_frequency / 2 > feedthrough_ ? zero_frequency / 2 : feedthrough_;
+      case brake_rule::half_zero_frequency:
+        return zero_frequency / 2 > feedthrough_ ? zero_frequency / 2 : feedthrough_;
       case brake_rule::feedthrough: return feedthrough_;
       case brake_rule::within_viscosity: return zero_frequency < t.damping ? zero_frequency : t.damping;
     }
@@ -181,7 +190,8 @@ class tunable_law {
     }
   }
 
-  // After a change of the springs' stiffnesses. The spring between tool and ground makes up for what others could not keep.
+  // After a change of the springs' stiffnesses. The spring between tool and ground makes up for what others could not
+  // keep.
   constexpr void carry_forces_over(const tables& t) noexcept {
     parts_.springs.carry_over(t.spring_count);
     if (t.static_spring != no_index) {
@@ -197,10 +207,10 @@ class tunable_law {
   tunable_parts<Scalar, Tunables, Springs, Nodes> parts_;
   tunable_curves<Scalar, Blocks> curves_;
   tunable_slips<Scalar, Blocks, SlipParts, Slips, Corners, Ends> slips_;
-  Scalar step_stiffness_ = 0;      // g of block 0 without b∞/h [N/m]
-  Scalar release_compliance_ = 0;  // 1/g of block 0 [m/N]
+  Scalar step_stiffness_ = 0;                                 // g of block 0 without b∞/h [N/m]
+  Scalar release_compliance_ = 0;                             // 1/g of block 0 [m/N]
   Scalar feedthrough_ = 0, damping_ = 0, velocity_gain_ = 0;  // b∞, b, b∞ − b, without slips [N·s/m]
-  Scalar make_up_ = 0;             // of b that the motor makes up at most [N·s/m]
+  Scalar make_up_ = 0;                                        // of b that the motor makes up at most [N·s/m]
 };
 
 }  // namespace dashpot

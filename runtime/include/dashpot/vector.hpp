@@ -1,6 +1,6 @@
-// Several scalars at once, for the rolled loops of emitted laws: as many as a register of the machine holds that the code is
-// compiled for, one where the compiler has no vectors. How many makes no difference to any bit: a law states in how many
-// partial sums it adds up, and the same operations are done in the same order in registers of any width.
+// Several scalars at once, for the rolled loops of emitted laws: as many as a register of the machine holds that the
+// code is compiled for, one where the compiler has no vectors. How many makes no difference to any bit: a law states in
+// how many partial sums it adds up, and the same operations are done in the same order in registers of any width.
 #pragma once
 
 #include <dashpot/branch_free.hpp>
@@ -26,8 +26,8 @@ inline constexpr int register_bytes = 16;
 inline constexpr int register_bytes = 0;
 #endif
 
-// Scalars in a register, in a law of `lanes` partial sums: two registers of them at least, so that one addition does not
-// wait for the other.
+// Scalars in a register, in a law of `lanes` partial sums: two registers of them at least, so that one addition does
+// not wait for the other.
 template <class Scalar, int lanes>
 inline constexpr int vector_width = register_bytes / static_cast<int>(sizeof(Scalar)) > lanes / 2
                                         ? (lanes > 1 ? lanes / 2 : 1)
@@ -54,8 +54,10 @@ struct packed<Scalar, 1, alignment> {
 // `alignment`: of what at() and put() are given [bytes]; from 16 on, SSE2 reads memory within an operation.
 template <class Scalar, int count, unsigned alignment = alignof(Scalar)>
 class vector {
-  using in_memory =
-      typename packed<Scalar, count, (alignment < sizeof(Scalar) * static_cast<unsigned>(count) ? alignment : sizeof(Scalar) * static_cast<unsigned>(count))>::in_memory;
+  using in_memory = typename packed<Scalar, count,
+                                    (alignment < sizeof(Scalar) * static_cast<unsigned>(count)
+                                         ? alignment
+                                         : sizeof(Scalar) * static_cast<unsigned>(count))>::in_memory;
 
  public:
   using packed_type = typename packed<Scalar, count, alignof(Scalar)>::type;
@@ -75,8 +77,8 @@ class vector {
     *reinterpret_cast<in_memory*>(values + i) = v.value_;
   }
 
-  // The same, read from memory once. Where an operation can read memory itself but overwrites its other operand, SSE2, compilers read
-  // anew for every use, and the reads are what a loop of many states waits for.
+  // The same, read from memory once. Where an operation can read memory itself but overwrites its other operand, SSE2,
+  // compilers read anew for every use, and the reads are what a loop of many states waits for.
   static vector in_register(vector v) noexcept {
 #if defined(__GNUC__) && defined(__SSE2__) && !defined(__AVX__)
     __asm__("" : "+x"(v.value_));
@@ -147,8 +149,8 @@ class vector {
   packed_type value_;
 };
 
-// A sum in `lanes` partial ones: place i goes to lane i mod `lanes`; at last the second half of the lanes is added to the
-// first until one is left.
+// A sum in `lanes` partial ones: place i goes to lane i mod `lanes`; at last the second half of the lanes is added to
+// the first until one is left.
 template <class part, int lanes>
 class partial_sums {
  public:
@@ -159,16 +161,14 @@ class partial_sums {
 
   scalar total() noexcept {
     DASHPOT_UNROLL
-    for (int half = lanes / part::width / 2; half > 0; half /= 2)
-      DASHPOT_UNROLL
-      for (int i = 0; i < half; ++i) parts_[i] = parts_[i] + parts_[i + half];
+    for (int half = lanes / part::width / 2; half > 0; half /= 2) DASHPOT_UNROLL
+    for (int i = 0; i < half; ++i) parts_[i] = parts_[i] + parts_[i + half];
     scalar last[part::width];
     DASHPOT_UNROLL
     for (int i = 0; i < part::width; ++i) last[i] = parts_[0][i];
     DASHPOT_UNROLL
-    for (int half = part::width / 2; half > 0; half /= 2)
-      DASHPOT_UNROLL
-      for (int i = 0; i < half; ++i) last[i] = last[i] + last[i + half];
+    for (int half = part::width / 2; half > 0; half /= 2) DASHPOT_UNROLL
+    for (int i = 0; i < half; ++i) last[i] = last[i] + last[i + half];
     return last[0];
   }
 

@@ -43,7 +43,7 @@ void update_of(void* law) {
 template <class Law>
 contender fused(std::string network, std::string name) {
   return {std::move(network), std::move(name), [] { return std::shared_ptr<void>(std::make_shared<Law>()); },
-          step_of<Law>, step_of<Law>, nullptr};
+          step_of<Law>,       step_of<Law>,    nullptr};
 }
 
 // The command first, the states when it has left.

@@ -62,7 +62,8 @@ void add_ours(std::vector<contender>& all, const std::string& network) {
 template <class Network>
 void add_maxwell(std::vector<contender>& all, const std::string& network) {
   all.push_back(fused<printed_maxwell<Network>>(network, "as printed"));
-  all.push_back(split<hand_maxwell<Network, Network::size < lanes ? Network::size : lanes>>(network, "by hand, vectors"));
+  all.push_back(split <
+                hand_maxwell<Network, Network::size<lanes ? Network::size : lanes>>(network, "by hand, vectors"));
   all.push_back(fused<eigen_fixed<Network>>(network, "Eigen, fixed arrays"));
   all.push_back(fused<eigen_dynamic<Network>>(network, "Eigen, dynamic state space"));
   all.push_back(fused<element_list<Network>>(network, "virtual element list"));

@@ -1,7 +1,8 @@
 // contest [--equal | --count | --places | Google Benchmark's options]: the contenders, held against each other first.
 //   --equal   only that
 //   --count   under callgrind: for each contender one profile of 1,000 steps of its chain, called NETWORK/NAME
-//   --places  where in the program each contender's functions are: NETWORK/NAME, tab, addresses as in its table of symbols
+//   --places  where in the program each contender's functions are: NETWORK/NAME, tab, addresses as in its table of
+//   symbols
 #include <benchmark/benchmark.h>
 #include <valgrind/callgrind.h>
 
@@ -23,8 +24,8 @@ bool all_equal(const std::vector<contender>& contenders) {
   bool equal = true;
   for (const verdict& v : compare(contenders)) {
     equal = equal && v.is_equal();
-    std::fprintf(stderr, "%-50s differs by %.1e N and %.1e N s/m, tolerance %.1e%s\n", title(v.who).c_str(), v.force_difference,
-                 v.damping_difference, v.tolerance, v.is_equal() ? "" : ": NOT THE SAME JOB");
+    std::fprintf(stderr, "%-50s differs by %.1e N and %.1e N s/m, tolerance %.1e%s\n", title(v.who).c_str(),
+                 v.force_difference, v.damping_difference, v.tolerance, v.is_equal() ? "" : ": NOT THE SAME JOB");
   }
   return equal;
 }
@@ -65,7 +66,8 @@ void many(benchmark::State& state, const contender& c, Run run) {
   const std::shared_ptr<void> law = c.make();
   const motion tool = motion_for(c.network);
   for (auto _ : state) benchmark::DoNotOptimize(run(c, law.get(), tool, steps));
-  state.counters["step"] = benchmark::Counter(steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["step"] =
+      benchmark::Counter(steps, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void single(benchmark::State& state, const contender& c, Tick tick, int ticks) {
@@ -80,7 +82,9 @@ void announce(const contender& c) {
   const auto named = [&](const char* measure) { return title(c) + "/" + measure; };
   benchmark::RegisterBenchmark(named("chain").c_str(), many, c, run_chain);
   benchmark::RegisterBenchmark(named("throughput").c_str(), many, c, run_stream);
-  benchmark::RegisterBenchmark(named("latency").c_str(), single, c, command_latency, 1001)->UseManualTime()->Iterations(3);
+  benchmark::RegisterBenchmark(named("latency").c_str(), single, c, command_latency, 1001)
+      ->UseManualTime()
+      ->Iterations(3);
   benchmark::RegisterBenchmark(named("cold").c_str(), single, c, cold_tick, 15)->UseManualTime()->Iterations(1);
 }
 

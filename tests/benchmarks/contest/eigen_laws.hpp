@@ -1,5 +1,6 @@
-// The law in Eigen. Fixed sizes: arrays over the branches, as somebody writes it who knows that they do not mix. Dynamic sizes: the
-// general state space x ← A x + B (u, v), m = C x + D (u, v), dense, as control toolboxes give it out.
+// The law in Eigen. Fixed sizes: arrays over the branches, as somebody writes it who knows that they do not mix.
+// Dynamic sizes: the general state space x ← A x + B (u, v), m = C x + D (u, v), dense, as control toolboxes give it
+// out.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,7 +18,8 @@ struct eigen_fixed {
   branches force = branches::Zero();
 
   command<double> step(double position, double velocity) noexcept {
-    const double sum = force.sum() + Network::static_stiffness * position + constants_of<Network>.velocity_gain * velocity;
+    const double sum =
+        force.sum() + Network::static_stiffness * position + constants_of<Network>.velocity_gain * velocity;
     if (!is_finite(sum)) return {constants_of<Network>.brake, 0};
     force = (force.abs() > threshold).select(decay * force, 0) + drive * velocity;
     return {constants_of<Network>.brake, sum};
@@ -35,7 +37,8 @@ template <class Network>
 state_space state_space_of() {
   const auto& k = constants_of<Network>;
   constexpr int n = Network::size;
-  state_space s{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, 2), Eigen::RowVectorXd::Ones(n), Eigen::RowVectorXd(2), k.brake};
+  state_space s{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, 2), Eigen::RowVectorXd::Ones(n),
+                Eigen::RowVectorXd(2), k.brake};
   for (int i = 0; i < n; ++i) {
     s.among(i, i) = k.decay[i];
     s.from(i, 1) = k.drive[i];
@@ -48,7 +51,8 @@ state_space state_space_of() {
 template <>
 inline state_space state_space_of<two_kelvins>() {
   const double stiffness = two_kelvins::stiffness[0], damping = two_kelvins::damping[0];
-  const double rate = (damping + two_kelvins::damping[1]) / period, whole = stiffness + two_kelvins::stiffness[1] + rate;
+  const double rate = (damping + two_kelvins::damping[1]) / period,
+               whole = stiffness + two_kelvins::stiffness[1] + rate;
   state_space s{Eigen::MatrixXd(1, 1), Eigen::MatrixXd(1, 2), Eigen::RowVectorXd(1), Eigen::RowVectorXd(2), damping};
   s.among << rate / whole;
   s.from << stiffness / whole, damping / whole;

@@ -1,5 +1,5 @@
-// The law as an object-oriented haptics library has it: a list of elements behind a virtual function, each with its constants
-// worked out beforehand and its own state.
+// The law as an object-oriented haptics library has it: a list of elements behind a virtual function, each with its
+// constants worked out beforehand and its own state.
 #pragma once
 
 #include <memory>
@@ -55,7 +55,7 @@ struct damper_element : element {
 // Spring, then slip beside damper: (21).
 struct slip_element : element {
   static constexpr double reach = needle::yield_force / needle::stiffness;  // [m]
-  double x = 0;                                                            // [m]
+  double x = 0;                                                             // [m]
   void add(double position, double, command<double>& sum) noexcept override {
     double held = position - x;
     if (__builtin_fabs(held) > reach) {

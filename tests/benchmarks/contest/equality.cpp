@@ -38,7 +38,8 @@ double largest_stiffness(const std::string& network) {
 double tolerance(const std::string& network, const motion& tool) {
   const auto [low, high] = std::minmax_element(tool.position.begin(), tool.position.end());
   const double travel = *high - *low;  // [m]
-  const double held = network.rfind("fig_10", 0) == 0 ? needle::yield_force * rounds * static_cast<double>(tool.position.size()) : 0;
+  const double held =
+      network.rfind("fig_10", 0) == 0 ? needle::yield_force * rounds * static_cast<double>(tool.position.size()) : 0;
   return std::numeric_limits<double>::epsilon() * (8 * largest_stiffness(network) * travel + held);
 }
 

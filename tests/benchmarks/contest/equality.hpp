@@ -9,10 +9,10 @@ namespace dashpot::contest {
 
 // How far a contender's commands are from those of the first one of its network, over two rounds of its motion.
 //
-// The tolerance [N] is rounding, which the printed laws magnify most: they divide differences of displacements by the period. With
-// ε = 2⁻⁵², a displacement is off by ε times the tool's travel, and a force by Σ B/h times that; the normalised laws keep forces, off
-// by ε F each sample, for 1/(1 − a) samples, which is the same. Eight such roundings are allowed. A slip holds its force without
-// decay: ε Y for each of the samples.
+// The tolerance [N] is rounding, which the printed laws magnify most: they divide differences of displacements by the
+// period. With ε = 2⁻⁵², a displacement is off by ε times the tool's travel, and a force by Σ B/h times that; the
+// normalised laws keep forces, off by ε F each sample, for 1/(1 − a) samples, which is the same. Eight such roundings
+// are allowed. A slip holds its force without decay: ε Y for each of the samples.
 struct verdict {
   contender who;
   double force_difference = 0;    // [N]

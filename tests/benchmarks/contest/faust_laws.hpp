@@ -1,6 +1,5 @@
-// Faust's C++ of the networks in faust/: as it is made by default, for blocks, here of one sample, and as it is made for one sample at
-// a time (-os). Faust has no way to refuse a sample, so that its inputs are looked at
-// beforehand.
+// Faust's C++ of the networks in faust/: as it is made by default, for blocks, here of one sample, and as it is made
+// for one sample at a time (-os). Faust has no way to refuse a sample, so that its inputs are looked at beforehand.
 #pragma once
 
 #ifdef DASHPOT_FAUST

@@ -1,5 +1,5 @@
-// The two guards that every contender carries: decaying states stay out of the subnormal range, and an input or a force that is
-// no finite number leaves the states alone and gives a motor force of 0.
+// The two guards that every contender carries: decaying states stay out of the subnormal range, and an input or a force
+// that is no finite number leaves the states alone and gives a motor force of 0.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -1,6 +1,6 @@
-// The best that we can write by hand for one network: constants normalised, the command in two fused multiplications behind its
-// inputs, the subnormal guard on the old state, where it waits for nothing, or of many states in turn, and vectors of the target's
-// width. `Lanes` is how many doubles a vector holds.
+// The best that we can write by hand for one network: constants normalised, the command in two fused multiplications
+// behind its inputs, the subnormal guard on the old state, where it waits for nothing, or of many states in turn, and
+// vectors of the target's width. `Lanes` is how many doubles a vector holds.
 #pragma once
 
 #include "guards.hpp"
@@ -17,7 +17,8 @@ struct vectors {
 
 // `product`, which has F for a factor, and 0 for a force F below the threshold.
 template <int Lanes>
-inline typename vectors<Lanes>::values guarded(typename vectors<Lanes>::values force, typename vectors<Lanes>::values product) noexcept {
+inline typename vectors<Lanes>::values guarded(typename vectors<Lanes>::values force,
+                                               typename vectors<Lanes>::values product) noexcept {
   using values = typename vectors<Lanes>::values;
   using bits = typename vectors<Lanes>::bits;
   const values magnitude = values(bits(force) & 0x7fffffffffffffff);
@@ -43,7 +44,7 @@ template <class Network, int Lanes>
 class hand_maxwell {
   static constexpr int size = Network::size;
   static constexpr int sums = size / Lanes < 4 ? size / Lanes : 4;  // in flight at a time
-  static constexpr bool takes_turns = size > 8;                     // a guard comes to each state in time, `sums` vectors a sample
+  static constexpr bool takes_turns = size > 8;  // a guard comes to each state in time, `sums` vectors a sample
   static_assert(size % (sums * Lanes) == 0);
   using values = typename vectors<Lanes>::values;
 
@@ -56,7 +57,8 @@ class hand_maxwell {
 
   // m = S + K0 u + G v
   command<double> output(double position, double velocity) noexcept {
-    const double force = relaxed_force_ + (Network::static_stiffness * position + constants_of<Network>.velocity_gain * velocity);
+    const double force =
+        relaxed_force_ + (Network::static_stiffness * position + constants_of<Network>.velocity_gain * velocity);
     is_taken_ = is_finite(force);
     velocity_ = velocity;
     return {constants_of<Network>.brake, is_taken_ ? force : 0};
@@ -128,13 +130,13 @@ class hand_fig_5_scalar {
   double sum_ = 0, first_ = 0, second_ = 0;
 };
 
-// (10) and (11) normalised: x ← α u + β v + γ x,  m = A u + B v + C x. The state x is a displacement: in a network that has crept
-// far, its rounding errors are those of the displacement.
+// (10) and (11) normalised: x ← α u + β v + γ x,  m = A u + B v + C x. The state x is a displacement: in a network that
+// has crept far, its rounding errors are those of the displacement.
 class hand_kelvin {
-  static constexpr double per_step = two_kelvins::damping[0] / period;                             // B1/h [N/m]
-  static constexpr double stiffness = two_kelvins::stiffness[0];                                   // K1 [N/m]
-  static constexpr double rate = (two_kelvins::damping[0] + two_kelvins::damping[1]) / period;     // [N/m]
-  static constexpr double whole = stiffness + two_kelvins::stiffness[1] + rate;                    // [N/m]
+  static constexpr double per_step = two_kelvins::damping[0] / period;                          // B1/h [N/m]
+  static constexpr double stiffness = two_kelvins::stiffness[0];                                // K1 [N/m]
+  static constexpr double rate = (two_kelvins::damping[0] + two_kelvins::damping[1]) / period;  // [N/m]
+  static constexpr double whole = stiffness + two_kelvins::stiffness[1] + rate;                 // [N/m]
   static constexpr double alpha = stiffness / whole, beta = two_kelvins::damping[0] / whole, gamma = rate / whole;
 
  public:
@@ -153,8 +155,8 @@ class hand_kelvin {
 };
 
 // The same law with a force for a state, F = C (x − r u) with r u where x comes to rest: F ← γ F − γ C r Δu + C β v and
-// m = F + K u − C r Δu + B v. Its rounding errors are those of the force that is left, however far the network has crept: this is the form
-// that dashpot emits.
+// m = F + K u − C r Δu + B v. Its rounding errors are those of the force that is left, however far the network has
+// crept: this is the form that dashpot emits.
 class hand_kelvin_forces {
   static constexpr double k1 = two_kelvins::stiffness[0], k2 = two_kelvins::stiffness[1];  // [N/m]
   static constexpr double b1 = two_kelvins::damping[0];                                    // [N·s/m]
@@ -166,7 +168,8 @@ class hand_kelvin_forces {
  public:
   command<double> step(double position, double velocity) noexcept {
     const double change = position - last_position_;
-    const double force = fused(k1 * k2 / (k1 + k2), position, force_) + fused(by_change, change, by_velocity * velocity);
+    const double force =
+        fused(k1 * k2 / (k1 + k2), position, force_) + fused(by_change, change, by_velocity * velocity);
     if (!is_finite(force)) return {b1, 0};
     force_ = after(force_, gamma, fused(gamma * by_change, change, of_state * beta * velocity));
     last_position_ = position;

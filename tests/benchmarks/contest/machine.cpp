@@ -16,7 +16,8 @@ void announce(const char* name, Chain chain) {
   benchmark::RegisterBenchmark(name, [chain](benchmark::State& state) {
     double value = 1;
     for (auto _ : state) chain(value);
-    state.counters["step"] = benchmark::Counter(64, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["step"] =
+        benchmark::Counter(64, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
   });
 }
 
@@ -45,7 +46,8 @@ void loads(benchmark::State& state) {
       asm volatile(LOAD "2" : : "r"(place + 2 * width) : "xmm2");
       asm volatile(LOAD "3" : : "r"(place + 3 * width) : "xmm3");
     }
-  state.counters["step"] = benchmark::Counter(memory.size() / width, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["step"] = benchmark::Counter(
+      memory.size() / width, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void stores(benchmark::State& state) {
@@ -54,7 +56,8 @@ void stores(benchmark::State& state) {
       asm volatile(STORE : : "r"(place) : "memory");
       asm volatile(STORE : : "r"(place + width) : "memory");
     }
-  state.counters["step"] = benchmark::Counter(memory.size() / width, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["step"] = benchmark::Counter(
+      memory.size() / width, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 
 namespace dashpot::contest {
 
-// Benchmarks called machine/add, multiply, fused, least, compare: latencies; machine/load: time of one load of the target's width where
-// nothing waits for it; machine/store: of one store.
+// Benchmarks called machine/add, multiply, fused, least, compare: latencies; machine/load: time of one load of the
+// target's width where nothing waits for it; machine/store: of one store.
 void announce_machine();
 
 }  // namespace dashpot::contest

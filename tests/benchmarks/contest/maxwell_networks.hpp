@@ -1,4 +1,5 @@
-// Generalised Maxwell networks of the contest, in the paper's Fig. 4b realisation at 1 kHz, and their normalised constants.
+// Generalised Maxwell networks of the contest, in the paper's Fig. 4b realisation at 1 kHz, and their normalised
+// constants.
 //
 // (17) x_k = (B v + (B/h) x_{k−1})/(K + B/h) and (19) m = K0 u − Σ B (x_k − x_{k−1})/h become, with F = (B/h)(1 − a) x,
 //     a = 1/(1 + K h/B),    m = K0 u + (−Σ B a) v + Σ F,    F ← a F + g v,    g = B a (1 − a)
@@ -12,7 +13,7 @@ constexpr double period = 0.001;  // h [s]
 // Fig. 5.
 struct fig_5 {
   static constexpr int size = 2;
-  static constexpr double static_stiffness = 5;  // K3 [N/m]
+  static constexpr double static_stiffness = 5;                          // K3 [N/m]
   static constexpr double stiffness(int i) { return i == 0 ? 12 : 10; }  // K1, K2 [N/m]
   static constexpr double damping(int i) { return i == 0 ? 5 : 6; }      // B1, B2 [N·s/m]
 };
@@ -21,8 +22,8 @@ struct fig_5 {
 template <int Size>
 struct many_branches {
   static constexpr int size = Size;
-  static constexpr double static_stiffness = 5;                        // [N/m]
-  static constexpr double stiffness(int) { return 12; }                // [N/m]
+  static constexpr double static_stiffness = 5;                       // [N/m]
+  static constexpr double stiffness(int) { return 12; }               // [N/m]
   static constexpr double damping(int i) { return 0.125 * (i + 1); }  // [N·s/m]
 };
 

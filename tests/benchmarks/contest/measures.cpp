@@ -30,17 +30,20 @@ double seconds_per_tick() {
     const std::uint64_t first = now();
     while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(100)) continue;
     const std::uint64_t last = now();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / static_cast<double>(last - first);
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() /
+           static_cast<double>(last - first);
   }();
   return period;
 }
 
-// Without the tenth at either end. The clock of a virtual machine may move in steps of ten nanoseconds: only a mean is finer.
+// Without the tenth at either end. The clock of a virtual machine may move in steps of ten nanoseconds: only a mean is
+// finer.
 double middle_mean(std::vector<std::uint64_t> ticks) {
   std::sort(ticks.begin(), ticks.end());
   const auto cut = static_cast<std::ptrdiff_t>(ticks.size() / 10);
   const std::uint64_t sum = std::accumulate(ticks.begin() + cut, ticks.end() - cut, std::uint64_t{0});
-  return seconds_per_tick() * static_cast<double>(sum) / static_cast<double>(ticks.size() - 2 * static_cast<std::size_t>(cut));
+  return seconds_per_tick() * static_cast<double>(sum) /
+         static_cast<double>(ticks.size() - 2 * static_cast<std::size_t>(cut));
 }
 
 void keep(const command<double>& now) { asm volatile("" : : "x"(now.damping), "x"(now.force)); }
@@ -68,7 +71,9 @@ void empty_caches() {
 double run_chain(const contender& c, void* law, const motion& tool, long steps) {
   double force = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(steps); ++i)
-    force = c.step(law, tool.position[i & mask] + almost_nothing * force, tool.velocity[i & mask] + almost_nothing * force).force;
+    force =
+        c.step(law, tool.position[i & mask] + almost_nothing * force, tool.velocity[i & mask] + almost_nothing * force)
+            .force;
   return force;
 }
 

@@ -25,7 +25,8 @@ double turn(int i) { return 2 * M_PI * i / samples; }
 
 motion motion_for(const std::string& network) {
   if (network == "fig_10_stuck") return along([](int i) { return 2e-4 * std::sin(turn(i)); });
-  if (network == "fig_10_sliding") return along([](int i) { return 0.05 * std::fabs(1 - 2.0 * ((i + samples) % samples) / samples); });
+  if (network == "fig_10_sliding")
+    return along([](int i) { return 0.05 * std::fabs(1 - 2.0 * ((i + samples) % samples) / samples); });
   if (network == "fig_10_switching") {
     std::mt19937_64 random(10);
     std::vector<double> places;

@@ -1,5 +1,6 @@
-// The paper's update laws written by hand as printed, with the guards. Every coefficient may change from one step to the next, as
-// the paper allows, so that each step divides. Without the sample of delay that the paper's indices put into the input.
+// The paper's update laws written by hand as printed, with the guards. Every coefficient may change from one step to
+// the next, as the paper allows, so that each step divides. Without the sample of delay that the paper's indices put
+// into the input.
 #pragma once
 
 #include "guards.hpp"
@@ -12,11 +13,11 @@ namespace dashpot::contest {
 template <class Network>
 struct printed_maxwell {
   static constexpr int size = Network::size;
-  double stiffness[size], damping[size];                 // K [N/m], B [N·s/m]
-  double static_stiffness = Network::static_stiffness;   // [N/m]
-  double time_step = period;                             // Δt [s]
-  double brake = 0;                                      // Σ B [N·s/m]
-  double x[size] = {};                                   // hidden states [m]
+  double stiffness[size], damping[size];                // K [N/m], B [N·s/m]
+  double static_stiffness = Network::static_stiffness;  // [N/m]
+  double time_step = period;                            // Δt [s]
+  double brake = 0;                                     // Σ B [N·s/m]
+  double x[size] = {};                                  // hidden states [m]
 
   printed_maxwell() {
     for (int i = 0; i < size; ++i) {
@@ -57,10 +58,10 @@ struct printed_kelvin {
 
 // Fig. 10: (21) but for the sign of the sliding force, which it lacks.
 struct printed_needle {
-  double stiffness = needle::stiffness;                             // K [N/m]
-  double damping[2] = {needle::damping[0], needle::damping[1]};     // B1, B2 [N·s/m]
-  double reach = needle::yield_force / needle::stiffness;           // δ_max [m]
-  double x = 0;                                                     // hidden state [m]
+  double stiffness = needle::stiffness;                          // K [N/m]
+  double damping[2] = {needle::damping[0], needle::damping[1]};  // B1, B2 [N·s/m]
+  double reach = needle::yield_force / needle::stiffness;        // δ_max [m]
+  double x = 0;                                                  // hidden state [m]
 
   command<double> step(double position, double velocity) noexcept {
     if (!is_finite(position) || !is_finite(velocity)) return {damping[0], 0};

@@ -10,9 +10,9 @@ struct two_kelvins {
 };
 
 struct needle {
-  static constexpr double stiffness = 1000;        // K [N/m]
+  static constexpr double stiffness = 1000;         // K [N/m]
   static constexpr double damping[2] = {2.5, 0.8};  // B1, B2 [N·s/m]
-  static constexpr double yield_force = 0.5;       // Y [N]
+  static constexpr double yield_force = 0.5;        // Y [N]
 };
 
 }  // namespace dashpot::contest

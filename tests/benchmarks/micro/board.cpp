@@ -1,5 +1,6 @@
-// Prints each law's name, trace and instructions a step, over semihosting, on a bare Cortex-M that QEMU plays with -icount shift=0:
-// there an instruction takes a nanosecond, and SysTick counts the processor's clock of 25 MHz, 40 instructions a tick.
+// Prints each law's name, trace and instructions a step, over semihosting, on a bare Cortex-M that QEMU plays with
+// -icount shift=0: there an instruction takes a nanosecond, and SysTick counts the processor's clock of 25 MHz, 40
+// instructions a tick.
 #include <cstdint>
 
 #include "laws.hpp"

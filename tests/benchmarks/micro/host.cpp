@@ -6,7 +6,6 @@
 #include "trace.hpp"
 
 int main() {
-  dashpot::micro::for_each_law([](const char* name, auto law) {
-    std::printf("%s %016" PRIx64 "\n", name, dashpot::micro::trace_of(law));
-  });
+  dashpot::micro::for_each_law(
+      [](const char* name, auto law) { std::printf("%s %016" PRIx64 "\n", name, dashpot::micro::trace_of(law)); });
 }

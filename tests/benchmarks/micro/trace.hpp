@@ -1,5 +1,5 @@
-// A law's commands along a motion, as one number that shows any bit that differs. Sums and products alone, so that every machine moves the
-// tool in the same way.
+// A law's commands along a motion, as one number that shows any bit that differs. Sums and products alone, so that
+// every machine moves the tool in the same way.
 #pragma once
 
 #include <cstdint>

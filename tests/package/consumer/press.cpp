@@ -1,4 +1,5 @@
-// Presses two tissues with the motion of a CSV file's rows `time,position,velocity` and prints both commands of each row.
+// Presses two tissues with the motion of a CSV file's rows `time,position,velocity` and prints both commands of each
+// row.
 #include <cstdio>
 
 #include <coarse_tissue.hpp>

@@ -55,7 +55,9 @@ class session {
 // A board that falls silent would be waited for as long as the host runs, or given up at once.
 TEST(MonotonicNanoseconds, are_those_of_the_steady_clock) {
   const auto steady = [] {
-    return std::uint64_t(std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count());
+    return std::uint64_t(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+            .count());
   };
   const std::uint64_t before = steady(), between = monotonic_nanoseconds(), after = steady();
   EXPECT_LE(before, between);

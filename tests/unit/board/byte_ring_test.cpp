@@ -13,10 +13,8 @@ TEST(ByteRing, keeps_order_between_two_threads) {
   constexpr unsigned count = 200'000;
   std::thread producer([&] {
     for (unsigned i = 0; i < count;) {
-      if (ring.push(static_cast<std::uint8_t>(i % 251)))
-        ++i;
-      else
-        std::this_thread::yield();
+      if (ring.push(static_cast<std::uint8_t>(i % 251))) ++i;
+      else std::this_thread::yield();
     }
   });
   unsigned wrong = 0;

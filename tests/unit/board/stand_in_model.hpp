@@ -1,6 +1,6 @@
-// An update law in the shape of emitted code, for tests that are not about the compiler: the general viscoelastic solid of
-// Gosline & Hayward 2009, Fig. 5, in single precision. K1 = 12 and B1 = 5 in series, K2 = 10 and B2 = 6 in series, both
-// beside K3 = 5 [N/m, N·s/m]; exact scheme at 1 kHz, states driven by velocity, most dissipative: b = B1 + B2.
+// An update law in the shape of emitted code, for tests that are not about the compiler: the general viscoelastic solid
+// of Gosline & Hayward 2009, Fig. 5, in single precision. K1 = 12 and B1 = 5 in series, K2 = 10 and B2 = 6 in series,
+// both beside K3 = 5 [N/m, N·s/m]; exact scheme at 1 kHz, states driven by velocity, most dissipative: b = B1 + B2.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -36,7 +36,8 @@ TEST(Cut, TakesTheLeastOfASeries) {
   const Cut cut = cut_of(R"({ "series": [ { "spring": 900 }, { "parallel": [ { "slip": 2 }, { "spring": 80 } ] },
                                           { "parallel": [ { "slip": 1 }, { "damper": 0.5 } ] }, { "slip": 4 } ] })");
   EXPECT_EQ(to_double(cut.stiffness), 450);
-  const Cut soft = cut_of(R"({ "series": [ { "spring": 900 }, { "slip": 4 }, { "parallel": [ { "spring": 80 }, { "series": [ { "spring": 20 }, { "slip": 1 } ] } ] } ] })");
+  const Cut soft = cut_of(
+      R"({ "series": [ { "spring": 900 }, { "slip": 4 }, { "parallel": [ { "spring": 80 }, { "series": [ { "spring": 20 }, { "slip": 1 } ] } ] } ] })");
   EXPECT_EQ(to_double(soft.stiffness), 50);
 }
 
@@ -46,7 +47,8 @@ TEST(Cut, OfAMaxwellElement) {
   EXPECT_NEAR(to_double(cut.stiffness), 0.4 / 0.001 * std::tanh(600 / 0.4 * 0.001 / 2), 1e-12);
 }
 
-// Outside trees slips could cross a cut: both springs at the tool carry its force, and the one between the slips does not.
+// Outside trees slips could cross a cut: both springs at the tool carry its force, and the one between the slips does
+// not.
 TEST(Cut, OutsideTreesNoSlipCrosses) {
   const Cut cut = cut_of(R"([ { "nodes": ["tool", "p"], "spring": 100 }, { "nodes": ["tool", "q"], "spring": 60 },
       { "nodes": ["p", "ground"], "slip": 1 }, { "nodes": ["q", "ground"], "slip": 2 }, { "nodes": ["p", "q"], "spring": 1000 } ])");

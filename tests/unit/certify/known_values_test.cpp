@@ -68,8 +68,8 @@ TEST(KnownValues, DamperThroughLongDifferences) {
 // A velocity-driven Maxwell branch would not need what theory states for a brake that falls short by 2 or 5 per cent.
 TEST(KnownValues, ShortfallOfTheBrake) {
   const double stiffness = 50, damping = 5;
-  for (const auto& [tolerance, missing, window] : {std::tuple(0.02, 0.075, 1u), std::tuple(0.05, 0.225, 1u), std::tuple(0.02, 0.0, 5u),
-                                                   std::tuple(0.05, 0.0, 15u)}) {
+  for (const auto& [tolerance, missing, window] : {std::tuple(0.02, 0.075, 1u), std::tuple(0.05, 0.225, 1u),
+                                                   std::tuple(0.02, 0.0, 5u), std::tuple(0.05, 0.0, 15u)}) {
     MotorConstants motor = damper_motor(-damping);
     motor.brake = damping;
     add_maxwell(motor, stiffness, stiffness / damping, T, false);

@@ -32,17 +32,18 @@ TEST(Quantisation, OfMaxwellElementsIsTwiceTheirStep) {
   }
 }
 
-// A damper through a difference over N samples would not pass on 2 B/(N T); through a least-squares slope the sum of its
-// weights' sizes.
+// A damper through a difference over N samples would not pass on 2 B/(N T); through a least-squares slope the sum of
+// its weights' sizes.
 TEST(Quantisation, OfADamperFollowsTheEstimator) {
-  for (const unsigned window : {1u, 4u, 15u}) EXPECT_NEAR(gain_of(damper_motor(-3), differencing_loop(T, window)), 6 / (window * T), 1e-9);
+  for (const unsigned window : {1u, 4u, 15u})
+    EXPECT_NEAR(gain_of(damper_motor(-3), differencing_loop(T, window)), 6 / (window * T), 1e-9);
   SampledLoop loop = differencing_loop(T, 4);
   loop.velocity.estimator = estimator_kind::least_squares;
   EXPECT_NEAR(gain_of(damper_motor(1), loop), 6 * (4 + 2 + 0 + 2 + 4) / (T * 4 * 5 * 6), 1e-9);
 }
 
-// FOAW would be taken for its longest window, though it may choose the shortest at every edge; and nothing is known of an
-// estimator that is neither linear nor that.
+// FOAW would be taken for its longest window, though it may choose the shortest at every edge; and nothing is known of
+// an estimator that is neither linear nor that.
 TEST(Quantisation, OfOtherEstimators) {
   SampledLoop loop = differencing_loop(T, 20);
   loop.velocity.estimator = estimator_kind::foaw;
@@ -95,7 +96,8 @@ TEST(Quantisation, OfASlipBehindASpringIsTheSpring) {
   }
 }
 
-// A damper in front of a slip would not pass on twice what it answers within a sample; or the brake's part of it would count.
+// A damper in front of a slip would not pass on twice what it answers within a sample; or the brake's part of it would
+// count.
 TEST(Quantisation, OfASlipBehindADamperIsWhatTheBrakeLeaves) {
   const Tree component = series({damper(3), slip(1)});
   EXPECT_NEAR(to_double(held_slips(component, {Real(0)}, settings).gain), 2 * 3 / T, 1e-9);
@@ -103,8 +105,8 @@ TEST(Quantisation, OfASlipBehindADamperIsWhatTheBrakeLeaves) {
   EXPECT_NEAR(to_double(held_slips(component, {Real(3), Real(1)}, settings).gain), 2 * 2 / T, 1e-9);
 }
 
-// Behind a damper an error that jumps is felt twice, once as it comes and once as it has died away: 2/(1 + λh) of its spring by a
-// slip whose own spring lies beside another.
+// Behind a damper an error that jumps is felt twice, once as it comes and once as it has died away: 2/(1 + λh) of its
+// spring by a slip whose own spring lies beside another.
 TEST(Quantisation, OfASlipDeeperInsideHasTermsOfEitherSign) {
   const Tree component = series({damper(4), parallel({spring(50), series({spring(30), slip(1)})})});
   const HeldSlips held = held_slips(component, {Real(0)}, settings);
@@ -112,7 +114,8 @@ TEST(Quantisation, OfASlipDeeperInsideHasTermsOfEitherSign) {
   EXPECT_NEAR(to_double(held.gain), 2 * 80 / (1 + 80.0 / 4 * T), 1e-9);
 }
 
-// A slip that gives way within the encoder's step would have a gain, though nothing is known of the sum; or one that holds none.
+// A slip that gives way within the encoder's step would have a gain, though nothing is known of the sum; or one that
+// holds none.
 TEST(Quantisation, OfSlipsThatGiveWayWithinAStepIsNotKnown) {
   SlipMotor slips;
   slips.held_gain = 40;

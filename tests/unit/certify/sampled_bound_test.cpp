@@ -82,7 +82,8 @@ MotorConstants random_motor(Random& random, double period) {
   if (random.chance(0.7)) motor.velocity_gain = (random.chance(0.5) ? -1 : 1) * random.log_uniform(1e-3, 10);
   const std::size_t modes = random.between(0, 6);
   for (std::size_t i = 0; i < modes; ++i)
-    add_maxwell(motor, random.log_uniform(1e-2, 1e4), random.log_uniform(1e-5, 10) / period, period, random.chance(0.6));
+    add_maxwell(motor, random.log_uniform(1e-2, 1e4), random.log_uniform(1e-5, 10) / period, period,
+                random.chance(0.6));
   return motor;
 }
 
@@ -133,8 +134,8 @@ TEST(SampledBound, MeetsAScanWithALag) {
   }
 }
 
-// A supremum that is all but level, near the rounding of its terms, would be looked for without end; or, left early, the bound
-// would fall below it.
+// A supremum that is all but level, near the rounding of its terms, would be looked for without end; or, left early,
+// the bound would fall below it.
 TEST(SampledBound, LeavesALevelSupremumInTimeAndAbove) {
   for (const double rate : {22.0, 2200.0, 2.2e5}) {
     SCOPED_TRACE(rate);
@@ -142,7 +143,8 @@ TEST(SampledBound, LeavesALevelSupremumInTimeAndAbove) {
     MotorConstants motor = spring_motor(0);
     add_maxwell(motor, 22, rate, loop.sample_period, true);
     const NeededDamping needed(motor, loop, {});
-    const SampledBound bound = sampled_bound(needed, loop.sample_period), sooner = sampled_bound(needed, loop.sample_period, 100);
+    const SampledBound bound = sampled_bound(needed, loop.sample_period),
+                       sooner = sampled_bound(needed, loop.sample_period, 100);
     EXPECT_LE(bound.arcs, most_terms / needed.terms() + 2);
     EXPECT_LE(sooner.arcs, 100 / needed.terms() + 2);
     EXPECT_GE(sooner.needed, bound.needed);

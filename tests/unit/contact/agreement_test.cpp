@@ -35,7 +35,8 @@ std::string disagreement(const compiler::Network& free_network) {
     const double expected = reference.step(position), actual = law.step(position);
     scale = std::max(scale, std::abs(expected));
     // As for slips; and every sample rounds where the surface is, which the stiffest element answers.
-    if (!(std::abs(actual - expected) <= 1e-10 * scale + 0x1p-48 * trial + samples * 0x1p-53 * farthest * stiffest(network)))
+    if (!(std::abs(actual - expected) <=
+          1e-10 * scale + 0x1p-48 * trial + samples * 0x1p-53 * farthest * stiffest(network)))
       return fmt::format("force {} for {} at a scale of {}", actual, expected, scale);
   }
   return "";
@@ -90,14 +91,17 @@ TEST(ContactAgreement, SlipsOutsideTreesAreThatOfTheElements) {
 TEST(ContactEnergy, NeverRisesByMoreThanTheWork) {
   for (const compiler::Scheme scheme : {compiler::Scheme::exact, compiler::Scheme::backward_euler})
     for (const NetworkRecipe& shape : {recipe(0), recipe(6), recipe(5, Topology::graph)})
-      EXPECT_EQ(first_failure(1, repetitions(300, 20000), shape, [=](const compiler::Network& network) { return breach(network, scheme); }), "");
+      EXPECT_EQ(first_failure(1, repetitions(300, 20000), shape,
+                              [=](const compiler::Network& network) { return breach(network, scheme); }),
+                "");
 }
 
 // The motions above would hardly ever leave the tissue, and the tests prove nothing about it.
 TEST(ContactAgreement, CoversTouchAndRelease) {
   std::size_t touches = 0, releases = 0;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
-    const compiler::Compilation compilation = compiled(behind_contact(random_network(seed, recipe(6)), 0), compiler::Scheme::exact);
+    const compiler::Compilation compilation =
+        compiled(behind_contact(random_network(seed, recipe(6)), 0), compiler::Scheme::exact);
     TouchedForce law(compilation);
     bool was_free = true;
     for (double position : touching_motion(compilation.network, 11, 0)) {

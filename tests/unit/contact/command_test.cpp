@@ -15,14 +15,16 @@ constexpr double pi = 3.14159265358979323846;
 constexpr double encoder_step = 30e-6;  // [m]
 constexpr double damping = 5;           // [N·s/m]
 const char* const wall = R"({"parallel": [{"spring": 500}, {"damper": 5}]})";
-const char* const tissue = R"({"parallel": [{"spring": 300}, {"damper": 5}, {"series": [{"spring": 900}, {"slip": 0.2}]}, {"series": [{"damper": 4}, {"spring": 200}]}]})";
+const char* const tissue =
+    R"({"parallel": [{"spring": 300}, {"damper": 5}, {"series": [{"spring": 900}, {"slip": 0.2}]}, {"series": [{"damper": 4}, {"spring": 200}]}]})";
 
 compiler::UpdateLaw law_for(const char* structure, double step, const char* decomposition = "velocity-free") {
   compiler::Compilation c = compiled(behind_contact(structure, 0), compiler::Scheme::exact);
   compiler::Choices choices;
   choices.decomposition = decomposition;
   compiler::Diagnostics diagnostics;
-  compiler::Decomposition split = decompose(compiler::linear_part(c.network, c.form), c.form.linear, choices, nullptr, diagnostics).value();
+  compiler::Decomposition split =
+      decompose(compiler::linear_part(c.network, c.form), c.form.linear, choices, nullptr, diagnostics).value();
   split.encoder_step = step;
   return discretise(c.network, c.form, split, choices, 1 / slip_period, diagnostics);
 }
@@ -43,10 +45,10 @@ class Sensed {
 };
 
 struct Outcome {
-  int toggles = 0;         // of the brake
-  int releases = 0;        // of which to 0
-  double pull = 0;         // most impulse in a row with which the tool is pulled [N·s]
-  double deepest_pull = 0; // [N]
+  int toggles = 0;          // of the brake
+  int releases = 0;         // of which to 0
+  double pull = 0;          // most impulse in a row with which the tool is pulled [N·s]
+  double deepest_pull = 0;  // [N]
 };
 
 // Commands held over each sample while the tool moves on: 64 instants a sample.
@@ -92,7 +94,8 @@ TEST(ContactCommand, HeldTwoMillimetresDeepNeverToggles) {
 
 // The hysteresis would be of no use: where a tool barely touches, the gap opens and closes with every count.
 TEST(ContactCommand, HysteresisKeepsABareTouchQuiet) {
-  const int without = run(law_for(wall, 0), held(0.0003), 10).toggles, with = run(law_for(wall, encoder_step), held(0.0003), 10).toggles;
+  const int without = run(law_for(wall, 0), held(0.0003), 10).toggles,
+            with = run(law_for(wall, encoder_step), held(0.0003), 10).toggles;
   EXPECT_GT(without, 100);
   EXPECT_LT(with, without / 10);
 }
@@ -125,7 +128,8 @@ TEST(ContactCommand, LetsGoOfBothAndNotOfTheState) {
 
 // A split that compensates would do so in the sample in which the tool touches or leaves.
 TEST(ContactCommand, LeavesNothingToCompensate) {
-  const char* const maxwell = R"({"parallel": [{"spring": 300}, {"damper": 5}, {"series": [{"damper": 4}, {"spring": 200}]}]})";
+  const char* const maxwell =
+      R"({"parallel": [{"spring": 300}, {"damper": 5}, {"series": [{"damper": 4}, {"spring": 200}]}]})";
   for (const char* name : {"most-dissipative", "zero-frequency", "largest-observer"}) {
     const compiler::UpdateLaw law = law_for(maxwell, 0, name);
     EXPECT_EQ(law.largest_damping, damping) << name;

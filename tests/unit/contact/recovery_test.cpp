@@ -21,8 +21,10 @@ double pressed_twice(double t) {
   return -0.002 + 0.008 * std::min((t - 0.09) / 0.04, 1.0);
 }
 
-const char* const zener = R"({"parallel": [{"spring": 200}, {"damper": 2}, {"series": [{"damper": 5}, {"spring": 300}]}]})";
-const char* const with_slip = R"({"parallel": [{"damper": 2}, {"series": [{"spring": 900}, {"slip": 1}]}, {"series": [{"damper": 5}, {"spring": 300}]}, {"spring": 150}]})";
+const char* const zener =
+    R"({"parallel": [{"spring": 200}, {"damper": 2}, {"series": [{"damper": 5}, {"spring": 300}]}]})";
+const char* const with_slip =
+    R"({"parallel": [{"damper": 2}, {"series": [{"spring": 900}, {"slip": 1}]}, {"series": [{"damper": 5}, {"spring": 300}]}, {"spring": 150}]})";
 
 constexpr int milliseconds = 140, out = 65;  // in the second, nothing touches
 
@@ -39,7 +41,8 @@ std::vector<double> forces_of_elements(const compiler::Network& network, int sam
 std::vector<double> forces_of_law(const compiler::Network& network, int samples_a_millisecond) {
   const compiler::Compilation c = compiled(network, compiler::Scheme::exact);
   compiler::Diagnostics diagnostics;
-  const compiler::UpdateLaw law = discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond, diagnostics);
+  const compiler::UpdateLaw law =
+      discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond, diagnostics);
   TouchedForce run(law);
   std::vector<double> forces;
   for (int k = 1; k <= milliseconds * samples_a_millisecond; ++k) {
@@ -51,9 +54,9 @@ std::vector<double> forces_of_law(const compiler::Network& network, int samples_
 
 }  // namespace
 
-// Forces at the second touch would not be those of a tissue that has recovered in part. The reference are elements at 32
-// and 64 kHz, extrapolated to steps of none; the law comes closer in proportion to its period, as a contact falls anywhere
-// in a sample. In that sample itself the dampers' force jumps, and is left out.
+// Forces at the second touch would not be those of a tissue that has recovered in part. The reference are elements at
+// 32 and 64 kHz, extrapolated to steps of none; the law comes closer in proportion to its period, as a contact falls
+// anywhere in a sample. In that sample itself the dampers' force jumps, and is left out.
 TEST(ContactRecovery, SecondTouchIsThatOfAFineStep) {
   for (const char* structure : {zener, with_slip}) {
     const compiler::Network network = behind_contact(structure, 0);
@@ -79,7 +82,8 @@ TEST(ContactRecovery, SecondTouchIsThatOfAFineStep) {
 
 // A surface that nothing touches would not come back as its elements do: a Kelvin element by 1/(1 + h K/B) a sample.
 TEST(ContactRecovery, FreeKelvinComesBackByItself) {
-  const compiler::Compilation compilation = compiled(behind_contact(R"({"parallel": [{"spring": 500}, {"damper": 5}]})", 0.001), compiler::Scheme::exact);
+  const compiler::Compilation compilation =
+      compiled(behind_contact(R"({"parallel": [{"spring": 500}, {"damper": 5}]})", 0.001), compiler::Scheme::exact);
   TouchedForce law(compilation);
   law.step(0.003);
   EXPECT_EQ(law.surface(), 0.003 - 0.001);

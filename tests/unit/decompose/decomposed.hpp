@@ -36,7 +36,8 @@ inline Decomposed decomposed(Network network, const Choices& choices = {}, const
   return all;
 }
 
-inline Decomposed decomposed(const std::string& structure, const Choices& choices = {}, const Device* device = nullptr) {
+inline Decomposed decomposed(const std::string& structure, const Choices& choices = {},
+                             const Device* device = nullptr) {
   return decomposed(testing::written_network(structure), choices, device);
 }
 

@@ -111,14 +111,15 @@ TEST(DeviceLimits, drifting_estimates_never_drive_states) {
       EXPECT_EQ(merit.state_input, StateInput::position) << candidate.name;
 }
 
-// Fails if what the motor makes is taken to come at once: of a lone spring the loop's delay and the amplifier's lag alone
-// make the error, |A − 1|, largest at the end of the band.
+// Fails if what the motor makes is taken to come at once: of a lone spring the loop's delay and the amplifier's lag
+// alone make the error, |A − 1|, largest at the end of the band.
 TEST(DeviceLimits, a_late_motor_errs) {
   Device device = late_device(1);
   device.description.loop.delay_samples = 3;
   device.description.motor.amplifier_lag = 0.002;
   const double w = 2 * 3.14159265358979323846 * device.description.loop.band_high;
-  const std::complex<double> late = std::polar(1.0, -w * 3 * device.description.loop.sample_period) / std::complex(1.0, 0.002 * w);
+  const std::complex<double> late =
+      std::polar(1.0, -w * 3 * device.description.loop.sample_period) / std::complex(1.0, 0.002 * w);
   const Decomposed all = decomposed(R"({ "spring": 200 })", {}, &device);
   EXPECT_NEAR(all.result->choice().largest_error / std::abs(late - 1.0), 1, 1e-9);
 }

@@ -30,7 +30,8 @@ const char* const bridge = R"([ { "spring": 2, "nodes": ["tool", "a"] },   { "da
 // Fails if a Kelvin element's brake is not its damper, whichever of the physical candidates is asked.
 TEST(NamedCandidates, kelvin) {
   const Decomposed all = decomposed(kelvin);
-  for (const char* name : {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer"})
+  for (const char* name :
+       {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer"})
     expect_damping(all, name, 10);
   expect_damping(all, "virtual", 0);
   EXPECT_EQ(all.result->choice().name, "most-dissipative");
@@ -71,11 +72,13 @@ double error_when_late(const LinearForm& form, double damping) {
   const double w = 2 * 3.14159265358979323846 * 0.5;
   const MotorImpedance motor = motor_impedance(form, damping, StateInput::velocity, w);
   const std::complex<double> error = motor.velocity_driven * (std::polar(1.0, -w * 0.005) - 1.0);
-  const std::complex<double> whole = damping + motor.velocity_driven + to_double(form.static_stiffness) / std::complex(0.0, w);
+  const std::complex<double> whole =
+      damping + motor.velocity_driven + to_double(form.static_stiffness) / std::complex(0.0, w);
   return std::abs(error) / std::abs(whole);
 }
 
-// Fails if the figures of theory, section 4, for that example are not what the candidates cost: 46 % and 0.0009 %, as printed.
+// Fails if the figures of theory, section 4, for that example are not what the candidates cost: 46 % and 0.0009 %, as
+// printed.
 TEST(NamedCandidates, kelvins_in_series_show_what_the_choice_costs) {
   const Decomposed all = decomposed(stiff_and_soft);
   EXPECT_NEAR(100 * error_when_late(all.form, all["largest-observer"].damping), 46, 1);
@@ -93,7 +96,8 @@ TEST(NamedCandidates, bridge_takes_the_viscosity_at_low_frequency) {
 
 // Fails if dampers in series are not one damper.
 TEST(NamedCandidates, dampers_in_series_merge_first) {
-  expect_damping(decomposed(R"({ "series": [ { "damper": 3 }, { "spring": 1 }, { "damper": 6 } ] })"), "most-dissipative", 2);
+  expect_damping(decomposed(R"({ "series": [ { "damper": 3 }, { "spring": 1 }, { "damper": 6 } ] })"),
+                 "most-dissipative", 2);
 }
 
 // Fails if Kelvin elements of equal relaxation time in series are not one Kelvin element: 3 · 6/(3 + 6).

@@ -92,8 +92,8 @@ std::string complaint_about_extra_damping(const Network& network) {
     const double found = extra_damping_any_delay(form, damping, input, tolerance);
     const double needed = needed_damping(form, damping, input, tolerance);
     if (std::abs(found - needed) > 2e-5 * scale)
-      return fmt::format("{} driven with b = {} and ε = {}: {} found, {} needed", name_of(input), damping, tolerance, found,
-                         needed);
+      return fmt::format("{} driven with b = {} and ε = {}: {} found, {} needed", name_of(input), damping, tolerance,
+                         found, needed);
   }
   return "";
 }
@@ -117,7 +117,8 @@ std::string complaint_about_negative_damping(const Network& network) {
     if (!(candidate.damping >= 0)) return fmt::format("{} asks for {}", candidate.name, candidate.damping);
   const double viscosity = to_double(zero_frequency_damping(all.form));
   if (all["quietest-passive"].damping < 0.5 * viscosity) return "quietest-passive is below half the viscosity";
-  if (all["quietest-passive"].extra_damping_any_delay.value() > 1e-12 * viscosity) return "quietest-passive is not passive";
+  if (all["quietest-passive"].extra_damping_any_delay.value() > 1e-12 * viscosity)
+    return "quietest-passive is not passive";
   if (all["velocity-free"].velocity_gain != 0) return "velocity-free takes a velocity";
   if (all["zero-frequency"].damping != viscosity) return "zero-frequency is not the viscosity";
   if (all["largest-observer"].damping < all["most-dissipative"].damping) return "largest-observer is not the largest";

@@ -20,15 +20,17 @@ RegimeList regimes_of_whole(const Network& network) {
   return regimes_of(network, all, slips, 0);
 }
 
-RegimeList regimes_of_whole(const std::string& structure) { return regimes_of_whole(testing::written_network(structure)); }
+RegimeList regimes_of_whole(const std::string& structure) {
+  return regimes_of_whole(testing::written_network(structure));
+}
 
 void expect_regime(const Regime& regime, double damping, double feedthrough) {
   EXPECT_NEAR(to_double(regime.damping), damping, 1e-15 * damping);
   EXPECT_NEAR(to_double(regime.feedthrough()), feedthrough, 1e-15 * feedthrough);
 }
 
-// Fails if Fig. 10 gives the brake anything but B1 stuck and B1 + B2 sliding, or takes B2, which is behind K, for a port
-// damper.
+// Fails if Fig. 10 gives the brake anything but B1 stuck and B1 + B2 sliding, or takes B2, which is behind K, for a
+// port damper.
 TEST(Regimes, figure_10) {
   const RegimeList list = regimes_of_whole(R"({"parallel": [{"damper": 2}, {"series": [{"spring": 300},
       {"parallel": [{"slip": 1}, {"damper": 3}]}]}]})");
@@ -39,7 +41,8 @@ TEST(Regimes, figure_10) {
 
 // Fails if a Kelvin element behind a slip brakes what slides.
 TEST(Regimes, kelvin_before_a_slip) {
-  const RegimeList list = regimes_of_whole(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");
+  const RegimeList list =
+      regimes_of_whole(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");
   expect_regime(list.regimes[0], 5, 5);
   expect_regime(list.regimes[1], 0, 0);
 }
@@ -121,7 +124,8 @@ std::string departure_from_the_rules(const Network& network) {
     std::vector<bool> slides(network.elements.size(), false);
     for (std::size_t i = 0; i < list.slips.size(); ++i) slides[list.slips[i].front()] = regime.slides[i];
     const double expected = hold_of(*tree, network, slides).feedthrough, actual = to_double(regime.feedthrough());
-    if (!(std::abs(actual - expected) <= 1e-13 * expected)) return fmt::format("feedthrough {} for {}", actual, expected);
+    if (!(std::abs(actual - expected) <= 1e-13 * expected))
+      return fmt::format("feedthrough {} for {}", actual, expected);
     if (regime.damping < regime.feedthrough()) return "the observer's damping is less than the feedthrough";
   }
   return "";

@@ -29,16 +29,17 @@ TEST(VelocityNoise, OfADifferenceIsThatOfTwoReadings) {
   }
 }
 
-// Fails if it is not that of a filter whose cut-off is far below the rate: with g = tan(ωT/2) and x = tan(θ/2)/g the power is
-// 8g³/(πT²) ∫ x²/((1 + g²x²)² (1 + x⁸)) dx from 0 on, which is (π/8)/sin(3π/8) less at most 2g² of it. A state's rounding, one of 2⁵³,
-// is felt for 1/g samples and integrated over as many.
+// Fails if it is not that of a filter whose cut-off is far below the rate: with g = tan(ωT/2) and x = tan(θ/2)/g the
+// power is 8g³/(πT²) ∫ x²/((1 + g²x²)² (1 + x⁸)) dx from 0 on, which is (π/8)/sin(3π/8) less at most 2g² of it. A
+// state's rounding, one of 2⁵³, is felt for 1/g samples and integrated over as many.
 TEST(VelocityNoise, OfAFourthOrderFilterIsThatOfItsBand) {
   for (const double period : {1e-3, 1e-4})
     for (const double cutoff : {0.02, 1.0, 20.0}) {
       Device device = late_device(1);
       device.description.loop.sample_period = period;
       device.description.velocity.cutoff = cutoff;
-      const double g = std::tan(pi * cutoff * period), whole = 8 * g * g * g / (pi * period * period) * (pi / 8) / std::sin(3 * pi / 8);
+      const double g = std::tan(pi * cutoff * period),
+                   whole = 8 * g * g * g / (pi * period * period) * (pi / 8) / std::sin(3 * pi / 8);
       const double share = std::pow(noise_of(device), 2) / whole;
       const double rounding = 0x1p-53 / (g * g);
       EXPECT_LE(share, 1 + rounding) << cutoff << " Hz at " << 1 / period;

@@ -43,7 +43,8 @@ double force_of(const HandWritten& h, double position, double velocity) {
 
 // Fails if an operation is not what its name says, or takes its operands the other way round.
 TEST(Evaluate, arithmetic) {
-  for (const auto& [operation, expected] : {std::pair{Operation::add, 7.0}, {Operation::subtract, 3.0}, {Operation::multiply, 10.0}}) {
+  for (const auto& [operation, expected] :
+       {std::pair{Operation::add, 7.0}, {Operation::subtract, 3.0}, {Operation::multiply, 10.0}}) {
     HandWritten h;
     h.law.output.push_back({h.law.force, h.node(operation, h.read(h.law.position), h.read(h.law.velocity)), "", {}});
     EXPECT_EQ(force_of(h, 5, 2), expected);
@@ -61,8 +62,8 @@ TEST(Evaluate, flush) {
   EXPECT_EQ(force_of(h, -0.75, 0), -0.75);
 }
 
-// 1, 2⁻⁵³, −1, 2⁻⁵³ in double: from the first to the last 2⁻⁵³, in two lanes 2⁻⁵², and so in four, of which the second half is
-// added to the first.
+// 1, 2⁻⁵³, −1, 2⁻⁵³ in double: from the first to the last 2⁻⁵³, in two lanes 2⁻⁵², and so in four, of which the second
+// half is added to the first.
 double sum_in(std::size_t lanes) {
   HandWritten h;
   h.law.lanes = lanes;
@@ -83,7 +84,8 @@ TEST(Evaluate, order_of_sums) {
 TEST(Evaluate, scalars_are_shared_by_all_places) {
   HandWritten h;
   const VariableId terms = h.variable("terms", Role::local, 3);
-  h.law.output.push_back({terms, h.node(Operation::multiply, h.constant({1, 10, 100}), h.read(h.law.position)), "", {}});
+  h.law.output.push_back(
+      {terms, h.node(Operation::multiply, h.constant({1, 10, 100}), h.read(h.law.position)), "", {}});
   h.law.output.push_back({h.law.force, h.node(Operation::sum, h.read(terms)), "", {}});
   EXPECT_EQ(force_of(h, 3, 0), 333);
 }
@@ -122,7 +124,8 @@ TEST(Evaluate, what_is_not_finite_stays_outside) {
   const HandWritten h = integrator();
   Evaluation<double> law(h.law);
   law.reset(max);
-  for (const auto& [position, velocity] : {std::pair{nan, 0.0}, {inf, 0.0}, {-inf, 0.0}, {0.0, nan}, {0.0, -inf}, {max, 0.0}}) {
+  for (const auto& [position, velocity] :
+       {std::pair{nan, 0.0}, {inf, 0.0}, {-inf, 0.0}, {0.0, nan}, {0.0, -inf}, {max, 0.0}}) {
     const auto now = law.step(position, velocity);
     EXPECT_EQ(now.force, 0);
     EXPECT_EQ(now.damping, 2);

@@ -15,7 +15,8 @@ using namespace dashpot::compiler;
 Compiled branches(double fastest, const Choices& choices = {}) {
   std::string text;
   for (int i = 0; i < 64; ++i)
-    text += fmt::format("{}{{ \"series\": [ {{ \"spring\": 1 }}, {{ \"damper\": {:.17g} }} ] }}", i == 0 ? "" : ",", std::pow(fastest, -i / 63.0));
+    text += fmt::format("{}{{ \"series\": [ {{ \"spring\": 1 }}, {{ \"damper\": {:.17g} }} ] }}", i == 0 ? "" : ",",
+                        std::pow(fastest, -i / 63.0));
   return Compiled(network_text("{ \"parallel\": [" + text + "] }"), choices);
 }
 
@@ -36,8 +37,8 @@ TEST(GuardsInTurn, ComeAsSeldomAsTheFastestForceAllows) {
   }
 }
 
-// Where half of the forces a sample are too few, in float, whose threshold's square is barely normal, or on demand, some force
-// would go without.
+// Where half of the forces a sample are too few, in float, whose threshold's square is barely normal, or on demand,
+// some force would go without.
 TEST(GuardsInTurn, AreForSlowForcesInDoubleAlone) {
   Choices in_float, on_demand;
   in_float.scalar = ScalarType::float32;

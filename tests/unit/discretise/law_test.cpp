@@ -28,8 +28,8 @@ std::string branches(int count) {
   return network_text("{ \"parallel\": [" + text + "] }");
 }
 
-// Fails if a mode costs more than two multiplications and two additions a sample, many cost more guards than few, or the command
-// depends on their number.
+// Fails if a mode costs more than two multiplications and two additions a sample, many cost more guards than few, or
+// the command depends on their number.
 TEST(Law, costs_two_multiplications_and_additions_a_mode) {
   for (const int count : {1, 2, 8, 9, 100}) {
     const Compiled compiled(branches(count));
@@ -47,15 +47,15 @@ TEST(Law, costs_two_multiplications_and_additions_a_mode) {
 // Fails if the step of the paper's Fig. 5 needs more than two modes' worth and the terms of spring, feedthrough and Δu.
 TEST(Law, fig_5_cost) {
   const Compiled compiled(network_text(fig_5));
-  const Cost output = cost_of(compiled.law(), compiled.law().output), update = cost_of(compiled.law(), compiled.law().update);
+  const Cost output = cost_of(compiled.law(), compiled.law().output),
+             update = cost_of(compiled.law(), compiled.law().update);
   EXPECT_LE(output.multiplications + update.multiplications, 2u * 2 + 3);
   EXPECT_LE(output.additions + update.additions, 2u * 2 + 4);
 }
 
 bool reads(const UpdateLaw& law, VariableId variable) {
-  return std::any_of(law.expressions.begin(), law.expressions.end(), [&](const Expression& e) {
-    return e.operation == Operation::read && e.left == variable;
-  });
+  return std::any_of(law.expressions.begin(), law.expressions.end(),
+                     [&](const Expression& e) { return e.operation == Operation::read && e.left == variable; });
 }
 
 Choices choosing(std::variant<std::string, double> decomposition) {
@@ -80,7 +80,8 @@ TEST(Law, text_shows_everything) {
   const std::string text = to_text(compiled.law(), compiled->network);
   for (const Coefficient& coefficient : compiled.law().coefficients)
     EXPECT_NE(text.find(coefficient.name), std::string::npos) << text;
-  for (const char* phase : {"\noutput\n", "\nkeep\n", "\nupdate\n", "\nenergy\n"}) EXPECT_NE(text.find(phase), std::string::npos);
+  for (const char* phase : {"\noutput\n", "\nkeep\n", "\nupdate\n", "\nenergy\n"})
+    EXPECT_NE(text.find(phase), std::string::npos);
 }
 
 // Fails if a relaxation that is over before the next sample, or digits that a float has not, go unsaid.
@@ -136,7 +137,8 @@ std::vector<Exact> reference_forces(const Compilation& c, const std::vector<Samp
   double last = 0;
   for (const Sample& sample : motion) {
     const Exact drive = c.law.state_input == StateInput::position ? Exact(sample.position) - last : h * sample.velocity;
-    Exact force = Exact(c.form.linear.static_stiffness) * sample.position + Exact(c.form.linear.feedthrough_damping) * sample.velocity;
+    Exact force = Exact(c.form.linear.static_stiffness) * sample.position +
+                  Exact(c.form.linear.feedthrough_damping) * sample.velocity;
     for (std::size_t i = 0; i < modes.size(); ++i) {
       const Exact k(c.form.linear.modes[i].stiffness), x = Exact(c.form.linear.modes[i].relaxation_rate) * h;
       const Exact a = exact_scheme ? Exact(exp(-x)) : Exact(1 / (1 + x));
@@ -162,8 +164,10 @@ std::string complaint_about_forces(const Compiled& compiled, const std::vector<S
   const std::vector<Exact> expected = reference_forces(*compiled.operator->(), motion);
   // The modes' own bound, and a rounding for each operation of the output and for the product b v.
   const Cost cost = cost_of(compiled.law(), compiled.law().output);
-  const double operations = static_cast<double>(cost.additions + cost.multiplications + compiled->form.linear.modes.size() + 4);
-  const double allowed = (compiled.law().relative_error_bound + operations * roundoff) * scale_of(*compiled.operator->());
+  const double operations =
+      static_cast<double>(cost.additions + cost.multiplications + compiled->form.linear.modes.size() + 4);
+  const double allowed =
+      (compiled.law().relative_error_bound + operations * roundoff) * scale_of(*compiled.operator->());
   for (std::size_t i = 0; i < found.size(); ++i)
     if (const double error = abs(Exact(found[i]) - expected[i]).convert_to<double>(); error > allowed)
       return fmt::format("sample {}: force {} is off by {:.3g}, more than {:.3g}", i, found[i], error, allowed);
@@ -172,11 +176,14 @@ std::string complaint_about_forces(const Compiled& compiled, const std::vector<S
 
 std::string complaint_about(const Network& network, const Choices& choices) {
   const std::string text = json_text(network);
-  for (const char* name : {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual"}) {
+  for (const char* name :
+       {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual"}) {
     Choices named = choices;
     named.decomposition = name;
-    const std::string complaint = complaint_about_forces(Compiled(text, named), motion(network.elements.size(), samples));
-    if (!complaint.empty()) return fmt::format("{} by {} at {}: {}", name_of(choices.scheme), name, *choices.rate, complaint);
+    const std::string complaint =
+        complaint_about_forces(Compiled(text, named), motion(network.elements.size(), samples));
+    if (!complaint.empty())
+      return fmt::format("{} by {} at {}: {}", name_of(choices.scheme), name, *choices.rate, complaint);
   }
   return "";
 }
@@ -198,7 +205,8 @@ TEST(Law, every_candidate_renders_the_network) {
         choices.state_input = input;
         choices.rate = rate;
         EXPECT_EQ(first_failure(1, repetitions(5, 100), small_graphs(),
-                                [&](const Network& network) { return complaint_about(network, choices); }), "");
+                                [&](const Network& network) { return complaint_about(network, choices); }),
+                  "");
       }
 }
 

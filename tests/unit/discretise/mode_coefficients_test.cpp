@@ -8,11 +8,14 @@
 namespace {
 
 using namespace dashpot::compiler;
-using Reference = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
+using Reference =
+    boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
-// Ten roundings of the 50 digits that the constants are derived in, times what the constant makes of those of its input.
+// Ten roundings of the 50 digits that the constants are derived in, times what the constant makes of those of its
+// input.
 void expect_equal(const Real& found, const Reference& expected, const char* what, const Reference& condition = 1) {
-  EXPECT_LE(abs(Reference(found) - expected), Reference("1e-48") * condition * abs(expected)) << what << " is " << found;
+  EXPECT_LE(abs(Reference(found) - expected), Reference("1e-48") * condition * abs(expected))
+      << what << " is " << found;
 }
 
 struct Case {
@@ -22,8 +25,8 @@ struct Case {
 };
 
 // λh from 1e-18 to 1e6: a relaxation of thirty million years at 1 kHz, and one gone within a microsecond of it.
-const Case cases[] = {{"3", "1e-15", "1e-3"}, {"1e4", "1e-5", "1e-5"}, {"0.5", "10", "1e-3"},
-                      {"7e-4", "1e3", "1e-3"}, {"12", "45", "1"},      {"2", "1e9", "1e-3"}};
+const Case cases[] = {{"3", "1e-15", "1e-3"},  {"1e4", "1e-5", "1e-5"}, {"0.5", "10", "1e-3"},
+                      {"7e-4", "1e3", "1e-3"}, {"12", "45", "1"},       {"2", "1e9", "1e-3"}};
 
 // Fails if e^{−λh} or what is made of it loses digits, at slow relaxations above all: 1 − a is tiny there.
 TEST(ModeCoefficients, exact_scheme) {
@@ -53,7 +56,8 @@ TEST(ModeCoefficients, backward_euler_scheme) {
   }
 }
 
-// Fails if the drive is lost or doubled between position and velocity: a displacement Δu in one sample is a velocity Δu/h.
+// Fails if the drive is lost or doubled between position and velocity: a displacement Δu in one sample is a velocity
+// Δu/h.
 TEST(ModeCoefficients, the_drive_is_shared) {
   const Mode mode{8, 10, Real("0.25"), {}};
   const Real h("0.001");

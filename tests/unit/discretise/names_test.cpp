@@ -35,8 +35,8 @@ std::vector<std::string> all_names(const UpdateLaw& law) {
 
 // What the template itself declares.
 const std::set<std::string> of_the_template = {
-    "scalar", "sample_period", "port_motion", "motion", "certified_for", "parameters", "reset", "output", "update", "step",
-    "set", "stored_energy", "damping", "threshold", "sampled_", "total", "lane", "now"};
+    "scalar", "sample_period", "port_motion",   "motion",  "certified_for", "parameters", "reset", "output", "update",
+    "step",   "set",           "stored_energy", "damping", "threshold",     "sampled_",   "total", "lane",   "now"};
 
 std::string complaint_about_names(const Compilation& compilation) {
   static const std::regex identifier("[A-Za-z]([A-Za-z0-9]|_(?!_))*");
@@ -49,16 +49,17 @@ std::string complaint_about_names(const Compilation& compilation) {
 }
 
 std::string maxwell(const std::string& spring, const std::string& damper, int stiffness) {
-  return fmt::format(R"({{ "series": [ {{ "spring": {}, "name": "{}" }}, {{ "damper": 1, "name": "{}" }} ] }})", stiffness,
-                     spring, damper);
+  return fmt::format(R"({{ "series": [ {{ "spring": {}, "name": "{}" }}, {{ "damper": 1, "name": "{}" }} ] }})",
+                     stiffness, spring, damper);
 }
 
 Compiled branches(const std::string& network_name, const std::vector<std::pair<std::string, std::string>>& names) {
   std::string text;
   int stiffness = 0;
   for (const auto& [spring, damper] : names) text += (text.empty() ? "" : ", ") + maxwell(spring, damper, ++stiffness);
-  return Compiled(fmt::format(R"({{ "dashpot": 1, "name": "{}", "network": {{ "parallel": [ {}, {{ "damper": 3 }}, {{ "spring": 2 }} ] }} }})",
-                              network_name, text));
+  return Compiled(fmt::format(
+      R"({{ "dashpot": 1, "name": "{}", "network": {{ "parallel": [ {}, {{ "damper": 3 }}, {{ "spring": 2 }} ] }} }})",
+      network_name, text));
 }
 
 std::string complaint(const std::string& network_name, const std::vector<std::pair<std::string, std::string>>& names) {
@@ -116,9 +117,11 @@ TEST(Names, modes_of_many_elements) {
   NetworkRecipe recipe;
   recipe.topology = Topology::graph;
   recipe.most_nodes = 10;
-  EXPECT_EQ(first_failure(1, repetitions(50, 500), recipe, [](const Network& network) {
-              return complaint_about_names(*Compiled(json_text(network)).operator->());
-            }), "");
+  EXPECT_EQ(first_failure(1, repetitions(50, 500), recipe,
+                          [](const Network& network) {
+                            return complaint_about_names(*Compiled(json_text(network)).operator->());
+                          }),
+            "");
 }
 
 }  // namespace

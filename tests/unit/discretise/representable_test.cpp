@@ -38,7 +38,9 @@ std::optional<Compilation> compiled_whole(const SourceFile& source, ScalarType s
 
 // Fails if a parameter may be set to what the scalar cannot hold.
 TEST(Representable, refuses_ranges_beyond_the_scalar) {
-  const SourceFile text("far.json", R"({"dashpot": 1, "name": "far", "parameters": {"K": {"value": 1, "tunable": true, "min": 0, "max": 1e39}},
+  const SourceFile text(
+      "far.json",
+      R"({"dashpot": 1, "name": "far", "parameters": {"K": {"value": 1, "tunable": true, "min": 0, "max": 1e39}},
     "network": {"series": [{"damper": 1}, {"spring": "K"}]}})");
   Diagnostics diagnostics;
   EXPECT_FALSE(compiled_whole(text, ScalarType::float32, diagnostics));
@@ -49,7 +51,8 @@ TEST(Representable, refuses_ranges_beyond_the_scalar) {
 
 // Fails if a law whose constants are finite, but not what is proved of it, ends in anything but words.
 TEST(Representable, is_not_certified_beyond_a_double) {
-  const SourceFile text("far.json", R"({"dashpot": 1, "name": "far", "network": {"series": [{"spring": 1e308}, {"damper": 1e308}]}})");
+  const SourceFile text(
+      "far.json", R"({"dashpot": 1, "name": "far", "network": {"series": [{"spring": 1e308}, {"damper": 1e308}]}})");
   Diagnostics diagnostics;
   const auto compilation = compiled_whole(text, ScalarType::float64, diagnostics);
   ASSERT_TRUE(compilation);

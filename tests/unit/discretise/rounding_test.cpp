@@ -61,7 +61,9 @@ Compiled maxwell(double relaxation_rate, ScalarType scalar) {
   Choices choices;
   choices.scalar = scalar;
   choices.decomposition = "velocity-free";
-  return Compiled(network_text(fmt::format(R"({{ "series": [ {{ "spring": 3.7 }}, {{ "damper": {} }} ] }})", 3.7 / relaxation_rate)), choices);
+  return Compiled(network_text(fmt::format(R"({{ "series": [ {{ "spring": 3.7 }}, {{ "damper": {} }} ] }})",
+                                           3.7 / relaxation_rate)),
+                  choices);
 }
 
 // Seen from outside the force also bears the roundings of c Δu, of the sum and of c itself.
@@ -78,7 +80,8 @@ void expect_bounded(double relaxation_rate, ScalarType scalar, ModeForm form) {
 
 // Fails if forces in double are worse than the banner of the emitted code says, at any pace of relaxation.
 TEST(Rounding, double_keeps_its_bound) {
-  for (const double rate : {1.0, 30.0, 700.0, 5000.0}) expect_bounded<double>(rate, ScalarType::float64, ModeForm::product);
+  for (const double rate : {1.0, 30.0, 700.0, 5000.0})
+    expect_bounded<double>(rate, ScalarType::float64, ModeForm::product);
   expect_bounded<double>(0.2, ScalarType::float64, ModeForm::delta);
   for (const double rate : {1e-3, 0.1}) expect_bounded<double>(rate, ScalarType::float64, ModeForm::compensated);
 }
@@ -102,7 +105,8 @@ TEST(Rounding, the_form_follows_from_the_bound) {
   }
 }
 
-// Fails if a slow relaxation freezes in float: 100 s at 10 kHz loses 1e-6 of its force a sample, less than a float resolves.
+// Fails if a slow relaxation freezes in float: 100 s at 10 kHz loses 1e-6 of its force a sample, less than a float
+// resolves.
 TEST(Rounding, slow_relaxations_do_not_freeze_in_float) {
   Choices choices;
   choices.scalar = ScalarType::float32;

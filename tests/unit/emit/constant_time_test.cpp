@@ -23,8 +23,8 @@ const Machine machines[] = {{"gcc", DASHPOT_GXX, "-O2"},
                             {"clang", DASHPOT_CLANGXX, "-O3 -march=x86-64-v4"}};
 
 struct Jumps {
-  int back = 0;       // a loop's own
-  int forward = 0;    // over something, or out of it
+  int back = 0;     // a loop's own
+  int forward = 0;  // over something, or out of it
   int calls = 0;
   int divisions = 0;
 };
@@ -57,21 +57,23 @@ Jumps jumps_in(const std::string& assembly) {
     const auto& [instruction, target] = lines[i];
     const bool is_local = target.rfind(".L", 0) == 0;
     if (is_jump(instruction) && is_local) ++(labels.at(target) < i ? jumps.back : jumps.forward);
-    jumps.calls += instruction.rfind("call", 0) == 0 || (is_jump(instruction) && !is_local && labels.count(target) == 0);
+    jumps.calls +=
+        instruction.rfind("call", 0) == 0 || (is_jump(instruction) && !is_local && labels.count(target) == 0);
     jumps.divisions += instruction.find("div") != instruction.npos || instruction.find("sqrt") != instruction.npos;
   }
   return jumps;
 }
 
-std::string assembly_of(const std::filesystem::path& folder, const std::string& network, const std::string& scalar, const Machine& machine) {
-  write_text(folder / "phases.cpp",
-             fmt::format("#include \"{0}.hpp\"\n"
-                         "dashpot::command<{1}> output(dashpot::generated::{0}& model, {1} p, {1} v) {{ return model.output(p, v); }}\n"
-                         "void update(dashpot::generated::{0}& model) {{ model.update(); }}\n",
-                         network, scalar));
-  const Finished finished = run_command(fmt::format("'{}' -std=c++17 {} -ffp-contract=off -fno-asynchronous-unwind-tables {} -I'{}' -S -o - '{}'",
-                                                    machine.path, machine.flags, runtime_include(), folder.string(),
-                                                    (folder / "phases.cpp").string()));
+std::string assembly_of(const std::filesystem::path& folder, const std::string& network, const std::string& scalar,
+                        const Machine& machine) {
+  write_text(folder / "phases.cpp", fmt::format("#include \"{0}.hpp\"\n"
+                                                "dashpot::command<{1}> output(dashpot::generated::{0}& model, {1} p, "
+                                                "{1} v) {{ return model.output(p, v); }}\n"
+                                                "void update(dashpot::generated::{0}& model) {{ model.update(); }}\n",
+                                                network, scalar));
+  const Finished finished = run_command(
+      fmt::format("'{}' -std=c++17 {} -ffp-contract=off -fno-asynchronous-unwind-tables {} -I'{}' -S -o - '{}'",
+                  machine.path, machine.flags, runtime_include(), folder.string(), (folder / "phases.cpp").string()));
   EXPECT_EQ(finished.status, 0) << finished.output;
   return finished.output;
 }
@@ -87,14 +89,16 @@ int loops_in(const std::string& header) {
 std::vector<std::string> networks(const std::filesystem::path& folder) {
   write_text(folder / "branches.json", parallel_branches("branches", 512));
   std::vector<std::string> files = {(folder / "branches.json").string()};
-  for (const char* name : {"second_order_maxwell", "visco_elasto_plastic", "visco_elasto_plastic_organ", "maxwell_slip_ten", "virtual_wall"})
+  for (const char* name : {"second_order_maxwell", "visco_elasto_plastic", "visco_elasto_plastic_organ",
+                           "maxwell_slip_ten", "virtual_wall"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
   return files;
 }
 
 void expect_constant_time(const std::string& scalar) {
   const TemporaryFolder folder;
-  const EmittedFolder emitted = emit_headers(folder.path(), networks(folder.path()), "--constant-time --scalar " + scalar);
+  const EmittedFolder emitted =
+      emit_headers(folder.path(), networks(folder.path()), "--constant-time --scalar " + scalar);
   for (const std::string& name : emitted.classes)
     for (const Machine& machine : machines) {
       const Jumps jumps = jumps_in(assembly_of(folder.path(), name, scalar, machine));
@@ -106,8 +110,8 @@ void expect_constant_time(const std::string& scalar) {
     }
 }
 
-// Fails if either compiler makes a jump, a call or a division of a phase's decisions, at -O2 or -O3: the time of a sample
-// would tell what it was, and the worst one be longer than those that were timed.
+// Fails if either compiler makes a jump, a call or a division of a phase's decisions, at -O2 or -O3: the time of a
+// sample would tell what it was, and the worst one be longer than those that were timed.
 TEST(ConstantTime, double_has_no_jump_but_its_loops) { expect_constant_time("double"); }
 
 // Fails likewise in float.
@@ -117,7 +121,8 @@ TEST(ConstantTime, float_has_no_jump_but_its_loops) { expect_constant_time("floa
 TEST(ConstantTime, is_not_what_is_emitted_otherwise) {
   const TemporaryFolder folder;
   const EmittedFolder emitted = emit_headers(folder.path(), networks(folder.path()), "");
-  for (const std::string& name : emitted.classes) EXPECT_GT(jumps_in(assembly_of(folder.path(), name, "double", machines[0])).forward, 0) << name;
+  for (const std::string& name : emitted.classes)
+    EXPECT_GT(jumps_in(assembly_of(folder.path(), name, "double", machines[0])).forward, 0) << name;
 }
 
 }  // namespace

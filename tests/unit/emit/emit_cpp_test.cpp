@@ -67,23 +67,32 @@ TEST(EmitCpp, returns_a_brake_that_changes) {
 
 // Fails if the banner keeps back in what form modes are advanced in single precision, or how far that may be off.
 TEST(EmitCpp, states_form_and_error_bound_of_float) {
-  const std::string network = R"({ "dashpot": 1, "name": "pad", "network": { "series": [ { "spring": 50 }, { "damper": 5 } ] } })";
+  const std::string network =
+      R"({ "dashpot": 1, "name": "pad", "network": { "series": [ { "spring": 50 }, { "damper": 5 } ] } })";
   Choices choices;
   choices.scalar = ScalarType::float32;
   // u/α + 4u with u = 2⁻²⁴ and α = 1 − e^(−10 h)
-  EXPECT_TRUE(contains(header_of(network, choices), "in delta form a mode's force is off by at most 6.2e-06 of its peak"));
+  EXPECT_TRUE(
+      contains(header_of(network, choices), "in delta form a mode's force is off by at most 6.2e-06 of its peak"));
   choices.rate = 1e6;
-  EXPECT_TRUE(contains(header_of(network, choices), "in compensated form a mode's force is off by at most 3.6e-07 of its peak"));
+  EXPECT_TRUE(contains(header_of(network, choices),
+                       "in compensated form a mode's force is off by at most 3.6e-07 of its peak"));
 }
 
 // Fails if an input that is no number can pass unseen, or if what the force shows of itself is looked at again.
 TEST(EmitCpp, looks_at_what_the_force_does_not_show) {
-  const auto network = [](const char* structure) { return fmt::format(R"({{ "dashpot": 1, "name": "pad", "network": {} }})", structure); };
-  const auto checked = [](const std::string& text, const std::string& numbers) { return contains(text, "all_finite(" + numbers + ")) return"); };
-  const char* const maxwell = R"({ "parallel": [ { "spring": 5 }, { "series": [ { "spring": 12 }, { "damper": 5 } ] } ] })";
+  const auto network = [](const char* structure) {
+    return fmt::format(R"({{ "dashpot": 1, "name": "pad", "network": {} }})", structure);
+  };
+  const auto checked = [](const std::string& text, const std::string& numbers) {
+    return contains(text, "all_finite(" + numbers + ")) return");
+  };
+  const char* const maxwell =
+      R"({ "parallel": [ { "spring": 5 }, { "series": [ { "spring": 12 }, { "damper": 5 } ] } ] })";
   EXPECT_TRUE(checked(header_of(network(maxwell)), "force"));
   EXPECT_TRUE(checked(header_of(network(R"({ "spring": 5 })")), "velocity, force"));
-  EXPECT_TRUE(checked(header_of(network(R"({ "series": [ { "spring": 5 }, { "slip": 1 } ] })")), "position, velocity, force"));
+  EXPECT_TRUE(
+      checked(header_of(network(R"({ "series": [ { "spring": 5 }, { "slip": 1 } ] })")), "position, velocity, force"));
 }
 
 // Fails if a step goes through copies that only update() needs, or through two functions where one is enough.
@@ -107,12 +116,18 @@ TEST(EmitCpp, takes_its_names_from_the_author) {
   EXPECT_EQ(text.rfind("// A pad\n", 0), 0u) << text;
 }
 
-// Fails if words of the author's can leave the comment that they stand in: by an end of line, or by a backslash before one,
-// which would take the next line into the comment or out of it.
+// Fails if words of the author's can leave the comment that they stand in: by an end of line, or by a backslash before
+// one, which would take the next line into the comment or out of it.
 TEST(EmitCpp, keeps_the_authors_words_inside_comments) {
-  const std::string words[] = {R"(ends with a backslash \\)",  R"(two\nlines)",    R"(carriage\rreturn)",
-                               R"(line separator \u2028 x)",   R"(bell \u0007)",   R"(nul \u0000 inside)",
-                               R"(*/ #error out /*)",          R"({{name}} {{#x}})", R"(what ??/)",
+  const std::string words[] = {R"(ends with a backslash \\)",
+                               R"(two\nlines)",
+                               R"(carriage\rreturn)",
+                               R"(line separator \u2028 x)",
+                               R"(bell \u0007)",
+                               R"(nul \u0000 inside)",
+                               R"(*/ #error out /*)",
+                               R"({{name}} {{#x}})",
+                               R"(what ??/)",
                                R"(turned \u202e round \u2066 and round)"};
   const testing::TemporaryFolder folder;
   for (const std::string& text : words) {
@@ -142,21 +157,21 @@ TEST(EmitCpp, keeps_the_devices_name_inside_its_string) {
   ASSERT_TRUE(compilation);
   const testing::TemporaryFolder folder;
   testing::write_text(folder.path() / "words.hpp", emit_cpp(*compilation, {}, diagnostics)->front().text);
-  const testing::Finished finished = testing::run_command(fmt::format(
-      "cd '{}' && printf '#include \"words.hpp\"\n#include <cstdio>\n"
-      "int main() {{ std::fputs(dashpot::generated::words::certified_for::device, stdout); }}' > m.cpp && "
-      "'{}' -std=c++17 -trigraphs {} m.cpp -o m && ./m",
-      folder.path().string(), DASHPOT_GXX, testing::runtime_include()));
+  const testing::Finished finished = testing::run_command(
+      fmt::format("cd '{}' && printf '#include \"words.hpp\"\n#include <cstdio>\n"
+                  "int main() {{ std::fputs(dashpot::generated::words::certified_for::device, stdout); }}' > m.cpp && "
+                  "'{}' -std=c++17 -trigraphs {} m.cpp -o m && ./m",
+                  folder.path().string(), DASHPOT_GXX, testing::runtime_include()));
   EXPECT_EQ(finished.output, name);
 }
 
 // Fails if a word longer than a line, or blanks without end, are cut, run for ever, or are taken for a defect.
 TEST(EmitCpp, keeps_long_words_whole) {
   const std::string link(300, 'x');
-  for (const std::string& source : {link, "see " + link, "see " + link + " and " + link + " and more", link + std::string(200, ' '),
-                                    std::string(300, ' ')}) {
-    const std::string text = header_of(fmt::format(
-        R"({{ "dashpot": 1, "name": "words", "source": "{}", "network": {{ "damper": 5 }} }})", source));
+  for (const std::string& source : {link, "see " + link, "see " + link + " and " + link + " and more",
+                                    link + std::string(200, ' '), std::string(300, ' ')}) {
+    const std::string text = header_of(
+        fmt::format(R"({{ "dashpot": 1, "name": "words", "source": "{}", "network": {{ "damper": 5 }} }})", source));
     ASSERT_NE(text, "");
     if (source[0] != ' ') {
       EXPECT_TRUE(contains(text, link)) << text;
@@ -167,16 +182,19 @@ TEST(EmitCpp, keeps_long_words_whole) {
 // Fails if an element may bear a name that clashes with another of the emitted class.
 TEST(EmitCpp, finds_room_for_awkward_names) {
   const testing::TemporaryFolder folder;
-  for (const char* name : {"force", "damping", "threshold", "relaxed", "position", "velocity", "stored", "total", "lane", "scalar",
-                           "last_position", "step_stiffness", "static_stiffness", "i", "j", "now", "double", "x_"}) {
+  for (const char* name :
+       {"force", "damping", "threshold", "relaxed", "position", "velocity", "stored", "total", "lane", "scalar",
+        "last_position", "step_stiffness", "static_stiffness", "i", "j", "now", "double", "x_"}) {
     const std::string header = header_of(fmt::format(
         R"({{ "dashpot": 1, "name": "names", "network": {{ "parallel": [ {{ "spring": 3 }},
-           {{ "series": [ {{ "spring": 50, "name": "{}" }}, {{ "damper": 5, "name": "B" }} ] }} ] }} }})", name));
+           {{ "series": [ {{ "spring": 50, "name": "{}" }}, {{ "damper": 5, "name": "B" }} ] }} ] }} }})",
+        name));
     if (header.empty()) continue;  // refused by the front end
     testing::write_text(folder.path() / "names.hpp", header);
-    const testing::Finished finished = testing::run_command(
-        fmt::format("echo '#include \"names.hpp\"' | '{}' -std=c++17 -Wall -Wextra -Wshadow -Werror -fsyntax-only {} -I'{}' -x c++ -",
-                    DASHPOT_GXX, testing::runtime_include(), folder.path().string()));
+    const testing::Finished finished =
+        testing::run_command(fmt::format("echo '#include \"names.hpp\"' | '{}' -std=c++17 -Wall -Wextra -Wshadow "
+                                         "-Werror -fsyntax-only {} -I'{}' -x c++ -",
+                                         DASHPOT_GXX, testing::runtime_include(), folder.path().string()));
     EXPECT_EQ(finished.status, 0) << name << "\n" << finished.output;
   }
 }

@@ -20,9 +20,11 @@ bool is_linear(const fs::path& file) {
 std::string parallel_branches(const std::string& name, int count) {
   std::string branches;
   for (int i = 1; i <= count; ++i)
-    branches += fmt::format(",\n  {{ \"series\": [ {{ \"damper\": {} }}, {{ \"spring\": {} }} ] }}", 100.0 / (i + 10), i);
-  return fmt::format("{{ \"dashpot\": 1, \"name\": \"{}\", \"network\": {{ \"parallel\": [ {{ \"spring\": 7 }}{} ] }} }}\n", name,
-                     branches);
+    branches +=
+        fmt::format(",\n  {{ \"series\": [ {{ \"damper\": {} }}, {{ \"spring\": {} }} ] }}", 100.0 / (i + 10), i);
+  return fmt::format(
+      "{{ \"dashpot\": 1, \"name\": \"{}\", \"network\": {{ \"parallel\": [ {{ \"spring\": 7 }}{} ] }} }}\n", name,
+      branches);
 }
 
 std::vector<std::string> network_files(const fs::path& folder) {
@@ -54,21 +56,22 @@ EmittedFolder emit_headers(const fs::path& folder, const std::vector<std::string
 std::string caller_of(const EmittedFolder& emitted) {
   std::string text;
   for (const std::string& name : emitted.classes) text += fmt::format("#include \"{}.hpp\"\n", name);
-  text += "#define CALL(name)                                                                       \\\n"
-          "  dashpot::generated::name name##_model;                                                 \\\n"
-          "  using name##_number = dashpot::generated::name::scalar;                                \\\n"
-          "  void name##_reset(name##_number p) { name##_model.reset(p); }                          \\\n"
-          "  dashpot::command<name##_number> name##_output(name##_number p, name##_number v) {      \\\n"
-          "    return name##_model.output(p, v);                                                    \\\n"
-          "  }                                                                                      \\\n"
-          "  void name##_update() { name##_model.update(); }                                        \\\n"
-          "  dashpot::command<name##_number> name##_step(name##_number p, name##_number v) {        \\\n"
-          "    return name##_model.step(p, v);                                                      \\\n"
-          "  }                                                                                      \\\n"
-          "  unsigned name##_set(const dashpot::generated::name::parameters& new_values) {          \\\n"
-          "    return name##_model.set(new_values);                                                 \\\n"
-          "  }                                                                                      \\\n"
-          "  name##_number name##_energy() { return name##_model.stored_energy(); }\n";
+  text +=
+      "#define CALL(name)                                                                       \\\n"
+      "  dashpot::generated::name name##_model;                                                 \\\n"
+      "  using name##_number = dashpot::generated::name::scalar;                                \\\n"
+      "  void name##_reset(name##_number p) { name##_model.reset(p); }                          \\\n"
+      "  dashpot::command<name##_number> name##_output(name##_number p, name##_number v) {      \\\n"
+      "    return name##_model.output(p, v);                                                    \\\n"
+      "  }                                                                                      \\\n"
+      "  void name##_update() { name##_model.update(); }                                        \\\n"
+      "  dashpot::command<name##_number> name##_step(name##_number p, name##_number v) {        \\\n"
+      "    return name##_model.step(p, v);                                                      \\\n"
+      "  }                                                                                      \\\n"
+      "  unsigned name##_set(const dashpot::generated::name::parameters& new_values) {          \\\n"
+      "    return name##_model.set(new_values);                                                 \\\n"
+      "  }                                                                                      \\\n"
+      "  name##_number name##_energy() { return name##_model.stored_energy(); }\n";
   for (const std::string& name : emitted.classes) text += fmt::format("CALL({})\n", name);
   return text;
 }

@@ -8,8 +8,8 @@
 
 namespace dashpot::testing {
 
-// Paths of every linear network file of the repository, of the corner cases of tests/responses, and of parallel branches
-// up to a thousand that are written into `folder`.
+// Paths of every linear network file of the repository, of the corner cases of tests/responses, and of parallel
+// branches up to a thousand that are written into `folder`.
 std::vector<std::string> network_files(const std::filesystem::path& folder);
 
 // A network file of `count` Maxwell branches in parallel with a spring, all of different relaxation rates.

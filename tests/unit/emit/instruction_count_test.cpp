@@ -30,20 +30,24 @@ void count_instruction(const std::string& instruction, Instructions& count) {
   count.multiplications += is_one_of({"mulsd"});
   count.additions += is_one_of({"addsd", "subsd"});
   count.divisions += is_one_of({"divsd", "vdivsd", "vdivpd", "sqrtsd"});
-  count.comparisons += is_one_of({"comisd", "ucomisd", "minsd", "maxsd"}) || (instruction.rfind("cmp", 0) == 0 && instruction.ends_with("sd"));
-  count.packed += is_one_of({"vaddpd", "vsubpd", "vmulpd"}) || (instruction.rfind("vcmp", 0) == 0 && instruction.ends_with("pd"));
+  count.comparisons += is_one_of({"comisd", "ucomisd", "minsd", "maxsd"}) ||
+                       (instruction.rfind("cmp", 0) == 0 && instruction.ends_with("sd"));
+  count.packed +=
+      is_one_of({"vaddpd", "vsubpd", "vmulpd"}) || (instruction.rfind("vcmp", 0) == 0 && instruction.ends_with("pd"));
   count.calls += is_one_of({"call"});
 }
 
 // Of the function `step` alone, by default of scalar instructions only, so that each is one operation.
-Instructions instructions_of_step(const std::filesystem::path& folder, const std::string& network, const char* kind = scalar_code) {
-  write_text(folder / "step.cpp", fmt::format("#include \"{0}.hpp\"\n"
-                                              "dashpot::command<double> step(dashpot::generated::{0}& model, double p, double v) "
-                                              "{{ return model.step(p, v); }}\n",
-                                              network));
-  const Finished finished = run_command(
-      fmt::format("'{}' -std=c++17 {} -ffp-contract=off {} -I'{}' -S -o - '{}'", DASHPOT_GXX, kind,
-                  runtime_include(), folder.string(), (folder / "step.cpp").string()));
+Instructions instructions_of_step(const std::filesystem::path& folder, const std::string& network,
+                                  const char* kind = scalar_code) {
+  write_text(folder / "step.cpp",
+             fmt::format("#include \"{0}.hpp\"\n"
+                         "dashpot::command<double> step(dashpot::generated::{0}& model, double p, double v) "
+                         "{{ return model.step(p, v); }}\n",
+                         network));
+  const Finished finished =
+      run_command(fmt::format("'{}' -std=c++17 {} -ffp-contract=off {} -I'{}' -S -o - '{}'", DASHPOT_GXX, kind,
+                              runtime_include(), folder.string(), (folder / "step.cpp").string()));
   EXPECT_EQ(finished.status, 0) << finished.output;
   Instructions count;
   std::istringstream lines(finished.output);
@@ -61,7 +65,8 @@ constexpr int finite_check = 1;  // m − m: the force shows what its inputs are
 constexpr int dead_forces = 2;   // drive + 0 of each of Fig. 5's modes, where the force before is below the threshold
 
 // Fails if a step of the paper's Fig. 5 network costs more than two multiplications and two additions a mode, three
-// products and four sums for what all modes share (k0 u, Σc Δu and Δu itself, (b∞ − b) u̇, the modes' sum), or a division.
+// products and four sums for what all modes share (k0 u, Σc Δu and Δu itself, (b∞ − b) u̇, the modes' sum), or a
+// division.
 TEST(InstructionCount, of_figure_5_is_two_and_two_a_mode) {
   const TemporaryFolder folder;
   emit_headers(folder.path(), {DASHPOT_NETWORKS "/paper/second_order_maxwell.json"}, "");
@@ -86,7 +91,8 @@ TEST(InstructionCount, is_what_the_banner_states) {
     ASSERT_NE(place, text.npos);
     int more_additions = 0, more_multiplications = 0;
     ASSERT_EQ(std::sscanf(text.c_str() + place, "cost of %*[a-z]():%d additions, %d multiplications", &more_additions,
-                          &more_multiplications), 2);
+                          &more_multiplications),
+              2);
     additions += more_additions;
     multiplications += more_multiplications;
   }

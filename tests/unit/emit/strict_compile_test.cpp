@@ -40,12 +40,15 @@ std::vector<std::string> with_batches(std::vector<std::string> names) {
 
 // Calls everything that a batch of a constant brake offers.
 std::string caller_of_batch(const std::string& name) {
-  return fmt::format("#include \"{0}_batch.hpp\"\n"
-                     "using batch = dashpot::generated::{0}_batch;\n"
-                     "dashpot::generated::{0}_points<19> own;\n"
-                     "void run(batch& points, batch::scalar* p, batch::scalar* v, batch::scalar* f) {{\n"
-                     "  points.reset(*p); points.step(p, v, f); points.output(p, v, f); points.update(p, v); *f = points.stored_energy(3);\n"
-                     "}}\n", name);
+  return fmt::format(
+      "#include \"{0}_batch.hpp\"\n"
+      "using batch = dashpot::generated::{0}_batch;\n"
+      "dashpot::generated::{0}_points<19> own;\n"
+      "void run(batch& points, batch::scalar* p, batch::scalar* v, batch::scalar* f) {{\n"
+      "  points.reset(*p); points.step(p, v, f); points.output(p, v, f); points.update(p, v); *f = "
+      "points.stored_energy(3);\n"
+      "}}\n",
+      name);
 }
 
 class StrictCompile : public ::testing::Test {
@@ -70,27 +73,30 @@ TEST_F(StrictCompile, takes_every_header_alone) {
   for (const Compiler& compiler : compilers)
     for (const std::string& name : with_batches(emitted_.front().classes)) {
       const std::string line =
-          fmt::format("echo '#include \"{}.hpp\"' | '{}' {} -fsyntax-only {} -I'{}' -x c++ -", name, compiler.path, strict,
-                      runtime_include(), emitted_.front().path.string());
+          fmt::format("echo '#include \"{}.hpp\"' | '{}' {} -fsyntax-only {} -I'{}' -x c++ -", name, compiler.path,
+                      strict, runtime_include(), emitted_.front().path.string());
       const Finished finished = run_command(line);
-      EXPECT_TRUE(finished.status == 0 && finished.output.empty()) << compiler.name << ", " << name << ":\n" << finished.output;
+      EXPECT_TRUE(finished.status == 0 && finished.output.empty()) << compiler.name << ", " << name << ":\n"
+                                                                   << finished.output;
     }
 }
 
-// Fails if calling any member, at any level of optimisation, warns, needs a symbol from elsewhere (memset for a reset of
-// many states, a run-time library for an object that is not initialised by constants), or uses much stack.
+// Fails if calling any member, at any level of optimisation, warns, needs a symbol from elsewhere (memset for a reset
+// of many states, a run-time library for an object that is not initialised by constants), or uses much stack.
 TEST_F(StrictCompile, leaves_no_symbol_undefined) {
   for (std::size_t i = 0; i < emitted_.size(); ++i) {
     const std::filesystem::path caller = folder_->path() / "caller.cpp", object = folder_->path() / "caller.o";
     write_text(caller, caller_of(emitted_[i]));
     for (const Compiler& compiler : compilers)
       for (const char* level : {"-O0", "-O2", "-O3"}) {
-        const bool optimised = std::string(level) == "-O2";  // stack is measured where code is laid out for small frames
-        const Finished built = run_command(fmt::format("'{}' {} {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict, level,
-                                                       optimised ? compiler.flags : "", caller.string(), object.string(),
-                                                       runtime_include(), emitted_[i].path.string()));
+        const bool optimised =
+            std::string(level) == "-O2";  // stack is measured where code is laid out for small frames
+        const Finished built = run_command(fmt::format("'{}' {} {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict,
+                                                       level, optimised ? compiler.flags : "", caller.string(),
+                                                       object.string(), runtime_include(), emitted_[i].path.string()));
         EXPECT_TRUE(built.status == 0 && built.output.empty())
-            << compiler.name << level << ", " << choices[i].name << ":\n" << built.output.substr(0, 4000);
+            << compiler.name << level << ", " << choices[i].name << ":\n"
+            << built.output.substr(0, 4000);
         const Finished undefined = run_command(fmt::format("nm -C -u '{}'", object.string()));
         EXPECT_EQ(undefined.output, "") << compiler.name << " " << level << ", " << choices[i].name;
         const Finished initialisers = run_command(fmt::format("nm -C '{}' | grep -c GLOBAL__sub_I", object.string()));
@@ -106,10 +112,13 @@ TEST_F(StrictCompile, leaves_no_symbol_of_a_batch_undefined) {
     write_text(caller, caller_of_batch(name));
     for (const Compiler& compiler : compilers)
       for (const char* level : {"-O0", "-O2", "-O3"}) {
-        const Finished built = run_command(fmt::format("'{}' {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict, level, caller.string(),
-                                                       object.string(), runtime_include(), emitted_.front().path.string()));
-        EXPECT_TRUE(built.status == 0 && built.output.empty()) << compiler.name << level << ":\n" << built.output.substr(0, 4000);
-        EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "") << compiler.name << " " << level << ", " << name;
+        const Finished built = run_command(fmt::format("'{}' {} {} -c '{}' -o '{}' {} -I'{}'", compiler.path, strict,
+                                                       level, caller.string(), object.string(), runtime_include(),
+                                                       emitted_.front().path.string()));
+        EXPECT_TRUE(built.status == 0 && built.output.empty()) << compiler.name << level << ":\n"
+                                                               << built.output.substr(0, 4000);
+        EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "")
+            << compiler.name << " " << level << ", " << name;
       }
   }
 }

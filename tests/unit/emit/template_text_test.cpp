@@ -45,7 +45,8 @@ TEST(TemplateText, leaves_nothing_of_an_empty_list) {
 
 // Fails if the file's field shadows the entry's of the same name.
 TEST(TemplateText, takes_an_entrys_field_before_the_files) {
-  EXPECT_EQ(filled("{{x}}\n{{#l}}\n{{x}}\n{{/l}}\n", {{{"x", "file"}}, {{"l", {{{"x", "entry"}}}}}}).text, "file\nentry\n");
+  EXPECT_EQ(filled("{{x}}\n{{#l}}\n{{x}}\n{{/l}}\n", {{{"x", "file"}}, {{"l", {{{"x", "entry"}}}}}}).text,
+            "file\nentry\n");
 }
 
 // Fails if what a field holds is itself taken for a template: networks are the user's, and may hold braces.

@@ -60,7 +60,8 @@ TEST(WriteFiles, leaves_no_folder_behind) {
   fs::create_directory(folder.path() / "before");
   fs::create_directory(folder.path() / "bad.hpp");
   Diagnostics diagnostics;
-  EXPECT_FALSE(write_files(folder.path().string(), {{"a/b/good.hpp", "x\n"}, {"before/good.hpp", "x\n"}, {"bad.hpp", "x\n"}}, diagnostics));
+  EXPECT_FALSE(write_files(folder.path().string(),
+                           {{"a/b/good.hpp", "x\n"}, {"before/good.hpp", "x\n"}, {"bad.hpp", "x\n"}}, diagnostics));
   EXPECT_EQ(names_in(folder.path()), (std::vector<std::string>{"bad.hpp", "before"}));
 }
 

@@ -131,9 +131,7 @@ outcome throw_against_late_spring(guard guard, double encoder_step = 0) {
 }
 
 // The experiment would prove nothing: the late spring must run away where nobody guards it.
-TEST(Controllers, LateSpringRunsAwayUnguarded) {
-  EXPECT_GT(throw_against_late_spring(guard::none).most_returned, 1e6);
-}
+TEST(Controllers, LateSpringRunsAwayUnguarded) { EXPECT_GT(throw_against_late_spring(guard::none).most_returned, 1e6); }
 
 // The brake would let the spring give back more than was thrown in, or would need more than it has.
 TEST(Controllers, BrakeRestoresPassivityWithinItsLimits) {

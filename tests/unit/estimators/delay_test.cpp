@@ -117,7 +117,7 @@ TEST(InverseTimeDelay, IsTheEdgeSpacing) {
 // speed. An acceleration a changes that by a/R relative, here a thousandth.
 TEST(TrackingDifferentiatorDelay, GrowsBeyondTheLinearZone) {
   tracking_differentiator<double> estimator(10, 5, sample_period);  // the zone ends at 0.05 m/s
-  const double acceleration = 0.01;  // [m/s²]
+  const double acceleration = 0.01;                                 // [m/s²]
   sampled_motion samples(ramp(0.39, acceleration), 0, sample_period);
   double estimate = 0;
   while (samples.time() < 1) estimate = estimator.update(samples.next().position);

@@ -15,8 +15,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double sample_period = 1e-3;         // [s]
-constexpr double step = 30e-6;                 // [m]
+constexpr double sample_period = 1e-3;            // [s]
+constexpr double step = 30e-6;                    // [m]
 constexpr double quantum = step / sample_period;  // one count a sample [m/s]
 
 velocity_description tuned(estimator_kind kind) {

@@ -9,8 +9,8 @@
 namespace dashpot {
 namespace {
 
-constexpr double step = 1e-4;           // [m]
-constexpr double sample_period = 1e-3;  // [s]
+constexpr double step = 1e-4;            // [m]
+constexpr double sample_period = 1e-3;   // [s]
 constexpr std::uint64_t ms = 1'000'000;  // [ns]
 
 inverse_time<double> started_at(std::uint64_t edge_time_ns) {

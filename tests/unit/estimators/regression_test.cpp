@@ -78,8 +78,7 @@ record run(const figure& wanted) {
 double rms_error(const record& run, std::size_t lag) {
   constexpr std::size_t longest_lag = 100;
   double sum = 0;
-  for (std::size_t i = longest_lag; i < run.truth.size(); ++i)
-    sum += std::pow(run.estimate[i] - run.truth[i - lag], 2);
+  for (std::size_t i = longest_lag; i < run.truth.size(); ++i) sum += std::pow(run.estimate[i] - run.truth[i - lag], 2);
   return std::sqrt(sum / static_cast<double>(run.truth.size() - longest_lag));
 }
 

@@ -179,10 +179,7 @@ TEST(Kalman, IsTheSteadyStateOfTheRiccatiRecursion) {
 }
 
 pulse_transfer<2> alpha_beta(gains tuned, double period) {
-  return {{tuned.beta / period, -tuned.beta / period, 0},
-          {1, tuned.alpha + tuned.beta - 2, 1 - tuned.alpha},
-          1,
-          2};
+  return {{tuned.beta / period, -tuned.beta / period, 0}, {1, tuned.alpha + tuned.beta - 2, 1 - tuned.alpha}, 1, 2};
 }
 
 // The device specification prints max|G| = 1.70 at Λ = 37. It is the gain over the one-sample difference of a filter

@@ -142,12 +142,9 @@ std::string mutated(std::string text, testing::Random& random) {
   constexpr std::string_view bytes = "{}[],:\"\\ue0-+. \n\t/'\x80\xC3";
   for (std::size_t count = random.between(1, 3); count > 0 && !text.empty(); --count) {
     const std::size_t at = random.index(text.size());
-    if (random.chance(0.4))
-      text.erase(at, random.between(1, 4));
-    else if (random.chance(0.5))
-      text[at] = bytes[random.index(bytes.size())];
-    else
-      text.insert(at, 1, bytes[random.index(bytes.size())]);
+    if (random.chance(0.4)) text.erase(at, random.between(1, 4));
+    else if (random.chance(0.5)) text[at] = bytes[random.index(bytes.size())];
+    else text.insert(at, 1, bytes[random.index(bytes.size())]);
   }
   return text;
 }
@@ -191,7 +188,8 @@ TEST(Json, OfEqualKeysTheFirstStays) {
 
 // If this fails, what stands behind a repeated key is lost or taken for another.
 TEST(Json, OfManyEqualKeysTheFirstStays) {
-  const SourceFile file("a.json", R"({"a": 1, "bb": 2, "a": 3, "ccc": 4, "bb": 5, "dddd": 6, "a": 7, "ccc": 8, "e": 9})");
+  const SourceFile file("a.json",
+                        R"({"a": 1, "bb": 2, "a": 3, "ccc": 4, "bb": 5, "dddd": 6, "a": 7, "ccc": 8, "e": 9})");
   Diagnostics diagnostics;
   const auto root = parse_json(file, diagnostics);
   ASSERT_TRUE(root);

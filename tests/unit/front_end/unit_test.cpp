@@ -53,8 +53,9 @@ TEST(Unit, FaultsAreFoundInPlace) {
 
 // If this fails, a derived unit is not what the base units make of it.
 TEST(Unit, DerivedIsMadeOfItsParts) {
-  const std::pair<const char*, const char*> same[] = {{"N", "kg m/s^2"}, {"J", "N m"},     {"W", "J/s"},   {"Pa", "N/m^2"},
-                                                      {"V", "W/A"},      {"T", "V s/m^2"}, {"ohm", "V/A"}, {"Ω", "V/A"},   {"Hz", "rad^0/s"}};
+  const std::pair<const char*, const char*> same[] = {{"N", "kg m/s^2"}, {"J", "N m"}, {"W", "J/s"},
+                                                      {"Pa", "N/m^2"},   {"V", "W/A"}, {"T", "V s/m^2"},
+                                                      {"ohm", "V/A"},    {"Ω", "V/A"}, {"Hz", "rad^0/s"}};
   for (const auto& [symbol, parts] : same)
     EXPECT_EQ(std::get<Unit>(parse_unit(symbol)).dimension, std::get<Unit>(parse_unit(parts)).dimension) << symbol;
 }

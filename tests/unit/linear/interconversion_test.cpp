@@ -25,7 +25,8 @@ std::string difference(const LinearForm& found, const LinearForm& expected) {
     return fmt::format("{} modes, not {}", found.modes.size(), expected.modes.size());
   for (std::size_t i = 0; i < found.modes.size(); ++i) {
     if (!agree(found.modes[i].stiffness, expected.modes[i].stiffness)) return fmt::format("stiffness of mode {}", i);
-    if (!agree(found.modes[i].relaxation_rate, expected.modes[i].relaxation_rate)) return fmt::format("rate of mode {}", i);
+    if (!agree(found.modes[i].relaxation_rate, expected.modes[i].relaxation_rate))
+      return fmt::format("rate of mode {}", i);
   }
   return "";
 }

@@ -50,7 +50,8 @@ TEST(Merging, leaves_different_rates_alone) {
 
 // Fails if the cross arm of a balanced bridge, in which nothing ever moves, leaves a mode.
 TEST(Merging, drops_what_the_tool_cannot_see) {
-  const LinearForm form = form_of(R"([ { "spring": 2, "nodes": ["tool", "a"] },   { "spring": 4, "nodes": ["tool", "b"] },
+  const LinearForm form =
+      form_of(R"([ { "spring": 2, "nodes": ["tool", "a"] },   { "spring": 4, "nodes": ["tool", "b"] },
                                        { "damper": 3, "nodes": ["a", "ground"] }, { "damper": 6, "nodes": ["b", "ground"] },
                                        { "spring": 7, "nodes": ["a", "b"] } ])");
   ASSERT_EQ(form.modes.size(), 1u);

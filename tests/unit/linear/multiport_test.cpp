@@ -79,22 +79,25 @@ std::string difference(const compiler::Network& network, std::uint64_t seed) {
     const Real scale = abs(there.real) + abs(there.imaginary);
     // Values spread over eight decades, each sum loses some of 50 digits.
     if (abs(here.real - there.real) + abs(here.imaginary - there.imaginary) > Real("1e-25") * scale)
-      return fmt::format("at {}: {} + {}j for {} + {}j", rate, compiler::to_double(here.real), compiler::to_double(here.imaginary),
-                         compiler::to_double(there.real), compiler::to_double(there.imaginary));
+      return fmt::format("at {}: {} + {}j for {} + {}j", rate, compiler::to_double(here.real),
+                         compiler::to_double(here.imaginary), compiler::to_double(there.real),
+                         compiler::to_double(there.imaginary));
   }
   return "";
 }
 
 }  // namespace
 
-// Slips outside trees would be joined by another linear part than the author's: with every terminal held or moving along
-// it is a one-port.
+// Slips outside trees would be joined by another linear part than the author's: with every terminal held or moving
+// along it is a one-port.
 TEST(Multiport, IsTheOnePortThatItsTerminalsMakeOfIt) {
   NetworkRecipe recipe;
   recipe.topology = Topology::graph;
   recipe.most_nodes = 12;
   for (std::uint64_t choice = 1; choice <= 3; ++choice)
-    EXPECT_EQ(first_failure(1, repetitions(200, 5000), recipe, [=](const compiler::Network& network) { return difference(network, choice); }), "");
+    EXPECT_EQ(first_failure(1, repetitions(200, 5000), recipe,
+                            [=](const compiler::Network& network) { return difference(network, choice); }),
+              "");
 }
 
 }  // namespace dashpot::testing

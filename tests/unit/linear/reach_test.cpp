@@ -1,4 +1,5 @@
-// Networks beyond what the extended precision resolves, or beyond what is eliminated in minutes, are refused with numbers.
+// Networks beyond what the extended precision resolves, or beyond what is eliminated in minutes, are refused with
+// numbers.
 #include "linear/reach.hpp"
 
 #include <fmt/format.h>
@@ -22,8 +23,9 @@ std::string ladder(std::size_t inner_nodes) {
   std::string text, here = "tool";
   for (std::size_t i = 0; i < inner_nodes; ++i) {
     const std::string next = fmt::format("n{}", i);
-    text += fmt::format("{}{{ \"spring\": 1, \"nodes\": [\"{}\", \"{}\"] }}, {{ \"damper\": 1, \"nodes\": [\"{}\", \"ground\"] }}",
-                        i == 0 ? "" : ", ", here, next, next);
+    text += fmt::format(
+        "{}{{ \"spring\": 1, \"nodes\": [\"{}\", \"{}\"] }}, {{ \"damper\": 1, \"nodes\": [\"{}\", \"ground\"] }}",
+        i == 0 ? "" : ", ", here, next, next);
     here = next;
   }
   return "\"elements\": [ " + text + " ]";
@@ -32,7 +34,8 @@ std::string ladder(std::size_t inner_nodes) {
 // Fails if digits that are lost to cancellation come out as forces, or values that are resolved are refused.
 TEST(Reach, ends_where_values_are_too_far_apart) {
   const auto springs = [](const char* soft) {
-    return fmt::format(R"("network": {{ "series": [ {{ "spring": {} }}, {{ "spring": 1e12 }}, {{ "damper": 1 }} ] }})", soft);
+    return fmt::format(R"("network": {{ "series": [ {{ "spring": {} }}, {{ "spring": 1e12 }}, {{ "damper": 1 }} ] }})",
+                       soft);
   };
   EXPECT_EQ(said_of(springs("1.01e-12")).find("values-far-apart"), std::string::npos);
   EXPECT_NE(said_of(springs("0.99e-12")).find("[values-far-apart]"), std::string::npos);

@@ -50,8 +50,8 @@ TEST(LogarithmicAxis, LabelsDecades) {
 }
 
 Plot one_curve(std::vector<double> x, std::vector<double> y) {
-  return {"title", {"time", "s"}, {"force", "N"}, AxisScale::linear, AxisScale::logarithmic,
-          {{"", Channel::total, std::move(x), std::move(y)}}};
+  return {"title",           {"time", "s"},          {"force", "N"},
+          AxisScale::linear, AxisScale::logarithmic, {{"", Channel::total, std::move(x), std::move(y)}}};
 }
 
 // If this fails, a plot of nothing is a frame around nothing, or what a logarithm cannot show is drawn at its edge.

@@ -11,7 +11,8 @@ namespace {
 
 // If this fails, an author's title can close a tag, open one, or end an attribute.
 TEST(Markup, LeavesNothingThatMarkupReads) {
-  EXPECT_EQ(escaped("</title><b a=\"x\" c='y'>&amp;"), "&lt;/title&gt;&lt;b a=&quot;x&quot; c=&#39;y&#39;&gt;&amp;amp;");
+  EXPECT_EQ(escaped("</title><b a=\"x\" c='y'>&amp;"),
+            "&lt;/title&gt;&lt;b a=&quot;x&quot; c=&#39;y&#39;&gt;&amp;amp;");
   EXPECT_EQ(escaped("Fig. 2e – µ"), "Fig. 2e – µ");
   EXPECT_EQ(escaped(std::string("a\0b\x1f\x7f", 5)), "a b  ");
 }

@@ -22,7 +22,8 @@ TEST(NumberText, HasTheDigitsThatCount) {
 // If this fails, MathML shows a power of ten as a product of letters.
 TEST(NumberText, IsAPowerInMathML) {
   EXPECT_EQ(number_mathml(2.4), "<mn>2.4</mn>");
-  EXPECT_EQ(number_mathml(2e-9), "<mrow><mn>2</mn><mo>×</mo><msup><mn>10</mn><mrow><mo>−</mo><mn>9</mn></mrow></msup></mrow>");
+  EXPECT_EQ(number_mathml(2e-9),
+            "<mrow><mn>2</mn><mo>×</mo><msup><mn>10</mn><mrow><mo>−</mo><mn>9</mn></mrow></msup></mrow>");
 }
 
 // If this fails, an element is labelled with another unit than its author's motion has.

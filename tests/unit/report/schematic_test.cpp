@@ -51,7 +51,8 @@ void expect_tidy(const std::vector<Label>& all, const Inside& inside) {
 
 // All corners of paths, middles of circles, and places of words, where they come to lie on the paper.
 std::vector<Place> ink(const std::string& svg) {
-  static const std::regex tags("translate\\(([-0-9.]+) ([-0-9.]+)\\)|x=\"([-0-9.]+)\" c?y=\"([-0-9.]+)\"| d=\"([^\"]*)\"");
+  static const std::regex tags(
+      "translate\\(([-0-9.]+) ([-0-9.]+)\\)|x=\"([-0-9.]+)\" c?y=\"([-0-9.]+)\"| d=\"([^\"]*)\"");
   static const std::regex moves("([MLHVmlhv])([-0-9.]+)(?: ([-0-9.]+))?");
   std::vector<Place> all;
   Place moved{0, 0};
@@ -62,7 +63,8 @@ std::vector<Place> ink(const std::string& svg) {
     Place pen{0, 0};
     for (std::sregex_iterator move(path.begin(), path.end(), moves); move != end; ++move) {
       const char kind = (*move)[1].str()[0];
-      const double first = std::stod((*move)[2]), from_x = std::islower(kind) ? pen.x : 0, from_y = std::islower(kind) ? pen.y : 0;
+      const double first = std::stod((*move)[2]), from_x = std::islower(kind) ? pen.x : 0,
+                   from_y = std::islower(kind) ? pen.y : 0;
       if (kind == 'H' || kind == 'h') pen.x = from_x + first;
       else if (kind == 'V' || kind == 'v') pen.y = from_y + first;
       else pen = {from_x + first, from_y + std::stod((*move)[3])};

@@ -101,9 +101,8 @@ scenario command_becomes(const char* name, command<double> wanted) {
 
 scenario velocity_becomes(const char* name, fault kind, double velocity) {
   return {name, kind, 0, [velocity](rig& parts, std::size_t instant) {
-            parts.estimator.on_update([=](std::size_t update, double estimate) {
-              return update == instant ? velocity : estimate;
-            });
+            parts.estimator.on_update(
+                [=](std::size_t update, double estimate) { return update == instant ? velocity : estimate; });
           }};
 }
 

@@ -97,7 +97,8 @@ struct pulsing_brake : generated::second_order_maxwell {
 
 std::vector<sample_fault> many_losses() {
   std::vector<sample_fault> losses;
-  for (std::uint64_t first = 5; first + 5 < periods; first += 11) losses.push_back({sample_fault_kind::lost, first, 3, 0});
+  for (std::uint64_t first = 5; first + 5 < periods; first += 11)
+    losses.push_back({sample_fault_kind::lost, first, 3, 0});
   return losses;
 }
 

@@ -10,9 +10,7 @@ namespace dashpot::simulated {
 namespace {
 
 // Halving the step of a method of order 4 divides its error by 16, and by little else at steps this short.
-void expect_order_four(double error, double error_at_half_step) {
-  EXPECT_NEAR(error / error_at_half_step, 16, 0.5);
-}
+void expect_order_four(double error, double error_at_half_step) { EXPECT_NEAR(error / error_at_half_step, 16, 0.5); }
 
 double oscillation_error(unsigned substeps) {
   scenario scene;

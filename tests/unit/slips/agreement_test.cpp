@@ -16,19 +16,21 @@ namespace {
 constexpr std::size_t samples = 200;
 
 std::size_t slips_in(const compiler::Network& network) {
-  return static_cast<std::size_t>(std::count_if(network.elements.begin(), network.elements.end(), [](const compiler::Element& element) {
-    return std::holds_alternative<compiler::Slip>(element.law);
-  }));
+  return static_cast<std::size_t>(std::count_if(
+      network.elements.begin(), network.elements.end(),
+      [](const compiler::Element& element) { return std::holds_alternative<compiler::Slip>(element.law); }));
 }
 
 bool has_modes(const compiler::NormalTree& tree) {
   return !tree.form.modes.empty() || std::any_of(tree.children.begin(), tree.children.end(), has_modes);
 }
 
-// Where every linear part is a spring, a damper or both side by side, the schemes are one. Outside trees that is not asked.
+// Where every linear part is a spring, a damper or both side by side, the schemes are one. Outside trees that is not
+// asked.
 bool has_modes(const compiler::NormalForm& form) {
-  return !form.networks.empty() || !form.linear.modes.empty() || std::any_of(form.components.begin(), form.components.end(),
-                                                   [](const compiler::NormalTree& tree) { return has_modes(tree); });
+  return !form.networks.empty() || !form.linear.modes.empty() ||
+         std::any_of(form.components.begin(), form.components.end(),
+                     [](const compiler::NormalTree& tree) { return has_modes(tree); });
 }
 
 std::string disagreement(const compiler::Network& network, compiler::Scheme scheme) {
@@ -60,8 +62,10 @@ std::string gain_of_energy(const compiler::Network& network, compiler::Scheme sc
   for (double position : random_motion(network, 11, samples)) {
     const double change = position - last;
     const command<double> answer = law.step(position, change / slip_period);
-    const double work = answer.force * change, braked = answer.damping * change / slip_period * change, now = law.stored_energy();
-    scale = std::max({scale, std::abs(work), braked, now});  // what the brake takes is taken from a whole that is rounded
+    const double work = answer.force * change, braked = answer.damping * change / slip_period * change,
+                 now = law.stored_energy();
+    scale =
+        std::max({scale, std::abs(work), braked, now});  // what the brake takes is taken from a whole that is rounded
     // Outside a tree ends of stiff elements are rounded, and these answer that.
     if (!(now - stored - work <= 1e-13 * scale + 0x1p-48 * stiffest(network) * change * change))
       return fmt::format("energy rose by {} for {} at a scale of {}", now - stored, work, scale);
@@ -79,8 +83,10 @@ NetworkRecipe recipe(Topology topology = Topology::tree) {
   return recipe;
 }
 
-std::string first_failure_of(std::string (*complaint)(const compiler::Network&, compiler::Scheme), compiler::Scheme scheme, Topology topology = Topology::tree) {
-  return first_failure(1, repetitions(300, 20000), recipe(topology), [=](const compiler::Network& network) { return complaint(network, scheme); });
+std::string first_failure_of(std::string (*complaint)(const compiler::Network&, compiler::Scheme),
+                             compiler::Scheme scheme, Topology topology = Topology::tree) {
+  return first_failure(1, repetitions(300, 20000), recipe(topology),
+                       [=](const compiler::Network& network) { return complaint(network, scheme); });
 }
 
 }  // namespace
@@ -120,7 +126,8 @@ TEST(SlipEnergy, NeverRisesByMoreThanTheWorkInGraphs) {
 TEST(SlipAgreement, CoversSlipsOutsideTrees) {
   std::size_t outside = 0, many = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    const compiler::Compilation compilation = compiled(random_network(seed, recipe(Topology::graph)), compiler::Scheme::exact);
+    const compiler::Compilation compilation =
+        compiled(random_network(seed, recipe(Topology::graph)), compiler::Scheme::exact);
     for (const compiler::SlipNetwork& network : compilation.law.networks) {
       ++outside;
       if (network.slip_count() > 2) ++many;

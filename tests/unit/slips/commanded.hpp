@@ -27,7 +27,8 @@ inline compiler::Device device_with(double encoder_step) {
   return device;
 }
 
-inline compiler::Compilation decided(const compiler::Network& network, const std::string& law, const compiler::Device* device = nullptr) {
+inline compiler::Compilation decided(const compiler::Network& network, const std::string& law,
+                                     const compiler::Device* device = nullptr) {
   compiler::Choices choices;
   choices.decomposition = law;
   return compiled(network, choices, device);
@@ -86,7 +87,8 @@ struct SlowBrake {
 
   // The least of V and of what has gone in, Σ (m + b v) Δu, over the motion: below zero, energy was made.
   // The coil begins at `root`, √b, and the count behind `begin` samples.
-  double least_balance(const compiler::UpdateLaw& law, const std::vector<double>& motion, double root = 0, std::size_t begin = 0) const {
+  double least_balance(const compiler::UpdateLaw& law, const std::vector<double>& motion, double root = 0,
+                       std::size_t begin = 0) const {
     compiler::Evaluation<double> evaluation(law);
     evaluation.reset(0);
     brake_coil<double> coil(device.description.brake);
@@ -107,12 +109,14 @@ struct SlowBrake {
   }
 };
 
-// V_k − V_{k−1} ≤ m_k Δu_k whatever the brake does: it takes no part, but is commanded no more than `most_damping`. Empty, or
-// where that fails. Rounding: 1e-13 of the largest energy, `shared(damping, change)` [J] among them, and `rounding` [N/m] Δu².
+// V_k − V_{k−1} ≤ m_k Δu_k whatever the brake does: it takes no part, but is commanded no more than `most_damping`.
+// Empty, or where that fails. Rounding: 1e-13 of the largest energy, `shared(damping, change)` [J] among them, and
+// `rounding` [N/m] Δu².
 template <class SharedEnergy>
-std::string energy_from_motor(const compiler::Compilation& compilation, const std::vector<double>& motion, double most_damping,
-                               SharedEnergy shared, double rounding) {
-  if (compilation.decomposition.choice().velocity_gain != 0) return "";  // what reaches ground without a slip asks for an estimate
+std::string energy_from_motor(const compiler::Compilation& compilation, const std::vector<double>& motion,
+                              double most_damping, SharedEnergy shared, double rounding) {
+  if (compilation.decomposition.choice().velocity_gain != 0)
+    return "";  // what reaches ground without a slip asks for an estimate
   compiler::Evaluation<double> evaluation(compilation.law);
   evaluation.reset(0);
   double stored = 0, last = 0, scale = 0;
@@ -138,9 +142,10 @@ inline NetworkRecipe coupled_recipe(Topology topology) {
   return recipe;
 }
 
-// energy_from_motor() of slips that are solved together. What the brake takes is capped, to be of another regime now and then, and
-// led to where the coil can be.
-inline std::string gain_of_coupled(const compiler::Network& network, const char* law, const std::vector<double>& motion) {
+// energy_from_motor() of slips that are solved together. What the brake takes is capped, to be of another regime now
+// and then, and led to where the coil can be.
+inline std::string gain_of_coupled(const compiler::Network& network, const char* law,
+                                   const std::vector<double>& motion) {
   compiler::Device device = device_with(1e-5);
   device.description.brake.max_damping = 0.5;
   device.description.brake.coil_lag = 0.01;
@@ -148,7 +153,8 @@ inline std::string gain_of_coupled(const compiler::Network& network, const char*
   compiler::Choices choices;
   choices.decomposition = law;
   choices.state_input = compiler::StateInput::position;
-  // f′ is what is left of a force that is rounded as a whole; outside a tree ends of stiff elements are, and these answer that.
+  // f′ is what is left of a force that is rounded as a whole; outside a tree ends of stiff elements are, and these
+  // answer that.
   const auto whole = [](double, double change) { return 0.5 * change * change / slip_period; };
   return energy_from_motor(compiled(network, choices, &device), motion, 0.5, whole, 0x1p-48 * stiffest(network));
 }

@@ -1,4 +1,5 @@
-// The gated and the compensated law of slips that are solved together: coupled ones, those outside trees, those behind a contact.
+// The gated and the compensated law of slips that are solved together: coupled ones, those outside trees, those behind
+// a contact.
 #include <dashpot/brake_coil.hpp>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -43,7 +44,8 @@ compiler::Network pressed_slips() {
 }
 
 compiler::Network pressed_ring() {
-  return touched(written_network(std::string(ring).insert(std::string(ring).rfind(']'), R"(, {"spring": 500, "nodes": ["tool", "ground"]})")));
+  return touched(written_network(
+      std::string(ring).insert(std::string(ring).rfind(']'), R"(, {"spring": 500, "nodes": ["tool", "ground"]})")));
 }
 
 constexpr std::size_t way_in = 2000;  // [samples]
@@ -64,7 +66,9 @@ struct Subject {
 std::vector<double> here(std::vector<double> motion) { return motion; }
 
 std::vector<Subject> subjects() {
-  return {{"tree", written_network(loose_slips), here}, {"ring", written_network(ring), here}, {"contact", pressed_slips(), deep},
+  return {{"tree", written_network(loose_slips), here},
+          {"ring", written_network(ring), here},
+          {"contact", pressed_slips(), deep},
           {"ring behind a contact", pressed_ring(), deep}};
 }
 
@@ -94,15 +98,16 @@ TEST(CoupledLaws, GatedLeavesDampersBesideSlipsToTheBrake) {
   for (std::size_t i = 6; i < 400; ++i) EXPECT_NEAR(commands[i].force, 0.4, 1e-15) << i;
 }
 
-// In a chain of slips without dampers only the weakest would ever give way: the others' dampers would be the brake's and never
-// asked for.
+// In a chain of slips without dampers only the weakest would ever give way: the others' dampers would be the brake's
+// and never asked for.
 TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
   const compiler::Network chain = written_network(R"({"series": [{"spring": 1000},
       {"parallel": [{"slip": 0.4}, {"damper": 3}]}, {"parallel": [{"slip": 0.2}, {"damper": 5}]}]})");
   const compiler::Compilation c = decided(chain, "gated");
   const compiler::NormalTree& rendered = c.decomposition.slips.components.front().rendered;
   EXPECT_EQ(compiler::slip_count(rendered), 2u);
-  const auto bare = std::find_if(rendered.children.begin(), rendered.children.end(), [](const auto& child) { return child.kind == compiler::NormalTree::Kind::slip; });
+  const auto bare = std::find_if(rendered.children.begin(), rendered.children.end(),
+                                 [](const auto& child) { return child.kind == compiler::NormalTree::Kind::slip; });
   ASSERT_NE(bare, rendered.children.end());
   EXPECT_EQ(bare->yield_force, 0.2);
   EXPECT_DOUBLE_EQ(commands_along(c.law, slide(0.05, 1000)).back().damping, 5);
@@ -111,21 +116,28 @@ TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
 // The motor alone would give more than it took, under whatever brake and coil.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology), [](const auto& network) { return gain_without_brake(network, false); }), "");
+    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology),
+                            [](const auto& network) { return gain_without_brake(network, false); }),
+              "");
 }
 
 // The same behind a contact.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergyBehindAContact) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology), [](const auto& network) { return gain_without_brake(network, true); }), "");
+    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology),
+                            [](const auto& network) { return gain_without_brake(network, true); }),
+              "");
 }
 
 // The random networks above would hardly ever have the law, and the tests prove nothing.
 TEST(CoupledLaws, RandomNetworksHaveTheGatedLaw) {
   std::size_t trees = 0, graphs = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const compiler::Network tree = random_network(seed, coupled_recipe(Topology::tree)), graph = random_network(seed, coupled_recipe(Topology::graph));
-    if (compiler::normal_form(tree).has_slips() && most_coupled(compiled(tree, compiler::Scheme::exact)) > 1 && can_have(tree, "gated")) ++trees;
+    const compiler::Network tree = random_network(seed, coupled_recipe(Topology::tree)),
+                            graph = random_network(seed, coupled_recipe(Topology::graph));
+    if (compiler::normal_form(tree).has_slips() && most_coupled(compiled(tree, compiler::Scheme::exact)) > 1 &&
+        can_have(tree, "gated"))
+      ++trees;
     if (!compiler::normal_form(graph).networks.empty() && can_have(graph, "gated")) ++graphs;
   }
   EXPECT_GE(trees, 20u);
@@ -138,7 +150,8 @@ TEST(CoupledLaws, HeldCompensationNeverMakesEnergy) {
   for (const Subject& subject : subjects()) {
     const compiler::Compilation held = decided(subject.network, "compensated", &slow.device);
     for (std::uint64_t seed = 1; seed <= 150; ++seed) {
-      const double least = slow.least_balance(held.law, subject.place(adversarial_motion(seed)), 0, subject.network.contact ? way_in : 0);
+      const double least = slow.least_balance(held.law, subject.place(adversarial_motion(seed)), 0,
+                                              subject.network.contact ? way_in : 0);
       EXPECT_GE(least, -1e-9) << subject.name << " " << seed;
     }
   }
@@ -150,7 +163,9 @@ TEST(CoupledLaws, CompensationThatIsNotHeldMakesEnergy) {
   for (const Subject& subject : subjects()) {
     const compiler::Compilation bold = decided(subject.network, "compensated");
     double least = 0;
-    for (std::uint64_t seed = 1; seed <= 300; ++seed) least = std::min(least, slow.least_balance(bold.law, subject.place(adversarial_motion(seed)), 0, subject.network.contact ? way_in : 0));
+    for (std::uint64_t seed = 1; seed <= 300; ++seed)
+      least = std::min(least, slow.least_balance(bold.law, subject.place(adversarial_motion(seed)), 0,
+                                                 subject.network.contact ? way_in : 0));
     EXPECT_LT(least, -1e-3) << subject.name;
   }
 }
@@ -163,7 +178,8 @@ TEST(CoupledLaws, LongSlidesAreCompensated) {
     const std::vector<double> motion = subject.place(slide(0.1, 3000));
     const auto commands = commands_along(decided(subject.network, "compensated", &slow.device).law, motion);
     const auto plain = commands_along(decided(subject.network, "velocity-free").law, motion);
-    const double felt = commands.back().damping * 0.1 + commands.back().force, expected = plain.back().damping * 0.1 + plain.back().force;
+    const double felt = commands.back().damping * 0.1 + commands.back().force,
+                 expected = plain.back().damping * 0.1 + plain.back().force;
     EXPECT_NEAR(felt, expected, 1e-9 * (1 + expected)) << subject.name;
     EXPECT_GT(commands.back().damping, plain.back().damping) << subject.name;
   }
@@ -226,18 +242,23 @@ TEST(CoupledLaws, DoNotToggleOverAnEncoder) {
       EXPECT_EQ(toggles(calm, begin + 1000, begin + 2000), 0u) << law << " " << subject.name;
       // Each slip once, where it holds and where it slides again.
       EXPECT_LE(toggles(calm, begin + 2000, begin + 3999), 6u) << law << " " << subject.name;
-      literal = std::max(literal, toggles(commands_along(decided(subject.network, law, &blind).law, placed), begin + 1000, begin + 2000));
+      literal = std::max(literal, toggles(commands_along(decided(subject.network, law, &blind).law, placed),
+                                          begin + 1000, begin + 2000));
     }
   EXPECT_GT(literal, 300u);
 }
 
 // What cannot be would be something else in silence.
 TEST(CoupledLaws, WhatCannotBeIsRefused) {
-  const compiler::Network bare = written_network(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");
+  const compiler::Network bare =
+      written_network(R"({"series": [{"parallel": [{"spring": 500}, {"damper": 5}]}, {"slip": 0.4}]})");
   const std::string said = said_of(bare, "gated");
-  EXPECT_NE(said.find("no 'gated' law behind 'slip_3': what slides has no damping but at the tool [no-such-slip-law]"), std::string::npos) << said;
+  EXPECT_NE(said.find("no 'gated' law behind 'slip_3': what slides has no damping but at the tool [no-such-slip-law]"),
+            std::string::npos)
+      << said;
   EXPECT_NE(said.find("'velocity-free' is always there"), std::string::npos) << said;
-  const compiler::Network relaxing = written_network(R"({"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"series": [{"spring": 10}, {"damper": 5}]}]}]})");
+  const compiler::Network relaxing = written_network(
+      R"({"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"series": [{"spring": 10}, {"damper": 5}]}]}]})");
   EXPECT_NE(said_of(relaxing, "gated").find("no damper lies beside a slip"), std::string::npos);
   EXPECT_TRUE(can_have(relaxing, "compensated"));
 }

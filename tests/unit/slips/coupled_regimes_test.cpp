@@ -85,8 +85,11 @@ TEST(CoupledRegimes, FollowTheSlipsBehindAContact) {
 // A component with more slips than regimes are listed for would lose what holds in all of them.
 TEST(CoupledRegimes, ManySlipsLeaveWhatHoldsInAllRegimes) {
   std::string branches = R"({"damper": 2})";
-  for (int i = 1; i <= 7; ++i) branches += fmt::format(", {{\"series\": [{{\"spring\": {}}}, {{\"slip\": {}}}]}}", 100 * i, 0.1 * i);
-  const compiler::Compilation c = decided(written_network("{\"series\": [{\"parallel\": [" + branches + R"(]}, {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})"), "velocity-free");
+  for (int i = 1; i <= 7; ++i)
+    branches += fmt::format(", {{\"series\": [{{\"spring\": {}}}, {{\"slip\": {}}}]}}", 100 * i, 0.1 * i);
+  const compiler::Compilation c = decided(written_network("{\"series\": [{\"parallel\": [" + branches +
+                                                          R"(]}, {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})"),
+                                          "velocity-free");
   EXPECT_TRUE(c.decomposition.slips.components.front().regimes.regimes.empty());
   for (const auto& now : commands_along(c.law, slide(0.2, 50))) EXPECT_DOUBLE_EQ(now.damping, both);
 }
@@ -111,11 +114,12 @@ TEST(CoupledRegimes, DoNotToggleOverAnEncoder) {
   EXPECT_LE(toggles(calm, 2000, 3999), 2u);
   EXPECT_EQ(toggles(calm, 3000, 3999), 0u);
   EXPECT_GT(toggles(literal, 1000, 2000), 300u);
-  for (std::size_t i = 0; i < motion.size(); ++i) EXPECT_EQ(calm[i].force, literal[i].force) << "the hysteresis is of the command only";
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    EXPECT_EQ(calm[i].force, literal[i].force) << "the hysteresis is of the command only";
 }
 
-// A tool held in a tissue whose friction leaves the brake a part would feel it come and go with the tremor of the hand: in to
-// 2.3 mm, back to 2 mm, so that friction is well below what it holds.
+// A tool held in a tissue whose friction leaves the brake a part would feel it come and go with the tremor of the hand:
+// in to 2.3 mm, back to 2 mm, so that friction is well below what it holds.
 TEST(CoupledRegimes, HeldBehindAContactNeverToggles) {
   const double step = 30e-6;
   const compiler::Device device = device_with(step);
@@ -124,7 +128,10 @@ TEST(CoupledRegimes, HeldBehindAContactNeverToggles) {
   network.contact = compiler::Contact{0, {}};
   std::vector<double> motion;
   for (int i = 1; i <= 10000; ++i) {
-    const double t = i * slip_period, u = (t < 0.05 ? 0.046 * t : t < 0.1 ? 0.0026 - 0.006 * t : 0.002) + 40e-6 * std::sin(2 * std::numbers::pi * 8 * t);
+    const double t = i * slip_period, u = (t < 0.05  ? 0.046 * t
+                                           : t < 0.1 ? 0.0026 - 0.006 * t
+                                                     : 0.002) +
+                                          40e-6 * std::sin(2 * std::numbers::pi * 8 * t);
     motion.push_back(std::floor(u / step) * step);
   }
   const auto commands = commands_along(decided(network, "velocity-free", &device).law, motion);
@@ -161,7 +168,8 @@ TEST(CoupledRegimes, OfRandomNetworksLeaveTheBrakeAPart) {
   std::size_t trees = 0, graphs = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     if (takes_part(compiled(random_network(seed, coupled_recipe(Topology::tree)), compiler::Scheme::exact))) ++trees;
-    const compiler::Compilation c = compiled(random_network(seed, coupled_recipe(Topology::graph)), compiler::Scheme::exact);
+    const compiler::Compilation c =
+        compiled(random_network(seed, coupled_recipe(Topology::graph)), compiler::Scheme::exact);
     if (!c.law.networks.empty() && takes_part(c)) ++graphs;
   }
   EXPECT_GE(trees, 40u);

@@ -55,8 +55,10 @@ ElementReference::ElementReference(const compiler::Network& network, double samp
       highest_.push_back(slip->yield_force);
       continue;
     }
-    if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) branch.spring = branch.companion = spring->stiffness;
-    if (const auto* damper = std::get_if<compiler::Damper>(&element.law)) branch.companion = Number(damper->damping) / sample_period;
+    if (const auto* spring = std::get_if<compiler::Spring>(&element.law))
+      branch.spring = branch.companion = spring->stiffness;
+    if (const auto* damper = std::get_if<compiler::Damper>(&element.law))
+      branch.companion = Number(damper->damping) / sample_period;
     linear_.push_back(branch);
   }
   signs_.assign(slips_.size(), 0);
@@ -84,8 +86,9 @@ void ElementReference::build() {
   for (std::size_t i = 0; i < stiffness.size(); ++i) stiffness[i][i] = scale * Number("1e-30");
   for (const Branch& branch : linear_)
     for (const auto& [row, column, sign] : {std::tuple(branch.a, branch.a, 1), std::tuple(branch.b, branch.b, 1),
-                                           std::tuple(branch.a, branch.b, -1), std::tuple(branch.b, branch.a, -1)})
-      if (row >= 0 && column >= 0) stiffness[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] += sign * branch.companion;
+                                            std::tuple(branch.a, branch.b, -1), std::tuple(branch.b, branch.a, -1)})
+      if (row >= 0 && column >= 0)
+        stiffness[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] += sign * branch.companion;
   give_ = inverse(stiffness);
   slip_give_ = square(slips_.size());
   for (std::size_t j = 0; j < slips_.size(); ++j) {
@@ -99,7 +102,9 @@ void ElementReference::build() {
 }
 
 Number ElementReference::elongation(const Branch& branch, const Vector& inner, const Number& tool) const {
-  const auto at = [&](int row) { return row >= 0 ? inner[static_cast<std::size_t>(row)] : row == at_tool ? tool : Number(0); };
+  const auto at = [&](int row) {
+    return row >= 0 ? inner[static_cast<std::size_t>(row)] : row == at_tool ? tool : Number(0);
+  };
   return at(branch.a) - at(branch.b);
 }
 
@@ -120,7 +125,8 @@ double ElementReference::step(double position) {
       for (std::size_t c = 0; c < inner; ++c) moved[r] -= give_[r][c] * load[c];
     }
   };
-  for (const Branch& branch : linear_) add_to(load, branch, branch.force + branch.companion * elongation(branch, rest, change));
+  for (const Branch& branch : linear_)
+    add_to(load, branch, branch.force + branch.companion * elongation(branch, rest, change));
   move();
   for (const Branch& slip : slips_) gap.push_back(elongation(slip, moved, change));
   const Vector slip_forces = solve_box(gap);

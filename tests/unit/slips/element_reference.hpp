@@ -1,8 +1,9 @@
 // A second opinion on networks with slips: backward Euler on every element by itself, in a hundred digits.
 //
-// In each sample the inner nodes minimise Φ (theory, section 5). Its dual, ½σᵀGσ − wᵀσ over |σ_i| ≤ Y_i, exists once every
-// node is tied to where it was, and every slip let creep, by 1e-30 of the network's stiffness; 40 digits remain. The box
-// problem is solved by changing the first slip that is wrong until none is: G being definite, that ends (Murty 1974).
+// In each sample the inner nodes minimise Φ (theory, section 5). Its dual, ½σᵀGσ − wᵀσ over |σ_i| ≤ Y_i, exists once
+// every node is tied to where it was, and every slip let creep, by 1e-30 of the network's stiffness; 40 digits remain.
+// The box problem is solved by changing the first slip that is wrong until none is: G being definite, that ends (Murty
+// 1974).
 //
 // A contact is one more of them, between the tool and the surface: it holds any force from 0 up.
 #pragma once
@@ -18,7 +19,8 @@ namespace dashpot::testing {
 
 class ElementReference {
  public:
-  using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
+  using Number =
+      boost::multiprecision::number<boost::multiprecision::cpp_bin_float<100>, boost::multiprecision::et_off>;
 
   // Springs relaxed at 0. `sample_period` [s]. All of the network's elements must have an effect.
   ElementReference(const compiler::Network& network, double sample_period);
@@ -28,7 +30,7 @@ class ElementReference {
 
   double surface() const { return surface_.convert_to<double>(); }  // of a contact, from where it lies unloaded [m]
 
-  double stored_energy() const;       // [J]
+  double stored_energy() const;                            // [J]
   double largest_force() const { return largest_force_; }  // of any element so far [N]
 
  private:
@@ -36,8 +38,8 @@ class ElementReference {
   using Matrix = std::vector<Vector>;
 
   struct Branch {
-    int a, b;           // rows of inner nodes; outside for tool and ground
-    Number spring = 0;  // K [N/m]
+    int a, b;              // rows of inner nodes; outside for tool and ground
+    Number spring = 0;     // K [N/m]
     Number companion = 0;  // K, or B/h [N/m]
     Number force = 0;      // K d of a spring [N]
   };
@@ -54,7 +56,7 @@ class ElementReference {
   std::vector<Branch> linear_, slips_;
   Vector lowest_, highest_;  // what a slip holds [N]
   int inner_ = 0;
-  int surface_row_ = -1;     // with a contact: of the node that takes the tool's place
+  int surface_row_ = -1;  // with a contact: of the node that takes the tool's place
   Number at_ = 0, surface_ = 0;
   Matrix give_;       // A = (H + ε)⁻¹ over the inner nodes
   Matrix slip_give_;  // G = S A Sᵀ + η

@@ -64,7 +64,9 @@ TEST(NetworkFiles, AnOrganBehindFigure10SettlesAtTheSameForce) {
     // The slower Kelvin element has 45 relaxation times.
     const double whole = 0.5 + (2.5 + 0.8) * 0.03, through_spring = 0.5 + 0.8 * 0.03;
     EXPECT_NEAR(force, whole, 1e-11) << decomposition;
-    EXPECT_NEAR(law.stored_energy(), whole * whole / 2 * (1 / 400.0 + 1 / 150.0) + through_spring * through_spring / 2000, 1e-13) << decomposition;
+    EXPECT_NEAR(law.stored_energy(),
+                whole * whole / 2 * (1 / 400.0 + 1 / 150.0) + through_spring * through_spring / 2000, 1e-13)
+        << decomposition;
   }
 }
 
@@ -81,8 +83,8 @@ TEST(NetworkFiles, TenBranchesDrawTheVirginCurve) {
   }
 }
 
-// Fails if friction, presliding, drag or the organ's relaxation of the needle is off at any sample of an insertion: for a
-// motion that is linear between samples all are exact.
+// Fails if friction, presliding, drag or the organ's relaxation of the needle is off at any sample of an insertion: for
+// a motion that is linear between samples all are exact.
 TEST(NetworkFiles, TheNeedleGoesInByItsClosedForm) {
   const NetworkFile file("tissues/needle_in_liver.json", "most-dissipative");
   compiler::Evaluation<double> law(file.law());

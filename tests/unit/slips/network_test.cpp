@@ -17,7 +17,8 @@ std::string bridge(const std::string& middle) {
   return R"([
     {"spring": 120, "nodes": ["tool", "left"]}, {"damper": 3, "nodes": ["tool", "right"]},
     {"damper": 5, "nodes": ["left", "far"]}, {"spring": 60, "nodes": ["far", "right"]}, {"damper": 2, "nodes": ["far", "ground"]},
-    {"damper": 8, "nodes": ["left", "ground"]}, {"spring": 90, "nodes": ["right", "ground"]})" + middle + "]";
+    {"damper": 8, "nodes": ["left", "ground"]}, {"spring": 90, "nodes": ["right", "ground"]})" +
+         middle + "]";
 }
 
 // Of two laws at this rate, over the largest force.
@@ -25,7 +26,8 @@ double largest_difference(const compiler::Network& one, const compiler::Network&
   const auto forces = [&](const compiler::Network& network) {
     const compiler::Compilation c = compiled(network, compiler::Scheme::exact);
     compiler::Diagnostics diagnostics;
-    const compiler::UpdateLaw law = discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond, diagnostics);
+    const compiler::UpdateLaw law =
+        discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond, diagnostics);
     compiler::Evaluation<double> run(law);
     std::vector<double> all;
     double last = 0;
@@ -49,9 +51,9 @@ double largest_difference(const compiler::Network& one, const compiler::Network&
 
 }  // namespace
 
-// Modes at several terminals would relax at other rates, or pull at other nodes: with a slip that never yields the bridge is
-// that with both nodes in one, and with one that always does it is that without. Ends of slips move linearly within a
-// sample, inner nodes of a linear part as they have to: the two come together with the period.
+// Modes at several terminals would relax at other rates, or pull at other nodes: with a slip that never yields the
+// bridge is that with both nodes in one, and with one that always does it is that without. Ends of slips move linearly
+// within a sample, inner nodes of a linear part as they have to: the two come together with the period.
 TEST(SlipOutsideTree, BecomesTheLinearNetworkAtBothLimits) {
   const compiler::Network held = written_network(bridge(R"(, {"slip": 1e6, "nodes": ["left", "right"]})"));
   ASSERT_EQ(compiled(held, compiler::Scheme::exact).law.networks.size(), 1u);
@@ -61,7 +63,8 @@ TEST(SlipOutsideTree, BecomesTheLinearNetworkAtBothLimits) {
     {"damper": 8, "nodes": ["left", "ground"]}, {"spring": 90, "nodes": ["left", "ground"]}])");
   const compiler::Network loose = written_network(bridge(R"(, {"slip": 1e-15, "nodes": ["left", "right"]})"));
   for (const auto& [slips, linear] : {std::pair(held, joined), std::pair(loose, written_network(bridge("")))}) {
-    const double coarse = largest_difference(slips, linear, 1), fine = largest_difference(slips, linear, 4), finest = largest_difference(slips, linear, 16);
+    const double coarse = largest_difference(slips, linear, 1), fine = largest_difference(slips, linear, 4),
+                 finest = largest_difference(slips, linear, 16);
     EXPECT_LT(coarse, 0.02);
     EXPECT_LT(fine, coarse / 3);
     EXPECT_LT(finest, fine / 3);
@@ -73,7 +76,8 @@ TEST(SlipOutsideTree, RefusesMoreThanEight) {
   std::string text = bridge("");
   text.pop_back();
   for (int i = 1; i <= 9; ++i)
-    text += ", {\"slip\": 1, \"nodes\": [\"left\", \"n" + std::to_string(i) + "\"]}, {\"spring\": 10, \"nodes\": [\"n" + std::to_string(i) + "\", \"right\"]}";
+    text += ", {\"slip\": 1, \"nodes\": [\"left\", \"n" + std::to_string(i) + "\"]}, {\"spring\": 10, \"nodes\": [\"n" +
+            std::to_string(i) + "\", \"right\"]}";
   compiler::Diagnostics diagnostics;
   EXPECT_FALSE(compiler::closed_normal_form(written_network(text + "]"), diagnostics));
   EXPECT_EQ(diagnostics.in_file_order().front().code, compiler::DiagnosticCode::too_many_slips_outside_tree);

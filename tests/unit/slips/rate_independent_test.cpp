@@ -28,7 +28,8 @@ std::vector<Branch> ten_branches() {
 compiler::Network maxwell_slip(const std::vector<Branch>& branches) {
   std::string text;
   for (const Branch& branch : branches)
-    text += fmt::format("{}{{\"series\": [{{\"spring\": {}}}, {{\"slip\": {}}}]}}", text.empty() ? "" : ", ", branch.stiffness, branch.yield);
+    text += fmt::format("{}{{\"series\": [{{\"spring\": {}}}, {{\"slip\": {}}}]}}", text.empty() ? "" : ", ",
+                        branch.stiffness, branch.yield);
   return written_network(fmt::format("{{\"parallel\": [{}]}}", text));
 }
 
@@ -56,7 +57,8 @@ TEST(RateIndependent, MaxwellSlipObeysMasing) {
   const compiler::Compilation compilation = compiled(maxwell_slip(ten_branches()), compiler::Scheme::exact);
   const auto virgin = [](double u) {
     double force = 0;
-    for (const Branch& branch : ten_branches()) force += std::copysign(std::min(branch.stiffness * std::abs(u), branch.yield), u);
+    for (const Branch& branch : ten_branches())
+      force += std::copysign(std::min(branch.stiffness * std::abs(u), branch.yield), u);
     return force;
   };
   const double amplitude = 0.004;
@@ -72,12 +74,13 @@ TEST(RateIndependent, MaxwellSlipObeysMasing) {
   }
 }
 
-// A cycle would lose another energy than Σ 4 Y_i (A − Y_i/K_i)⁺. Trapezia are exact but where a branch yields between two
-// samples: their error falls with the square of the step.
+// A cycle would lose another energy than Σ 4 Y_i (A − Y_i/K_i)⁺. Trapezia are exact but where a branch yields between
+// two samples: their error falls with the square of the step.
 TEST(RateIndependent, MaxwellSlipLosesTheKnownEnergyACycle) {
   const double amplitude = 0.004;
   double expected = 0;
-  for (const Branch& branch : ten_branches()) expected += 4 * branch.yield * std::max(amplitude - branch.yield / branch.stiffness, 0.0);
+  for (const Branch& branch : ten_branches())
+    expected += 4 * branch.yield * std::max(amplitude - branch.yield / branch.stiffness, 0.0);
   const compiler::Compilation compilation = compiled(maxwell_slip(ten_branches()), compiler::Scheme::exact);
   std::vector<double> errors;
   for (int samples : {500, 2000}) {
@@ -122,7 +125,8 @@ TEST(RateIndependent, CoupledSlipsDoNotDrift) {
     const compiler::Compilation compilation = compiled(written_network(text), compiler::Scheme::exact);
     ASSERT_GT(most_coupled(compilation), 1u);
     WholeForce law(compilation.law);
-    const std::vector<double> cycle = {0.0031, 0.0107, 0.0193, 0.0112, 0.0161, -0.0033, -0.0147, -0.0011, -0.0093, 0.0007};
+    const std::vector<double> cycle = {0.0031,  0.0107,  0.0193,  0.0112,  0.0161,
+                                       -0.0033, -0.0147, -0.0011, -0.0093, 0.0007};
     std::vector<double> first;
     double scale = 0;
     for (std::size_t i = 0; i < repetitions(10000, 1000000); ++i) {

@@ -20,14 +20,16 @@ namespace {
 using compiler::SlipLaw;
 
 struct FigureTen {
-  double stiffness = 300;   // K [N/m]
-  double yield = 1;         // Y [N]
-  double at_tool = 2;       // B1 [N·s/m]
-  double beside_slip = 3;   // B2 [N·s/m]
+  double stiffness = 300;  // K [N/m]
+  double yield = 1;        // Y [N]
+  double at_tool = 2;      // B1 [N·s/m]
+  double beside_slip = 3;  // B2 [N·s/m]
 
   compiler::Network network() const {
-    return written_network(fmt::format("{{\"parallel\": [{{\"damper\": {}}}, {{\"series\": [{{\"spring\": {}}}, {{\"parallel\": "
-                                       "[{{\"slip\": {}}}, {{\"damper\": {}}}]}}]}}]}}", at_tool, stiffness, yield, beside_slip));
+    return written_network(
+        fmt::format("{{\"parallel\": [{{\"damper\": {}}}, {{\"series\": [{{\"spring\": {}}}, {{\"parallel\": "
+                    "[{{\"slip\": {}}}, {{\"damper\": {}}}]}}]}}]}}",
+                    at_tool, stiffness, yield, beside_slip));
   }
 };
 
@@ -37,7 +39,8 @@ const char* const kelvin_and_slip = R"({"series": [{"parallel": [{"spring": 500}
 
 // Fails if what hangs behind a slip is braked while it slides, or the motor then pushes along the motion.
 TEST(RegimeLaws, KelvinBehindASlipIsLetGo) {
-  const auto commands = commands_along(decided(written_network(kelvin_and_slip), "most-dissipative").law, slide(0.2, 100));
+  const auto commands =
+      commands_along(decided(written_network(kelvin_and_slip), "most-dissipative").law, slide(0.2, 100));
   // Stuck, the Kelvin element would carry 5·0.2 + 500 u > 0.4 at once, so that every sample slides.
   for (const command<double>& now : commands) {
     EXPECT_EQ(now.damping, 0);
@@ -77,7 +80,8 @@ TEST(RegimeLaws, GatedErrorIsThatOfTheTheory) {
   const std::complex<double> error = model.beside_slip * s / (s + corner);
   const std::complex<double> whole = model.at_tool + model.beside_slip * corner / (s + corner);
   const compiler::Compilation compilation = decided(model.network(), "gated");
-  EXPECT_NEAR(compilation.decomposition.slips.components.front().merits[1].largest_error, std::abs(error) / std::abs(whole), 1e-12);
+  EXPECT_NEAR(compilation.decomposition.slips.components.front().merits[1].largest_error,
+              std::abs(error) / std::abs(whole), 1e-12);
 }
 
 // (21) with the sign of the sliding force: B1 ∥ (K — slip) ∥ [B2 while sliding].
@@ -99,8 +103,8 @@ TEST(RegimeLaws, GatedIsEquationTwentyOne) {
   }
 }
 
-// Fails if (21) is not the limit of the network for a stiff spring: at the same K δ_max the error of the force in a slide
-// that changes its speed falls as B2/K.
+// Fails if (21) is not the limit of the network for a stiff spring: at the same K δ_max the error of the force in a
+// slide that changes its speed falls as B2/K.
 TEST(RegimeLaws, EquationTwentyOneIsTheStiffLimit) {
   double last = 0;
   for (double stiffness : {1e4, 2e4, 4e4}) {
@@ -112,7 +116,8 @@ TEST(RegimeLaws, EquationTwentyOneIsTheStiffLimit) {
     double worst = 0;
     for (std::size_t i = 1000; i < motion.size(); ++i) {
       const double velocity = (motion[i] - motion[i - 1]) / slip_period;
-      worst = std::max(worst, std::abs((truth[i].damping - printed[i].damping) * velocity + truth[i].force - printed[i].force));
+      worst = std::max(
+          worst, std::abs((truth[i].damping - printed[i].damping) * velocity + truth[i].force - printed[i].force));
     }
     if (last > 0) {
       EXPECT_NEAR(worst / last, 0.5, 0.02);
@@ -135,7 +140,8 @@ TEST(RegimeLaws, SlowSlidesOverAnEncoderDoNotToggle) {
   const auto calm = commands_along(decided(FigureTen{}.network(), "gated", &device).law, motion);
   const auto literal = commands_along(decided(FigureTen{}.network(), "gated", &blind).law, motion);
   EXPECT_GT(toggles(literal, 1000, 2000), 300u);
-  for (std::size_t i = 0; i < motion.size(); ++i) EXPECT_EQ(calm[i].force, literal[i].force) << "the hysteresis is of the command only";
+  for (std::size_t i = 0; i < motion.size(); ++i)
+    EXPECT_EQ(calm[i].force, literal[i].force) << "the hysteresis is of the command only";
 }
 
 // Fails if the hold, the coil or the tolerance is not allowed for in what the motor takes back of the brake.
@@ -144,7 +150,8 @@ TEST(RegimeLaws, HeldCompensationNeverMakesEnergy) {
   const compiler::Network network = FigureTen{.at_tool = 0.01}.network();
   const compiler::Compilation held = decided(network, "compensated", &slow.device);
   ASSERT_EQ(held.decomposition.slips.components.front().law, SlipLaw::compensated);
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) EXPECT_GE(slow.least_balance(held.law, adversarial_motion(seed)), -1e-12) << seed;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed)
+    EXPECT_GE(slow.least_balance(held.law, adversarial_motion(seed)), -1e-12) << seed;
 }
 
 // The test above would prove nothing if compensation that is not held could not make energy.
@@ -152,17 +159,20 @@ TEST(RegimeLaws, CompensationThatIsNotHeldMakesEnergy) {
   const SlowBrake slow;
   const compiler::Compilation bold = decided(FigureTen{.at_tool = 0.01}.network(), "compensated");
   double least = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) least = std::min(least, slow.least_balance(bold.law, adversarial_motion(seed)));
+  for (std::uint64_t seed = 1; seed <= 300; ++seed)
+    least = std::min(least, slow.least_balance(bold.law, adversarial_motion(seed)));
   EXPECT_LT(least, -0.01);
 }
 
-// Fails if compensation is held for ever: in a long slide the whole force is that of the network, but for the tolerance.
+// Fails if compensation is held for ever: in a long slide the whole force is that of the network, but for the
+// tolerance.
 TEST(RegimeLaws, LongSlidesAreCompensated) {
   SlowBrake slow;
   slow.device.description.brake.tolerance = 0;
   const FigureTen model;
   const auto commands = commands_along(decided(model.network(), "compensated", &slow.device).law, slide(0.1, 1000));
-  EXPECT_NEAR(commands.back().damping * 0.1 + commands.back().force, model.yield + 0.1 * (model.at_tool + model.beside_slip), 1e-9);
+  EXPECT_NEAR(commands.back().damping * 0.1 + commands.back().force,
+              model.yield + 0.1 * (model.at_tool + model.beside_slip), 1e-9);
   EXPECT_NEAR(commands.back().damping, model.at_tool + model.beside_slip, 1e-12);
 }
 
@@ -174,7 +184,8 @@ TEST(RegimeLaws, TheCoilCanFollow) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       brake_coil<double> coil(slow.device.description.brake);
       coil.reset(std::sqrt(model.at_tool));
-      for (const auto& now : commands_along(decided(model.network(), law, &slow.device).law, adversarial_motion(seed))) {
+      for (const auto& now :
+           commands_along(decided(model.network(), law, &slow.device).law, adversarial_motion(seed))) {
         const double wanted = std::sqrt(now.damping), demand = coil.demand_to_reach(wanted, slip_period);
         ASSERT_GE(demand, -1e-12);
         ASSERT_LE(demand, std::sqrt(model.at_tool + model.beside_slip) + 1e-12);
@@ -184,8 +195,8 @@ TEST(RegimeLaws, TheCoilCanFollow) {
     }
 }
 
-// Fails if the motor does not make up for a coil on its way, where the damper at the tool covers it, or makes energy of it
-// where it does not.
+// Fails if the motor does not make up for a coil on its way, where the damper at the tool covers it, or makes energy of
+// it where it does not.
 TEST(RegimeLaws, TheMotorMakesUpForTheCoil) {
   const SlowBrake slow;
   const FigureTen covered{.at_tool = 5};
@@ -195,13 +206,15 @@ TEST(RegimeLaws, TheMotorMakesUpForTheCoil) {
   std::size_t differ = 0;
   for (std::size_t i = 0; i < motion.size(); ++i) {
     const double velocity = (motion[i] - (i == 0 ? 0 : motion[i - 1])) / slip_period;
-    EXPECT_NEAR(limited[i].damping * velocity + limited[i].force, direct[i].damping * velocity + direct[i].force, 1e-12 * (1 + 10 * std::abs(velocity)));
+    EXPECT_NEAR(limited[i].damping * velocity + limited[i].force, direct[i].damping * velocity + direct[i].force,
+                1e-12 * (1 + 10 * std::abs(velocity)));
     differ += limited[i].damping != direct[i].damping;
   }
   EXPECT_GT(differ, 50u);
   for (const char* law : {"gated", "compensated"}) {
     const compiler::Compilation led = decided(FigureTen{.at_tool = 1}.network(), law, &slow.device);
-    for (std::uint64_t seed = 1; seed <= 100; ++seed) EXPECT_GE(slow.least_balance(led.law, adversarial_motion(seed), std::sqrt(1.0)), -1e-12) << law << seed;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed)
+      EXPECT_GE(slow.least_balance(led.law, adversarial_motion(seed), std::sqrt(1.0)), -1e-12) << law << seed;
   }
 }
 
@@ -252,17 +265,21 @@ std::string departure_when_capped(const compiler::Network& network) {
     const double expected = reference.step(position), actual = law.step(position);
     scale = std::max(scale, std::abs(expected));
     for (const compiler::Element& element : network.elements) {
-      if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) trial = std::max(trial, spring->stiffness * std::abs(position - last));
-      if (const auto* damper = std::get_if<compiler::Damper>(&element.law)) trial = std::max(trial, damper->damping / slip_period * std::abs(position - last));
+      if (const auto* spring = std::get_if<compiler::Spring>(&element.law))
+        trial = std::max(trial, spring->stiffness * std::abs(position - last));
+      if (const auto* damper = std::get_if<compiler::Damper>(&element.law))
+        trial = std::max(trial, damper->damping / slip_period * std::abs(position - last));
     }
     last = position;
-    if (!(std::abs(actual - expected) <= 1e-10 * scale + 0x1p-48 * trial)) return fmt::format("force {} for {} at a scale of {}", actual, expected, scale);
+    if (!(std::abs(actual - expected) <= 1e-10 * scale + 0x1p-48 * trial))
+      return fmt::format("force {} for {} at a scale of {}", actual, expected, scale);
   }
   return "";
 }
 
 std::string first_gain(const char* law) {
-  return first_failure(1, repetitions(300, 20000), few_slips(), [=](const compiler::Network& network) { return gain_without_brake(network, law); });
+  return first_failure(1, repetitions(300, 20000), few_slips(),
+                       [=](const compiler::Network& network) { return gain_without_brake(network, law); });
 }
 
 }  // namespace
@@ -274,6 +291,8 @@ TEST(SwitchingTheorem, VelocityFree) { EXPECT_EQ(first_gain("velocity-free"), ""
 TEST(SwitchingTheorem, Gated) { EXPECT_EQ(first_gain("gated"), ""); }
 
 // Fails if a brake that cannot give all makes another network of it.
-TEST(SwitchingTheorem, CappedLawsAreExact) { EXPECT_EQ(first_failure(1, repetitions(300, 20000), few_slips(), departure_when_capped), ""); }
+TEST(SwitchingTheorem, CappedLawsAreExact) {
+  EXPECT_EQ(first_failure(1, repetitions(300, 20000), few_slips(), departure_when_capped), "");
+}
 
 }  // namespace dashpot::testing

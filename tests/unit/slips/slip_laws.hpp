@@ -19,14 +19,16 @@ inline compiler::Network many_slips(std::uint64_t seed) {
   std::string branches;
   for (std::uint64_t i = 0; i < 18 + seed % 8; ++i) {
     const std::string slip = fmt::format("{{\"slip\": {}}}", random.log_uniform(1e-2, 1));
-    const std::string damped = fmt::format("{{\"parallel\": [{}, {{\"damper\": {}}}]}}", slip, random.log_uniform(1e-2, 1));
-    branches += fmt::format("{}{{\"series\": [{{\"spring\": {}}}, {}]}}", i == 0 ? "" : ", ", random.log_uniform(10, 1000), i % 3 == 0 ? slip : damped);
+    const std::string damped =
+        fmt::format("{{\"parallel\": [{}, {{\"damper\": {}}}]}}", slip, random.log_uniform(1e-2, 1));
+    branches += fmt::format("{}{{\"series\": [{{\"spring\": {}}}, {}]}}", i == 0 ? "" : ", ",
+                            random.log_uniform(10, 1000), i % 3 == 0 ? slip : damped);
   }
   return written_network("{\"parallel\": [" + branches + "]}");
 }
 
-// Every third seed is left as it comes; for the others the next network with coupled slips is taken. Every sixth has slips
-// outside a tree, every twelfth many branches; about every third is behind a contact.
+// Every third seed is left as it comes; for the others the next network with coupled slips is taken. Every sixth has
+// slips outside a tree, every twelfth many branches; about every third is behind a contact.
 inline compiler::Network slip_network(std::uint64_t seed) {
   NetworkRecipe recipe;
   recipe.most_nodes = 9;

@@ -15,7 +15,8 @@
 namespace dashpot::testing {
 namespace {
 
-// Ends, slips and springs at random; every end is tied to tool or ground by something, and these two not by slips alone.
+// Ends, slips and springs at random; every end is tied to tool or ground by something, and these two not by slips
+// alone.
 struct Problem {
   int nodes;
   std::vector<slip_link<double>> links;
@@ -42,7 +43,8 @@ class Sets {
 void put_behind_contact(Problem& p) {
   for (std::size_t i = 1; i < p.to_tool.size(); ++i) p.between[i] = p.between[i * p.to_tool.size()] = p.to_tool[i];
   p.to_tool.assign(p.to_tool.size(), 0);
-  std::erase_if(p.links, [&](const auto& link) { return std::min(link.a, link.b) == 0 && std::max(link.a, link.b) == p.nodes; });
+  std::erase_if(p.links,
+                [&](const auto& link) { return std::min(link.a, link.b) == 0 && std::max(link.a, link.b) == p.nodes; });
   for (auto& link : p.links)
     for (int* end : {&link.a, &link.b})
       if (*end == p.nodes) *end = 0;
@@ -119,16 +121,23 @@ template <class Scalar>
 class NetworkSteps {
  public:
   explicit NetworkSteps(const Problem& p)
-      : problem(p), moved(static_cast<std::size_t>(p.nodes)), sign(p.links.size(), 0),
-        between_(p.between.begin(), p.between.end()), to_tool_(p.to_tool.begin(), p.to_tool.end()),
-        to_ground_(p.to_ground.begin(), p.to_ground.end()), group_(moved.size() + 2), room_(between_.size()), numbers_(8 * moved.size()) {
+      : problem(p),
+        moved(static_cast<std::size_t>(p.nodes)),
+        sign(p.links.size(), 0),
+        between_(p.between.begin(), p.between.end()),
+        to_tool_(p.to_tool.begin(), p.to_tool.end()),
+        to_ground_(p.to_ground.begin(), p.to_ground.end()),
+        group_(moved.size() + 2),
+        room_(between_.size()),
+        numbers_(8 * moved.size()) {
     for (const auto& link : p.links) links_.push_back({link.a, link.b, Scalar(link.lowest), Scalar(link.highest)});
   }
 
   Scalar step(double change) {
     const std::vector<Scalar> held(problem.held.begin(), problem.held.end());
-    slip_network<Scalar> solver(links_.data(), problem.slips(), {between_.data(), to_tool_.data(), to_ground_.data(), Scalar(0)},
-                                problem.nodes, {group_.data(), room_.data(), numbers_.data()});
+    slip_network<Scalar> solver(links_.data(), problem.slips(),
+                                {between_.data(), to_tool_.data(), to_ground_.data(), Scalar(0)}, problem.nodes,
+                                {group_.data(), room_.data(), numbers_.data()});
     const Scalar force = solver.step(Scalar(change), held.data(), moved.data(), sign.data());
     most_patterns = std::max(most_patterns, solver.patterns_tried());
     return force;
@@ -155,7 +164,8 @@ double steepest_fall(const NetworkSteps<double>& run, double change) {
     const auto here = static_cast<std::size_t>(i);
     const double x = run.moved[here];
     double sum = p.held[here] + p.to_tool[here] * (x - change) + p.to_ground[here] * x;
-    scale += std::abs(p.held[here]) + p.to_tool[here] * (std::abs(x) + std::abs(change)) + p.to_ground[here] * std::abs(x);
+    scale +=
+        std::abs(p.held[here]) + p.to_tool[here] * (std::abs(x) + std::abs(change)) + p.to_ground[here] * std::abs(x);
     for (int j = 0; j < p.nodes; ++j)
       if (j != i) {
         const double other = run.moved[static_cast<std::size_t>(j)];
@@ -193,11 +203,16 @@ TEST(SlipNetwork, EndsWhereNothingGoesDown) {
       run.step(change);
       // A few dozen roundoffs; the step itself takes 2⁻⁴⁸ for none.
       ASSERT_LT(steepest_fall(run, change), 0x1p-46) << "problem " << i << ", step " << k;
-      const auto at = [&](int end) { return end == run.problem.nodes ? change : end > run.problem.nodes ? 0.0 : run.moved[static_cast<std::size_t>(end)]; };
+      const auto at = [&](int end) {
+        return end == run.problem.nodes  ? change
+               : end > run.problem.nodes ? 0.0
+                                         : run.moved[static_cast<std::size_t>(end)];
+      };
       for (std::size_t s = 0; s < run.sign.size(); ++s) {
         const auto& link = run.problem.links[s];
         const double stretch = at(link.a) - at(link.b), rounding = 1e-12 * (std::abs(change) + std::abs(at(link.a)));
-        ASSERT_TRUE(run.sign[s] == 0 ? std::abs(stretch) <= rounding : run.sign[s] * stretch >= -rounding) << "problem " << i;
+        ASSERT_TRUE(run.sign[s] == 0 ? std::abs(stretch) <= rounding : run.sign[s] * stretch >= -rounding)
+            << "problem " << i;
       }
     }
   }
@@ -210,7 +225,8 @@ TEST(SlipNetwork, TakesNoMoreOperationsThanStated) {
   for (int i = 0; i < 2000; ++i) {
     NetworkSteps<Counted> run(random_problem(random));
     const int each = slip_network_operations_each(run.problem.nodes, run.problem.slips());
-    const int once = slip_network_pull_operations(run.problem.nodes, run.problem.slips()) + 4 * run.problem.nodes + run.problem.slips() + 2;
+    const int once = slip_network_pull_operations(run.problem.nodes, run.problem.slips()) + 4 * run.problem.nodes +
+                     run.problem.slips() + 2;
     for (int k = 0; k < 5; ++k) {
       hold(run.problem, random);
       run.most_patterns = 0;

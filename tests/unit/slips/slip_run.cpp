@@ -17,7 +17,8 @@ double typical_displacement(const compiler::Network& network, Random& random) {
   for (const compiler::Element& element : network.elements) {
     if (const auto* slip = std::get_if<compiler::Slip>(&element.law)) yields.push_back(slip->yield_force);
     if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) stiffness.push_back(spring->stiffness);
-    if (const auto* damper = std::get_if<compiler::Damper>(&element.law)) stiffness.push_back(damper->damping / slip_period);
+    if (const auto* damper = std::get_if<compiler::Damper>(&element.law))
+      stiffness.push_back(damper->damping / slip_period);
   }
   if (yields.empty() || stiffness.empty()) return 1;
   return yields[random.index(yields.size())] / stiffness[random.index(stiffness.size())];
@@ -34,7 +35,8 @@ compiler::Compilation compiled(const compiler::Network& network, compiler::Schem
   return compiled(network, choices, nullptr);
 }
 
-compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices, const compiler::Device* device) {
+compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices,
+                               const compiler::Device* device) {
   compiler::Diagnostics diagnostics;
   compiler::Compilation result;
   result.network = network;
@@ -45,7 +47,8 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
   const auto decomposition = compiler::decompose(network, result.form, choices, device, diagnostics);
   if (!decomposition) throw std::runtime_error(compiler::render_text(diagnostics));
   result.decomposition = *decomposition;
-  result.law = compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
+  result.law =
+      compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
   return result;
 }
 
@@ -61,7 +64,8 @@ double stiffest(const compiler::Network& network) {
   double most = 0;
   for (const compiler::Element& element : network.elements) {
     if (const auto* spring = std::get_if<compiler::Spring>(&element.law)) most = std::max(most, spring->stiffness);
-    if (const auto* damper = std::get_if<compiler::Damper>(&element.law)) most = std::max(most, damper->damping / slip_period);
+    if (const auto* damper = std::get_if<compiler::Damper>(&element.law))
+      most = std::max(most, damper->damping / slip_period);
   }
   return most;
 }
@@ -73,10 +77,8 @@ std::vector<double> random_motion(const compiler::Network& network, std::uint64_
   for (std::size_t i = 0; i < samples; ++i) {
     if (random.chance(0.1)) pace = typical_displacement(network, random) * random.log_uniform(0.01, 10);
     if (random.chance(0.2)) pace = -pace;
-    if (random.chance(0.05) && !motion.empty())
-      here = motion[random.index(motion.size())];
-    else if (!random.chance(0.1))
-      here += random.chance(0.5) ? pace : pace * random.uniform();
+    if (random.chance(0.05) && !motion.empty()) here = motion[random.index(motion.size())];
+    else if (!random.chance(0.1)) here += random.chance(0.5) ? pace : pace * random.uniform();
     motion.push_back(here);
   }
   return motion;

@@ -19,7 +19,8 @@ compiler::Compilation compiled(const compiler::Network& network, compiler::Schem
                                compiler::ScalarType scalar = compiler::ScalarType::float64);
 
 // The same with any choices but the rate, for a device or the ideal one.
-compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices, const compiler::Device* device);
+compiler::Compilation compiled(const compiler::Network& network, const compiler::Choices& choices,
+                               const compiler::Device* device);
 
 // True where some part of the network has that law of slips; with another it is refused.
 bool can_have(const compiler::Network& network, const std::string& law, const compiler::Device* device = nullptr);

@@ -31,7 +31,8 @@ NormalTree random_tree(Kind kind, std::size_t slips, Random& random) {
     tree.children.push_back(random_tree(kind == Kind::series ? Kind::parallel : Kind::series, part, random));
     slips -= part;
   }
-  if (slips > 0) tree.children.push_back(random_tree(kind == Kind::series ? Kind::parallel : Kind::series, slips, random));
+  if (slips > 0)
+    tree.children.push_back(random_tree(kind == Kind::series ? Kind::parallel : Kind::series, slips, random));
   return tree;
 }
 
@@ -39,10 +40,13 @@ template <class Scalar>
 class Steps {
  public:
   Steps(const NormalTree& tree, Random& random) {
-    for (std::size_t i = 0; i < compiler::blocks_breadth_first(tree).size(); ++i) stiffness.push_back(random.log_uniform(0.1, 1000));
-    const compiler::SlipTable table = compiler::slip_table(tree, {stiffness.begin(), stiffness.end()}, compiler::ScalarType::float64);
+    for (std::size_t i = 0; i < compiler::blocks_breadth_first(tree).size(); ++i)
+      stiffness.push_back(random.log_uniform(0.1, 1000));
+    const compiler::SlipTable table =
+        compiler::slip_table(tree, {stiffness.begin(), stiffness.end()}, compiler::ScalarType::float64);
     for (const slip_node<double>& n : table.nodes)
-      nodes.push_back({n.kind, n.first_child, n.child_count, n.slips, n.place, n.first_corner, Scalar(n.stiffness), Scalar(n.compliance), Scalar(n.yield)});
+      nodes.push_back({n.kind, n.first_child, n.child_count, n.slips, n.place, n.first_corner, Scalar(n.stiffness),
+                       Scalar(n.compliance), Scalar(n.yield)});
     parts.resize(nodes.size());
     corners.resize(static_cast<std::size_t>(slip_tree_corners(nodes.data(), count())));
     merged.resize(static_cast<std::size_t>(slip_curve_room(static_cast<int>(table.slips.size()))));
@@ -67,7 +71,8 @@ class Steps {
 
 }  // namespace
 
-// The banner would promise fewer operations than a step takes, or the work grow faster than with the square of the slips.
+// The banner would promise fewer operations than a step takes, or the work grow faster than with the square of the
+// slips.
 TEST(SlipTree, TakesNoMoreOperationsThanStated) {
   Random random(5);
   for (int i = 0; i < 2000; ++i) {

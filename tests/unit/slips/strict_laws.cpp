@@ -1,4 +1,5 @@
-// The emitted laws as a board without a standard library compiles them: C++17, freestanding, no exceptions, no warnings.
+// The emitted laws as a board without a standard library compiles them: C++17, freestanding, no exceptions, no
+// warnings.
 #include "slip_laws_emitted.hpp"
 
 namespace {

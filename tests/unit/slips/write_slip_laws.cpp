@@ -32,7 +32,9 @@ int main(int, char** arguments) {
     visits += fmt::format("  visitor.template operator()<slips_{0}>({0});\n", seed);
   }
   write(folder, "slip_laws_emitted.hpp",
-        fmt::format("#pragma once\n\n{}\nnamespace dashpot::generated {{\n\ntemplate <class Visitor>\nvoid for_each_slip_law(Visitor visitor) "
-                    "{{\n{}}}\n\n}}  // namespace dashpot::generated\n", includes, visits));
+        fmt::format("#pragma once\n\n{}\nnamespace dashpot::generated {{\n\ntemplate <class Visitor>\nvoid "
+                    "for_each_slip_law(Visitor visitor) "
+                    "{{\n{}}}\n\n}}  // namespace dashpot::generated\n",
+                    includes, visits));
   return 0;
 }

@@ -31,8 +31,8 @@ Device punctual_device(Random& random) {
   return device;
 }
 
-// The most that motions of random sizes, half of which take most at once, have got out of the law with what is assured of
-// the brake, relative to the largest exchange.
+// The most that motions of random sizes, half of which take most at once, have got out of the law with what is assured
+// of the brake, relative to the largest exchange.
 double given_out(const UpdateLaw& update_law, const std::vector<double>& values, const Device& device, Random& random) {
   const device_description& d = device.description;
   Evaluation<double> law(update_law);
@@ -53,7 +53,9 @@ double given_out(const UpdateLaw& update_law, const std::vector<double>& values,
     const double damping = (1 - d.brake.tolerance) * now.damping / hold;
     if (random.chance(0.05)) pace = random.log_uniform(1e-6, 1);
     const bool greedy = damping > 0 && random.chance(0.5);
-    const double change = greedy ? -now.force / (2 * damping) * random.uniform(0.5, 1.5) : random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
+    const double change = greedy               ? -now.force / (2 * damping) * random.uniform(0.5, 1.5)
+                          : random.chance(0.2) ? 0
+                                               : pace * random.uniform(-1, 1);
     const double work = now.force * change + damping * change * change;
     energy += work;
     least = std::min(least, energy);
@@ -87,7 +89,9 @@ TEST(Box, CertifiedLawsGiveOutNoEnergy) {
       EXPECT_LE(given_out(compilation->law, values, device, random), 1e-9);
       for (std::size_t i = 0; i < values.size(); ++i) {
         const tunable_range<double>& range = compilation->law.tunable->tunables[i].range;
-        values[i] = random.chance(0.4) ? range.max : random.chance(0.5) ? range.min : random.uniform(range.min, range.max);
+        values[i] = random.chance(0.4)   ? range.max
+                    : random.chance(0.5) ? range.min
+                                         : random.uniform(range.min, range.max);
       }
     }
   }
@@ -105,7 +109,8 @@ TEST(Box, IsNotCertifiedOnABrakeThatPromisesNothing) {
     Device device = punctual_device(random);
     device.description.brake.tolerance = 1;
     Diagnostics diagnostics;
-    const auto compilation = compile(SourceFile("random.json", tunable_network(std::uint64_t(kind) + 1, kind)), {}, device, diagnostics);
+    const auto compilation =
+        compile(SourceFile("random.json", tunable_network(std::uint64_t(kind) + 1, kind)), {}, device, diagnostics);
     ASSERT_TRUE(compilation);
     EXPECT_FALSE(compilation->certificate.certified);
     EXPECT_EQ(compilation->certificate.added_damping, 0);
@@ -119,8 +124,9 @@ TEST(Box, IsNotCertifiedOnABrakeThatPromisesNothing) {
 // What is added would fall short of itself, by a rounding, where the brake is told nothing else.
 TEST(Box, IsCertifiedByWhatIsAddedAlone) {
   for (const double most : {100.0, 333.3, 1000.0}) {
-    const std::string text = R"({"dashpot": 1, "name": "lone", "parameters": {"K": {"value": )" + std::to_string(most / 2) +
-                             R"(, "tunable": true, "min": 0, "max": )" + std::to_string(most) + R"(}}, "network": {"spring": "K"}})";
+    const std::string text = R"({"dashpot": 1, "name": "lone", "parameters": {"K": {"value": )" +
+                             std::to_string(most / 2) + R"(, "tunable": true, "min": 0, "max": )" +
+                             std::to_string(most) + R"(}}, "network": {"spring": "K"}})";
     Random random(1);
     Diagnostics diagnostics;
     const auto compilation = compile(SourceFile("lone.json", text), {}, punctual_device(random), diagnostics);
@@ -133,7 +139,8 @@ TEST(Box, IsCertifiedByWhatIsAddedAlone) {
 // λh = 2.45, and never above the bound that stands for all of them.
 TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {
   double largest = 0;
-  for (double x = 1e-6; x < 500; x *= 1.001) largest = std::max(largest, relaxation_hold(-std::expm1(-x) / x, -std::expm1(-x)));
+  for (double x = 1e-6; x < 500; x *= 1.001)
+    largest = std::max(largest, relaxation_hold(-std::expm1(-x) / x, -std::expm1(-x)));
   EXPECT_NEAR(largest, 0.5685, 1e-4);
   EXPECT_LT(largest, largest_relaxation_hold);
   EXPECT_NEAR(relaxation_hold(-std::expm1(-1e-6) / 1e-6, -std::expm1(-1e-6)), 0.5, 1e-6);
@@ -141,12 +148,14 @@ TEST(Box, RelaxationsAreHeldByNoMoreThanTheirBound) {
 
 // Of a relaxation's emitted constants, one in the last place that makes it give more work than it stores would pass.
 TEST(Box, EnergyOfEmittedConstantsIsLookedAtExactly) {
-  const TunableLaw compiled(R"({ "dashpot": 1, "name": "fixed", "parameters": { "k": { "value": 3, "min": 0, "max": 9, "tunable": true } },
+  const TunableLaw compiled(
+      R"({ "dashpot": 1, "name": "fixed", "parameters": { "k": { "value": 3, "min": 0, "max": 9, "tunable": true } },
     "elements": [ { "spring": "k", "nodes": ["tool", "ground"] }, { "spring": 40, "nodes": ["tool", "p"] }, { "damper": 2, "nodes": ["p", "ground"] } ] })");
   UpdateLaw law = compiled.law();
   EXPECT_TRUE(check_energy_lemma_over_box(law).holds);
   auto& parts = law.tunable->parts;
-  const auto fixed = std::find_if(parts.begin(), parts.end(), [](const auto& part) { return part.kind == tunable_kind::fixed_relaxation; });
+  const auto fixed = std::find_if(parts.begin(), parts.end(),
+                                  [](const auto& part) { return part.kind == tunable_kind::fixed_relaxation; });
   ASSERT_NE(fixed, parts.end());
   fixed->loss = 0.5;  // (1 − φ)² ≤ ¾
   fixed->share = 1 - std::sqrt(0.75);

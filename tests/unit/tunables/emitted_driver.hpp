@@ -1,5 +1,5 @@
-// Runs an emitted class over a recorded schedule and writes what it returns without rounding it. Compiled at the time of
-// the test, with the headers that it is to run.
+// Runs an emitted class over a recorded schedule and writes what it returns without rounding it. Compiled at the time
+// of the test, with the headers that it is to run.
 #pragma once
 
 #include <cstdio>
@@ -27,8 +27,8 @@ void run(const char* schedule, const char* output) {
       clamped = law.set(wanted);
     }
     const auto now = law.step(static_cast<scalar>(row[0]), static_cast<scalar>(row[1]));
-    const double answer[] = {static_cast<double>(now.damping), static_cast<double>(now.force), static_cast<double>(law.stored_energy()),
-                             static_cast<double>(clamped)};
+    const double answer[] = {static_cast<double>(now.damping), static_cast<double>(now.force),
+                             static_cast<double>(law.stored_energy()), static_cast<double>(clamped)};
     std::fwrite(answer, sizeof(double), 4, out);
   }
   std::fclose(in);

@@ -1,4 +1,5 @@
-// Emitted laws with tunable parameters: the bits of evaluate(), and what a board without a standard library asks of them.
+// Emitted laws with tunable parameters: the bits of evaluate(), and what a board without a standard library asks of
+// them.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +24,8 @@ struct Sample {
   std::vector<double> values;
 };
 
-std::vector<Sample> schedule(const std::vector<compiler::Tunable>& tunables, std::vector<double> values, std::uint64_t seed) {
+std::vector<Sample> schedule(const std::vector<compiler::Tunable>& tunables, std::vector<double> values,
+                             std::uint64_t seed) {
   Random random(seed);
   std::vector<Sample> samples;
   double last = 0;
@@ -31,8 +33,10 @@ std::vector<Sample> schedule(const std::vector<compiler::Tunable>& tunables, std
     const bool sets = random.chance(0.3);
     if (sets) values = next_values(tunables, values, random);
     std::vector<double> given = values;
-    if (sets && random.chance(0.1)) given[random.index(given.size())] = random.chance(0.5) ? std::numeric_limits<double>::quiet_NaN() : 1e30;
-    samples.push_back({random.chance(0.02) ? std::numeric_limits<double>::infinity() : position, (position - last) / period, sets, given});
+    if (sets && random.chance(0.1))
+      given[random.index(given.size())] = random.chance(0.5) ? std::numeric_limits<double>::quiet_NaN() : 1e30;
+    samples.push_back({random.chance(0.02) ? std::numeric_limits<double>::infinity() : position,
+                       (position - last) / period, sets, given});
     last = position;
   }
   return samples;
@@ -60,12 +64,14 @@ std::string evaluated(const compiler::UpdateLaw& law, const std::vector<Sample>&
   for (const Sample& sample : samples) {
     const unsigned clamped = sample.sets ? run.set({sample.values.begin(), sample.values.end()}) : 0;
     const auto now = run.step(static_cast<Scalar>(sample.position), static_cast<Scalar>(sample.velocity));
-    append(bytes, double(now.damping)), append(bytes, double(now.force)), append(bytes, double(run.stored_energy())), append(bytes, double(clamped));
+    append(bytes, double(now.damping)), append(bytes, double(now.force)), append(bytes, double(run.stored_energy())),
+        append(bytes, double(clamped));
   }
   return bytes;
 }
 
-const char* const decompositions[] = {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual"};
+const char* const decompositions[] = {"most-dissipative", "zero-frequency",   "quietest-passive",
+                                      "velocity-free",    "largest-observer", "virtual"};
 
 TunableLaw law_of(std::uint64_t seed) {
   compiler::Choices choices;
@@ -102,17 +108,19 @@ TEST(TunableEmission, has_the_bits_of_evaluate) {
     emit(law, folder.path());
     write_text(folder.path() / fmt::format("{}.in", seed), bytes_of(schedule(law.tunables(), law.defaults(), seed)));
     includes += fmt::format("#include \"tunable_{}.hpp\"\n", seed);
-    calls += fmt::format("  tunables::run<dashpot::generated::tunable_{0}, {1}>(\"{2}/{0}.in\", \"{2}/{0}.out\");\n", seed, law.tunables().size(),
-                         folder.path().string());
+    calls += fmt::format("  tunables::run<dashpot::generated::tunable_{0}, {1}>(\"{2}/{0}.in\", \"{2}/{0}.out\");\n",
+                         seed, law.tunables().size(), folder.path().string());
   }
   write_text(folder.path() / "run.cpp", includes + "int main() {\n" + calls + "}\n");
-  run_or_fail(fmt::format("'{0}' -std=c++17 -O1 -ffp-contract=off -I'{1}' -I'{2}' '{3}/run.cpp' -o '{3}/run' && '{3}/run'", DASHPOT_GXX,
-                          DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder.path().string()));
+  run_or_fail(
+      fmt::format("'{0}' -std=c++17 -O1 -ffp-contract=off -I'{1}' -I'{2}' '{3}/run.cpp' -o '{3}/run' && '{3}/run'",
+                  DASHPOT_GXX, DASHPOT_RUNTIME_INCLUDE, DASHPOT_DRIVER, folder.path().string()));
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     const TunableLaw law = law_of(seed);
     const auto samples = schedule(law.tunables(), law.defaults(), seed);
     const bool is_double = law.law().scalar == compiler::ScalarType::float64;
-    const std::string expected = is_double ? evaluated<double>(law.law(), samples) : evaluated<float>(law.law(), samples);
+    const std::string expected =
+        is_double ? evaluated<double>(law.law(), samples) : evaluated<float>(law.law(), samples);
     const std::string emitted = text_of(folder.path() / fmt::format("{}.out", seed));
     ASSERT_EQ(emitted.size(), expected.size());
     EXPECT_EQ(std::memcmp(emitted.data(), expected.data(), expected.size()), 0) << "seed " << seed;
@@ -125,41 +133,47 @@ TEST(TunableEmission, compiles_strictly_and_leaves_no_symbol_undefined) {
   std::string source;
   for (std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 24, 28}) {
     emit(law_of(seed), folder.path());
-    source += fmt::format("#include \"tunable_{0}.hpp\"\nstatic dashpot::generated::tunable_{0} law_{0};\n"
-                          "double step_{0}(double u, double v) {{ return static_cast<double>(law_{0}.step(static_cast<decltype(law_{0})::scalar>(u), "
-                          "static_cast<decltype(law_{0})::scalar>(v)).force); }}\n"
-                          "unsigned set_{0}(const dashpot::generated::tunable_{0}::parameters& p) {{ return law_{0}.set(p); }}\n"
-                          "void reset_{0}() {{ law_{0}.reset(0); }}\n"
-                          "double energy_{0}() {{ return static_cast<double>(law_{0}.stored_energy()); }}\n",
-                          seed);
+    source += fmt::format(
+        "#include \"tunable_{0}.hpp\"\nstatic dashpot::generated::tunable_{0} law_{0};\n"
+        "double step_{0}(double u, double v) {{ return "
+        "static_cast<double>(law_{0}.step(static_cast<decltype(law_{0})::scalar>(u), "
+        "static_cast<decltype(law_{0})::scalar>(v)).force); }}\n"
+        "unsigned set_{0}(const dashpot::generated::tunable_{0}::parameters& p) {{ return law_{0}.set(p); }}\n"
+        "void reset_{0}() {{ law_{0}.reset(0); }}\n"
+        "double energy_{0}() {{ return static_cast<double>(law_{0}.stored_energy()); }}\n",
+        seed);
   }
   const fs::path caller = folder.path() / "caller.cpp", object = folder.path() / "caller.o";
   write_text(caller, source);
   for (const char* compiler : {DASHPOT_GXX, DASHPOT_CLANGXX})
     for (const char* level : {"-O0", "-O2", "-O3"}) {
-      run_or_fail(fmt::format("'{}' {} {} -Wno-missing-declarations -c '{}' -o '{}' -I'{}' -I'{}'", compiler, strict, level, caller.string(),
-                              object.string(), DASHPOT_RUNTIME_INCLUDE, folder.path().string()));
+      run_or_fail(fmt::format("'{}' {} {} -Wno-missing-declarations -c '{}' -o '{}' -I'{}' -I'{}'", compiler, strict,
+                              level, caller.string(), object.string(), DASHPOT_RUNTIME_INCLUDE,
+                              folder.path().string()));
       EXPECT_EQ(run_command(fmt::format("nm -C -u '{}'", object.string())).output, "") << compiler << " " << level;
-      EXPECT_EQ(run_command(fmt::format("nm -C '{}' | grep -c GLOBAL__sub_I", object.string())).output, "0\n") << compiler << " " << level;
+      EXPECT_EQ(run_command(fmt::format("nm -C '{}' | grep -c GLOBAL__sub_I", object.string())).output, "0\n")
+          << compiler << " " << level;
     }
 }
 
-// A global law would be made while the program starts, after others that use it: no division by zero is a constant. All kinds,
-// and a branch whose damper is nothing to begin with.
+// A global law would be made while the program starts, after others that use it: no division by zero is a constant. All
+// kinds, and a branch whose damper is nothing to begin with.
 TEST(TunableEmission, is_made_by_constants_alone) {
   const TemporaryFolder folder;
   const char* const nothing = R"({ "dashpot": 1, "name": "tunable_0",
     "parameters": { "B": { "value": 0, "tunable": true, "min": 0, "max": 5 } },
     "network": { "parallel": [ { "spring": 3 }, { "series": [ { "spring": 10 }, { "damper": "B" } ] } ] } })";
-  std::string source = "#ifdef __clang__\n#define CONSTANT [[clang::require_constant_initialization]]\n#else\n#define CONSTANT __constinit\n#endif\n";
+  std::string source =
+      "#ifdef __clang__\n#define CONSTANT [[clang::require_constant_initialization]]\n#else\n#define CONSTANT "
+      "__constinit\n#endif\n";
   for (std::uint64_t seed = 0; seed <= 18; ++seed) {
     emit(seed == 0 ? TunableLaw(nothing) : TunableLaw(tunable_network(seed, Kind(seed % kinds))), folder.path());
     source += fmt::format("#include \"tunable_{0}.hpp\"\nCONSTANT dashpot::generated::tunable_{0} law_{0};\n", seed);
   }
   write_text(folder.path() / "globals.cpp", source);
   for (const char* compiler : {DASHPOT_GXX, DASHPOT_CLANGXX})
-    run_or_fail(fmt::format("'{}' -std=c++17 -fsyntax-only -I'{}' -I'{}' '{}/globals.cpp'", compiler, DASHPOT_RUNTIME_INCLUDE,
-                            folder.path().string(), folder.path().string()));
+    run_or_fail(fmt::format("'{}' -std=c++17 -fsyntax-only -I'{}' -I'{}' '{}/globals.cpp'", compiler,
+                            DASHPOT_RUNTIME_INCLUDE, folder.path().string(), folder.path().string()));
 }
 
 // A step would take as long as a processor's division, which on a board is a call.
@@ -169,13 +183,15 @@ TEST(TunableEmission, divides_only_in_set_and_reset) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const TunableLaw law(tunable_network(seed, Kind(seed % 3)));
     emit(law, folder.path());
-    source += fmt::format("#include \"tunable_{0}.hpp\"\n"
-                          "double step(dashpot::generated::tunable_{0}& law, double u, double v) {{ return law.step(u, v).force; }}\n"
-                          "double energy(const dashpot::generated::tunable_{0}& law) {{ return law.stored_energy(); }}\n", seed);
+    source += fmt::format(
+        "#include \"tunable_{0}.hpp\"\n"
+        "double step(dashpot::generated::tunable_{0}& law, double u, double v) {{ return law.step(u, v).force; }}\n"
+        "double energy(const dashpot::generated::tunable_{0}& law) {{ return law.stored_energy(); }}\n",
+        seed);
   }
   write_text(folder.path() / "caller.cpp", source);
-  run_or_fail(fmt::format("'{0}' {1} -O2 -c '{2}/caller.cpp' -o '{2}/caller.o' -I'{3}' -I'{2}'", DASHPOT_GXX, strict, folder.path().string(),
-                          DASHPOT_RUNTIME_INCLUDE));
+  run_or_fail(fmt::format("'{0}' {1} -O2 -c '{2}/caller.cpp' -o '{2}/caller.o' -I'{3}' -I'{2}'", DASHPOT_GXX, strict,
+                          folder.path().string(), DASHPOT_RUNTIME_INCLUDE));
   const std::string disassembly = run_command(fmt::format("objdump -d '{}/caller.o'", folder.path().string())).output;
   EXPECT_NE(disassembly.find("mulsd"), disassembly.npos);
   const std::size_t division = disassembly.find("div");

@@ -5,7 +5,10 @@ namespace {
 
 int semihost(int operation, const void* argument) {
   int result;
-  asm volatile("mov r0, %1\n mov r1, %2\n bkpt 0xab\n mov %0, r0" : "=r"(result) : "r"(operation), "r"(argument) : "r0", "r1", "memory");
+  asm volatile("mov r0, %1\n mov r1, %2\n bkpt 0xab\n mov %0, r0"
+               : "=r"(result)
+               : "r"(operation), "r"(argument)
+               : "r0", "r1", "memory");
   return result;
 }
 

@@ -25,7 +25,8 @@ void expect_within_three_units() {
   const Scalar smallest = std::numeric_limits<Scalar>::min(), largest = std::numeric_limits<Scalar>::max();
   for (int i = 0; i < 60000; ++i) {
     // Every magnitude, and in more detail where the two branches meet.
-    const double any = i % 3 == 0 ? random.log_uniform(double(smallest) * 1e-3, double(largest)) : random.log_uniform(1e-4, 60);
+    const double any =
+        i % 3 == 0 ? random.log_uniform(double(smallest) * 1e-3, double(largest)) : random.log_uniform(1e-4, 60);
     const Scalar x = static_cast<Scalar>(i % 5 == 0 ? random.uniform(0.6, 0.8) : any);
     const Scalar result = mean_decay(x);
     if (result < smallest) continue;
@@ -62,10 +63,12 @@ TEST(Exponential, is_a_constant_expression) {
 TEST(Exponential, has_the_same_bits_on_a_cortex_m) {
   ASSERT_NE(std::string(DASHPOT_BOARD_PROGRAM), "") << "arm-none-eabi-g++ is not installed (package gcc-arm-none-eabi)";
   ASSERT_NE(std::string(DASHPOT_QEMU), "") << "qemu-system-arm is not installed (package qemu-system-arm)";
-  const Finished board = run_command(fmt::format(
-      "timeout 60 '{}' -M mps2-an386 -nographic -monitor none -serial none -chardev stdio,id=s0 "
-      "-semihosting-config enable=on,target=native,chardev=s0 -kernel '{}' < /dev/null", DASHPOT_QEMU, DASHPOT_BOARD_PROGRAM));
-  const auto in_double = exponential_bits<double, unsigned long long>(), in_float = exponential_bits<float, unsigned long long>();
+  const Finished board = run_command(
+      fmt::format("timeout 60 '{}' -M mps2-an386 -nographic -monitor none -serial none -chardev stdio,id=s0 "
+                  "-semihosting-config enable=on,target=native,chardev=s0 -kernel '{}' < /dev/null",
+                  DASHPOT_QEMU, DASHPOT_BOARD_PROGRAM));
+  const auto in_double = exponential_bits<double, unsigned long long>(),
+             in_float = exponential_bits<float, unsigned long long>();
   EXPECT_EQ(board.output, fmt::format("{:016x}{:016x}", in_double, in_float));
 }
 

@@ -18,13 +18,14 @@ std::string said_of(const std::string& text, const compiler::Choices& choices = 
 }
 
 std::string file(const std::string& structure, const std::string& more = "") {
-  return "{ \"dashpot\": 1, \"name\": \"n\", " + more + "\"parameters\": { \"K\": { \"value\": 2, \"tunable\": true, \"min\": 1, \"max\": 3 } }, " +
-         structure + " }";
+  return "{ \"dashpot\": 1, \"name\": \"n\", " + more +
+         "\"parameters\": { \"K\": { \"value\": 2, \"tunable\": true, \"min\": 1, \"max\": 3 } }, " + structure + " }";
 }
 
 std::string repeated(int count, const char* what) {
   std::string list;
-  for (int i = 0; i < count; ++i) list += fmt::format(", {{ \"series\": [ {{ \"{}\": {} }}, {{ \"spring\": 1 }} ] }}", what, i + 1);
+  for (int i = 0; i < count; ++i)
+    list += fmt::format(", {{ \"series\": [ {{ \"{}\": {} }}, {{ \"spring\": 1 }} ] }}", what, i + 1);
   return file("\"network\": { \"parallel\": [ { \"spring\": \"K\" }" + list + " ] }");
 }
 
@@ -47,17 +48,23 @@ TEST(TunableRefusal, of_states_that_follow_a_velocity) {
   choices.state_input = compiler::StateInput::velocity;
   const std::string said = said_of(file("\"network\": { \"spring\": \"K\" }"), choices);
   expect(said, "refused\n");
-  expect(said, "error: state input 'velocity' with tunable parameters; their states follow the position [tunable-needs-position]");
+  expect(said,
+         "error: state input 'velocity' with tunable parameters; their states follow the position "
+         "[tunable-needs-position]");
 }
 
-// Slips outside a tree would take longer than anybody was told: their patterns grow as 3ⁿ. One slip holds nothing to begin with.
+// Slips outside a tree would take longer than anybody was told: their patterns grow as 3ⁿ. One slip holds nothing to
+// begin with.
 TEST(TunableRefusal, of_many_slips_outside_a_tree) {
   const auto ring = [](int slips) {
     std::string elements = R"({ "spring": "K", "nodes": ["tool", "n0"] }, { "slip": "Y", "nodes": ["n0", "n1"] })";
-    for (int i = 1; i < slips; ++i) elements += fmt::format(", {{ \"slip\": {}, \"nodes\": [\"n{}\", \"n{}\"] }}", i, i, (i + 1) % slips);
-    for (int i = 1; i < slips; ++i) elements += fmt::format(", {{ \"spring\": {}, \"nodes\": [\"n{}\", \"ground\"] }}", i, i);
+    for (int i = 1; i < slips; ++i)
+      elements += fmt::format(", {{ \"slip\": {}, \"nodes\": [\"n{}\", \"n{}\"] }}", i, i, (i + 1) % slips);
+    for (int i = 1; i < slips; ++i)
+      elements += fmt::format(", {{ \"spring\": {}, \"nodes\": [\"n{}\", \"ground\"] }}", i, i);
     return R"({ "dashpot": 1, "name": "n", "parameters": { "K": { "value": 2, "tunable": true, "min": 1, "max": 3 },
-      "Y": { "value": 0, "tunable": true, "min": 0, "max": 3 } }, "elements": [ )" + elements + " ] }";
+      "Y": { "value": 0, "tunable": true, "min": 0, "max": 3 } }, "elements": [ )" +
+           elements + " ] }";
   };
   EXPECT_EQ(said_of(ring(8)), "compiled\n");
   expect(said_of(ring(9)), "'n' has tunable parameters and 9 slips; at most 8 are compiled with them");
@@ -88,8 +95,8 @@ TEST(TunableBrake, follows_the_parameters) {
   EXPECT_DOUBLE_EQ(damping("quietest-passive", {0, 9}), 2);
 }
 
-// The brake would take nothing of what is behind slips, or keep their damping when they give way. A table of patterns in the
-// law without tunables, a walk over the tree in this one.
+// The brake would take nothing of what is behind slips, or keep their damping when they give way. A table of patterns
+// in the law without tunables, a walk over the tree in this one.
 TEST(TunableBrake, follows_the_slips_that_slide) {
   const char* const network = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 }, "B": { "value": 2, "tunable": true, "min": 0, "max": 8 } },
@@ -98,7 +105,8 @@ TEST(TunableBrake, follows_the_slips_that_slide) {
   const TunableLaw law(network);
   compiler::Evaluation<double> run(law.law());
   const auto pressed = [&](double to, double speed) { return run.step(to, speed).damping; };
-  // 2 N·s/m carry 0.2 N at 0.1 m/s, less than the 0.4 N that the slip holds; at 1 m/s it gives way, and 3 N·s/m are in series.
+  // 2 N·s/m carry 0.2 N at 0.1 m/s, less than the 0.4 N that the slip holds; at 1 m/s it gives way, and 3 N·s/m are in
+  // series.
   EXPECT_EQ(pressed(1e-4, 0.1), 2);
   EXPECT_DOUBLE_EQ(pressed(1.1e-3, 1), 2 * 3 / 5.0);
   run.set({5, 6});
@@ -109,8 +117,8 @@ TEST(TunableBrake, follows_the_slips_that_slide) {
   EXPECT_EQ(run.step(std::nan(""), 0).damping, 6 * 3 / 9.0);
 }
 
-// Outside a tree the brake would take a slip's ends for joined when it slides, or for apart when it holds: a bridge of dampers
-// whose middle is a slip.
+// Outside a tree the brake would take a slip's ends for joined when it slides, or for apart when it holds: a bridge of
+// dampers whose middle is a slip.
 TEST(TunableBrake, follows_slips_outside_a_tree) {
   const char* const bridge = R"({ "dashpot": 1, "name": "n",
     "parameters": { "Y": { "value": 0.2, "tunable": true, "min": 0, "max": 5 }, "B": { "value": 1, "tunable": true, "min": 0, "max": 8 } },

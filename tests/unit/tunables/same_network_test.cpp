@@ -1,4 +1,5 @@
-// A law with tunables at its default values against the law of the same network without any, which is made in another way.
+// A law with tunables at its default values against the law of the same network without any, which is made in another
+// way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,8 +41,8 @@ double difference(const std::string& text, std::uint64_t seed, compiler::Scheme 
   return scale > 0 ? worst / scale : worst;
 }
 
-// Modes lose digits where rates differ by decades, element states where they add up elongations: 300 samples' roundings at
-// values over five decades.
+// Modes lose digits where rates differ by decades, element states where they add up elongations: 300 samples' roundings
+// at values over five decades.
 constexpr double rounding = 1e-9;
 
 void expect_same_forces(Kind kind, compiler::Scheme scheme) {
@@ -52,19 +53,32 @@ void expect_same_forces(Kind kind, compiler::Scheme scheme) {
 }
 
 // A network would change its forces by having a slider.
-TEST(SameNetwork, of_branches_in_the_exact_scheme) { expect_same_forces(Kind::parallel_branches, compiler::Scheme::exact); }
-TEST(SameNetwork, of_branches_in_backward_euler) { expect_same_forces(Kind::parallel_branches, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, of_branches_in_the_exact_scheme) {
+  expect_same_forces(Kind::parallel_branches, compiler::Scheme::exact);
+}
+TEST(SameNetwork, of_branches_in_backward_euler) {
+  expect_same_forces(Kind::parallel_branches, compiler::Scheme::backward_euler);
+}
 TEST(SameNetwork, of_trees_in_backward_euler) { expect_same_forces(Kind::tree, compiler::Scheme::backward_euler); }
 TEST(SameNetwork, of_graphs_in_backward_euler) { expect_same_forces(Kind::graph, compiler::Scheme::backward_euler); }
 TEST(SameNetwork, of_slips_in_backward_euler) { expect_same_forces(Kind::slips, compiler::Scheme::backward_euler); }
 TEST(SameNetwork, behind_a_contact_in_the_exact_scheme) { expect_same_forces(Kind::touched, compiler::Scheme::exact); }
-TEST(SameNetwork, behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched, compiler::Scheme::backward_euler); }
-TEST(SameNetwork, of_slips_behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched_slips, compiler::Scheme::backward_euler); }
-TEST(SameNetwork, of_slips_outside_trees_in_backward_euler) { expect_same_forces(Kind::slips_in_graph, compiler::Scheme::backward_euler); }
-TEST(SameNetwork, of_slips_outside_trees_behind_a_contact_in_backward_euler) { expect_same_forces(Kind::touched_slips_in_graph, compiler::Scheme::backward_euler); }
+TEST(SameNetwork, behind_a_contact_in_backward_euler) {
+  expect_same_forces(Kind::touched, compiler::Scheme::backward_euler);
+}
+TEST(SameNetwork, of_slips_behind_a_contact_in_backward_euler) {
+  expect_same_forces(Kind::touched_slips, compiler::Scheme::backward_euler);
+}
+TEST(SameNetwork, of_slips_outside_trees_in_backward_euler) {
+  expect_same_forces(Kind::slips_in_graph, compiler::Scheme::backward_euler);
+}
+TEST(SameNetwork, of_slips_outside_trees_behind_a_contact_in_backward_euler) {
+  expect_same_forces(Kind::touched_slips_in_graph, compiler::Scheme::backward_euler);
+}
 
-// What relaxes between two ends of slips would be stepped by backward Euler, though nothing else relaxes with it: a ring of
-// three slips, a tunable Maxwell element and a tunable Kelvin element in series with a spring between their ends.
+// What relaxes between two ends of slips would be stepped by backward Euler, though nothing else relaxes with it: a
+// ring of three slips, a tunable Maxwell element and a tunable Kelvin element in series with a spring between their
+// ends.
 TEST(SameNetwork, of_one_ports_between_slips_in_the_exact_scheme) {
   const char* const ring = R"({ "dashpot": 1, "name": "ring",
     "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 1000 }, "Y": { "value": 0.2, "tunable": true, "min": 0, "max": 1 } },
@@ -74,7 +88,8 @@ TEST(SameNetwork, of_one_ports_between_slips_in_the_exact_scheme) {
   const TunableLaw law(ring);
   ASSERT_EQ(law.law().tunable->graphs.size(), 1u);
   EXPECT_TRUE(law.law().tunable->mesh_elements.empty());
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) EXPECT_LE(difference(ring, seed, compiler::Scheme::exact), rounding) << seed;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    EXPECT_LE(difference(ring, seed, compiler::Scheme::exact), rounding) << seed;
 }
 
 // An inner node that three ends of slips share would be lost, or its springs take another way.
@@ -88,7 +103,8 @@ TEST(SameNetwork, of_stars_between_slips_in_backward_euler) {
   ASSERT_EQ(law.law().tunable->graphs.size(), 1u);
   EXPECT_EQ(law.law().tunable->ends, 5);
   EXPECT_EQ(law.law().tunable->mesh_elements.size(), 5u);
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) EXPECT_LE(difference(star, seed, compiler::Scheme::backward_euler), rounding) << seed;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed)
+    EXPECT_LE(difference(star, seed, compiler::Scheme::backward_euler), rounding) << seed;
 }
 
 }  // namespace

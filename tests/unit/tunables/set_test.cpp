@@ -18,8 +18,8 @@ constexpr double period = 1e-3;  // [s]
 
 std::size_t networks() { return repetitions(300, 20000); }
 
-// V_k + T_k − V_{k−1} − T_{k−1} − f_k Δu_k at its worst, relative to the largest energy and work so far. The brake's part
-// is at the true velocity, so that f is the whole force.
+// V_k + T_k − V_{k−1} − T_{k−1} − f_k Δu_k at its worst, relative to the largest energy and work so far. The brake's
+// part is at the true velocity, so that f is the whole force.
 double worst_gain(const std::string& text, std::uint64_t seed) {
   const TunableLaw compiled(text);
   Random random(seed);
@@ -39,9 +39,11 @@ double worst_gain(const std::string& text, std::uint64_t seed) {
     const double change = position - last, velocity = change / period;
     const command<double> answer = law.step(position, velocity);
     const double work = (answer.damping * velocity + answer.force) * change, now = law.stored_energy();
-    // An elongation is off by some 2⁻⁵² of the position: what that stores is rounding too, where nothing else is stored.
+    // An elongation is off by some 2⁻⁵² of the position: what that stores is rounding too, where nothing else is
+    // stored.
     scale = std::max(scale, stiffest * position * position * 0x1p-64);
-    scale = std::max({scale, std::abs(work), now, std::abs(answer.damping * velocity * change), std::abs(answer.force * change)});
+    scale = std::max(
+        {scale, std::abs(work), now, std::abs(answer.damping * velocity * change), std::abs(answer.force * change)});
     worst = std::max(worst, (now - stored - work) / scale);
     stored = now;
     last = position;
@@ -49,8 +51,9 @@ double worst_gain(const std::string& text, std::uint64_t seed) {
   return worst;
 }
 
-constexpr Kind all_kinds[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips, Kind::touched, Kind::touched_slips,
-                              Kind::slips_in_graph, Kind::touched_slips_in_graph};
+constexpr Kind all_kinds[] = {
+    Kind::parallel_branches, Kind::tree,          Kind::graph,          Kind::slips,
+    Kind::touched,           Kind::touched_slips, Kind::slips_in_graph, Kind::touched_slips_in_graph};
 
 // A static spring, a Maxwell branch of 8 s, a Kelvin and a spring in series, all with a tunable.
 const char* const pressed_network = R"({ "dashpot": 1, "name": "pressed",
@@ -126,7 +129,8 @@ TEST(Set, changes_no_bit_where_nothing_changes) {
       double last = 0;
       for (double position : random_walk(random, 200)) {
         ASSERT_EQ(law.set(compiled.defaults()), 0u);
-        const auto here = law.step(position, (position - last) / period), there = untouched.step(position, (position - last) / period);
+        const auto here = law.step(position, (position - last) / period),
+                   there = untouched.step(position, (position - last) / period);
         ASSERT_EQ(here.force, there.force) << "seed " << seed;
         ASSERT_EQ(here.damping, there.damping) << "seed " << seed;
         ASSERT_EQ(law.stored_energy(), untouched.stored_energy()) << "seed " << seed;
@@ -135,7 +139,8 @@ TEST(Set, changes_no_bit_where_nothing_changes) {
     }
 }
 
-// A value that is no number, or beyond what the author declared, would reach the coefficients, or the caller not hear of it.
+// A value that is no number, or beyond what the author declared, would reach the coefficients, or the caller not hear
+// of it.
 TEST(Set, clamps_and_says_which) {
   const TunableLaw compiled(pressed_network);
   const double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
@@ -172,7 +177,8 @@ TEST(Set, leaves_the_force_where_it_was) {
   EXPECT_LE(last_median, 1e-4);
 }
 
-// A slider that trembles would let go of the tissue: displacements that shrink with every change lose all force in a second.
+// A slider that trembles would let go of the tissue: displacements that shrink with every change lose all force in a
+// second.
 TEST(Set, keeps_the_force_while_a_value_trembles) {
   const TunableLaw compiled(pressed_network);
   Law law(compiled.law()), still(compiled.law());
@@ -203,7 +209,8 @@ TEST(Set, has_the_coefficients_of_the_law_compiled_at_its_values) {
       law.step(1e-3, 1);
       law.set(values);
       law.reset();
-      for (double position : random_walk(random, 100)) ASSERT_EQ(law.step(position, 1).force, born.step(position, 1).force) << seed;
+      for (double position : random_walk(random, 100))
+        ASSERT_EQ(law.step(position, 1).force, born.step(position, 1).force) << seed;
     }
 }
 

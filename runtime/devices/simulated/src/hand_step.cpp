@@ -53,7 +53,7 @@ class hand_step::solver {
   }
 
  private:
-    // Gauss and Jordan: in the end left_ is the identity, and inverse_ what was its inverse. Without pivoting: a passive
+  // Gauss and Jordan: in the end left_ is the identity, and inverse_ what was its inverse. Without pivoting: a passive
   // hand has A + Aᵀ ≤ 0, so I − hA/4 has a symmetric part of at least 1, and what is left of the second stage,
   // 4/3 (I − hA/4) − 2/3 I + 1/3 (I − hA/4)⁻¹, one of at least 2/3.
   void eliminate(unsigned k) {
@@ -117,8 +117,8 @@ void hand_step::solve(const hand& user) {
 
 template <unsigned n>
 void hand_step::push_position(const hand& user, solver<n>& answer, unsigned at) {
-  double drive[n];  // A B
-  double prompt = 0;               // C B
+  double drive[n];    // A B
+  double prompt = 0;  // C B
   for (unsigned i = 0; i < n; ++i) {
     drive[i] = 0;
     for (unsigned j = 0; j < n; ++j) drive[i] += user.dynamics[i][j] * user.input[j];
@@ -159,7 +159,7 @@ void hand_step::push_state(const hand& user, solver<n>& answer, unsigned j) {
 void hand_step::forces_at_rest(const hand_state& state, const motion_point (&intended)[2],
                                double (&at_rest)[2]) const noexcept {
   for (unsigned stage = 0; stage < 2; ++stage) {
-    const double (&per_position)[2] = force_per_position_[stage];
+    const double(&per_position)[2] = force_per_position_[stage];
     at_rest[stage] = damping_ * intended[stage].velocity + per_position[0] * intended[0].position +
                      per_position[1] * intended[1].position;
     for (unsigned j = 0; j < states_; ++j) at_rest[stage] += force_per_state_[stage][j] * state.shifted[j];

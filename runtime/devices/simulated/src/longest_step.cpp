@@ -14,8 +14,7 @@ struct engaged {
 // Everything that can act on the shaft at once.
 engaged all_of(const device_description& device, const scenario& scene, const hand& user, double ratio) {
   engaged all;
-  all.damping =
-      device.mechanics.damping + device.brake.max_damping + device.brake.residual_damping + user.damping;
+  all.damping = device.mechanics.damping + device.brake.max_damping + device.brake.residual_damping + user.damping;
   for (unsigned i = 0; i < user.states; ++i) all.stiffness += std::abs(user.input[i] * user.output[i]);
   for (const auto& stop : {scene.low, scene.high}) {
     if (!stop || std::isinf(stop->stiffness)) continue;

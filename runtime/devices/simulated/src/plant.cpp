@@ -107,8 +107,8 @@ plant::step plant::follow(double duration) const noexcept {
     done.work.damping += weight * mechanics_.damping * velocity * velocity;
     done.work.friction += weight * mechanics_.coulomb_friction * std::abs(velocity);
   }
-  done.work.hand = done.work.brake + done.work.damping + done.work.friction - done.work.motor +
-                   kinetic(end.velocity) - kinetic(shaft_.velocity);
+  done.work.hand = done.work.brake + done.work.damping + done.work.friction - done.work.motor + kinetic(end.velocity) -
+                   kinetic(shaft_.velocity);
   return done;
 }
 
@@ -153,8 +153,7 @@ plant::stage_equations plant::equations(const stages& s, const hand_step& grip, 
     e.right[i] = s.torque[i] + s.grip[i] - steady;
     for (unsigned j = 0; j < 2; ++j) {
       e.right[i] += rate * gauss::a_inverse[i][j] * shaft_.velocity;
-      e.matrix[i][j] =
-          rate * gauss::a_inverse[i][j] - grip.coupling(i, j) + stiffness * duration * gauss::a[i][j];
+      e.matrix[i][j] = rate * gauss::a_inverse[i][j] - grip.coupling(i, j) + stiffness * duration * gauss::a[i][j];
     }
     e.matrix[i][i] += mechanics_.damping + low_.damping() + high_.damping();
   }

@@ -51,10 +51,10 @@ class brake_dissipation {
     best_ = 0;
   }
 
-  Scalar quantum_;                  // [m] or [rad]
-  Scalar origin_ = 0;               // where the stretch began [m] or [rad]
-  Scalar inverse_ = 0;              // Σ Δt/b over the stretch [m/N] or [rad/(N·m)]
-  Scalar best_ = 0;                 // the greatest bound within the stretch [J]
+  Scalar quantum_;                   // [m] or [rad]
+  Scalar origin_ = 0;                // where the stretch began [m] or [rad]
+  Scalar inverse_ = 0;               // Σ Δt/b over the stretch [m/N] or [rad/(N·m)]
+  Scalar best_ = 0;                  // the greatest bound within the stretch [J]
   compensated_sum<Scalar> settled_;  // of the stretches before [J]
 };
 

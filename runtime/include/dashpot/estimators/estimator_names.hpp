@@ -37,9 +37,14 @@ constexpr bool is_linear(estimator_kind kind) noexcept {
 }
 
 inline constexpr estimator_kind all_estimators[] = {
-    estimator_kind::backward_difference, estimator_kind::least_squares,  estimator_kind::butterworth,
-    estimator_kind::inverse_time,        estimator_kind::foaw,           estimator_kind::kalman,
-    estimator_kind::super_twisting,      estimator_kind::tracking_differentiator,
+    estimator_kind::backward_difference,
+    estimator_kind::least_squares,
+    estimator_kind::butterworth,
+    estimator_kind::inverse_time,
+    estimator_kind::foaw,
+    estimator_kind::kalman,
+    estimator_kind::super_twisting,
+    estimator_kind::tracking_differentiator,
     estimator_kind::sensor,
 };
 

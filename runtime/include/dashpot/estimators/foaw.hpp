@@ -40,13 +40,11 @@ class slope_interval {
   }
 
   bool contains(Scalar difference, Scalar span) const noexcept {
-    return !bounded_ || (low_.difference * span <= difference * low_.span &&
-                         difference * high_.span <= high_.difference * span);
+    return !bounded_ ||
+           (low_.difference * span <= difference * low_.span && difference * high_.span <= high_.difference * span);
   }
 
-  bool is_empty() const noexcept {
-    return bounded_ && low_.difference * high_.span > high_.difference * low_.span;
-  }
+  bool is_empty() const noexcept { return bounded_ && low_.difference * high_.span > high_.difference * low_.span; }
 
  private:
   struct fraction {
@@ -111,8 +109,7 @@ class foaw {
   unsigned best_fit_window() const noexcept {
     interval slopes;
     for (unsigned n = 1; n <= longest_window_; ++n) {
-      for (unsigned i = 0; i < n; ++i)
-        slopes.narrow(positions_[i] - positions_[n], static_cast<Scalar>(n - i), band_);
+      for (unsigned i = 0; i < n; ++i) slopes.narrow(positions_[i] - positions_[n], static_cast<Scalar>(n - i), band_);
       if (slopes.is_empty()) return n - 1;
     }
     return longest_window_;

@@ -44,8 +44,7 @@ std::complex<double> position_response(const pulse_transfer<MaxOrder>& transfer,
 // E(z) T/(1 − z⁻¹) at z = e^{j angle}: the estimate over the one-sample difference, exact at rest too. E has a zero at
 // z = 1, and the quotient's coefficients are the partial sums of the numerator's.
 template <unsigned MaxOrder>
-std::complex<double> difference_response(const pulse_transfer<MaxOrder>& transfer, double angle,
-                                         double sample_period) {
+std::complex<double> difference_response(const pulse_transfer<MaxOrder>& transfer, double angle, double sample_period) {
   double quotient[MaxOrder + 1] = {};
   double sum = 0;
   for (unsigned i = 0; i < transfer.numerator_order; ++i) quotient[i] = sum += transfer.numerator[i];

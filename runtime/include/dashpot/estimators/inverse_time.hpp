@@ -31,10 +31,8 @@ class inverse_time {
   // and at the sample [ns] → velocity [m/s] or [rad/s]. An edge time that runs backwards is no new edge.
   Scalar update(Scalar position, std::uint64_t edge_time_ns, std::uint64_t timestamp_ns) noexcept {
     const std::uint64_t newest_edge_ns = newest_edge(position, edge_time_ns, timestamp_ns);
-    if (!started_)
-      start(position, newest_edge_ns);
-    else if (newest_edge_ns > edge_time_ns_)
-      cross(position, newest_edge_ns);
+    if (!started_) start(position, newest_edge_ns);
+    else if (newest_edge_ns > edge_time_ns_) cross(position, newest_edge_ns);
     else if (timestamp_ns > edge_time_ns_)
       velocity_ = clamp_magnitude(velocity_, step_ / seconds(timestamp_ns - edge_time_ns_));
     return velocity_;

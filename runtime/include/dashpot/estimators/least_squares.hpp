@@ -39,8 +39,7 @@ class least_squares {
 
   constexpr pulse_transfer<MaxWindow> transfer() const noexcept {
     pulse_transfer<MaxWindow> result;
-    for (unsigned i = 0; i <= window_; ++i)
-      result.numerator[i] = rate() * (static_cast<double>(window_) - 2.0 * i);
+    for (unsigned i = 0; i <= window_; ++i) result.numerator[i] = rate() * (static_cast<double>(window_) - 2.0 * i);
     result.numerator_order = window_;
     return result;
   }

@@ -56,8 +56,8 @@ class tracking_differentiator {
  private:
   // fst(e, v, R, h), between −1 and 1.
   Scalar synthesis(Scalar error) const noexcept {
-    const Scalar span = acceleration_ * horizon_;           // d
-    const Scalar ahead = error + horizon_ * velocity_;      // s
+    const Scalar span = acceleration_ * horizon_;             // d
+    const Scalar ahead = error + horizon_ * velocity_;        // s
     const Scalar demand = velocity_ + approach(ahead, span);  // a
     return clamp_magnitude(demand / span, Scalar(1));
   }

@@ -27,10 +27,10 @@ enum class admission : unsigned char {
   admitted_uncertified,  // compiled for the ideal device: runs, with a warning
   no_period,             // the device states no sample period
   other_rate,
-  other_motion,          // force and torque do not match, and no arm radius converts them
-  not_certified,         // compiled for the ideal device, where a certificate is required
+  other_motion,   // force and torque do not match, and no arm radius converts them
+  not_certified,  // compiled for the ideal device, where a certificate is required
   other_device,
-  other_digest,          // same name, another file
+  other_digest,  // same name, another file
   other_estimator,
   other_delay,
 };

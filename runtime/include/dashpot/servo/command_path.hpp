@@ -70,8 +70,8 @@ class command_path {
   const actuation& safe() const noexcept { return safe_; }
   bool has_answered() const noexcept { return answered_; }  // this period's sample reached the model
   bool is_clipped() const noexcept { return output_.motor_saturated() || output_.damping_clipped != 0; }
-  double position() const noexcept { return position_; }  // as given to the model [m] or [rad]
-  double velocity() const noexcept { return velocity_; }  // [m/s] or [rad/s]
+  double position() const noexcept { return position_; }              // as given to the model [m] or [rad]
+  double velocity() const noexcept { return velocity_; }              // [m/s] or [rad/s]
   const command<double>& wanted() const noexcept { return wanted_; }  // by the model
   double energy() const noexcept { return energy_.balance(); }        // taken from the tool since start(), at least [J]
 

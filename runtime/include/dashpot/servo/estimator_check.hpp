@@ -21,11 +21,11 @@ using sample_estimate = decltype(std::declval<E&>().update(std::declval<const de
 template <class E>
 using position_estimate = decltype(std::declval<E&>().update(0.0f));
 template <class E>
-using update_by_sample = std::enable_if_t<std::is_floating_point_v<sample_estimate<E>> &&
-                                          noexcept(std::declval<E&>().update(std::declval<const device_sample&>()))>;
+using update_by_sample = std::enable_if_t<std::is_floating_point_v<sample_estimate<E>>&& noexcept(
+    std::declval<E&>().update(std::declval<const device_sample&>()))>;
 template <class E>
-using update_by_position = std::enable_if_t<std::is_floating_point_v<position_estimate<E>> &&
-                                            noexcept(std::declval<E&>().update(0.0f))>;
+using update_by_position =
+    std::enable_if_t<std::is_floating_point_v<position_estimate<E>>&& noexcept(std::declval<E&>().update(0.0f))>;
 template <class E>
 using reset = std::enable_if_t<noexcept(std::declval<E&>().reset(0.0f))>;
 template <class E>

@@ -19,8 +19,8 @@ class histogram {
   }
 
   constexpr std::uint64_t count() const noexcept { return count_; }
-  constexpr std::uint64_t min() const noexcept { return count_ != 0 ? min_ : 0; }            // [ns], exact
-  constexpr std::uint64_t max() const noexcept { return max_; }                              // [ns], exact
+  constexpr std::uint64_t min() const noexcept { return count_ != 0 ? min_ : 0; }  // [ns], exact
+  constexpr std::uint64_t max() const noexcept { return max_; }                    // [ns], exact
   constexpr double mean() const noexcept { return count_ != 0 ? sum_ / static_cast<double>(count_) : 0; }  // [ns]
 
   // Least duration [ns] that `percent` of all recorded ones do not exceed, rounded up to its bin; 0 without any.

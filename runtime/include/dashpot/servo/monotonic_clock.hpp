@@ -11,9 +11,9 @@ class monotonic_clock {
  public:
   static constexpr bool is_real = true;
 
-  void start(double period) noexcept;   // [s]; the first release is one period from now
-  wake_up wait() noexcept;              // sleeps until the next release; returns at once when that is past
-  std::int64_t now() const noexcept;    // since start() [ns]; no system call where the kernel offers a vDSO
+  void start(double period) noexcept;  // [s]; the first release is one period from now
+  wake_up wait() noexcept;             // sleeps until the next release; returns at once when that is past
+  std::int64_t now() const noexcept;   // since start() [ns]; no system call where the kernel offers a vDSO
 
  private:
   period_grid grid_{1};

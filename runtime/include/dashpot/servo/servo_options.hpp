@@ -11,12 +11,12 @@
 namespace dashpot {
 
 struct servo_options {
-  device_identity identity;            // of the device's description
-  bool require_certified = false;      // refuse a model compiled for the ideal device
-  bool start_running = true;           // false: idle until control().start()
-  double duration = 0;                 // [s]; 0: until control().stop()
+  device_identity identity;        // of the device's description
+  bool require_certified = false;  // refuse a model compiled for the ideal device
+  bool start_running = true;       // false: idle until control().start()
+  double duration = 0;             // [s]; 0: until control().stop()
   command_options command;
-  realtime_wishes realtime;            // ignored in simulated time
+  realtime_wishes realtime;  // ignored in simulated time
   telemetry_outputs outputs;
   std::size_t telemetry_capacity = 1u << 14;  // records that may wait for the writer
 };

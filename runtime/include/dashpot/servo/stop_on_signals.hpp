@@ -1,6 +1,6 @@
-// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal is closed) ask a servo loop to stop, so that the device
-// is left safe; a SIGHUP that is ignored, as under nohup, stays so. The handlers that were there before come back with its
-// end. One at a time in a process.
+// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal is closed) ask a servo loop to stop, so that the
+// device is left safe; a SIGHUP that is ignored, as under nohup, stays so. The handlers that were there before come
+// back with its end. One at a time in a process.
 #pragma once
 
 #include <csignal>

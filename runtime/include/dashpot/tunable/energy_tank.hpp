@@ -23,8 +23,9 @@ constexpr Scalar spring_energy(Scalar force, Scalar stiffness) noexcept {
   return stiffness > 0 ? force * (force / stiffness) / 2 : Scalar(0);
 }
 
-// A stiffer spring keeps its force, and the tank takes what that sets free. A softer one keeps what its own energy can hold,
-// F √(k′/k), and then more, up to F, as far as the tank pays; the springs in turn. Returns what is left in the tank [J].
+// A stiffer spring keeps its force, and the tank takes what that sets free. A softer one keeps what its own energy can
+// hold, F √(k′/k), and then more, up to F, as far as the tank pays; the springs in turn. Returns what is left in the
+// tank [J].
 template <class Scalar>
 constexpr Scalar carry_forces_over(spring_change<Scalar>* springs, int count, Scalar tank) noexcept {
   for (int i = 0; i < count; ++i) {
@@ -33,7 +34,8 @@ constexpr Scalar carry_forces_over(spring_change<Scalar>* springs, int count, Sc
                   : s.new_stiffness > 0          ? s.force * square_root(s.new_stiffness / s.stiffness)
                                                  : Scalar(0);
     // Only a stiffer spring sets energy free: for the others the two energies are equal but for rounding.
-    if (s.new_stiffness > s.stiffness) tank += spring_energy(s.force, s.stiffness) - spring_energy(s.force, s.new_stiffness);
+    if (s.new_stiffness > s.stiffness)
+      tank += spring_energy(s.force, s.stiffness) - spring_energy(s.force, s.new_stiffness);
     if (s.new_stiffness <= 0) tank += spring_energy(s.force, s.stiffness);
   }
   for (int i = 0; i < count; ++i)

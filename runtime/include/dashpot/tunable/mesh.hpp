@@ -1,7 +1,7 @@
 // Springs and dampers between inner nodes, eliminated node after node from star to mesh:
 //     g_jk += g_ij g_ik / Σ g_i
-// Conductances are only added, multiplied and divided, never subtracted: nothing cancels, at any ratio of values, and a node
-// that nothing holds is seen exactly.
+// Conductances are only added, multiplied and divided, never subtracted: nothing cancels, at any ratio of values, and a
+// node that nothing holds is seen exactly.
 #pragma once
 
 #include <dashpot/tunable/tables.hpp>
@@ -60,8 +60,10 @@ class tunable_mesh {
       for (int j = i + 1; j < first + count; ++j) {
         for (int k = j + 1; k < first + count; ++k)
           bridge({weight_[i][j], next_[i][j]}, {weight_[i][k], next_[i][k]}, {pivot, next}, weight_[j][k], next_[j][k]);
-        bridge({weight_[i][j], next_[i][j]}, {to_port_[i], next_to_port_[i]}, {pivot, next}, to_port_[j], next_to_port_[j]);
-        bridge({weight_[i][j], next_[i][j]}, {to_held_[i], next_to_held_[i]}, {pivot, next}, to_held_[j], next_to_held_[j]);
+        bridge({weight_[i][j], next_[i][j]}, {to_port_[i], next_to_port_[i]}, {pivot, next}, to_port_[j],
+               next_to_port_[j]);
+        bridge({weight_[i][j], next_[i][j]}, {to_held_[i], next_to_held_[i]}, {pivot, next}, to_held_[j],
+               next_to_held_[j]);
       }
       bridge({to_port_[i], next_to_port_[i]}, {to_held_[i], next_to_held_[i]}, {pivot, next}, through_, next_through_);
     }
@@ -131,9 +133,9 @@ class tunable_mesh {
   Scalar next_[Nodes][Nodes] = {};
   Scalar to_port_[Nodes] = {}, next_to_port_[Nodes] = {};
   Scalar to_held_[Nodes] = {}, next_to_held_[Nodes] = {};
-  Scalar inverse_[Nodes] = {};        // 1/Σ g_i, 0 where nothing holds the node
-  Scalar push_[Nodes] = {};           // forces on the nodes [N]
-  Scalar moved_[Nodes] = {};          // [m]
+  Scalar inverse_[Nodes] = {};  // 1/Σ g_i, 0 where nothing holds the node
+  Scalar push_[Nodes] = {};     // forces on the nodes [N]
+  Scalar moved_[Nodes] = {};    // [m]
   Scalar through_ = 0, next_through_ = 0;
 };
 

@@ -37,7 +37,8 @@ class tunable_parts {
 
   // What it has at low frequency beyond `through`, its b∞ [N·s/m].
   constexpr Scalar relaxing_damping(const tables& t, const part_type& part, Scalar through) noexcept {
-    if (part.kind == tunable_kind::relaxation || part.kind == tunable_kind::fixed_relaxation) return number(t, part.damping);
+    if (part.kind == tunable_kind::relaxation || part.kind == tunable_kind::fixed_relaxation)
+      return number(t, part.damping);
     return part.kind == tunable_kind::mesh ? viscosity(t, part) - through : Scalar(0);
   }
 
@@ -68,11 +69,13 @@ class tunable_parts {
     if (part.kind == tunable_kind::damper) return 0;
     if (part.kind == tunable_kind::spring) return springs.force(part.spring);
     if (part.kind != tunable_kind::mesh)
-      return springs.force(part.spring) - springs.stiffness(part.spring) * (loss_[part.spring] * springs.elongation(part.spring));
+      return springs.force(part.spring) -
+             springs.stiffness(part.spring) * (loss_[part.spring] * springs.elongation(part.spring));
     Scalar force = 0;
     mesh_.release(part.first_node, part.node_count);
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i)
-      if (t.edges[i].spring != no_index) force += mesh_.pull(part.first_node, t.edges[i], springs.force(t.edges[i].spring));
+      if (t.edges[i].spring != no_index)
+        force += mesh_.pull(part.first_node, t.edges[i], springs.force(t.edges[i].spring));
     return force + mesh_.rest(part.first_node, part.node_count);
   }
 
@@ -80,7 +83,8 @@ class tunable_parts {
     if (part.kind == tunable_kind::damper) return;
     if (part.kind == tunable_kind::mesh) return advance_mesh(t, part, change);
     if (part.kind == tunable_kind::spring) return springs.stretch(part.spring, change, t.threshold);
-    springs.stretch(part.spring, share_[part.spring] * change - loss_[part.spring] * springs.elongation(part.spring), t.threshold);
+    springs.stretch(part.spring, share_[part.spring] * change - loss_[part.spring] * springs.elongation(part.spring),
+                    t.threshold);
   }
 
   // The dampers of a mesh rest, its springs alone carry the load.
@@ -105,7 +109,8 @@ class tunable_parts {
   // z ← z + φ δ − α z with x = k h/B, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
   constexpr void tune_relaxation(const tables& t, const part_type& part) noexcept {
     const Scalar stiffness = springs.stiffness(part.spring), damping = number(t, part.damping);
-    // Division by zero, and infinity, are no constant expressions: a damper of nothing leaves nothing of the spring by itself.
+    // Division by zero, and infinity, are no constant expressions: a damper of nothing leaves nothing of the spring by
+    // itself.
     if (stiffness > 0 && !(damping > 0)) {
       share_[part.spring] = 0;
       loss_[part.spring] = 1;
@@ -117,11 +122,14 @@ class tunable_parts {
     loss_[part.spring] = x - x == 0 ? x * share : Scalar(1);
   }
 
-  constexpr Scalar eliminate(const tables& t, const part_type& part, Scalar per_stiffness, Scalar per_damping) noexcept {
+  constexpr Scalar eliminate(const tables& t, const part_type& part, Scalar per_stiffness,
+                             Scalar per_damping) noexcept {
     mesh_.clear(part.first_node, part.node_count);
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
       const tunable_edge& edge = t.edges[i];
-      mesh_.join(part.first_node, edge, edge.spring != no_index ? per_stiffness * springs.stiffness(edge.spring) : per_damping * number(t, edge.damping));
+      mesh_.join(part.first_node, edge,
+                 edge.spring != no_index ? per_stiffness * springs.stiffness(edge.spring)
+                                         : per_damping * number(t, edge.damping));
     }
     return mesh_.eliminate(part.first_node, part.node_count);
   }
@@ -132,7 +140,8 @@ class tunable_parts {
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
       const tunable_edge& edge = t.edges[i];
       const bool is_spring = edge.spring != no_index;
-      mesh_.join(part.first_node, edge, is_spring ? springs.stiffness(edge.spring) : Scalar(0), is_spring ? Scalar(0) : number(t, edge.damping));
+      mesh_.join(part.first_node, edge, is_spring ? springs.stiffness(edge.spring) : Scalar(0),
+                 is_spring ? Scalar(0) : number(t, edge.damping));
     }
     const Scalar found = mesh_.eliminate_to_first_order(part.first_node, part.node_count);
     return found > 0 ? found : Scalar(0);
@@ -142,7 +151,8 @@ class tunable_parts {
     mesh_.spread(part.first_node, part.node_count, change);
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
       const tunable_edge& edge = t.edges[i];
-      if (edge.spring != no_index) springs.stretch(edge.spring, mesh_.elongation(part.first_node, edge, change), t.threshold);
+      if (edge.spring != no_index)
+        springs.stretch(edge.spring, mesh_.elongation(part.first_node, edge, change), t.threshold);
     }
   }
 

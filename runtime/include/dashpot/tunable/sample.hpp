@@ -17,23 +17,25 @@ struct tunable_sample {
 // What the tool and the network know of each other in a sample.
 template <class Scalar>
 struct tunable_answer {
-  Scalar opposing;     // f′ = f − b∞ Δu/h, also without what slips leave to the brake [N]
-  Scalar gain;         // b∞ − b of it, and what the motor makes up for a coil on its way [N·s/m]
-  Scalar damping;      // b of it, and of the slips [N·s/m]
+  Scalar opposing;  // f′ = f − b∞ Δu/h, also without what slips leave to the brake [N]
+  Scalar gain;      // b∞ − b of it, and what the motor makes up for a coil on its way [N·s/m]
+  Scalar damping;   // b of it, and of the slips [N·s/m]
 };
 
 // A tool that is always in touch.
 template <class Scalar>
-constexpr tunable_sample<Scalar> held_sample(Scalar change, Scalar position, Scalar velocity, const tunable_answer<Scalar>& answer) noexcept {
+constexpr tunable_sample<Scalar> held_sample(Scalar change, Scalar position, Scalar velocity,
+                                             const tunable_answer<Scalar>& answer) noexcept {
   return {change, position, answer.damping, answer.opposing + answer.gain * velocity};
 }
 
-// A surface that may be left (theory, section 5, "Contact"). `approach` is what its change would be if it stuck to the tool,
-// `change` what it is. The state lets go with the force; the command only where the tool would be pulled, beyond a gap that the
-// encoder tells from none, or where nothing pushes any more.
+// A surface that may be left (theory, section 5, "Contact"). `approach` is what its change would be if it stuck to the
+// tool, `change` what it is. The state lets go with the force; the command only where the tool would be pulled, beyond
+// a gap that the encoder tells from none, or where nothing pushes any more.
 template <class Scalar>
-constexpr tunable_sample<Scalar> touching_sample(const tunable_contact<Scalar>& contact, Scalar threshold, Scalar surface, Scalar depth,
-                                                 Scalar change, Scalar velocity, const tunable_answer<Scalar>& answer) noexcept {
+constexpr tunable_sample<Scalar> touching_sample(const tunable_contact<Scalar>& contact, Scalar threshold,
+                                                 Scalar surface, Scalar depth, Scalar change, Scalar velocity,
+                                                 const tunable_answer<Scalar>& answer) noexcept {
   const Scalar gap = change - (depth - surface);
   const bool is_open = gap > Scalar(0);
   const Scalar now = is_open ? flush_below(threshold, surface + change) : depth;

@@ -1,5 +1,5 @@
-// What slips leave to the brake while parameters change: b∞ of the regime, for the command with a hysteresis over the encoder
-// and no faster than the coil can follow (theory, section 5, "Regimes").
+// What slips leave to the brake while parameters change: b∞ of the regime, for the command with a hysteresis over the
+// encoder and no faster than the coil can follow (theory, section 5, "Regimes").
 #pragma once
 
 #include <dashpot/elementary.hpp>
@@ -18,9 +18,10 @@ class tunable_slip_brake {
     root_ = square_root(damping);
   }
 
-  // Which slips slide for the command: a slide ends where the tool has gone the hysteresis, to either side, and the slip not
-  // with it.
-  void follow(const tunable_slip_rule<Scalar>& rule, int count, const int* sign, Scalar position, int* commanded) noexcept {
+  // Which slips slide for the command: a slide ends where the tool has gone the hysteresis, to either side, and the
+  // slip not with it.
+  void follow(const tunable_slip_rule<Scalar>& rule, int count, const int* sign, Scalar position,
+              int* commanded) noexcept {
     for (int i = 0; i < count; ++i) {
       const Scalar way = position - slid_at_[i];
       slides_now_[i] = sign[i] != 0 || (slid_[i] && rule.hysteresis * rule.hysteresis - way * way > Scalar(0));

@@ -1,5 +1,5 @@
-// Slips of a law with tunable parameters that meet in no tree: one step of dashpot::slip_network over the ends of all slips,
-// with blocks between them, and what they leave to the brake.
+// Slips of a law with tunable parameters that meet in no tree: one step of dashpot::slip_network over the ends of all
+// slips, with blocks between them, and what they leave to the brake.
 #pragma once
 
 #include <dashpot/slip_network.hpp>
@@ -17,18 +17,20 @@ struct tunable_curves {
   Scalar feedthrough[Blocks] = {};  // b∞; 0 of block 0, whose is the law's own [N·s/m]
 };
 
-// Room for the steps of all graphs of a law in turn; what is in it does not matter between steps. `Ends`: inner ones of the
-// largest graph.
+// Room for the steps of all graphs of a law in turn; what is in it does not matter between steps. `Ends`: inner ones of
+// the largest graph.
 template <class Scalar, int Ends>
 class tunable_slip_graph {
  public:
-  // In: blocks between ends, links with their yield forces, the tool's displacement in this sample [m], g of every block,
-  // their π; the pattern of the sample before. Out: the force that opposes the tool [N], δ of every block, the pattern.
+  // In: blocks between ends, links with their yield forces, the tool's displacement in this sample [m], g of every
+  // block, their π; the pattern of the sample before. Out: the force that opposes the tool [N], δ of every block, the
+  // pattern.
   template <class Curves>
-  constexpr Scalar step(const tunable_graph& g, const tunable_ends* ties, const slip_link<Scalar>* links, int link_count, Scalar change,
-                        const Scalar* stiffness, Curves& of, int* sign) noexcept {
+  constexpr Scalar step(const tunable_graph& g, const tunable_ends* ties, const slip_link<Scalar>* links,
+                        int link_count, Scalar change, const Scalar* stiffness, Curves& of, int* sign) noexcept {
     gather(g, ties, stiffness, of);
-    slip_network<Scalar> network(links, link_count, {between_, to_tool_, to_ground_, through_}, g.end_count, scratch_.room());
+    slip_network<Scalar> network(links, link_count, {between_, to_tool_, to_ground_, through_}, g.end_count,
+                                 scratch_.room());
     const Scalar force = network.step(change, held_, moved_, sign);
     for (int i = 0; i < g.tie_count; ++i)
       of.elongation[g.first_block + i] = moved(g, ties[i].from, change) - moved(g, ties[i].to, change);
@@ -38,10 +40,11 @@ class tunable_slip_graph {
   // Of the last step behind a contact.
   constexpr Scalar surface_change(const tunable_graph& g) const noexcept { return moved_[g.end_count - 1]; }
 
-  // b∞ between `tool`, one of the ends, and the ground: slips that hold join their ends, of one that slides nothing is left.
+  // b∞ between `tool`, one of the ends, and the ground: slips that hold join their ends, of one that slides nothing is
+  // left.
   template <class Curves>
-  constexpr Scalar feedthrough(const tunable_graph& g, const tunable_ends* ties, const tunable_ends* links, int tool, const Curves& of,
-                               const int* sign) noexcept {
+  constexpr Scalar feedthrough(const tunable_graph& g, const tunable_ends* ties, const tunable_ends* links, int tool,
+                               const Curves& of, const int* sign) noexcept {
     for (int i = 0; i < g.end_count + 2; ++i) group_[i] = i;
     for (int k = 0; k < g.link_count; ++k)
       if (sign[k] == 0) join(g, group_[links[k].from], group_[links[k].to]);
@@ -55,7 +58,8 @@ class tunable_slip_graph {
 
  private:
   template <class Curves>
-  constexpr void gather(const tunable_graph& g, const tunable_ends* ties, const Scalar* stiffness, const Curves& of) noexcept {
+  constexpr void gather(const tunable_graph& g, const tunable_ends* ties, const Scalar* stiffness,
+                        const Curves& of) noexcept {
     for (int i = 0; i < g.end_count * g.end_count; ++i) between_[i] = 0;
     for (int i = 0; i < g.end_count; ++i) to_tool_[i] = to_ground_[i] = 0;
     for (int i = 0; i < g.end_count + 2; ++i) held_[i] = 0;
@@ -96,8 +100,8 @@ class tunable_slip_graph {
   }
 
   Scalar between_[Ends * Ends] = {}, to_tool_[Ends] = {}, to_ground_[Ends] = {}, through_ = 0;  // g [N/m]
-  Scalar held_[Ends + 2] = {};   // at every end [N]
-  Scalar moved_[Ends] = {};      // [m]
+  Scalar held_[Ends + 2] = {};                                                                  // at every end [N]
+  Scalar moved_[Ends] = {};                                                                     // [m]
   int group_[Ends + 2] = {};
   slip_network_scratch<Scalar, Ends> scratch_ = {};
   tunable_mesh<Scalar, Ends> mesh_;

@@ -1,5 +1,5 @@
-// The slips of a law with tunable parameters: one step for each coupling of slips that meet in a tree, and for each graph of
-// others, and what all leave to the brake.
+// The slips of a law with tunable parameters: one step for each coupling of slips that meet in a tree, and for each
+// graph of others, and what all leave to the brake.
 #pragma once
 
 #include <dashpot/slip_regime.hpp>
@@ -18,11 +18,12 @@ class tunable_slips {
 
   constexpr void begin(const tables& t) noexcept {
     for (int i = 0; i < t.coupling_count; ++i)
-      for (int k = t.couplings[i].first_node; k < t.couplings[i].first_node + t.couplings[i].node_count; ++k) nodes_[k] = t.nodes[k];
+      for (int k = t.couplings[i].first_node; k < t.couplings[i].first_node + t.couplings[i].node_count; ++k)
+        nodes_[k] = t.nodes[k];
   }
 
-  // What is told of the parameters at their largest says how little a part may become: curves of slips through parts that
-  // give way without end would lose their digits. `number` gives the numbers of the tables.
+  // What is told of the parameters at their largest says how little a part may become: curves of slips through parts
+  // that give way without end would lose their digits. `number` gives the numbers of the tables.
   template <class Number>
   constexpr void remember_largest(const tables& t, const curves& of, Number number) noexcept {
     for (int i = 0; i < t.block_count; ++i) least_stiffness_[i] = t.least_share * of.stiffness[i];
@@ -87,22 +88,21 @@ class tunable_slips {
   static constexpr int room = Slips > 0 ? Slips : 1, end_room = Ends > 0 ? Ends : 1;
 
   static constexpr Scalar largest_finite() noexcept {
-    if constexpr (sizeof(Scalar) == sizeof(float))
-      return 0x1.fffffep127f;
-    else
-      return 0x1.fffffffffffffp1023;
+    if constexpr (sizeof(Scalar) == sizeof(float)) return 0x1.fffffep127f;
+    else return 0x1.fffffffffffffp1023;
   }
 
   slip_tree<Scalar> tree(const tunable_coupling& c) noexcept {
-    return slip_tree<Scalar>(nodes_ + c.first_node, c.node_count, parts_ + c.first_node, corners_ + c.first_corner, merged_);
+    return slip_tree<Scalar>(nodes_ + c.first_node, c.node_count, parts_ + c.first_node, corners_ + c.first_corner,
+                             merged_);
   }
 
   constexpr Scalar damping_of(const tables& t, const curves& of, const int* sign) noexcept {
     Scalar sum = 0;
     for (int i = 0; i < t.coupling_count; ++i) {
       const tunable_coupling& c = t.couplings[i];
-      sum += slip_regime_feedthrough(nodes_ + c.first_node, c.node_count, of.feedthrough + c.first_block, sign + c.first_slip,
-                                     parts_ + c.first_node);
+      sum += slip_regime_feedthrough(nodes_ + c.first_node, c.node_count, of.feedthrough + c.first_block,
+                                     sign + c.first_slip, parts_ + c.first_node);
     }
     if constexpr (Ends > 0)
       for (int i = 0; i < t.graph_count; ++i) {
@@ -116,7 +116,8 @@ class tunable_slips {
   // From the pattern of the sample before. With a contact one link more is the tool's own.
   Scalar step_graph(const tables& t, const tunable_graph& g, int links, Scalar change, curves& of) noexcept {
     for (int k = g.first_slip; k < g.first_slip + links; ++k) sign_[k] = last_sign_[k];
-    return graph_.step(g, t.ties + g.first_tie, links_ + g.first_slip, links, change, tie_stiffness_, of, sign_ + g.first_slip);
+    return graph_.step(g, t.ties + g.first_tie, links_ + g.first_slip, links, change, tie_stiffness_, of,
+                       sign_ + g.first_slip);
   }
 
   template <class Number>
@@ -146,7 +147,8 @@ class tunable_slips {
   }
 
   // With every slip giving way: in parallel the sum, in series the inverse of Σ 1/g.
-  constexpr Scalar end_stiffness(const tunable_coupling& c, const slip_node<Scalar>& node, const curves& of) const noexcept {
+  constexpr Scalar end_stiffness(const tunable_coupling& c, const slip_node<Scalar>& node,
+                                 const curves& of) const noexcept {
     if (node.kind == slip_part::slip) return 0;
     if (node.kind == slip_part::block) return bounded_stiffness(c.first_block + node.place, of);
     Scalar sum = 0, compliance = 0;

@@ -1,6 +1,7 @@
-// The springs of a law with tunable parameters: elongations z, and how far from home each one's rest length is, the offset r. A
-// spring's force is k (z − r). A change of stiffness leaves the forces alone and moves the offsets, as far as energy allows
-// (energy_tank.hpp); with every sample the offsets then go home by a part of the way, where the tank pays for it.
+// The springs of a law with tunable parameters: elongations z, and how far from home each one's rest length is, the
+// offset r. A spring's force is k (z − r). A change of stiffness leaves the forces alone and moves the offsets, as far
+// as energy allows (energy_tank.hpp); with every sample the offsets then go home by a part of the way, where the tank
+// pays for it.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -23,7 +24,9 @@ class tunable_springs {
   constexpr void set_stiffness(int spring, Scalar stiffness) noexcept { stiffness_[spring] = stiffness; }
   constexpr Scalar stiffness(int spring) const noexcept { return stiffness_[spring]; }
   constexpr Scalar elongation(int spring) const noexcept { return elongation_[spring]; }
-  constexpr Scalar force(int spring) const noexcept { return stiffness_[spring] * (elongation_[spring] - offset_[spring]); }
+  constexpr Scalar force(int spring) const noexcept {
+    return stiffness_[spring] * (elongation_[spring] - offset_[spring]);
+  }
 
   constexpr void set_elongation(int spring, Scalar elongation) noexcept { elongation_[spring] = elongation; }
   constexpr void stretch(int spring, Scalar change, Scalar threshold) noexcept {
@@ -45,7 +48,9 @@ class tunable_springs {
     for (int i = 0; i < count; ++i) changes_[i].new_stiffness = stiffness_[i];
     tank_ = carry_forces_over(changes_, count, tank_);
   }
-  constexpr Scalar missing_force(int spring) const noexcept { return changes_[spring].force - changes_[spring].new_force; }
+  constexpr Scalar missing_force(int spring) const noexcept {
+    return changes_[spring].force - changes_[spring].new_force;
+  }
   constexpr void make_up_for(int spring, Scalar missing) noexcept { tank_ = make_up(changes_[spring], missing, tank_); }
 
   // What is next to it makes room for another elongation.
@@ -84,7 +89,8 @@ class tunable_springs {
 
  private:
   constexpr bool is_changed(int spring) const noexcept {
-    return changes_[spring].new_stiffness != changes_[spring].stiffness || changes_[spring].new_force != changes_[spring].force;
+    return changes_[spring].new_stiffness != changes_[spring].stiffness ||
+           changes_[spring].new_force != changes_[spring].force;
   }
 
   Scalar stiffness_[Springs] = {};   // k [N/m]

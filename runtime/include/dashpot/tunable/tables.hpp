@@ -43,12 +43,13 @@ struct tunable_part {
   int node_count;
   int first_edge;
   int edge_count;
-  bool is_loose;   // a spring in series with a slip, so that its rest length means nothing
-  Scalar share;    // of a fixed relaxation: what a displacement within a sample leaves in its spring [1]
-  Scalar loss;     // of a fixed relaxation: what is lost in a sample [1]
+  bool is_loose;  // a spring in series with a slip, so that its rest length means nothing
+  Scalar share;   // of a fixed relaxation: what a displacement within a sample leaves in its spring [1]
+  Scalar loss;    // of a fixed relaxation: what is lost in a sample [1]
 };
 
-// A spring or a damper of a mesh between two of its nodes, counted from the mesh's first; `from` is the end at the port's side.
+// A spring or a damper of a mesh between two of its nodes, counted from the mesh's first; `from` is the end at the
+// port's side.
 struct tunable_edge {
   int from;
   int to;
@@ -76,15 +77,15 @@ struct tunable_coupling {
   int first_corner;
 };
 
-// What a block or a slip is between where slips meet in no tree: inner ends by their number from 0, then the tool, then the
-// ground.
+// What a block or a slip is between where slips meet in no tree: inner ends by their number from 0, then the tool, then
+// the ground.
 struct tunable_ends {
   int from;
   int to;
 };
 
-// Slips that are stepped together and meet in no tree, and the blocks between their ends, one a tie. With a contact the last
-// inner end is the surface.
+// Slips that are stepped together and meet in no tree, and the blocks between their ends, one a tie. With a contact the
+// last inner end is the surface.
 struct tunable_graph {
   int end_count;  // inner ones
   int link_count;
@@ -116,32 +117,34 @@ struct tunable_contact {
 template <class Scalar>
 struct tunable_slip_rule {
   bool takes_part;
-  Scalar hysteresis;     // of the tool's displacement, before a slide has ended for the command [m]
-  Scalar coil_share;     // κ: of what is missing from √b, that the coil makes up in a sample [1]
-  Scalar assured_share;  // of the damping that no slip changes, what the motor may make up by an estimate; 0 for none [1]
+  Scalar hysteresis;  // of the tool's displacement, before a slide has ended for the command [m]
+  Scalar coil_share;  // κ: of what is missing from √b, that the coil makes up in a sample [1]
+  Scalar
+      assured_share;  // of the damping that no slip changes, what the motor may make up by an estimate; 0 for none [1]
 };
 
-// Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling or graph.
+// Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling or
+// graph.
 template <class Scalar>
 struct tunable_tables {
-  Scalar period;        // h [s]
-  Scalar rate;          // 1/h [Hz]
-  bool is_exact;        // relaxations by the exact scheme, else backward Euler; meshes always by the latter
-  Scalar retention;     // what an offset keeps in a sample where the tank pays [1]
-  Scalar threshold;     // magnitudes of states below are zero
-  Scalar least_share;   // of its greatest value: behind a slip no part is softer, no slip yields sooner [1]
+  Scalar period;       // h [s]
+  Scalar rate;         // 1/h [Hz]
+  bool is_exact;       // relaxations by the exact scheme, else backward Euler; meshes always by the latter
+  Scalar retention;    // what an offset keeps in a sample where the tank pays [1]
+  Scalar threshold;    // magnitudes of states below are zero
+  Scalar least_share;  // of its greatest value: behind a slip no part is softer, no slip yields sooner [1]
   brake_rule rule;
-  Scalar damping;       // of brake_rule::constant and within_viscosity [N·s/m]
-  int observed;         // number, of brake_rule::observed
-  Scalar max_damping;   // what the brake can give [N·s/m]
-  int static_spring;    // the spring that joins tool and ground directly, or none
+  Scalar damping;      // of brake_rule::constant and within_viscosity [N·s/m]
+  int observed;        // number, of brake_rule::observed
+  Scalar max_damping;  // what the brake can give [N·s/m]
+  int static_spring;   // the spring that joins tool and ground directly, or none
   tunable_contact<Scalar> contact;
   tunable_slip_rule<Scalar> slip_rule;
   int tunable_count, spring_count, part_count, block_count, slip_count, coupling_count, graph_count;
   const tunable_range<Scalar>* tunables;
   const int* terms;
   const tunable_number<Scalar>* numbers;
-  const int* springs;   // number of each spring's stiffness
+  const int* springs;  // number of each spring's stiffness
   const tunable_part<Scalar>* parts;
   const tunable_edge* edges;
   const tunable_block* blocks;

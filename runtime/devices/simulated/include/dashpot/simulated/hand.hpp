@@ -17,9 +17,9 @@ struct hand {
   double mass = 0;     // rigidly at the tool [kg]
   double damping = 0;  // D [N·s/m]
   unsigned states = 0;
-  double dynamics[max_states][max_states] = {};                  // A [1/s]
-  double input[max_states] = {};                                 // B [√(N/m)]
-  double output[max_states] = {};                                // C [√(N/m)]
+  double dynamics[max_states][max_states] = {};                   // A [1/s]
+  double input[max_states] = {};                                  // B [√(N/m)]
+  double output[max_states] = {};                                 // C [√(N/m)]
   double release_time = std::numeric_limits<double>::infinity();  // lets go of the tool, mass and all [s]
 };
 

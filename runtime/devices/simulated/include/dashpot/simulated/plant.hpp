@@ -89,9 +89,9 @@ class plant {
 
   mechanics_description mechanics_;
   drives drives_;
-  double ratio_;          // tool motion over joint motion
-  hand user_;             // in the joint's coordinate
-  trajectory intended_;   // in the tool's
+  double ratio_;         // tool motion over joint motion
+  hand user_;            // in the joint's coordinate
+  trajectory intended_;  // in the tool's
   bool prescribed_;
   stop_contact low_;
   stop_contact high_;

@@ -17,11 +17,11 @@ enum class brake_gain : unsigned char { nominal, lowest, highest, drawn };
 
 // Everything in the tool's coordinate: [m], [N] where an arm radius relates it to a rotary joint, else the joint's own.
 struct scenario {
-  hand user;                    // of the tool
-  trajectory intended;          // of the user; empty: stays at 0
-  bool prescribed = false;      // the tool itself follows `intended`, whatever force that takes; `user` is not used
-  double initial_position = 0;  // [m] or [rad]; a prescribed motion has its own
-  double initial_velocity = 0;  // [m/s] or [rad/s]
+  hand user;                     // of the tool
+  trajectory intended;           // of the user; empty: stays at 0
+  bool prescribed = false;       // the tool itself follows `intended`, whatever force that takes; `user` is not used
+  double initial_position = 0;   // [m] or [rad]; a prescribed motion has its own
+  double initial_velocity = 0;   // [m/s] or [rad/s]
   std::optional<end_stop> low;   // below which the tool does not go freely
   std::optional<end_stop> high;  // above which
   brake_gain gain = brake_gain::nominal;

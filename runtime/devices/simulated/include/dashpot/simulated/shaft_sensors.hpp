@@ -24,7 +24,7 @@ class shaft_sensors {
 
   std::int64_t counts(double position) const noexcept;  // 0 for an ideal encoder
   double quantised(double position) const noexcept;     // [rad] or [m]
-  double newest_edge() const noexcept;  // [s]; negative: none so far, or an ideal encoder
+  double newest_edge() const noexcept;                  // [s]; negative: none so far, or an ideal encoder
   double sensed_velocity() const noexcept { return sensed_velocity_; }  // without noise; 0 without a sensor
 
  private:

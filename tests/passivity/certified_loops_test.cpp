@@ -8,14 +8,14 @@
 namespace dashpot::testing {
 namespace {
 
-int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 2000 : 100; }
+int certified_devices() { return std::getenv("DASHPOT_LONG") != nullptr ? 2000 : 100; }
 
 // A certified law would give out more energy than it took up: with ideal sensors the energy that motor, brake and
 // mechanics have taken up together is never below zero, the brake at either end of its tolerance, with jitter where the
 // hold certificate covers it.
 TEST(CertifiedLoops, NeverGiveOutEnergy) {
   int certified = 0, by_hold = 0;
-  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_devices(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = random_case(seed);
     if (!one.compilation || !one.compilation->certificate.certified) continue;
@@ -23,7 +23,7 @@ TEST(CertifiedLoops, NeverGiveOutEnergy) {
     by_hold += one.compilation->certificate.bound.proof == compiler::Proof::hold ? 1 : 0;
     expect_no_energy_given_out(one, Random(seed + 1'000'000));
   }
-  EXPECT_GE(by_hold, cases() / 20);
+  EXPECT_GE(by_hold, certified_devices() / 20);
 }
 
 // A certified law would give out more than the certificate states for an encoder with steps: nothing where friction
@@ -31,7 +31,7 @@ TEST(CertifiedLoops, NeverGiveOutEnergy) {
 // the friction some loops do give out energy.
 TEST(CertifiedLoops, GiveOutNoMoreThanFrictionLeavesUnpaid) {
   int certified = 0, gave_out = 0;
-  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_devices(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = random_case(seed);
     if (!one.compilation || !one.compilation->certificate.certified) continue;
@@ -39,7 +39,7 @@ TEST(CertifiedLoops, GiveOutNoMoreThanFrictionLeavesUnpaid) {
     Random random(seed + 2'000'000);
     for (const double share : {0.02, 1.0}) gave_out += gives_out_no_more_than_unpaid(one, random, share) ? 1 : 0;
   }
-  EXPECT_GE(gave_out, cases() / 40);
+  EXPECT_GE(gave_out, certified_devices() / 40);
 }
 
 }  // namespace

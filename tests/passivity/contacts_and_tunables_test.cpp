@@ -10,13 +10,13 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 1000 : 50; }
+int certified_surfaces() { return std::getenv("DASHPOT_LONG") != nullptr ? 1000 : 50; }
 
 // A tool that touches and lets go, on a device with no more damping than the certificate asks for, would give out
 // energy in some passive hand.
 TEST(CertifiedContacts, NeverGiveOutEnergy) {
   int certified = 0, with_slips = 0;
-  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_surfaces(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = contact_case(seed, 1);
     if (!one.compilation || !one.compilation->certificate.certified) continue;
@@ -32,7 +32,7 @@ TEST(CertifiedContacts, NeverGiveOutEnergy) {
 // much.
 TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
   int certified = 0, by_hold = 0, with_slips = 0, without_jumps = 0;
-  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_surfaces(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = tunable_case(seed);
     if (!one.compilation || !one.compilation->certificate.certified) continue;
@@ -50,7 +50,7 @@ TEST(CertifiedTunables, NeverGiveOutEnergyWhateverIsSet) {
 // or K would be far above what any loop shows, with friction for a five-hundredth of it.
 TEST(CertifiedSlipsContactsAndTunables, GiveOutNoMoreThanFrictionLeavesUnpaid) {
   int gave_out = 0, bounded = 0, touching = 0, tuned = 0, sliding = 0;
-  for (std::uint64_t seed = 1; bounded < 2 * cases(); ++seed) {
+  for (std::uint64_t seed = 1; bounded < 2 * certified_surfaces(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = seed % 3 == 0   ? contact_case(seed, 1)
                              : seed % 3 == 1 ? tunable_case(seed)
@@ -66,7 +66,7 @@ TEST(CertifiedSlipsContactsAndTunables, GiveOutNoMoreThanFrictionLeavesUnpaid) {
     Random random(seed + 6'000'000);
     for (const double share : {0.002, 1.0}) gave_out += gives_out_no_more_than_unpaid(one, random, share) ? 1 : 0;
   }
-  EXPECT_GE(gave_out, cases() / 20);
+  EXPECT_GE(gave_out, certified_surfaces() / 20);
   EXPECT_GT(touching, bounded / 10);
   EXPECT_GT(tuned, bounded / 10);
   EXPECT_GT(sliding, bounded / 5);

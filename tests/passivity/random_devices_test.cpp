@@ -12,7 +12,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 5000 : 200; }
+int compared_devices() { return std::getenv("DASHPOT_LONG") != nullptr ? 5000 : 200; }
 
 constexpr double pi = 3.14159265358979323846;
 
@@ -52,7 +52,7 @@ double scanned(const NeededDamping& needed, const std::vector<double>& rates, do
 // The certificate would promise too little on a device with delay, lag and filter, or ask for too much.
 TEST(RandomDevices, TheBoundMeetsAScan) {
   int compared = 0;
-  for (std::uint64_t seed = 1; compared < cases(); ++seed) {
+  for (std::uint64_t seed = 1; compared < compared_devices(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = random_case(seed);
     if (!one.compilation) continue;

@@ -16,7 +16,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int cases() { return std::getenv("DASHPOT_LONG") != nullptr ? 3000 : 150; }
+int certified_slips() { return std::getenv("DASHPOT_LONG") != nullptr ? 3000 : 150; }
 
 struct Exchange {
   double energy = 0, least = 0, largest = 0;  // [J]
@@ -83,7 +83,7 @@ Exchange exchange_of(const Holds& holds, Random& random, int samples) {
 // Some network with slips would give out energy under a certificate.
 TEST(SlipHolds, GiveOutNoEnergy) {
   int certified = 0, touching = 0, late = 0, changing = 0;
-  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_slips(); ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = slip_case(seed);
     if (!one.compilation || !one.compilation->certificate.bound.any_regime) continue;
@@ -105,7 +105,7 @@ TEST(SlipHolds, GiveOutNoEnergy) {
 // In closed loop with an amplifier that lags, in some passive hand, a certified law would give out energy.
 TEST(SlipHolds, LoopsThatLagGiveOutNoEnergy) {
   int certified = 0;
-  for (std::uint64_t seed = 1; certified < cases() / 3; ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_slips() / 3; ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = slip_case(seed, true);
     if (!one.compilation || !one.compilation->certificate.certified || !one.compilation->certificate.bound.any_regime)
@@ -118,7 +118,7 @@ TEST(SlipHolds, LoopsThatLagGiveOutNoEnergy) {
 // The bound would ask for several times what is needed: at 0.3 of it a simple motion takes energy out of most laws.
 TEST(SlipHolds, GiveOutEnergyFarBelowTheBound) {
   int certified = 0, gained = 0;
-  for (std::uint64_t seed = 1; certified < cases(); ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_slips(); ++seed) {
     const CompiledCase one = slip_case(seed);
     if (!one.compilation || one.compilation->certificate.bound.proof != Proof::hold) continue;
     const PassivityBound& bound = one.compilation->certificate.bound;
@@ -135,7 +135,7 @@ TEST(SlipHolds, GiveOutEnergyFarBelowTheBound) {
 // tolerance, with jitter where the proof covers it. Without a coil's lag: a certificate speaks of a brake that is on.
 TEST(SlipHolds, InPassiveHandsGiveOutNoEnergy) {
   int certified = 0;
-  for (std::uint64_t seed = 1; certified < cases() / 3; ++seed) {
+  for (std::uint64_t seed = 1; certified < certified_slips() / 3; ++seed) {
     SCOPED_TRACE(seed);
     const CompiledCase one = slip_case(seed);
     if (!one.compilation || !one.compilation->certificate.certified) continue;

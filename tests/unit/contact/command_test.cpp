@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <deque>
 #include <functional>
 
@@ -11,7 +12,6 @@
 namespace dashpot::testing {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double encoder_step = 30e-6;  // [m]
 constexpr double damping = 5;           // [N·s/m]
 const char* const wall = R"({"parallel": [{"spring": 500}, {"damper": 5}]})";
@@ -77,11 +77,11 @@ Outcome run(const compiler::UpdateLaw& law, const std::function<double(double)>&
 
 // Down to `depth` within 50 ms, then held with the tremor of a hand.
 std::function<double(double)> held(double depth) {
-  return [=](double t) { return depth * std::min(t / 0.05, 1.0) + 40e-6 * std::sin(2 * pi * 8 * t); };
+  return [=](double t) { return depth * std::min(t / 0.05, 1.0) + 40e-6 * std::sin(2 * std::numbers::pi * 8 * t); };
 }
 
 // In and out again, slowly.
-double visits(double t) { return 0.002 * std::sin(2 * pi * 0.4 * t); }
+double visits(double t) { return 0.002 * std::sin(2 * std::numbers::pi * 0.4 * t); }
 
 }  // namespace
 

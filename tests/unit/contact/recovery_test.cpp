@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "slips/element_reference.hpp"
@@ -11,11 +12,9 @@
 namespace dashpot::testing {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 // Pressed in, left within 10 ms, touched again 30 ms later while the surface is still on its way back.
 double pressed_twice(double t) {
-  if (t < 0.05) return 0.004 * std::sin(pi * t / 0.1);
+  if (t < 0.05) return 0.004 * std::sin(std::numbers::pi * t / 0.1);
   if (t < 0.06) return 0.004 - 0.006 * (t - 0.05) / 0.01;
   if (t < 0.09) return -0.002;
   return -0.002 + 0.008 * std::min((t - 0.09) / 0.04, 1.0);

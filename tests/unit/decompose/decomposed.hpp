@@ -10,6 +10,10 @@
 
 namespace dashpot::compiler {
 
+inline const char* const kelvin_structure = R"({ "parallel": [ { "spring": 1000 }, { "damper": 10 } ] })";
+inline const char* const stiff_and_soft_kelvins = R"({ "series": [
+    { "parallel": [ { "spring": 1000 }, { "damper": 10 } ] }, { "parallel": [ { "spring": 1 }, { "damper": 0.1 } ] } ] })";
+
 struct Decomposed {
   Network network;
   LinearForm form;

@@ -11,15 +11,12 @@ using namespace dashpot::compiler;
 using dashpot::motion;
 
 const char* const maxwell = R"({ "series": [ { "damper": 5 }, { "spring": 50 } ] })";
-const char* const kelvin = R"({ "parallel": [ { "spring": 1000 }, { "damper": 10 } ] })";
-const char* const stiff_and_soft = R"({ "series": [
-    { "parallel": [ { "spring": 1000 }, { "damper": 10 } ] }, { "parallel": [ { "spring": 1 }, { "damper": 0.1 } ] } ] })";
 
 // Fails if the brake is asked for more than it has, or if what it lacks is not made up by the motor: |b∞ − b| is the
 // gain of what the motor adds.
 TEST(DeviceLimits, the_brake_is_capped) {
   const Device device = late_device(4);
-  const Decomposed all = decomposed(kelvin, {}, &device);
+  const Decomposed all = decomposed(kelvin_structure, {}, &device);
   EXPECT_EQ(all.result->choice().damping, 4);
   EXPECT_EQ(all.result->choice().wanted_damping, 10);
   EXPECT_EQ(all.result->choice().velocity_gain, 6);
@@ -29,7 +26,7 @@ TEST(DeviceLimits, the_brake_is_capped) {
 // Fails if a brake that is strong enough is reported as capped.
 TEST(DeviceLimits, a_strong_brake_is_not_capped) {
   const Device device = late_device(10);
-  const Decomposed all = decomposed(kelvin, {}, &device);
+  const Decomposed all = decomposed(kelvin_structure, {}, &device);
   EXPECT_EQ(all.result->choice().damping, 10);
   EXPECT_FALSE(all.reports(DiagnosticCode::damping_capped));
 }
@@ -61,9 +58,9 @@ TEST(DeviceLimits, motions_that_do_not_fit_are_refused) {
 
 // Fails if motor power put into a steady motion goes unsaid: b = 10 where the network itself damps about 0.1.
 TEST(DeviceLimits, injected_power_is_reported) {
-  const Decomposed loud = decomposed(stiff_and_soft, choosing("largest-observer"));
+  const Decomposed loud = decomposed(stiff_and_soft_kelvins, choosing("largest-observer"));
   EXPECT_TRUE(loud.reports(DiagnosticCode::injects_power));
-  EXPECT_FALSE(decomposed(kelvin, choosing("largest-observer")).reports(DiagnosticCode::injects_power));
+  EXPECT_FALSE(decomposed(kelvin_structure, choosing("largest-observer")).reports(DiagnosticCode::injects_power));
   EXPECT_TRUE(decomposed(maxwell, choosing(5.000001)).reports(DiagnosticCode::injects_power));
   EXPECT_FALSE(decomposed(maxwell, choosing(5.0)).reports(DiagnosticCode::injects_power));
 }
@@ -97,7 +94,7 @@ TEST(DeviceLimits, quietest_passive_is_velocity_driven) {
 
 // Fails if states are driven by velocity where b = b∞ needs no estimate.
 TEST(DeviceLimits, quietest_passive_needs_no_estimate_at_the_feedthrough) {
-  const Decomposed all = decomposed(kelvin);
+  const Decomposed all = decomposed(kelvin_structure);
   EXPECT_EQ(all["quietest-passive"].state_input, StateInput::position);
   EXPECT_EQ(all["quietest-passive"].velocity_gain, 0);
 }

@@ -1,17 +1,12 @@
 // Equal relaxation times are one mode, and modes that cannot be seen from the tool are none.
 #include <gtest/gtest.h>
 
-#include "linear/linear_form.hpp"
-#include "support/written_network.hpp"
+#include "linear_form_of.hpp"
 
 namespace {
 
 using namespace dashpot::testing;
 using namespace dashpot::compiler;
-
-const Real rounding{"1e-45"};
-
-LinearForm form_of(const std::string& structure) { return linear_form(written_network(structure)); }
 
 // Fails if Maxwell elements of one relaxation time stay apart, or if their stiffnesses do not add.
 TEST(Merging, adds_equal_relaxation_times) {

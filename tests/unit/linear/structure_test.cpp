@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "linear/linear_form.hpp"
+#include "linear_form_of.hpp"
 #include "linear/modal_reduction.hpp"
 #include "support/shrink.hpp"
 #include "support/written_network.hpp"
@@ -11,10 +11,6 @@ namespace {
 
 using namespace dashpot::testing;
 using namespace dashpot::compiler;
-
-const Real rounding{"1e-45"};
-
-LinearForm form_of(const std::string& structure) { return linear_form(written_network(structure)); }
 
 // Fails if a lone spring is anything but itself.
 TEST(Structure, one_spring) {

@@ -15,6 +15,11 @@
 
 namespace dashpot::testing {
 
+// The second slip holds below 0.4 N and the damper of 2 N·s/m is alone; beyond, that of 3 N·s/m is in series with it.
+inline const char* const two_slips = R"({"series": [
+    {"parallel": [{"damper": 2}, {"series": [{"spring": 300}, {"slip": 1}]}]},
+    {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})";
+
 // A linear device at 1 kHz with the difference of two samples for a velocity, everything else exact.
 inline compiler::Device device_with(double encoder_step) {
   compiler::Device device;

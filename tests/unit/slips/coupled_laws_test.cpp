@@ -18,12 +18,7 @@ namespace {
 
 using compiler::SlipLaw;
 
-// Two slips with a damper each beside a chain; the first is in series with a spring.
-const char* const two_slips = R"({"series": [
-    {"parallel": [{"damper": 2}, {"series": [{"spring": 300}, {"slip": 1}]}]},
-    {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})";
-
-// The same with next to no brake while both hold, so that what is taken back has to be earned.
+// `two_slips` with next to no brake while both hold, so that what is taken back has to be earned.
 const char* const loose_slips = R"({"series": [
     {"parallel": [{"damper": 0.01}, {"series": [{"spring": 300}, {"slip": 1}]}]},
     {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})";

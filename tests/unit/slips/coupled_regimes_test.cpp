@@ -14,15 +14,11 @@
 namespace dashpot::testing {
 namespace {
 
-// The second slip holds below 0.4 N and the damper of 2 N·s/m is alone; beyond, that of 3 N·s/m is in series with it.
-const char* const two_slips = R"({"series": [
-    {"parallel": [{"damper": 2}, {"series": [{"spring": 300}, {"slip": 1}]}]},
-    {"parallel": [{"slip": 0.4}, {"damper": 3}]}]})";
-
+// Both dampers of `two_slips`, where its second slip gives way.
 constexpr double both = 2 * 3 / 5.0;  // [N·s/m]
 
 // No path of series and parallel parts: a bridge of dampers whose middle is a slip.
-const char* const bridge = R"([
+const char* const damper_bridge = R"([
     {"damper": 2, "nodes": ["tool", "a"]}, {"damper": 3, "nodes": ["tool", "b"]}, {"slip": 0.2, "nodes": ["a", "b"]},
     {"damper": 4, "nodes": ["a", "ground"]}, {"damper": 1, "nodes": ["b", "ground"]}])";
 
@@ -57,7 +53,7 @@ TEST(CoupledRegimes, FollowTheSlipsThatSlide) {
 
 // A bridge of dampers would be taken for one that its slip always closes, or never.
 TEST(CoupledRegimes, FollowSlipsOutsideATree) {
-  const compiler::Compilation c = decided(written_network(bridge), "velocity-free");
+  const compiler::Compilation c = decided(written_network(damper_bridge), "velocity-free");
   ASSERT_EQ(c.law.networks.size(), 1u);
   const auto commands = commands_along(c.law, [] {
     std::vector<double> motion = slide(0.1, 10);

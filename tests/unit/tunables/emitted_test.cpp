@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double period = 1e-3;  // [s]
+constexpr double emitted_period = 1e-3;  // [s]
 
 struct Sample {
   double position, velocity;
@@ -36,7 +36,7 @@ std::vector<Sample> schedule(const std::vector<compiler::Tunable>& tunables, std
     if (sets && random.chance(0.1))
       given[random.index(given.size())] = random.chance(0.5) ? std::numeric_limits<double>::quiet_NaN() : 1e30;
     samples.push_back({random.chance(0.02) ? std::numeric_limits<double>::infinity() : position,
-                       (position - last) / period, sets, given});
+                       (position - last) / emitted_period, sets, given});
     last = position;
   }
   return samples;

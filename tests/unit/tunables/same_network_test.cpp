@@ -11,7 +11,7 @@
 namespace dashpot::testing {
 namespace {
 
-constexpr double period = 1e-3;  // [s]
+constexpr double sample_period = 1e-3;  // [s]
 
 std::string without_tunables(std::string text) {
   for (std::size_t at; (at = text.find(", \"tunable\": true")) != text.npos;) text.erase(at, text.find('}', at) - at);
@@ -29,7 +29,7 @@ double difference(const std::string& text, std::uint64_t seed, compiler::Scheme 
   Random random(seed);
   double last = 0, scale = 0, worst = 0;
   for (double position : random_walk(random, 300)) {
-    const double velocity = (position - last) / period;
+    const double velocity = (position - last) / sample_period;
     const command<double> a = here.step(position, velocity), b = there.step(position, velocity);
     const double of_a = a.damping * velocity + a.force, of_b = b.damping * velocity + b.force;
     scale = std::max({scale, std::abs(of_b), std::abs(b.damping * velocity), std::abs(b.force)});
@@ -43,12 +43,12 @@ double difference(const std::string& text, std::uint64_t seed, compiler::Scheme 
 
 // Modes lose digits where rates differ by decades, element states where they add up elongations: 300 samples' roundings
 // at values over five decades.
-constexpr double rounding = 1e-9;
+constexpr double force_rounding = 1e-9;
 
 void expect_same_forces(Kind kind, compiler::Scheme scheme) {
   for (std::uint64_t seed = 1; seed <= repetitions(100, 5000); ++seed) {
     const std::string text = tunable_network(seed, kind);
-    ASSERT_LE(difference(text, seed, scheme), rounding) << "seed " << seed << ", " << text;
+    ASSERT_LE(difference(text, seed, scheme), force_rounding) << "seed " << seed << ", " << text;
   }
 }
 
@@ -89,7 +89,7 @@ TEST(SameNetwork, of_one_ports_between_slips_in_the_exact_scheme) {
   ASSERT_EQ(law.law().tunable->graphs.size(), 1u);
   EXPECT_TRUE(law.law().tunable->mesh_elements.empty());
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
-    EXPECT_LE(difference(ring, seed, compiler::Scheme::exact), rounding) << seed;
+    EXPECT_LE(difference(ring, seed, compiler::Scheme::exact), force_rounding) << seed;
 }
 
 // An inner node that three ends of slips share would be lost, or its springs take another way.
@@ -104,7 +104,7 @@ TEST(SameNetwork, of_stars_between_slips_in_backward_euler) {
   EXPECT_EQ(law.law().tunable->ends, 5);
   EXPECT_EQ(law.law().tunable->mesh_elements.size(), 5u);
   for (std::uint64_t seed = 1; seed <= 20; ++seed)
-    EXPECT_LE(difference(star, seed, compiler::Scheme::backward_euler), rounding) << seed;
+    EXPECT_LE(difference(star, seed, compiler::Scheme::backward_euler), force_rounding) << seed;
 }
 
 }  // namespace

@@ -100,12 +100,12 @@ double relative_jump(std::uint64_t seed, double rate) {
 }
 
 // Some thousands of roundings of a step, each relative to the largest energy that has been.
-constexpr double rounding = 1e-12;
+constexpr double gain_rounding = 1e-12;
 
 void expect_no_gain(Kind kind) {
   for (std::uint64_t seed = 1; seed <= networks(); ++seed) {
     const std::string text = tunable_network(seed, kind);
-    ASSERT_LE(worst_gain(text, seed), rounding) << "seed " << seed << ", " << text;
+    ASSERT_LE(worst_gain(text, seed), gain_rounding) << "seed " << seed << ", " << text;
   }
 }
 

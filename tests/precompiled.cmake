@@ -1,0 +1,32 @@
+# With DASHPOT_PRECOMPILE: every program of these rooms that links the compiler and GoogleTest reads one precompiled header.
+# Rooms do nothing for it.
+if(NOT DASHPOT_PRECOMPILE)
+  return()
+endif()
+
+file(CONFIGURE OUTPUT precompiled.cpp CONTENT "// Nothing but what is precompiled.\n")
+add_library(dashpot_precompiled OBJECT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
+# As the programs that read it are compiled: another option, and g++ passes it over.
+target_link_libraries(dashpot_precompiled PRIVATE dashpot::compiler GTest::gtest)
+target_precompile_headers(dashpot_precompiled PRIVATE
+  <algorithm> <cmath> <functional> <map> <memory> <optional> <string> <variant> <vector>
+  <fmt/format.h> <boost/multiprecision/cpp_bin_float.hpp> <gtest/gtest.h>)
+
+function(read_precompiled_header folder)
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+  foreach(target IN LISTS targets)
+    get_target_property(type ${target} TYPE)
+    if(NOT type STREQUAL "EXECUTABLE")
+      continue()
+    endif()
+    get_target_property(libraries ${target} LINK_LIBRARIES)
+    if(libraries MATCHES "GTest::" AND libraries MATCHES "dashpot_test_support|dashpot::compiler|paper_experiments")
+      target_precompile_headers(${target} REUSE_FROM dashpot_precompiled)
+    endif()
+  endforeach()
+  get_property(rooms_within DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(room IN LISTS rooms_within)
+    read_precompiled_header(${room})
+  endforeach()
+endfunction()
+read_precompiled_header(${CMAKE_CURRENT_SOURCE_DIR})

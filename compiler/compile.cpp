@@ -34,9 +34,12 @@ bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diag
 
 }  // namespace
 
-std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics) {
+std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics, const std::optional<Device>& device) {
   const std::optional<NetworkDecl> decl = parse_network(source, diagnostics);
-  return decl ? build_network(*decl, diagnostics) : std::nullopt;
+  if (!decl) return std::nullopt;
+  if (!device) return build_network(*decl, diagnostics);
+  const auto& loop = device->description.loop;
+  return build_network(*decl, diagnostics, Range{loop.band_low, loop.band_high});
 }
 
 std::optional<Compilation> compile(const SourceFile& source, const Choices& choices,
@@ -48,7 +51,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& choi
 std::optional<Compilation> compile(const SourceFile& source, const Choices& asked, const std::optional<Device>& device,
                                    Diagnostics& diagnostics, StageTimes& times) {
   times.enter("front end");
-  std::optional<Network> network = check(source, diagnostics);
+  std::optional<Network> network = check(source, diagnostics, device);
   return network ? compile(std::move(*network), asked, device, diagnostics, times) : std::nullopt;
 }
 

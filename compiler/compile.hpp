@@ -26,7 +26,8 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& choi
 // What the sampled loop needs of every candidate, not only of the chosen one: for those who look at them.
 void weigh_all_candidates(Compilation& compilation, const Choices& choices);
 
-// The front end alone: errors and warnings about the file.
-std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics);
+// The front end alone: errors and warnings about the file. Springpots that state no band take the device's.
+std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics,
+                             const std::optional<Device>& device = std::nullopt);
 
 }  // namespace dashpot::compiler

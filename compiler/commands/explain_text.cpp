@@ -91,6 +91,9 @@ std::string explain_text(const Compilation& c) {
   const Candidate& choice = c.decomposition.choice();
   const PortUnits units = port_units(c.network.port_motion);
   std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
+  text += calculations_text(c.network);
+  for (const Springpot& springpot : c.network.springpots)
+    text += "springpot             " + to_text(springpot, c.network.port_motion) + "\n";
   text += to_text(c.form.linear, c.network);
   text += fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)),
                       units.damping);

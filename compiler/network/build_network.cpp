@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "network/connections.hpp"
+#include "network/ladder.hpp"
 #include "network/law.hpp"
 #include "network/name_rules.hpp"
 #include "network/network.hpp"
@@ -26,17 +27,17 @@ struct PlacedLeaf {
 
 class NetworkBuilder {
  public:
-  NetworkBuilder(const NetworkDecl& decl, Diagnostics& diagnostics)
-      : decl_(decl), diagnostics_(diagnostics), table_(decl.parameters, diagnostics) {}
+  NetworkBuilder(const NetworkDecl& decl, const std::optional<Range>& device_band, Diagnostics& diagnostics)
+      : decl_(decl), device_band_(device_band), diagnostics_(diagnostics), table_(decl.parameters, diagnostics) {}
 
   Network build() {
     copy_texts();
     network_.nodes = {"ground", "tool"};
     place_leaves();
     check_names();
+    read_validity();
     add_elements();
     read_contact();
-    read_validity();
     network_.parameters = table_.parameters();
     check_whole();
     return std::move(network_);
@@ -50,6 +51,7 @@ class NetworkBuilder {
     network_.title = text_of(decl_.title);
     network_.source = text_of(decl_.source);
     network_.digest = decl_.digest;
+    for (const CommentDecl& comment : decl_.comments) network_.comments.push_back({comment.about, comment.text});
     network_.port_motion = read_motion(decl_.motion, diagnostics_);
   }
 
@@ -114,7 +116,8 @@ class NetworkBuilder {
   // Unnamed elements are numbered by their place among all elements.
   std::string name_of(const LeafDecl& leaf, std::size_t number) {
     if (leaf.name) return leaf.name->text;
-    const std::string name = names_.free_name(fmt::format("{}_{}", kind_of(make_law(leaf.kind, 0)), number));
+    const std::string_view kind = leaf.springpot ? "springpot" : leaf.prony ? "prony" : kind_of(make_law(leaf.kind, 0));
+    const std::string name = names_.free_name(fmt::format("{}_{}", kind, number));
     names_.add({name, leaf.span}, diagnostics_);
     return name;
   }
@@ -122,12 +125,64 @@ class NetworkBuilder {
   void add_elements() {
     if (leaves_.size() > most_elements)
       diagnostics_.report<DiagnosticCode::too_many_elements>(decl_.structure_span, leaves_.size(), most_elements);
+    std::size_t number = 0;
     for (const PlacedLeaf& placed : leaves_) {
-      Element element{
-          name_of(*placed.leaf, network_.elements.size() + 1), {}, placed.a, placed.b, placed.leaf->span, {}};
-      read_law(*placed.leaf, element);
-      network_.elements.push_back(std::move(element));
+      const bool is_ladder = placed.leaf->springpot || placed.leaf->prony;
+      ++number;
+      if (is_ladder) add_ladder(placed, number);
+      else add_element(placed, number);
     }
+  }
+
+  void add_element(const PlacedLeaf& placed, std::size_t number) {
+    Element element{name_of(*placed.leaf, number), {}, placed.a, placed.b, placed.leaf->span, {}};
+    read_law(*placed.leaf, element);
+    network_.elements.push_back(std::move(element));
+  }
+
+  // A ladder that cannot be read counts as a spring, so that it causes no further complaints.
+  void add_ladder(const PlacedLeaf& placed, std::size_t number) {
+    const std::string name = name_of(*placed.leaf, number);
+    const LadderDefaults defaults{network_.valid.frequency, device_band_};
+    std::optional<Ladder> ladder = read_ladder(*placed.leaf, table_, network_.port_motion, defaults, diagnostics_);
+    if (!ladder) ladder = Ladder{1, {}, {}};
+    if (ladder->springpot) add_springpot(name, *ladder->springpot);
+    const bool is_single = ladder->branches.empty();
+    if (ladder->stiffness)
+      add_part(is_single ? name : new_name(name + "_spring", placed), Spring{*ladder->stiffness}, placed.a, placed.b,
+               placed);
+    for (std::size_t i = 0; i < ladder->branches.size(); ++i) {
+      const MaxwellBranch& branch = ladder->branches[i];
+      const NodeIndex inner = inner_node();
+      add_part(new_name(fmt::format("{}_spring_{}", name, i + 1), placed), Spring{branch.stiffness}, placed.a, inner,
+               placed);
+      add_part(new_name(fmt::format("{}_damper_{}", name, i + 1), placed),
+               Damper{branch.stiffness / branch.relaxation_rate}, inner, placed.b, placed);
+    }
+  }
+
+  void add_part(std::string name, Law law, NodeIndex a, NodeIndex b, const PlacedLeaf& placed) {
+    network_.elements.push_back({std::move(name), law, a, b, placed.leaf->span, {}});
+  }
+
+  std::string new_name(const std::string& wanted, const PlacedLeaf& placed) {
+    const std::string name = names_.free_name(wanted);
+    names_.add({name, placed.leaf->span}, diagnostics_);
+    return name;
+  }
+
+  void add_springpot(const std::string& name, Springpot springpot) {
+    springpot.name = name;
+    warn_beyond_band(springpot, network_.valid.frequency, "this file is valid");
+    warn_beyond_band(springpot, device_band_, "the device is judged");
+    network_.springpots.push_back(std::move(springpot));
+  }
+
+  // A range from 0 asks for nothing at its lower end: nobody can state that end.
+  void warn_beyond_band(const Springpot& springpot, const std::optional<Range>& asked, std::string_view who) {
+    if (!asked || ((asked->low <= 0 || springpot.band.low <= asked->low) && asked->high <= springpot.band.high)) return;
+    diagnostics_.report<DiagnosticCode::springpot_beyond_band>(springpot.span, springpot.name, springpot.band.low,
+                                                               springpot.band.high, who, asked->low, asked->high);
   }
 
   // A value that cannot be read counts as present, so that it causes no further complaints.
@@ -139,6 +194,7 @@ class NetworkBuilder {
     if (!value || !check_value(leaf, element, *value)) return;
     element.law = make_law(leaf.kind, value->value);
     element.parameter = value->parameter;
+    if (table_.is_calculated(*leaf.value)) element.calculation = leaf.value->text;
   }
 
   bool check_value(const LeafDecl& leaf, const Element& element, const ReadValue& read) {
@@ -222,6 +278,7 @@ class NetworkBuilder {
   }
 
   const NetworkDecl& decl_;
+  std::optional<Range> device_band_;  // [Hz]
   Diagnostics& diagnostics_;
   ParameterTable table_;
   Network network_;
@@ -232,9 +289,10 @@ class NetworkBuilder {
 
 }  // namespace
 
-std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics) {
+std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics,
+                                     const std::optional<Range>& device_band) {
   const std::size_t errors_before = diagnostics.error_count();
-  Network network = NetworkBuilder(decl, diagnostics).build();
+  Network network = NetworkBuilder(decl, device_band, diagnostics).build();
   if (!decl.complete || diagnostics.error_count() > errors_before) return std::nullopt;
   return network;
 }

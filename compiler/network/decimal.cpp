@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <limits>
 #include <string>
 
 namespace dashpot::compiler {
 namespace {
-
-using Real = boost::multiprecision::cpp_bin_float_50;
 
 constexpr long largest_exponent = 100'000'000;  // beyond every double, whatever digits stand before it
 
@@ -79,9 +78,13 @@ RoundedDecimal round(const Decimal& decimal) {
   return checked(result.ec == std::errc() ? value : 0.0, decimal);
 }
 
-Real factor_of(const Unit& unit) {
-  static const Real degree = Real("3.14159265358979323846264338327950288419716939937510582097494459") / 180;
-  return pow(Real(60), unit.power_of_sixty) * pow(degree, unit.power_of_degree);
+ExactReal factor_of(const Unit& unit) {
+  static const ExactReal degree = ExactReal("3.14159265358979323846264338327950288419716939937510582097494459") / 180;
+  return pow(ExactReal(60), unit.power_of_sixty) * pow(degree, unit.power_of_degree);
+}
+
+ExactReal exact_value(const Decimal& decimal, const Unit& unit) {
+  return ExactReal(fmt::format("{}e{}", decimal.digits, decimal.exponent)) * factor_of(unit);
 }
 
 }  // namespace
@@ -97,8 +100,16 @@ RoundedDecimal round_decimal(std::string_view literal, const Unit& unit) {
   const RoundedDecimal shifted = round(decimal);
   const bool is_power_of_ten = unit.power_of_sixty == 0 && unit.power_of_degree == 0;
   if (is_power_of_ten || shifted.value == 0 || shifted.rounding != Rounding::finite) return shifted;
-  const Real exact(fmt::format("{}e{}", decimal.digits, decimal.exponent));
-  return checked(Real(exact * factor_of(unit)).convert_to<double>(), decimal);
+  return checked(exact_value(decimal, unit).convert_to<double>(), decimal);
+}
+
+ExactReal exact_decimal(std::string_view literal, const Unit& unit) {
+  Decimal decimal = split(literal);
+  decimal.exponent += unit.power_of_ten;
+  if (is_zero(decimal)) return 0;
+  if (std::abs(magnitude(decimal)) > 10'000)
+    return magnitude(decimal) > 0 ? std::numeric_limits<ExactReal>::infinity() : ExactReal(0);
+  return exact_value(decimal, unit);
 }
 
 }  // namespace dashpot::compiler

@@ -1,6 +1,7 @@
 // Decimal literals to doubles.
 #pragma once
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cstddef>
 #include <string_view>
 
@@ -23,5 +24,11 @@ struct RoundedDecimal {
 // The literal times one of the unit, in SI. Correctly rounded where the unit is a power of ten; otherwise one rounding
 // of a 50-digit product.
 RoundedDecimal round_decimal(std::string_view literal, const Unit& unit);
+
+// What a value is before it is rounded to a double: 50 digits.
+using ExactReal = boost::multiprecision::cpp_bin_float_50;
+
+// The same product without the rounding. The literal's exponent is within ±10,000; a larger one is infinite or zero.
+ExactReal exact_decimal(std::string_view literal, const Unit& unit);
 
 }  // namespace dashpot::compiler

@@ -35,6 +35,7 @@ struct Element {
   NodeIndex b;
   Span span;                             // of the leaf in the file
   std::optional<std::size_t> parameter;  // index into Network::parameters where the value is one
+  std::string calculation = {};          // the expression that gave the value, as written; empty for a plain one
   bool has_effect = true;                // false: no force can pass through it, whatever the motion
 };
 

@@ -11,7 +11,8 @@ namespace {
 
 std::string value_text(const Network& network, const Element& element) {
   const std::string value = fmt::format("{} {}", value_of(element.law), unit_of(element.law, network.port_motion));
-  return element.parameter ? fmt::format("{} = {}", network.parameters[*element.parameter].name, value) : value;
+  const std::string& name = element.parameter ? network.parameters[*element.parameter].name : element.calculation;
+  return name.empty() ? value : fmt::format("{} = {}", name, value);
 }
 
 void append_header(std::string& out, const Network& network) {
@@ -23,6 +24,7 @@ void append_header(std::string& out, const Network& network) {
 
 void append_parameter(std::string& out, const Parameter& parameter) {
   fmt::format_to(std::back_inserter(out), "  parameter {} = {}", parameter.name, parameter.value);
+  if (!parameter.calculation.empty()) out += " = " + parameter.calculation;
   if (parameter.tunable) fmt::format_to(std::back_inserter(out), ", tunable {} … {}", parameter.min, parameter.max);
   out += "\n";
 }
@@ -53,8 +55,30 @@ std::string to_text(const Network& network) {
   append_header(out, network);
   for (const Parameter& parameter : network.parameters) append_parameter(out, parameter);
   for (const Element& element : network.elements) append_element(out, network, element);
+  for (const Springpot& springpot : network.springpots)
+    out += "  springpot " + to_text(springpot, network.port_motion) + "\n";
   append_limits(out, network);
   return out;
+}
+
+std::string to_text(const Springpot& springpot, motion port_motion) {
+  return fmt::format("{}: {} {} at {} s, exponent {}, as {} Maxwell elements within {:.3g} % from {} to {} Hz",
+                     springpot.name, springpot.stiffness, unit_of(Spring{}, port_motion), springpot.time,
+                     springpot.exponent, springpot.elements, 100 * springpot.error, springpot.band.low,
+                     springpot.band.high);
+}
+
+std::string calculations_text(const Network& network) {
+  std::string text;
+  const auto add = [&](const std::string& name, const std::string& calculation, double value, const std::string& unit) {
+    if (!calculation.empty())
+      text += fmt::format("calculated            {} = {} = {}{}{}\n", name, calculation, value, unit.empty() ? "" : " ",
+                          unit);
+  };
+  for (const Parameter& p : network.parameters) add(p.name, p.calculation, p.value, p.unit);
+  for (const Element& e : network.elements)
+    add(e.name, e.calculation, value_of(e.law), unit_of(e.law, network.port_motion));
+  return text;
 }
 
 std::vector<std::size_t> effective_elements(const Network& network) {

@@ -20,6 +20,8 @@ struct Parameter {
   double min = 0;
   double max = 0;
   Span span;
+  std::string unit = {};         // of the value, where it has one
+  std::string calculation = {};  // the expression that gave the value, as written; empty for a plain one
 };
 
 struct Range {
@@ -40,6 +42,24 @@ struct Contact {
   Span span;
 };
 
+// What a springpot was taken for: its Maxwell elements are among the network's.
+struct Springpot {
+  std::string name;
+  double stiffness;  // of K τ^α D^α u [N/m] or [N·m/rad]
+  double exponent;
+  double time;           // τ [s]
+  Range band;            // [Hz]
+  double error;          // guaranteed over the band, relative
+  std::size_t elements;  // Maxwell elements that stand for it
+  Span span;
+};
+
+// A remark of the author's.
+struct Comment {
+  std::string about;  // a name, or a place in the file; empty: the whole
+  std::string text;
+};
+
 struct Network {
   std::string name;
   std::string title;
@@ -48,18 +68,27 @@ struct Network {
   std::vector<Parameter> parameters;
   std::vector<std::string> nodes;  // nodes[ground] == "ground", nodes[tool] == "tool"
   std::vector<Element> elements;
+  std::vector<Springpot> springpots;
   std::optional<Contact> contact;
   Validity valid;
+  std::vector<Comment> comments;
   std::string digest;  // of the file's bytes
   Span name_span;
 };
 
 // In: what the author wrote. Out: the network in SI. Ensures: values finite and non-negative, names legal C++ names and
 // unique ignoring case, tool and ground connected, no part connected to neither. Elements through which no force can
-// pass are kept, marked, and warned about. Refuses: everything of architecture, section 3, all problems at once.
-std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics);
+// pass are kept, marked, and warned about; springpots and Prony series have become Maxwell elements in parallel.
+// `device_band` [Hz] is what springpots hold over that state no band, in files that state no valid frequencies.
+// Refuses: everything of architecture, section 3, all problems at once.
+std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics,
+                                     const std::optional<Range>& device_band = std::nullopt);
 
 std::string to_text(const Network& network);
+std::string to_text(const Springpot& springpot, motion port_motion);
+
+// A line for every value that was calculated: what its author wrote, and what came out.
+std::string calculations_text(const Network& network);
 
 // The indices of those that can carry force, in the network's order.
 std::vector<std::size_t> effective_elements(const Network& network);

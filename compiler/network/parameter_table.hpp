@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "network/expression.hpp"
 #include "network/network.hpp"
 #include "network/read_value.hpp"
 
@@ -21,9 +23,11 @@ class ParameterTable {
   // Reports ranges that are missing, contradictory, or do not hold the value.
   ParameterTable(const std::vector<ParameterDecl>& decls, Diagnostics& diagnostics);
 
-  // A number, a quantity of the dimension that is due, or the name of a parameter of that dimension; otherwise nothing,
-  // reported.
+  // A number, a quantity of the dimension that is due, an expression of constants of that dimension, or the name of a
+  // parameter of it; otherwise nothing, reported.
   std::optional<ReadValue> read(const ValueDecl& decl, const Expectation& expected);
+
+  bool is_calculated(const ValueDecl& decl) { return is_expression(decl, scope()); }
 
   // Warns about every parameter that no value names.
   void report_unused() const;
@@ -36,6 +40,7 @@ class ParameterTable {
   struct Entry {
     Parameter parameter;
     ParameterDecl decl;
+    ExactReal exact = 0;                 // the value before it was rounded
     std::optional<Dimension> dimension;  // nothing where value and range are plain numbers, until the first use
     std::optional<Span> first_use;       // that told the dimension
     bool readable = true;
@@ -43,14 +48,17 @@ class ParameterTable {
   };
 
   Entry read_entry(const ParameterDecl& decl);
-  std::optional<double> read_part(const ValueDecl& decl, Entry& entry);
+  std::optional<Quantity> read_part(const ValueDecl& decl, Entry& entry);
   void read_range(Entry& entry);
   std::optional<ReadValue> use(Entry& entry, const ValueDecl& decl, const Expectation& expected);
   void report_unknown(const ValueDecl& decl) const;
+  NameScope scope();
+  std::optional<ExactQuantity> read_operand(const Text& name);
 
   std::vector<Entry> entries_;
   std::unordered_map<std::string, std::size_t> index_of_name_;
-  std::vector<std::string> names_;
+  std::set<std::string> named_early_;  // in an expression before they are defined
+  std::vector<std::string> names_;     // of all parameters; `entries_` holds those read so far
   Diagnostics& diagnostics_;
 };
 

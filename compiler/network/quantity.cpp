@@ -12,12 +12,6 @@
 namespace dashpot::compiler {
 namespace {
 
-// The place of bytes [begin, end) of the value; the whole of it where escapes hide them.
-Span part_of(const ValueDecl& decl, std::size_t begin, std::size_t end) {
-  if (decl.span.end - decl.span.begin != decl.text.size() + 2) return decl.span;
-  return {decl.span.file, decl.span.begin + 1 + begin, decl.span.begin + 1 + end};
-}
-
 // "N/m s" is meant to be "N s/m" or "N/(m s)".
 void report_two_readings(const Span& place, const std::string& unit, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::product_after_slash>(place, excerpt(unit));
@@ -70,6 +64,11 @@ std::optional<double> read_number(const ValueDecl& decl, std::string_view litera
 
 }  // namespace
 
+Span part_of(const ValueDecl& decl, std::size_t begin, std::size_t end) {
+  if (decl.span.end - decl.span.begin != decl.text.size() + 2) return decl.span;
+  return {decl.span.file, decl.span.begin + 1 + begin, decl.span.begin + 1 + end};
+}
+
 bool is_quantity(const ValueDecl& decl) {
   const std::size_t begin = decl.text.find_first_not_of(' ');
   return decl.form == ValueDecl::Form::number || decl.text.find_first_of("0123456789+-.") == begin;
@@ -85,10 +84,11 @@ std::optional<Quantity> read_quantity(const ValueDecl& decl, Diagnostics& diagno
   }
   const std::optional<Unit> unit = read_unit(decl, begin + length, diagnostics);
   if (!unit) return std::nullopt;
-  const std::optional<double> value = read_number(decl, text.substr(begin, length), *unit, diagnostics);
+  const std::string_view literal = text.substr(begin, length);
+  const std::optional<double> value = read_number(decl, literal, *unit, diagnostics);
   if (!value) return std::nullopt;
   const bool is_number = decl.form == ValueDecl::Form::number;
-  return Quantity{*value, is_number ? std::nullopt : std::optional(unit->dimension)};
+  return Quantity{*value, is_number ? std::nullopt : std::optional(unit->dimension), exact_decimal(literal, *unit)};
 }
 
 }  // namespace dashpot::compiler

@@ -27,30 +27,36 @@ bool is_of_other_motion(const Dimension& x, const Dimension& y) {
                      [&](const auto& pair) { return pair == std::pair(x, y) || pair == std::pair(y, x); });
 }
 
+// "5 N m/rad" for "5 N m", "(K * r^2) / 1 rad" for "K * r^2".
+std::string per_radian(const ValueDecl& decl, const NameScope& scope) {
+  return is_expression(decl, scope) ? "(" + excerpt(decl.text) + ") / 1 rad" : excerpt(decl.text) + "/rad";
+}
+
 void report_wrong_unit(const ValueDecl& decl, const Dimension& found, const Expectation& expected,
-                       Diagnostics& diagnostics) {
+                       const NameScope& scope, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::wrong_unit>(decl.span, excerpt(decl.text), describe(found), expected.taker,
                                                  describe(expected.dimension));
   const bool rotates = expected.port_motion == motion::rotation;
-  if (found == dimensions::number)
+  if (found == dimensions::number && is_quantity(decl))
     diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + " " + unit_of(expected.dimension));
   else if (expected.dimension.radian < 0 && product(found, power(dimensions::angle, -1)) == expected.dimension)
-    diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + "/rad");
+    diagnostics.note<DiagnosticCode::write_instead>({}, per_radian(decl, scope));
   else if (is_of_other_motion(found, expected.dimension))
     diagnostics.note<DiagnosticCode::units_of_motion>({}, rotates ? "rotation" : "translation");
 }
 
 }  // namespace
 
-std::optional<double> read_quantity_as(const ValueDecl& decl, const Expectation& expected, Diagnostics& diagnostics) {
-  if (!is_quantity(decl)) {
+std::optional<double> read_quantity_as(const ValueDecl& decl, const Expectation& expected, Diagnostics& diagnostics,
+                                       const NameScope& scope) {
+  if (!is_stated(decl, scope)) {
     report_no_quantity(decl, diagnostics);
     return std::nullopt;
   }
-  const std::optional<Quantity> quantity = read_quantity(decl, diagnostics);
+  const std::optional<Quantity> quantity = read_stated(decl, scope, diagnostics);
   if (!quantity) return std::nullopt;
   if (!quantity->dimension || quantity->dimension == expected.dimension) return quantity->value;
-  report_wrong_unit(decl, *quantity->dimension, expected, diagnostics);
+  report_wrong_unit(decl, *quantity->dimension, expected, scope, diagnostics);
   return std::nullopt;
 }
 

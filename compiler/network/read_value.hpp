@@ -7,6 +7,7 @@
 #include <string>
 
 #include "network/dimension.hpp"
+#include "network/expression.hpp"
 #include "source/diagnostic.hpp"
 #include "syntax/network_decl.hpp"
 
@@ -19,8 +20,10 @@ struct Expectation {
   motion port_motion;
 };
 
-// A number, or a quantity of the dimension that is due, in SI; anything else is reported, with the remedy.
-std::optional<double> read_quantity_as(const ValueDecl& decl, const Expectation& expected, Diagnostics& diagnostics);
+// A number, or a quantity or an expression of the dimension that is due, in SI; anything else is reported, with the
+// remedy.
+std::optional<double> read_quantity_as(const ValueDecl& decl, const Expectation& expected, Diagnostics& diagnostics,
+                                       const NameScope& scope = {});
 
 // Reports text that is neither a quantity nor a name.
 void report_no_quantity(const ValueDecl& decl, Diagnostics& diagnostics);

@@ -35,12 +35,41 @@ struct ParameterDecl {
 
 enum class ElementKind { spring, damper, slip };
 
+// `[low, high]`, or a single upper bound, which stands for 0 … high.
+struct RangeDecl {
+  std::optional<ValueDecl> low;
+  ValueDecl high;
+  Span span;
+};
+
+struct SpringpotDecl {
+  std::optional<ValueDecl> exponent;  // nothing where a reported problem left none
+  std::optional<ValueDecl> time;
+  std::optional<RangeDecl> band;
+  std::optional<ValueDecl> error;
+};
+
+struct PronyTermDecl {
+  std::optional<ValueDecl> weight;
+  std::optional<ValueDecl> time;
+  Span span;
+};
+
+struct PronyDecl {
+  std::optional<Text> of;
+  std::vector<PronyTermDecl> terms;
+  Span terms_span;
+};
+
+// One element, or what becomes several: a springpot and a Prony series are ladders of Maxwell elements.
 struct LeafDecl {
-  ElementKind kind = ElementKind::spring;
+  ElementKind kind = ElementKind::spring;  // what `value` is: of ladders a stiffness
   Span kind_span;
   std::optional<ValueDecl> value;
   std::optional<Text> name;
   Span span;
+  std::optional<SpringpotDecl> springpot = {};
+  std::optional<PronyDecl> prony = {};
 };
 
 struct TreeDecl {
@@ -58,13 +87,6 @@ struct EdgeDecl {
   Text to;
 };
 
-// `[low, high]`, or a single upper bound, which stands for 0 … high.
-struct RangeDecl {
-  std::optional<ValueDecl> low;
-  ValueDecl high;
-  Span span;
-};
-
 struct ContactDecl {
   ValueDecl at;
   Span span;
@@ -77,6 +99,12 @@ struct ValidDecl {
   Span span;
 };
 
+// A remark of the author's that changes nothing.
+struct CommentDecl {
+  std::string about;  // the name of what it stands in, or its place: "network.parallel[2]"
+  std::string text;
+};
+
 struct NetworkDecl {
   std::optional<Text> name;
   std::optional<Text> title;
@@ -87,6 +115,7 @@ struct NetworkDecl {
   Span structure_span;
   std::optional<ContactDecl> contact;
   std::optional<ValidDecl> valid;
+  std::vector<CommentDecl> comments;
   std::string digest;    // of the file's bytes
   bool complete = true;  // false: problems were reported, so only what is here can be checked further
 };

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "source/digest.hpp"
+#include "syntax/annotations.hpp"
 #include "syntax/file_format.hpp"
 #include "syntax/object_reader.hpp"
 
@@ -73,8 +74,9 @@ DeviceDecl parse_device_keys(ObjectReader reader, Diagnostics& diagnostics) {
 
 std::optional<DeviceDecl> parse_device(const SourceFile& file, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();
-  const std::optional<JsonValue> root = parse_json(file, diagnostics);
+  std::optional<JsonValue> root = parse_json(file, diagnostics);
   if (!root || !is_format_1(FileKind::device, *root, diagnostics)) return std::nullopt;
+  take_annotations(*root, diagnostics);
   DeviceDecl decl = parse_device_keys(ObjectReader(*root, "the device file", diagnostics), diagnostics);
   decl.digest = digest_of(file.text());
   decl.complete = diagnostics.error_count() == errors_before;

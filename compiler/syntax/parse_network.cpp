@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "source/digest.hpp"
+#include "syntax/annotations.hpp"
 #include "syntax/file_format.hpp"
 #include "syntax/object_reader.hpp"
 #include "syntax/parse_structure.hpp"
@@ -96,9 +97,11 @@ NetworkDecl parse_network_keys(ObjectReader reader, Diagnostics& diagnostics) {
 
 std::optional<NetworkDecl> parse_network(const SourceFile& file, Diagnostics& diagnostics) {
   const std::size_t errors_before = diagnostics.error_count();
-  const std::optional<JsonValue> root = parse_json(file, diagnostics);
+  std::optional<JsonValue> root = parse_json(file, diagnostics);
   if (!root || !is_format_1(FileKind::network, *root, diagnostics)) return std::nullopt;
+  std::vector<CommentDecl> comments = take_annotations(*root, diagnostics);
   NetworkDecl decl = parse_network_keys(ObjectReader(*root, "the network file", diagnostics), diagnostics);
+  decl.comments = std::move(comments);
   decl.digest = digest_of(file.text());
   decl.complete = diagnostics.error_count() == errors_before;
   return decl;

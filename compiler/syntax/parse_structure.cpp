@@ -14,14 +14,24 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-const std::vector<std::string> branch_keys = {"spring", "damper", "slip", "series", "parallel", "name", "nodes"};
-const std::vector<std::string> edge_keys = {"spring", "damper", "slip", "nodes", "name"};
+const std::vector<std::string> leaf_kinds = {"spring", "damper", "slip", "springpot", "prony"};
+const std::vector<std::string> branch_kinds = {"spring", "damper", "slip", "springpot", "prony", "series", "parallel"};
 
-bool is_leaf_kind(std::string_view key) { return key == "spring" || key == "damper" || key == "slip"; }
+bool is_leaf_kind(std::string_view key) {
+  return std::find(leaf_kinds.begin(), leaf_kinds.end(), key) != leaf_kinds.end();
+}
 bool is_group_kind(std::string_view key) { return key == "series" || key == "parallel"; }
 
 ElementKind element_kind(std::string_view key) {
-  return key == "spring" ? ElementKind::spring : key == "damper" ? ElementKind::damper : ElementKind::slip;
+  return key == "damper" ? ElementKind::damper : key == "slip" ? ElementKind::slip : ElementKind::spring;
+}
+
+// What may stand beside the key `kind`.
+std::vector<std::string> keys_beside(std::string_view kind, std::vector<std::string> keys) {
+  keys.insert(keys.end(), {"name", "nodes"});
+  if (kind == "springpot") keys.insert(keys.end(), {"exponent", "time", "band", "error"});
+  if (kind == "prony") keys.insert(keys.end(), {"of", "terms"});
+  return keys;
 }
 
 void report_unknown_kind(const JsonValue& value, Diagnostics& diagnostics) {
@@ -36,7 +46,7 @@ void report_unknown_kind(const JsonValue& value, Diagnostics& diagnostics) {
     return diagnostics.note<DiagnosticCode::contact_goes_to_top>({});
   }
   diagnostics.report<DiagnosticCode::unknown_kind>(named->key_span, excerpt(named->key));
-  if (const auto nearest = nearest_name(named->key, {"spring", "damper", "slip", "series", "parallel"}))
+  if (const auto nearest = nearest_name(named->key, branch_kinds))
     diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
 }
 
@@ -56,9 +66,41 @@ const JsonMember* kind_of(const JsonValue& value, Diagnostics& diagnostics) {
   return kind;
 }
 
+SpringpotDecl parse_springpot(const ObjectReader& reader) {
+  reader.require("exponent");
+  return {reader.value("exponent"), reader.value("time"), reader.range("band"), reader.value("error")};
+}
+
+PronyTermDecl parse_prony_term(const JsonValue& value, Diagnostics& diagnostics) {
+  if (value.kind != Kind::object) {
+    report_wrong_type("terms", value, "an object such as { \"weight\": 0.4, \"time\": \"0.1 s\" }", diagnostics);
+    return {{}, {}, value.span};
+  }
+  ObjectReader reader(value, "a Prony term", diagnostics);
+  reader.refuse_other_keys({"weight", "time"});
+  reader.require("weight");
+  reader.require("time");
+  return {reader.value("weight"), reader.value("time"), value.span};
+}
+
+PronyDecl parse_prony(const ObjectReader& reader, Diagnostics& diagnostics) {
+  reader.require("of");
+  PronyDecl prony{reader.text("of"), {}, reader.opening()};
+  const JsonMember* terms = reader.require("terms");
+  const JsonValue* list = terms == nullptr ? nullptr : reader.list("terms");
+  if (list == nullptr) return prony;
+  prony.terms_span = list->span;
+  if (list->items.empty()) diagnostics.report<DiagnosticCode::empty_group>(list->span, "terms");
+  for (const JsonValue& item : list->items) prony.terms.push_back(parse_prony_term(item, diagnostics));
+  return prony;
+}
+
 LeafDecl parse_leaf(const JsonValue& value, const JsonMember& kind, Diagnostics& diagnostics) {
   const ObjectReader reader(value, "an element", diagnostics);
-  return {element_kind(kind.key), kind.key_span, reader.value(kind.key), reader.text("name"), value.span};
+  LeafDecl leaf{element_kind(kind.key), kind.key_span, reader.value(kind.key), reader.text("name"), value.span};
+  if (kind.key == "springpot") leaf.springpot = parse_springpot(reader);
+  if (kind.key == "prony") leaf.prony = parse_prony(reader, diagnostics);
+  return leaf;
 }
 
 bool is_object(const JsonValue& value, Diagnostics& diagnostics) {
@@ -80,9 +122,10 @@ std::optional<TreeDecl> parse_group(const JsonValue& value, const JsonMember& ki
   return group;
 }
 
-std::optional<std::array<Text, 2>> parse_nodes(const JsonValue& value, Diagnostics& diagnostics) {
+std::optional<std::array<Text, 2>> parse_nodes(const JsonValue& value, std::string_view kind,
+                                               Diagnostics& diagnostics) {
   ObjectReader reader(value, "an element of a netlist", diagnostics);
-  reader.refuse_other_keys(edge_keys);
+  reader.refuse_other_keys(keys_beside(kind, leaf_kinds));
   const JsonMember* nodes = reader.require("nodes");
   if (nodes == nullptr) return std::nullopt;
   if (nodes->value.kind != Kind::array || nodes->value.items.size() != 2) {
@@ -103,7 +146,7 @@ std::optional<EdgeDecl> parse_edge(const JsonValue& value, Diagnostics& diagnost
     diagnostics.report<DiagnosticCode::group_in_netlist>(kind->key_span, kind->key);
     return std::nullopt;
   }
-  const std::optional<std::array<Text, 2>> nodes = parse_nodes(value, diagnostics);
+  const std::optional<std::array<Text, 2>> nodes = parse_nodes(value, kind->key, diagnostics);
   LeafDecl leaf = parse_leaf(value, *kind, diagnostics);
   if (!nodes) return std::nullopt;
   return EdgeDecl{std::move(leaf), (*nodes)[0], (*nodes)[1]};
@@ -116,7 +159,7 @@ std::optional<TreeDecl> parse_tree(const JsonValue& value, Diagnostics& diagnost
   const JsonMember* kind = kind_of(value, diagnostics);
   if (kind == nullptr) return std::nullopt;
   ObjectReader reader(value, "an element of a tree", diagnostics);
-  reader.refuse_other_keys(branch_keys);
+  reader.refuse_other_keys(keys_beside(kind->key, branch_kinds));
   if (const JsonMember* nodes = reader.find("nodes")) {
     diagnostics.report<DiagnosticCode::nodes_in_tree>(nodes->key_span);
     diagnostics.note<DiagnosticCode::nodes_need_netlist>({});

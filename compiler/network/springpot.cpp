@@ -1,0 +1,98 @@
+#include "network/springpot.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double ripple(double exponent, double step) {
+  const double sine = std::sin(pi * exponent);
+  double sum = 0;
+  for (int m = 1; m <= 50; ++m) {
+    const double y = 2 * pi * pi * m / step;  // π ξ, of the m-th harmonic
+    if (y > 600) break;                       // below any double
+    sum += 2 * sine * std::cosh(y / 2) / std::hypot(sine, std::sinh(y));
+  }
+  return sum;
+}
+
+// Σ e^{p (x ∓ jη)} over j ≥ 0, the sum that falls away from x.
+double geometric(double power, double x, double step) {
+  return std::exp(power * x) / -std::expm1(-std::abs(power) * step);
+}
+
+// A tail as one element, and how far that is from it.
+struct Tail {
+  MaxwellBranch lumped;
+  double error;
+};
+
+// `x` is the first point left out, ln λ.
+Tail tail_below(double exponent, double scale, double x, double step, double low) {
+  const double stiffness = scale * geometric(exponent, x, step);
+  const double first = scale * geometric(exponent + 1, x, step);
+  const double second = scale * geometric(exponent + 2, x, step);
+  return {{stiffness, first / stiffness}, (second - first * first / stiffness) * std::pow(low, -2 - exponent)};
+}
+
+Tail tail_above(double exponent, double scale, double x, double step, double high) {
+  const double viscosity = scale * geometric(exponent - 1, x, step);  // Σ k/λ
+  const double first = scale * geometric(exponent - 2, x, step);
+  const double second = scale * geometric(exponent - 3, x, step);
+  const double rate = viscosity / first;
+  return {{viscosity * rate, rate}, (second - first * first / viscosity) * std::pow(high, 3 - exponent)};
+}
+
+// Where the grid lies such that both tails err alike: the one grows as the other falls.
+SpringpotGrid balanced(double exponent, double low, double high, double step, std::size_t points) {
+  const double scale = std::sin(pi * exponent) / pi * step;
+  const double length = static_cast<double>(points) * step;
+  double from = std::log(low) - length - 20, to = std::log(high) + 20;
+  for (int i = 0; i < 60; ++i) {
+    const double first = (from + to) / 2;
+    const double below = tail_below(exponent, scale, first - step, step, low).error;
+    const double above = tail_above(exponent, scale, first + length, step, high).error;
+    (below < above ? from : to) = first;
+  }
+  return {(from + to) / 2, step, points};
+}
+
+// With the step of least error.
+SpringpotLadder best_ladder(double exponent, double low, double high, std::size_t points) {
+  const auto error = [&](double log_step) {
+    const SpringpotGrid grid = balanced(exponent, low, high, std::exp(log_step), points);
+    return std::log(springpot_ladder(exponent, low, high, grid).error);
+  };
+  const double longest = std::log(high / low) + 10;
+  const auto [log_step, least] = boost::math::tools::brent_find_minima(error, std::log(0.05), std::log(longest), 30);
+  return springpot_ladder(exponent, low, high, balanced(exponent, low, high, std::exp(log_step), points));
+}
+
+}  // namespace
+
+SpringpotLadder springpot_ladder(double exponent, double low, double high, const SpringpotGrid& grid) {
+  const double scale = std::sin(pi * exponent) / pi * grid.step;
+  const Tail below = tail_below(exponent, scale, grid.first - grid.step, grid.step, low);
+  const double end = grid.first + static_cast<double>(grid.points) * grid.step;
+  const Tail above = tail_above(exponent, scale, end, grid.step, high);
+  SpringpotLadder ladder{{below.lumped}, ripple(exponent, grid.step) + below.error + above.error};
+  for (std::size_t i = 0; i < grid.points; ++i) {
+    const double x = grid.first + static_cast<double>(i) * grid.step;
+    ladder.branches.push_back({scale * std::exp(exponent * x), std::exp(x)});
+  }
+  ladder.branches.push_back(above.lumped);
+  return ladder;
+}
+
+SpringpotLadder springpot_ladder(double exponent, double low, double high, double error) {
+  for (std::size_t points = 0;; ++points)
+    if (SpringpotLadder ladder = best_ladder(exponent, low, high, points); ladder.error <= error) return ladder;
+}
+
+}  // namespace dashpot::compiler

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "decomposed.hpp"
 #include "decompose/spectrum.hpp"
@@ -13,8 +14,7 @@ namespace {
 
 using namespace dashpot::testing;
 using namespace dashpot::compiler;
-
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 std::vector<double> frequencies(const LinearForm& form, int points_per_decade) {
   std::vector<double> all = {0};

@@ -25,20 +25,10 @@ Network many_branches(std::uint64_t seed, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t inner = network.nodes.size();
     network.nodes.push_back(fmt::format("n{}", i));
-    network.elements.push_back({fmt::format("K{}", i),
-                                compiler::Spring{random.log_uniform(1e-2, is_slow ? 10 : 1e4)},
-                                tool,
-                                inner,
-                                {},
-                                {},
-                                true});
-    network.elements.push_back({fmt::format("B{}", i),
-                                compiler::Damper{random.log_uniform(is_slow ? 1 : 1e-4, 1e2)},
-                                inner,
-                                ground,
-                                {},
-                                {},
-                                true});
+    network.elements.push_back(
+        {fmt::format("K{}", i), compiler::Spring{random.log_uniform(1e-2, is_slow ? 10 : 1e4)}, tool, inner, {}, {}});
+    network.elements.push_back(
+        {fmt::format("B{}", i), compiler::Damper{random.log_uniform(is_slow ? 1 : 1e-4, 1e2)}, inner, ground, {}, {}});
   }
   return network;
 }

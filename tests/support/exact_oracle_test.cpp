@@ -19,11 +19,11 @@ compiler::Network network(std::size_t nodes, std::vector<compiler::Element> elem
 }
 
 compiler::Element spring(double stiffness, compiler::NodeIndex a, compiler::NodeIndex b) {
-  return {"", compiler::Spring{stiffness}, a, b, {}, {}, true};
+  return {"", compiler::Spring{stiffness}, a, b, {}, {}};
 }
 
 compiler::Element damper(double damping, compiler::NodeIndex a, compiler::NodeIndex b) {
-  return {"", compiler::Damper{damping}, a, b, {}, {}, true};
+  return {"", compiler::Damper{damping}, a, b, {}, {}};
 }
 
 // Fails if a Maxwell element is not K jωB/(K + jωB).

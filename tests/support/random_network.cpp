@@ -147,7 +147,7 @@ Network random_network(std::uint64_t seed, const NetworkRecipe& recipe) {
   network.nodes.resize(shape.nodes);
   network.nodes[ground] = "ground";
   network.nodes[tool] = "tool";
-  for (const Edge& edge : shape.edges) network.elements.push_back({"", values.law(), edge.a, edge.b, {}, {}, true});
+  for (const Edge& edge : shape.edges) network.elements.push_back({"", values.law(), edge.a, edge.b, {}, {}});
   if (recipe.most_slips > 0) turn_into_slips(network, recipe.most_slips, random, values);
   name_everything(network);
   return network;

@@ -17,7 +17,7 @@ compiler::Network branches(Random& random) {
   compiler::Network network;
   network.nodes = {"ground", "tool"};
   const auto add = [&](const compiler::Law& law, compiler::NodeIndex a, compiler::NodeIndex b) {
-    network.elements.push_back({fmt::format("e{}", network.elements.size()), law, a, b, {}, {}, true});
+    network.elements.push_back({fmt::format("e{}", network.elements.size()), law, a, b, {}, {}});
   };
   const std::size_t count = random.between(1, 5);
   for (std::size_t i = 0; i < count; ++i) {

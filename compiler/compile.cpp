@@ -3,9 +3,12 @@
 #include "certify/settle.hpp"
 #include "decompose/slip_laws.hpp"
 #include "discretise/element_names.hpp"
-#include "discretise/representable.hpp"
+#include "discretise/discretise.hpp"
+#include "discretise/tunable_network.hpp"
+#include "law/representable.hpp"
 #include "linear/reach.hpp"
 #include "linear/validity.hpp"
+#include "lower/drop_unread.hpp"
 #include "network/port_units.hpp"
 #include "syntax/parse_network.hpp"
 
@@ -88,7 +91,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
     if (!law) return std::nullopt;
     result.law = std::move(*law);
   } else {
-    result.law = discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
+    result.law = without_unread_locals(
+        discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics));
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");

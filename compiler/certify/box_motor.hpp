@@ -18,7 +18,7 @@
 
 #include "certify/energy_lemma.hpp"
 #include "certify/sampled_loop.hpp"
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 

@@ -11,6 +11,8 @@
 #include "certify/hold_bound.hpp"
 #include "certify/quantisation.hpp"
 #include "discretise/rounding.hpp"
+#include "law/add_damping.hpp"
+#include "law/cost.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -204,7 +206,7 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   if (!loop.has_device || missing == 0 || !std::isfinite(missing)) return 0;
   const double added = sum_above(missing, 32 * unit_roundoff(law.scalar) * (law.largest_damping + missing), law.scalar);
   if (sum_above(law.largest_damping, added, law.scalar) > loop.max_damping) return 0;
-  add_steady_damping(law, added);
+  law = with_steady_damping(std::move(law), added);
   return added;
 }
 

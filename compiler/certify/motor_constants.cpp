@@ -7,32 +7,30 @@
 namespace dashpot::compiler {
 namespace {
 
-const Coefficient* find(const UpdateLaw& law, std::string_view name) {
+const Coefficient* find(const UpdateLaw& law, ConstantRole role, std::size_t bank = port_bank) {
   const auto found = std::find_if(law.coefficients.begin(), law.coefficients.end(),
-                                  [&](const Coefficient& coefficient) { return coefficient.name == name; });
+                                  [&](const Coefficient& c) { return c.role == role && c.bank == bank; });
   return found == law.coefficients.end() ? nullptr : &*found;
 }
 
-double value_of(const UpdateLaw& law, std::string_view name) {
-  const Coefficient* coefficient = find(law, name);
+double value_of(const UpdateLaw& law, ConstantRole role) {
+  const Coefficient* coefficient = find(law, role);
   return coefficient ? coefficient->values.front() : 0;
 }
 
-void read_modes(const UpdateLaw& law, const std::string& name, double MotorMode::*member, MotorConstants& motor) {
-  const Coefficient* coefficient = find(law, name);
-  if (coefficient == nullptr) return;
-  motor.modes.resize(coefficient->values.size());
-  for (std::size_t i = 0; i < motor.modes.size(); ++i) motor.modes[i].*member = coefficient->values[i];
-}
-
-// The bank whose constants' names begin with `bank`.
-void read_bank(const UpdateLaw& law, const std::string& bank, MotorConstants& motor) {
-  motor.loss_is_emitted = find(law, bank + "loss") != nullptr;
-  read_modes(law, bank + "decay", &MotorMode::decay, motor);
-  read_modes(law, bank + "loss", &MotorMode::loss, motor);
-  read_modes(law, bank + "gain", &MotorMode::position_drive, motor);
-  read_modes(law, bank + "velocity_drive", &MotorMode::velocity_drive, motor);
-  read_modes(law, bank + "energy_weight", &MotorMode::energy_weight, motor);
+void read_bank(const UpdateLaw& law, std::size_t bank, MotorConstants& motor) {
+  motor.loss_is_emitted = find(law, ConstantRole::loss, bank) != nullptr;
+  const auto read_modes = [&](ConstantRole role, double MotorMode::*member) {
+    const Coefficient* coefficient = find(law, role, bank);
+    if (coefficient == nullptr) return;
+    motor.modes.resize(coefficient->values.size());
+    for (std::size_t i = 0; i < motor.modes.size(); ++i) motor.modes[i].*member = coefficient->values[i];
+  };
+  read_modes(ConstantRole::decay, &MotorMode::decay);
+  read_modes(ConstantRole::loss, &MotorMode::loss);
+  read_modes(ConstantRole::gain, &MotorMode::position_drive);
+  read_modes(ConstantRole::velocity_drive, &MotorMode::velocity_drive);
+  read_modes(ConstantRole::energy_weight, &MotorMode::energy_weight);
   for (MotorMode& mode : motor.modes)
     (motor.loss_is_emitted ? mode.decay : mode.loss) = 1 - (motor.loss_is_emitted ? mode.loss : mode.decay);
   motor.unit_roundoff = unit_roundoff(law.scalar);
@@ -64,22 +62,20 @@ bool MotorConstants::is_idle() const { return static_stiffness == 0 && velocity_
 MotorConstants linear_motor_constants(const UpdateLaw& law) {
   MotorConstants motor;
   motor.brake = law.damping;
-  motor.static_stiffness = value_of(law, "static_stiffness");
-  motor.half_static_stiffness = value_of(law, "half_static_stiffness");
-  motor.step_stiffness = value_of(law, "step_stiffness");
-  motor.velocity_gain = value_of(law, "velocity_gain");
-  read_bank(law, "mode_", motor);
+  motor.static_stiffness = value_of(law, ConstantRole::static_stiffness);
+  motor.half_static_stiffness = value_of(law, ConstantRole::half_static_stiffness);
+  motor.step_stiffness = value_of(law, ConstantRole::step_stiffness);
+  motor.velocity_gain = value_of(law, ConstantRole::velocity_gain);
+  read_bank(law, port_bank, motor);
   return motor;
 }
 
 std::vector<MotorConstants> parts_behind_slips(const UpdateLaw& law) {
   std::vector<MotorConstants> parts;
   for (const Coefficient& coefficient : law.coefficients) {
-    if (!coefficient.name.ends_with("_gain")) continue;
-    const std::string bank = coefficient.name.substr(0, coefficient.name.size() - std::string_view("gain").size());
-    if (bank == "mode_" || (find(law, bank + "decay") == nullptr && find(law, bank + "loss") == nullptr)) continue;
+    if (coefficient.role != ConstantRole::gain || coefficient.bank == port_bank) continue;
     parts.emplace_back();
-    read_bank(law, bank, parts.back());
+    read_bank(law, coefficient.bank, parts.back());
   }
   return parts;
 }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "decompose/spectrum.hpp"
+#include "discretise/discretise.hpp"
 #include "discretise/law_writer.hpp"
 
 namespace dashpot::compiler {

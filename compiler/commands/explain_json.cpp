@@ -5,6 +5,7 @@
 #include "commands/explain.hpp"
 #include "decompose/slip_laws.hpp"
 #include "network/port_units.hpp"
+#include "law/cost.hpp"
 
 namespace dashpot::compiler {
 namespace {

@@ -16,9 +16,9 @@ struct Cell {
   Span span;
 };
 
-class Table {
+class CsvTable {
  public:
-  Table(const SourceFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  CsvTable(const SourceFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
 
   std::optional<Motion> read() {
     const std::vector<Cell> header = next_row();
@@ -168,7 +168,7 @@ class Table {
 }  // namespace
 
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics) {
-  return Table(file, diagnostics).read();
+  return CsvTable(file, diagnostics).read();
 }
 
 }  // namespace dashpot::compiler

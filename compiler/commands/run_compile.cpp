@@ -8,6 +8,7 @@
 #include "insist.hpp"
 #include "network/tree.hpp"
 #include "verify/certificate_file.hpp"
+#include "law/law_text.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -35,6 +36,7 @@ std::string escaped(const std::string& path) {
 }
 
 std::vector<std::string> templates_of(const EmissionOptions& options) {
+  if (options.target == Target::c99) return {"network.h.in"};
   std::vector<std::string> names = {"network.hpp.in", "network_test.cpp.in"};
   if (options.batch) names.push_back("batch.hpp.in");
   return names;
@@ -74,7 +76,29 @@ bool spares_inputs(const Options& options, const std::vector<OutputFile>& files,
   return spares_inputs(options, names, diagnostics);
 }
 
+std::optional<std::vector<OutputFile>> emitted_files(const Compilation& compilation, const EmissionOptions& options,
+                                                     Diagnostics& diagnostics) {
+  return options.target == Target::c99 ? emit_c99(compilation, options, diagnostics)
+                                       : emit_cpp(compilation, options, diagnostics);
+}
+
+// False, with a diagnostic each, where an option is asked for that the target has nothing for.
+bool target_has_all(const Options& options, Diagnostics& diagnostics) {
+  if (options.emission.target != Target::c99) return true;
+  bool all = true;
+  for (const auto& [is_asked, name] : {std::pair(options.emission.constant_time, "--constant-time"),
+                                       {options.emission.batch, "--batch"},
+                                       {options.emission.with_test, "--with-test"},
+                                       {options.certificate.has_value(), "--certificate"}})
+    if (is_asked) {
+      diagnostics.report<DiagnosticCode::target_lacks_option>({}, "c99", name);
+      all = false;
+    }
+  return all;
+}
+
 ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& diagnostics, StageTimes& times) {
+  if (!target_has_all(options, diagnostics)) return ExitStatus::command_line_wrong;
   times.enter("files");
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
@@ -94,7 +118,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       shown += stage_text(*compilation, *options.print);
     } else if (!options.uncertified && !insist_on_certificate(*compilation, options.choices, diagnostics)) {
       continue;
-    } else if (const auto emitted = emit_cpp(*compilation, options.emission, diagnostics)) {
+    } else if (const auto emitted = emitted_files(*compilation, options.emission, diagnostics)) {
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);

@@ -8,7 +8,7 @@
 #include "commands/motion_cell.hpp"
 #include "commands/motion_csv.hpp"
 #include "compile.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "emit/write_files.hpp"
 
 namespace dashpot::compiler {

@@ -23,8 +23,8 @@ void ContactSurface::write_approach() {
   if (at_ == 0) {
     depth_ = law.position;
   } else {
-    const ExpressionId at =
-        writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies", Real(at_));
+    const ExpressionId at = writer_.constant("surface_at", writer_.length(), "where the unloaded surface lies",
+                                             Real(at_), ConstantRole::place);
     writer_.assign(law.output, depth_, writer_.subtract(writer_.read(law.position), at), "");
   }
   writer_.assign(law.output, approach_, writer_.subtract(writer_.read(depth_), writer_.read(surface_)), "Δ = u − s₋");
@@ -33,11 +33,12 @@ void ContactSurface::write_approach() {
 // f(Δ) ≥ 0 where Δ ≥ −π/g
 void ContactSurface::write_change(const Real& stiffness, VariableId held) {
   std::vector<Statement>& output = writer_.law().output;
-  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
+  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
   const VariableId recovery =
       writer_.scalar("surface_recovery", writer_.length(), "the surface's change if nothing touched it", Role::local);
-  const ExpressionId compliance = writer_.constant("recovery_compliance", writer_.compliance(), "−1/g",
-                                                   stiffness > 0 ? Real(-1 / stiffness) : Real(0));
+  const ExpressionId compliance =
+      writer_.constant("recovery_compliance", writer_.compliance(), "−1/g",
+                       stiffness > 0 ? Real(-1 / stiffness) : Real(0), ConstantRole::recovery_compliance);
   writer_.assign(output, recovery, writer_.multiply(compliance, held == no_variable ? none : writer_.read(held)),
                  "f = 0 at Δs = −π/g");
   const ExpressionId ahead = writer_.subtract(writer_.read(recovery), writer_.read(approach_));
@@ -59,17 +60,20 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
       rounded(feedthrough_damping, law.scalar) == damping ? Real(0) : Real(feedthrough_damping - damping);
   ExpressionId felt = writer_.read(opposing), motor = felt;
   if (feedthrough_damping > 0) {
-    const ExpressionId feedthrough = writer_.constant("feedthrough", writer_.damping(), "b∞", feedthrough_damping);
+    const ExpressionId feedthrough =
+        writer_.constant("feedthrough", writer_.damping(), "b∞", feedthrough_damping, ConstantRole::feedthrough);
     felt = writer_.add(felt, writer_.multiply(feedthrough, writer_.read(law.velocity)));
   }
   if (left_to_motor != 0) {
-    const ExpressionId gain = writer_.constant("velocity_gain", writer_.damping(), "b∞ − b", left_to_motor);
+    const ExpressionId gain =
+        writer_.constant("velocity_gain", writer_.damping(), "b∞ − b", left_to_motor, ConstantRole::velocity_gain);
     motor = writer_.add(motor, writer_.multiply(gain, writer_.read(law.velocity)));
   }
   if (slips.steady > 0)
-    felt = writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(),
-                                                               "b∞ behind slips", slips.steady),
-                                              writer_.read(law.velocity)));
+    felt =
+        writer_.add(felt, writer_.multiply(writer_.constant("slips_feedthrough", writer_.damping(), "b∞ behind slips",
+                                                            slips.steady, ConstantRole::feedthrough),
+                                           writer_.read(law.velocity)));
   if (slips.changing != nothing) felt = writer_.add(felt, writer_.multiply(slips.changing, writer_.read(law.velocity)));
   if (slips.compensation != nothing) {
     const ExpressionId taken_back = writer_.multiply(slips.compensation, writer_.read(law.velocity));
@@ -78,7 +82,7 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
   }
   const VariableId released = released_ =
       writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
-  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0);
+  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
   const ExpressionId release = release_of(opposing, felt, none);
   writer_.assign(law.output, released, release, "above 0 where the tool is free");
   if (damping > 0 || slips.largest > 0) {
@@ -105,8 +109,9 @@ ExpressionId ContactSurface::release_of(VariableId opposing, ExpressionId felt, 
   writer_.assign(writer_.law().output, pull, writer_.subtract(none, felt), "−(f′ + b∞ v̂)");
   ExpressionId opened = writer_.read(gap_);
   if (encoder_step_ > 0) {
-    const ExpressionId step = writer_.constant("encoder_step", writer_.length(),
-                                               "of the gap before the command lets go", Real(encoder_step_));
+    const ExpressionId step =
+        writer_.constant("encoder_step", writer_.length(), "of the gap before the command lets go", Real(encoder_step_),
+                         ConstantRole::place);
     const ExpressionId pushed = writer_.where(writer_.read(opposing), none, writer_.read(gap_));
     opened = writer_.where(writer_.subtract(writer_.read(gap_), step), writer_.read(gap_), pushed);
   }

@@ -90,8 +90,7 @@ ExpressionId CoupledSlips::write_output(VariableId change, VariableId surface_ch
       writer_.scalar(joined(name_, "force"), writer_.force(), "the component's force", Role::local);
   writer_.assign(law.output, force, writer_.read(change), "f and every block's δ, by curves, signs and numbers",
                  origins());
-  law.output.back().coupling = static_cast<std::uint32_t>(law.couplings.size());
-  law.couplings.push_back(std::move(coupling));
+  law.output.back().step = SolveTree{law.couplings.add(std::move(coupling))};
   return writer_.read(force);
 }
 
@@ -113,8 +112,8 @@ void CoupledSlips::write_update() {
     if (block.elongation == nothing) continue;
     const VariableId elongation = writer_.kept(block.elongation);
     if (block.has_spring()) {
-      const ExpressionId stiffness =
-          writer_.constant(joined(block.name, "stiffness"), writer_.stiffness(), "k0", block.form().static_stiffness);
+      const ExpressionId stiffness = writer_.constant(joined(block.name, "stiffness"), writer_.stiffness(), "k0",
+                                                      block.form().static_stiffness, ConstantRole::spring_stiffness);
       const ExpressionId force =
           writer_.add(writer_.read(block.spring_force), writer_.multiply(stiffness, writer_.read(elongation)));
       writer_.assign(writer_.law().update, block.spring_force, writer_.flush(force), "F ← F + k δ",
@@ -135,8 +134,9 @@ ExpressionId CoupledSlips::energy() {
 
 // ½ F0²/k0
 ExpressionId CoupledSlips::spring_energy(const Block& block) {
-  const ExpressionId weight = writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)",
-                                               1 / (2 * block.form().static_stiffness));
+  const ExpressionId weight =
+      writer_.constant(joined(block.name, "compliance"), writer_.compliance(), "1/(2 k)",
+                       1 / (2 * block.form().static_stiffness), ConstantRole::spring_compliance);
   return writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)), writer_.read(block.spring_force));
 }
 

@@ -1,3 +1,5 @@
+#include "discretise/discretise.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +9,8 @@
 #include "discretise/mode_bank.hpp"
 #include "discretise/rounding.hpp"
 #include "discretise/slip_parts.hpp"
-#include "discretise/unread_locals.hpp"
-#include "discretise/update_law.hpp"
+#include "discretise/tunable_network.hpp"
+#include "law/check_law.hpp"
 #include "network/rate_limits.hpp"
 
 namespace dashpot::compiler {
@@ -77,8 +79,8 @@ class LawBuilder {
     contact_ ? write_contact_output() : write_output();
     write_update();
     write_energy();
-    drop_unread_locals(law_);
     settle_loops();
+    check_law(law_, "discretise");
     return std::move(law_);
   }
 
@@ -114,24 +116,25 @@ class LawBuilder {
       writer_.assign(law_.output, change_,
                      writer_.subtract(writer_.read(law_.position), writer_.read(law_.rest_position)), "Δu = u − u₋");
     const ExpressionId held = modes_.empty() ? nothing : writer_.read(modes_.decayed_sum());
-    const ExpressionId placed =
-        plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
+    const ExpressionId placed = plus_product(ConstantRole::static_stiffness, nothing, "static_stiffness",
+                                             writer_.stiffness(), "k0", form_.static_stiffness, law_.position);
     const ExpressionId stepped =
-        plus_product(nothing, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
-                     modes_.step_stiffness(), change_);
+        plus_product(ConstantRole::step_stiffness, nothing, "step_stiffness", writer_.stiffness(),
+                     "Σ c_i, answer of all modes within a sample", modes_.step_stiffness(), change_);
     const Real of_motor = feedthrough_of_motor(), of_modes = modes_.velocity_gain(), together = of_motor + of_modes;
     const Real velocity_gain = abs(together) <= negligible_share * abs(of_modes) ? Real(0) : together;
     const char* meaning =
         modes_.follows_velocity() ? "b∞ − b + h Σ c_i, what the estimate drives within a sample" : "b∞ − b";
-    const ExpressionId driven =
-        plus_product(nothing, "velocity_gain", writer_.damping(), meaning, velocity_gain, law_.velocity);
+    const ExpressionId driven = plus_product(ConstantRole::velocity_gain, nothing, "velocity_gain", writer_.damping(),
+                                             meaning, velocity_gain, law_.velocity);
     ExpressionId sum = stepped == nothing ? writer_.plus(held, writer_.plus(placed, driven))
                                           : writer_.plus(writer_.plus(held, placed), writer_.plus(stepped, driven));
     sum = slips_.write_output(sum, change_);
     sum = brake_.without_feedthrough(sum, law_.position, change_);
     sum = brake_.left_to_motor(sum);
     brake_.write_command();
-    if (sum == nothing) sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0);
+    if (sum == nothing)
+      sum = writer_.constant("no_force", writer_.force(), "nothing is left to the motor", 0, ConstantRole::zero);
     writer_.assign(law_.output, law_.force, sum, "m = f − b u̇", {effective_elements(network_)});
   }
 
@@ -145,18 +148,19 @@ class LawBuilder {
     if (!slips_.empty()) {
       sum = slips_.write_push(contact_->approach(), contact_->change(), {linear_stiffness(), write_held()});
       contact_->write_surface();
-      sum = plus_product(sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h", -feedthrough / sample_period_,
-                         contact_->change());
+      sum = plus_product(ConstantRole::feedthrough, sum, "feedthrough_stiffness", writer_.stiffness(), "−b∞/h",
+                         -feedthrough / sample_period_, contact_->change());
       sum = brake_.without_feedthrough(sum, contact_->now(), contact_->change());
     } else {
       contact_->write_change(linear_stiffness(), write_held());
       contact_->write_surface();
-      sum = plus_product(sum, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness, contact_->now());
-      sum = plus_product(sum, "step_stiffness", writer_.stiffness(), "Σ c_i, answer of all modes within a sample",
-                         modes_.step_stiffness(), contact_->change());
+      sum = plus_product(ConstantRole::static_stiffness, sum, "static_stiffness", writer_.stiffness(), "k0",
+                         form_.static_stiffness, contact_->now());
+      sum = plus_product(ConstantRole::step_stiffness, sum, "step_stiffness", writer_.stiffness(),
+                         "Σ c_i, answer of all modes within a sample", modes_.step_stiffness(), contact_->change());
       if (!modes_.empty()) sum = writer_.plus(sum, writer_.read(modes_.decayed_sum()));
     }
-    if (sum == nothing) sum = writer_.constant("none", writer_.force(), "of a free tool", 0);
+    if (sum == nothing) sum = writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
     writer_.assign(law_.output, opposing, sum, "f′ = f − b∞ Δs/h", {effective_elements(network_)});
     contact_->write_command(opposing, feedthrough, brake_.behind_contact());
   }
@@ -168,8 +172,8 @@ class LawBuilder {
 
   // π = k0 s₋ + S, of the linear part at the tool; no variable for a lone damper.
   VariableId write_held() {
-    ExpressionId held = plus_product(nothing, "static_stiffness", writer_.stiffness(), "k0", form_.static_stiffness,
-                                     contact_->before());
+    ExpressionId held = plus_product(ConstantRole::static_stiffness, nothing, "static_stiffness", writer_.stiffness(),
+                                     "k0", form_.static_stiffness, contact_->before());
     if (!modes_.empty()) held = writer_.plus(held, writer_.read(modes_.decayed_sum()));
     if (held == nothing) return no_variable;
     const VariableId force =
@@ -205,22 +209,23 @@ class LawBuilder {
   void write_energy() {
     ExpressionId sum = nothing;
     if (form_.static_stiffness > 0) {
-      const ExpressionId weight =
-          writer_.constant("half_static_stiffness", writer_.stiffness(), "½ k0", form_.static_stiffness / 2);
+      const ExpressionId weight = writer_.constant("half_static_stiffness", writer_.stiffness(), "½ k0",
+                                                   form_.static_stiffness / 2, ConstantRole::half_static_stiffness);
       sum = writer_.multiply(writer_.multiply(weight, writer_.read(law_.rest_position)),
                              writer_.read(law_.rest_position));
     }
     sum = writer_.plus(sum, modes_.energy());
     sum = slips_.energy(sum);
-    if (sum == nothing) sum = writer_.constant("no_energy", "J", "no spring", 0);
+    if (sum == nothing) sum = writer_.constant("no_energy", "J", "no spring", 0, ConstantRole::zero);
     writer_.assign(law_.energy, law_.stored, sum, "V = ½ k0 u² + Σ F_i²/(2 k_i)", {effective_elements(network_)});
   }
 
   // Terms whose coefficient rounds to zero leave no trace in the program.
-  ExpressionId plus_product(ExpressionId sum, const std::string& name, const std::string& unit,
+  ExpressionId plus_product(ConstantRole role, ExpressionId sum, const std::string& name, const std::string& unit,
                             const std::string& meaning, const Real& value, VariableId variable) {
     if (rounded(value, law_.scalar) == 0) return sum;
-    return writer_.plus(sum, writer_.multiply(writer_.constant(name, unit, meaning, value), writer_.read(variable)));
+    return writer_.plus(sum,
+                        writer_.multiply(writer_.constant(name, unit, meaning, value, role), writer_.read(variable)));
   }
 
   UpdateLaw law_;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 #include "network/network.hpp"
 #include "source/diagnostic.hpp"
 

@@ -54,8 +54,8 @@ void LawBrake::write_command() {
   law.largest_damping = rounded(largest, law.scalar);
   if (changing == nothing) return;
   if (steady > 0)
-    changing = writer_.plus(changing,
-                            writer_.constant("steady_damping", writer_.damping(), "of what no slip changes", steady));
+    changing = writer_.plus(changing, writer_.constant("steady_damping", writer_.damping(), "of what no slip changes",
+                                                       steady, ConstantRole::steady_damping));
   law.brake = writer_.scalar("damping", writer_.damping(), "b, the brake's part", Role::local);
   writer_.assign(law.output, law.brake, changing, "b of the regime");
   law.last_brake = writer_.scalar("last_damping", writer_.damping(), "b of the sample before", Role::state);

@@ -48,49 +48,47 @@ std::string LawWriter::unique(const std::string& name) {
 }
 
 VariableId LawWriter::scalar(const std::string& name, const std::string& unit, const std::string& meaning, Role role) {
-  law_.variables.push_back({name, unit, meaning, role, 1, {}});
-  return static_cast<VariableId>(law_.variables.size() - 1);
+  return law_.variables.add({name, unit, meaning, role, 1, {}});
 }
 
 VariableId LawWriter::vector(const VectorName& name, const std::string& unit, const std::string& meaning, Role role,
                              const Names& names) {
-  law_.variables.push_back(
+  return law_.variables.add(
       {joined(name.whose, name.what), unit, meaning, role, names.size(), suffixed(names, name.what)});
-  return static_cast<VariableId>(law_.variables.size() - 1);
-}
-
-ExpressionId LawWriter::where(ExpressionId condition, ExpressionId left, ExpressionId right) {
-  law_.expressions.push_back({Operation::where, left, right, condition});
-  return static_cast<ExpressionId>(law_.expressions.size() - 1);
 }
 
 ExpressionId LawWriter::constant(const std::string& name, const std::string& unit, const std::string& meaning,
-                                 const Real& value) {
+                                 const Real& value, ConstantRole role) {
   const auto known = std::find_if(law_.coefficients.begin(), law_.coefficients.end(),
                                   [&](const Coefficient& coefficient) { return coefficient.name == name; });
-  if (known != law_.coefficients.end())
-    return node(Operation::constant, static_cast<std::uint32_t>(known - law_.coefficients.begin()));
-  law_.coefficients.push_back({name, unit, meaning, {rounded(value, law_.scalar)}, {}});
-  return node(Operation::constant, static_cast<std::uint32_t>(law_.coefficients.size() - 1));
+  const CoefficientId id = known != law_.coefficients.end()
+                               ? law_.coefficients.id_of(*known)
+                               : add_constants({name, unit, meaning, {}, {}, role}, {value});
+  return law_.expressions.add({Operation::constant, {}, {}, id});
 }
 
 ExpressionId LawWriter::constants(const VectorName& name, const std::string& unit, const std::string& meaning,
-                                  const std::vector<Real>& values, const Names& names) {
-  Coefficient coefficient{joined(name.whose, name.what), unit, meaning, {}, suffixed(names, name.what)};
-  for (const Real& value : values) coefficient.values.push_back(rounded(value, law_.scalar));
-  law_.coefficients.push_back(std::move(coefficient));
-  return node(Operation::constant, static_cast<std::uint32_t>(law_.coefficients.size() - 1));
+                                  const std::vector<Real>& values, const Names& names, ConstantRole role,
+                                  std::size_t bank) {
+  const CoefficientId id =
+      add_constants({joined(name.whose, name.what), unit, meaning, {}, suffixed(names, name.what), role, bank}, values);
+  return law_.expressions.add({Operation::constant, {}, {}, id});
 }
 
 ExpressionId LawWriter::pick(const std::string& name, const std::string& unit, const std::string& meaning,
                              const std::vector<Real>& values, ExpressionId place) {
-  constants({"", name}, unit, meaning, values, {});
-  return node(Operation::pick, static_cast<std::uint32_t>(law_.coefficients.size() - 1), place);
+  const CoefficientId table = add_constants({name, unit, meaning, {}, {}, ConstantRole::brake_choice}, values);
+  return law_.expressions.add({Operation::pick, {place}, {}, table});
+}
+
+CoefficientId LawWriter::add_constants(Coefficient coefficient, const std::vector<Real>& values) {
+  for (const Real& value : values) coefficient.values.push_back(rounded(value, law_.scalar));
+  return law_.coefficients.add(std::move(coefficient));
 }
 
 VariableId LawWriter::reads(ExpressionId expression) const {
   const Expression& e = law_.expressions[expression];
-  return e.operation == Operation::read ? e.left : nothing;
+  return e.operation == Operation::read ? e.variable : nothing;
 }
 
 VariableId LawWriter::kept(VariableId local) {
@@ -100,8 +98,7 @@ VariableId LawWriter::kept(VariableId local) {
   for (std::string& name : state.element_names) name = joined("sampled", name);
   state.meaning += (state.meaning.empty() ? "" : ", ") + std::string("at this sample");
   state.role = Role::state;
-  law_.variables.push_back(std::move(state));
-  const auto id = static_cast<VariableId>(law_.variables.size() - 1);
+  const VariableId id = law_.variables.add(std::move(state));
   assign(law_.keep, id, read(local), "");
   kept_.emplace(local, id);
   return id;
@@ -115,11 +112,6 @@ ExpressionId LawWriter::plus(ExpressionId sum, ExpressionId value) {
 void LawWriter::assign(std::vector<Statement>& program, VariableId target, ExpressionId value, std::string purpose,
                        std::vector<std::vector<std::size_t>> origins) {
   program.push_back({target, value, std::move(purpose), std::move(origins)});
-}
-
-ExpressionId LawWriter::node(Operation operation, std::uint32_t left, std::uint32_t right) {
-  law_.expressions.push_back({operation, left, right});
-  return static_cast<ExpressionId>(law_.expressions.size() - 1);
 }
 
 }  // namespace dashpot::compiler

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
+#include "linear/normal_form.hpp"
 #include "linear/real.hpp"
+#include "network/network.hpp"
 
 namespace dashpot::compiler {
-
-inline constexpr std::uint32_t nothing = static_cast<std::uint32_t>(-1);  // no variable, no expression
 
 // Joins two parts of a C++ name by one underscore; the first may be empty.
 std::string joined(const std::string& first, const std::string& second);
@@ -49,20 +49,29 @@ class LawWriter {
   VariableId vector(const VectorName& name, const std::string& unit, const std::string& meaning, Role role,
                     const Names& names);
 
-  ExpressionId read(VariableId variable) { return node(Operation::read, variable); }
-  ExpressionId add(ExpressionId left, ExpressionId right) { return node(Operation::add, left, right); }
-  ExpressionId subtract(ExpressionId left, ExpressionId right) { return node(Operation::subtract, left, right); }
-  ExpressionId multiply(ExpressionId left, ExpressionId right) { return node(Operation::multiply, left, right); }
-  ExpressionId flush(ExpressionId value) { return node(Operation::flush, value); }
-  ExpressionId clamp(ExpressionId value, ExpressionId limit) { return node(Operation::clamp, value, limit); }
-  // `left` where `condition` is above zero, else `right`.
-  ExpressionId where(ExpressionId condition, ExpressionId left, ExpressionId right);
-  ExpressionId sum(VariableId vector) { return node(Operation::sum, read(vector)); }
+  ExpressionId read(VariableId variable) { return law_.expressions.add({Operation::read, {}, variable}); }
+  ExpressionId add(ExpressionId left, ExpressionId right) { return node(Operation::add, {left, right}); }
+  ExpressionId subtract(ExpressionId left, ExpressionId right) { return node(Operation::subtract, {left, right}); }
+  ExpressionId multiply(ExpressionId left, ExpressionId right) { return node(Operation::multiply, {left, right}); }
+  ExpressionId flush(ExpressionId value) { return node(Operation::flush, {value}); }
+  ExpressionId clamp(ExpressionId value, ExpressionId limit) { return node(Operation::clamp, {value, limit}); }
+  // `yes` where `condition` is above zero, else `no`.
+  ExpressionId where(ExpressionId condition, ExpressionId yes, ExpressionId no) {
+    return node(Operation::where, {condition, yes, no});
+  }
+  // drive + decay·flush(force)
+  ExpressionId relax(ExpressionId decay, ExpressionId force, ExpressionId drive) {
+    return node(Operation::relax, {decay, force, drive});
+  }
+  ExpressionId sum(VariableId vector) { return law_.expressions.add({Operation::sum, {}, vector}); }
   // The constant of that name, made where there is none yet.
-  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning,
-                        const Real& value);
+  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, const Real& value,
+                        ConstantRole role = ConstantRole::brake_choice);
+  // `bank`: of modes, whose constants these are.
   ExpressionId constants(const VectorName& name, const std::string& unit, const std::string& meaning,
-                         const std::vector<Real>& values, const Names& names);
+                         const std::vector<Real>& values, const Names& names,
+                         ConstantRole role = ConstantRole::brake_choice, std::size_t bank = port_bank);
+  std::size_t new_bank() { return ++last_bank_; }
 
   // A table, and the place of it that an expression says.
   ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning,
@@ -81,11 +90,15 @@ class LawWriter {
               std::vector<std::vector<std::size_t>> origins = {});
 
  private:
-  ExpressionId node(Operation operation, std::uint32_t left, std::uint32_t right = 0);
+  ExpressionId node(Operation operation, const std::array<ExpressionId, 3>& operands) {
+    return law_.expressions.add({operation, operands});
+  }
+  CoefficientId add_constants(Coefficient coefficient, const std::vector<Real>& values);
 
   UpdateLaw& law_;
   std::string length_, force_;
   std::map<VariableId, VariableId> kept_;
+  std::size_t last_bank_ = port_bank;
   std::set<std::string> taken_ = {"relaxed", "velocity", "no",    "step",
                                   "last",    "sampled",  "steady"};  // begin names of the law's own
 };

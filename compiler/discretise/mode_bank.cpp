@@ -9,7 +9,11 @@ namespace dashpot::compiler {
 
 ModeBank::ModeBank(LawWriter& writer, const std::vector<Mode>& modes, StateInput input, const Real& sample_period,
                    Names names, std::string prefix)
-    : writer_(writer), modes_(modes), names_(std::move(names)), prefix_(std::move(prefix)) {
+    : writer_(writer),
+      modes_(modes),
+      names_(std::move(names)),
+      prefix_(std::move(prefix)),
+      bank_(prefix_.empty() ? port_bank : writer.new_bank()) {
   for (const Mode& mode : modes_)
     coefficients_.push_back(mode_coefficients(mode, writer.law().scheme, input, sample_period));
 }
@@ -60,11 +64,15 @@ void ModeBank::write_update(VariableId position_change, VariableId velocity) {
   const auto guarded = [&](ExpressionId force) { return takes_turns ? force : writer_.flush(force); };
   switch (writer_.law().mode_form) {
     case ModeForm::product: {
-      const ExpressionId decay = per_mode("decay", "1", decayed.c_str(), [](const auto& c) { return c.decay; });
+      const ExpressionId decay =
+          per_mode(ConstantRole::decay, "decay", "1", decayed.c_str(), [](const auto& c) { return c.decay; });
       // The guard looks at the force before, which waits for nothing; the drive comes first, so that the product that a
       // compiler may fuse with the sum is that of the force.
-      writer_.assign(update, forces_, writer_.add(driven, writer_.multiply(decay, guarded(writer_.read(forces_)))),
-                     "F ← a (F + c Δu)", origins());
+      const ExpressionId force = writer_.read(forces_);
+      writer_.assign(
+          update, forces_,
+          takes_turns ? writer_.add(driven, writer_.multiply(decay, force)) : writer_.relax(decay, force, driven),
+          "F ← a (F + c Δu)", origins());
       break;
     }
     case ModeForm::delta:
@@ -101,8 +109,8 @@ ExpressionId ModeBank::energy() {
     const Real& a = coefficients_[i].decay;
     weights.push_back(a < vanishing ? Real(0) : Real(1 / (2 * modes_[i].stiffness * a * a)));
   }
-  const ExpressionId weight =
-      writer_.constants({vector_name(), "energy_weight"}, writer_.compliance(), "1/(2 k a²)", weights, names_);
+  const ExpressionId weight = writer_.constants({vector_name(), "energy_weight"}, writer_.compliance(), "1/(2 k a²)",
+                                                weights, names_, ConstantRole::energy_weight, bank_);
   const VariableId stored = state("energy", "", Role::local);
   const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(forces_)), writer_.read(forces_));
   writer_.assign(writer_.law().energy, stored, squared, "F²/(2k)", origins());
@@ -112,18 +120,19 @@ ExpressionId ModeBank::energy() {
 ExpressionId ModeBank::drive(VariableId position_change, VariableId velocity) {
   ExpressionId sum = nothing;
   if (follows_position()) {
-    const ExpressionId gain =
-        per_mode("gain", writer_.stiffness(), "a c", [](const auto& c) { return Real(c.decay * c.position_gain); });
+    const ExpressionId gain = per_mode(ConstantRole::gain, "gain", writer_.stiffness(), "a c",
+                                       [](const auto& c) { return Real(c.decay * c.position_gain); });
     sum = writer_.multiply(gain, writer_.read(position_change));
   }
   if (!follows_velocity()) return sum;
-  const ExpressionId gain = per_mode("velocity_drive", writer_.damping(), "a c h",
+  const ExpressionId gain = per_mode(ConstantRole::velocity_drive, "velocity_drive", writer_.damping(), "a c h",
                                      [](const auto& c) { return Real(c.decay * c.velocity_gain); });
   return writer_.plus(sum, writer_.multiply(gain, writer_.read(velocity)));
 }
 
 ExpressionId ModeBank::increment(ExpressionId driven) {
-  const ExpressionId loss = per_mode("loss", "1", "α = 1 − a", [](const auto& c) { return c.loss; });
+  const ExpressionId loss =
+      per_mode(ConstantRole::loss, "loss", "1", "α = 1 − a", [](const auto& c) { return c.loss; });
   return writer_.subtract(driven, writer_.multiply(loss, writer_.read(forces_)));
 }
 
@@ -146,10 +155,11 @@ std::vector<std::vector<std::size_t>> ModeBank::origins() const {
 }
 
 template <class ValueOf>
-ExpressionId ModeBank::per_mode(const char* name, const std::string& unit, const char* meaning, ValueOf value_of) {
+ExpressionId ModeBank::per_mode(ConstantRole role, const char* name, const std::string& unit, const char* meaning,
+                                ValueOf value_of) {
   std::vector<Real> values;
   for (const ModeCoefficients& mode : coefficients_) values.push_back(value_of(mode));
-  return writer_.constants({vector_name(), name}, unit, meaning, values, names_);
+  return writer_.constants({vector_name(), name}, unit, meaning, values, names_, role, bank_);
 }
 
 VariableId ModeBank::state(const char* name, const char* meaning, Role role) {

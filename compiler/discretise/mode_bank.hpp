@@ -39,7 +39,8 @@ class ModeBank {
   bool guard_in_turn();
   std::vector<std::vector<std::size_t>> origins() const;
   template <class ValueOf>
-  ExpressionId per_mode(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
+  ExpressionId per_mode(ConstantRole role, const char* name, const std::string& unit, const char* meaning,
+                        ValueOf value_of);
   VariableId state(const char* name, const char* meaning, Role role = Role::state);
   // Not "force" alone: that is the law's own.
   std::string vector_name() const { return prefix_.empty() ? "mode" : prefix_; }
@@ -49,6 +50,7 @@ class ModeBank {
   std::vector<ModeCoefficients> coefficients_;
   Names names_;
   std::string prefix_;
+  std::size_t bank_;
   VariableId decayed_sum_ = nothing, forces_ = nothing, errors_ = nothing;
 };
 

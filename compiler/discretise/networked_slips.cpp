@@ -150,8 +150,7 @@ ExpressionId NetworkedSlips::write_step(VariableId change) {
   const VariableId force = writer_.scalar(joined(name_, "force"), writer_.force(), "the part's force", Role::local);
   writer_.assign(law.output, force, writer_.read(change), "f and where every node goes, by patterns of slips",
                  {elements_});
-  law.output.back().network = static_cast<std::uint32_t>(law.networks.size());
-  law.networks.push_back(step_);
+  law.output.back().step = SolveNetwork{law.networks.add(step_)};
   return writer_.read(force);
 }
 
@@ -161,13 +160,14 @@ ExpressionId NetworkedSlips::held_at(std::size_t terminal) {
   for (const SpringTie& spring : springs_) {
     if (spring.tie.a == terminal) sum = writer_.plus(sum, writer_.read(spring.force));
     if (spring.tie.b != terminal) continue;
-    const ExpressionId none = writer_.constant("none", writer_.force(), "nothing", 0);
+    const ExpressionId none = writer_.constant("none", writer_.force(), "nothing", 0, ConstantRole::zero);
     sum = writer_.subtract(sum == nothing ? none : sum, writer_.read(spring.force));
   }
   for (const NetworkMode& mode : modes_) {
     if (mode.mode.weights[terminal] == 0) continue;
-    const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[terminal])), "1",
-                                                 "of the mode there", mode.mode.weights[terminal]);
+    const ExpressionId weight =
+        writer_.constant(joined(mode.name, joined("weight", end_names_[terminal])), "1", "of the mode there",
+                         mode.mode.weights[terminal], ConstantRole::mode_weight);
     sum = writer_.plus(sum, writer_.multiply(weight, writer_.read(mode.bank->decayed_sum())));
   }
   return sum;
@@ -200,7 +200,7 @@ ExpressionId NetworkedSlips::drive(const NetworkMode& mode) {
   for (std::size_t i = 0; i < form_.terminals.size(); ++i) {
     if (mode.mode.weights[i] == 0) continue;
     const ExpressionId weight = writer_.constant(joined(mode.name, joined("weight", end_names_[i])), "1",
-                                                 "of the mode there", mode.mode.weights[i]);
+                                                 "of the mode there", mode.mode.weights[i], ConstantRole::mode_weight);
     sum = writer_.plus(sum, writer_.multiply(weight, movement(i)));
   }
   return sum;
@@ -210,8 +210,8 @@ ExpressionId NetworkedSlips::drive(const NetworkMode& mode) {
 void NetworkedSlips::write_update() {
   std::vector<Statement>& update = writer_.law().update;
   for (const SpringTie& spring : springs_) {
-    const ExpressionId stiffness =
-        writer_.constant(joined(spring.name, "stiffness"), writer_.stiffness(), "k0", spring.tie.value);
+    const ExpressionId stiffness = writer_.constant(joined(spring.name, "stiffness"), writer_.stiffness(), "k0",
+                                                    spring.tie.value, ConstantRole::spring_stiffness);
     const ExpressionId force =
         writer_.add(writer_.read(spring.force), writer_.multiply(stiffness, elongation(spring.tie)));
     writer_.assign(update, spring.force, writer_.flush(force), "F ← F + k δ", {elements_});
@@ -234,7 +234,7 @@ ExpressionId NetworkedSlips::energy() {
   ExpressionId sum = nothing;
   for (const SpringTie& spring : springs_) {
     const ExpressionId weight = writer_.constant(joined(spring.name, "compliance"), writer_.compliance(), "1/(2 k)",
-                                                 1 / (2 * spring.tie.value));
+                                                 1 / (2 * spring.tie.value), ConstantRole::spring_compliance);
     const ExpressionId force = writer_.read(spring.force);
     sum = writer_.plus(sum, writer_.multiply(writer_.multiply(weight, force), force));
   }

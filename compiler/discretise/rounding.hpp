@@ -1,7 +1,7 @@
 // How rounding spoils a mode's force, and the form of the update that keeps it within bounds.
 #pragma once
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 

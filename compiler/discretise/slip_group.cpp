@@ -143,7 +143,8 @@ ExpressionId SlipGroup::write_output(VariableId change) {
   std::vector<Real> yields;
   for (const SlipResponse& response : responses_) yields.push_back(response.yield_force);
   now_.slip = local("slip", "the slip's force");
-  const ExpressionId limit = writer_.constants({prefix_, "yield"}, writer_.force(), "Y", yields, names_);
+  const ExpressionId limit =
+      writer_.constants({prefix_, "yield"}, writer_.force(), "Y", yields, names_, ConstantRole::yield);
   writer_.assign(output, now_.slip, writer_.clamp(writer_.read(now_.trial), limit), "s = clamp(t, ±Y)", origins());
   now_.excess = local("excess", "what the slip does not hold");
   writer_.assign(output, now_.excess, writer_.subtract(writer_.read(now_.trial), writer_.read(now_.slip)), "r = t − s");
@@ -227,8 +228,8 @@ ExpressionId SlipGroup::energy() {
     if (block.has_spring) {
       std::vector<Real> weights;
       for (const LinearForm& form : block.forms) weights.push_back(1 / (2 * form.static_stiffness));
-      const ExpressionId weight =
-          writer_.constants({block.names.front(), "compliance"}, writer_.compliance(), "1/(2 k)", weights, block.names);
+      const ExpressionId weight = writer_.constants({block.names.front(), "compliance"}, writer_.compliance(),
+                                                    "1/(2 k)", weights, block.names, ConstantRole::spring_compliance);
       const ExpressionId squared = writer_.multiply(writer_.multiply(weight, writer_.read(block.spring_force)),
                                                     writer_.read(block.spring_force));
       const VariableId stored =
@@ -296,7 +297,9 @@ ExpressionId SlipGroup::expression(const std::string& what, const std::vector<Ro
   if (!all_equal(excess, 0))
     sum = term(what + "_by_excess", "1", "for what the slip does not hold", excess, writer_.read(at_hand(now_.excess)),
                sum);
-  return sum == nothing ? writer_.constant(joined(prefix_, what + "_none"), writer_.force(), "nothing", 0) : sum;
+  return sum == nothing
+             ? writer_.constant(joined(prefix_, what + "_none"), writer_.force(), "nothing", 0, ConstantRole::zero)
+             : sum;
 }
 
 // sum + values·factor, without a product where all values are 0, 1 or −1.
@@ -311,7 +314,8 @@ ExpressionId SlipGroup::term(const std::string& name, const std::string& unit, c
   const ExpressionId product =
       all_equal(values, 1)
           ? factor
-          : writer_.multiply(writer_.constants({prefix_, name}, unit, meaning, values, names_), factor);
+          : writer_.multiply(writer_.constants({prefix_, name}, unit, meaning, values, names_, ConstantRole::row),
+                             factor);
   return falls ? writer_.subtract(sum, product) : writer_.plus(sum, product);
 }
 

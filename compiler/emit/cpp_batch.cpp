@@ -6,9 +6,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "discretise/expression_text.hpp"
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
+#include "law/expression_text.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -59,15 +60,9 @@ class BatchPrinter {
 
   // States that the expression reads, but for those that are `assigned`.
   void find_reads(ExpressionId id, const std::set<VariableId>& assigned, std::set<VariableId>& found) const {
-    const Expression& e = law_.expressions[id];
-    if (e.operation == Operation::constant) return;
-    if (e.operation == Operation::read) {
-      if (law_.variables[e.left].role == Role::state && assigned.count(e.left) == 0) found.insert(e.left);
-      return;
-    }
-    find_reads(e.left, assigned, found);
-    if (e.operation == Operation::where) find_reads(e.condition, assigned, found);
-    if (e.operation != Operation::flush && e.operation != Operation::sum) find_reads(e.right, assigned, found);
+    each_read(law_, id, [&](VariableId read) {
+      if (law_.variables[read].role == Role::state && assigned.count(read) == 0) found.insert(read);
+    });
   }
 
   // Of what is kept of a sample, what update() or the next sample reads.
@@ -144,36 +139,26 @@ class BatchPrinter {
 
   std::string expression(ExpressionId id, std::size_t place) {
     Spelling spelling;
-    spelling.variable = [&](const Variable& variable) { return name_of(variable, variable.size == 1 ? 0 : place); };
-    spelling.coefficient = [&](const Coefficient& coefficient) {
-      used_.insert(&coefficient);
-      return coefficient.element_names.empty() ? coefficient.name : coefficient.element_names[place];
+    spelling.language = Language::vectors;
+    spelling.variable = [&](VariableId variable) {
+      return name(variable, law_.variables[variable].size == 1 ? 0 : place);
     };
-    spelling.flush = [this](const std::string& value) {
-      uses_flush_ = true;
-      return fmt::format("vector::flush_below(threshold, {})", value);
+    spelling.coefficient = [&](CoefficientId constant) {
+      const Coefficient& c = law_.coefficients[constant];
+      return c.element_names.empty() ? c.name : c.element_names[place];
     };
-    spelling.clamp = [](const std::string& value, const std::string& limit) {
-      return fmt::format("vector::clamp_to({}, {})", limit, value);
-    };
-    spelling.sum = [this](const Variable& vector) { return "(" + sum_text(vector) + ")"; };
-    spelling.where = [](const std::string& condition, const std::string& yes, const std::string& no) {
-      return fmt::format("vector::where({}, {}, {})", condition, yes, no);
-    };
+    spelling.sum = [this](VariableId vector) { return "(" + sum_text(vector) + ")"; };
     return expression_text(law_, id, spelling);
   }
 
-  std::string name_of(const Variable& variable, std::size_t place) const {
-    return name(static_cast<VariableId>(&variable - law_.variables.data()), place);
-  }
-
   // In the order of the single class, whose rolled loops begin every lane at 0.
-  std::string sum_text(const Variable& vector) const {
+  std::string sum_text(VariableId summed) const {
+    const Variable& vector = law_.variables[summed];
     const std::size_t lanes = law_.is_rolled(vector.size) ? law_.lanes : 1;
     std::vector<std::string> parts(lanes, lanes > 1 ? "vector(0)" : "");
     for (std::size_t place = 0; place < vector.size; ++place) {
       std::string& part = parts[place % lanes];
-      part += (part.empty() ? "" : " + ") + name_of(vector, place);
+      part += (part.empty() ? "" : " + ") + name(summed, place);
     }
     for (std::size_t half = lanes / 2; half > 0; half /= 2)
       for (std::size_t i = 0; i < half; ++i) parts[i] = "(" + parts[i] + ") + (" + parts[i + half] + ")";
@@ -190,20 +175,18 @@ class BatchPrinter {
 
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
-    if (uses_flush_)
+    if (uses(law_, Operation::flush) || uses(law_, Operation::relax))
       lines.push_back(
           fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
                       cpp_literal(law_.flush_threshold, law_.scalar)));
-    for (const Coefficient& coefficient : law_.coefficients)
-      if (used_.count(&coefficient) != 0) append_constant_of_each(coefficient, law_.scalar, lines);
+    for (CoefficientId read : constants_read(law_))
+      append_constant_of_each(law_.coefficients[read], law_.scalar, lines);
     return lines;
   }
 
   const UpdateLaw& law_;
   std::set<VariableId> kept_;
   std::vector<const Statement*> derived_;
-  std::set<const Coefficient*> used_;
-  bool uses_flush_ = false;
 };
 
 }  // namespace

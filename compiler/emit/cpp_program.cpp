@@ -9,6 +9,7 @@
 #include "emit/cpp_statements.hpp"
 #include "emit/cpp_tunable.hpp"
 #include "emit/fused_step.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -104,12 +105,11 @@ class CppPrinter {
     if (!law_.brake_changes())
       lines.push_back(
           fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
-    if (statements_.uses_flush())
+    if (uses(law_, Operation::flush) || uses(law_, Operation::relax) || !law_.guards.empty())
       lines.push_back(
           fmt::format("static constexpr scalar threshold = {};  // below, a force is zero: no subnormal state",
                       literal(law_.flush_threshold)));
-    for (const Coefficient& coefficient : law_.coefficients)
-      if (statements_.uses(coefficient)) append_constant(coefficient, lines);
+    for (CoefficientId read : constants_read(law_)) append_constant(law_.coefficients[read], lines);
     for (const Coupling& coupling : law_.couplings) append_table(law_, coupling, lines);
     for (const SlipNetwork& network : law_.networks) append_tables(law_, network, lines);
     return lines;

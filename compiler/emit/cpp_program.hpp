@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
+#include "network/network.hpp"
 
 namespace dashpot::compiler {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 #include "emit/cpp_statements.hpp"
 
 namespace dashpot::compiler {

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 
-#include "discretise/expression_text.hpp"
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_slips.hpp"
+#include "law/expression_text.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -22,7 +23,11 @@ std::string origin_names(const std::vector<std::size_t>& elements, const Network
 
 CppStatements::CppStatements(const UpdateLaw& law, const Network& network, Timing timing)
     : law_(law), network_(network), branch_free_(timing == Timing::constant) {
-  for (const Statement& statement : law.keep) find_vectors(statement.value);
+  for (const Statement& statement : law.keep)
+    each_expression(law, statement.value, [&](const Expression& e) {
+      if (e.operation == Operation::read && law.variables[e.variable].size > 1)
+        outliving_.insert(&law.variables[e.variable]);
+    });
 }
 
 std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& program,
@@ -35,7 +40,10 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<Statement>& p
   hoisted_.clear();
   for (const Statement& statement : program) assigned_.insert(statement.target);
   for (const Statement& statement : program)
-    if (target(statement).size == 1) find_sums(statement.value);
+    if (target(statement).size == 1)
+      each_expression(law_, statement.value, [&](const Expression& e) {
+        if (e.operation == Operation::sum) summed_.insert(e.variable);
+      });
   for (std::size_t i = 0; i < program.size();) {
     if (!is_rolled(target(program[i]))) {
       print_unrolled(program[i++], lines);
@@ -57,7 +65,6 @@ std::vector<std::string> CppStatements::kept_lines_of(const std::vector<Statemen
 
 std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>& guards) {
   std::vector<std::string> lines;
-  uses_flush_ |= !guards.empty();
   for (const GuardInTurn& guard : guards) {
     const Variable& forces = law_.variables[guard.state];
     const std::string force = fmt::format("vector::at({}, first + j)", array_name(forces));
@@ -78,10 +85,10 @@ std::vector<std::string> CppStatements::lines_of(const std::vector<GuardInTurn>&
 void CppStatements::print_unrolled(const Statement& statement, std::vector<std::string>& lines) {
   const Variable& target = law_.variables[statement.target];
   if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
-  if (statement.coupling != no_coupling)
-    return append_step(law_, statement, law_.couplings[statement.coupling], *this, lines);
-  if (statement.network != no_coupling)
-    return append_step(law_, statement, law_.networks[statement.network], *this, lines);
+  if (const auto* tree = std::get_if<SolveTree>(&statement.step))
+    return append_step(law_, statement, law_.couplings[tree->coupling], *this, lines);
+  if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
+    return append_step(law_, statement, law_.networks[network->network], *this, lines);
   const bool is_masked = masks_states_ && target.role == Role::state;
   for (std::size_t place = 0; place < target.size; ++place) {
     std::string value = expression(statement.value, place);
@@ -133,20 +140,10 @@ void CppStatements::print_loop(const std::vector<Statement>& program, std::size_
 
 // How often an expression of a loop reads a vector at the loop's place.
 int CppStatements::reads_of(ExpressionId id, VariableId vector) const {
-  const Expression& e = law_.expressions[id];
-  switch (e.operation) {
-    case Operation::read: return e.left == vector;
-    case Operation::constant:
-    case Operation::sum: return 0;
-    case Operation::pick: return reads_of(e.right, vector);
-    case Operation::flush: return reads_of(e.left, vector);
-    case Operation::where: return reads_of(e.condition, vector) + reads_of(e.left, vector) + reads_of(e.right, vector);
-    case Operation::add:
-    case Operation::subtract:
-    case Operation::multiply:
-    case Operation::clamp: return reads_of(e.left, vector) + reads_of(e.right, vector);
-  }
-  return 0;
+  int count = 0;
+  each_expression(law_, id,
+                  [&](const Expression& e) { count += e.operation == Operation::read && e.variable == vector; });
+  return count;
 }
 
 // Partial sums; called after their vector where a function has several.
@@ -156,28 +153,13 @@ std::string CppStatements::lane(const Variable& vector) const {
 
 // A scalar state would be read again in each round: what a round stores might be it, for all that a compiler knows.
 void CppStatements::hoist_scalars(ExpressionId id, std::vector<std::string>& lines) {
-  const Expression& e = law_.expressions[id];
-  if (e.operation == Operation::constant || e.operation == Operation::sum) return;
-  if (e.operation == Operation::read) {
-    const Variable& variable = law_.variables[e.left];
-    const bool is_steady = variable.role == Role::state && variable.size == 1 && assigned_.count(e.left) == 0;
-    if (is_steady && hoisted_.insert(e.left).second)
+  each_expression(law_, id, [&](const Expression& e) {
+    if (e.operation != Operation::read) return;
+    const Variable& variable = law_.variables[e.variable];
+    const bool is_steady = variable.role == Role::state && variable.size == 1 && assigned_.count(e.variable) == 0;
+    if (is_steady && hoisted_.insert(e.variable).second)
       lines.push_back(fmt::format("const vector {} = {};", variable.name, scalar_name(variable)));
-    return;
-  }
-  hoist_scalars(e.left, lines);
-  if (e.operation == Operation::where) hoist_scalars(e.condition, lines);
-  if (e.operation != Operation::flush) hoist_scalars(e.right, lines);
-}
-
-void CppStatements::find_sums(ExpressionId id) {
-  const Expression& e = law_.expressions[id];
-  if (e.operation == Operation::sum) summed_.insert(law_.expressions[e.left].left);
-  if (e.operation == Operation::pick) return find_sums(e.right);
-  if (e.operation == Operation::read || e.operation == Operation::constant || e.operation == Operation::sum) return;
-  find_sums(e.left);
-  if (e.operation == Operation::where) find_sums(e.condition);
-  if (e.operation != Operation::flush) find_sums(e.right);
+  });
 }
 
 std::string CppStatements::assignment(const Variable& target, std::size_t place) const {
@@ -186,16 +168,6 @@ std::string CppStatements::assignment(const Variable& target, std::size_t place)
 
 std::string CppStatements::place_name(const Variable& variable, std::size_t place) const {
   return variable.size == 1 ? scalar_name(variable) : vector_name(variable, place);
-}
-
-void CppStatements::find_vectors(ExpressionId id) {
-  const Expression& e = law_.expressions[id];
-  if (e.operation == Operation::read && law_.variables[e.left].size > 1) outliving_.insert(&law_.variables[e.left]);
-  if (e.operation == Operation::read || e.operation == Operation::constant) return;
-  if (e.operation == Operation::pick) return find_vectors(e.right);
-  find_vectors(e.left);
-  if (e.operation == Operation::where) find_vectors(e.condition);
-  if (e.operation != Operation::flush && e.operation != Operation::sum) find_vectors(e.right);
 }
 
 // Of a rolled loop's locals those that are remembered after the command has been found finite need a place each.
@@ -209,62 +181,34 @@ bool CppStatements::is_array(const Variable& vector) const {
 
 std::string CppStatements::expression(ExpressionId id, std::size_t place) {
   Spelling spelling;
-  const std::string decisions = branch_free_ ? "dashpot::branch_free" : "dashpot";
-  spelling.variable = [&](const Variable& variable) { return place_name(original(variable), place); };
-  spelling.coefficient = [&](const Coefficient& coefficient) {
-    used_coefficients_.insert(&coefficient);
-    return coefficient.element_names.empty() ? coefficient.name : coefficient.element_names[place];
-  };
-  spelling.flush = [&](const std::string& value) {
-    uses_flush_ = true;
-    return fmt::format("{}::flush_below(threshold, {})", decisions, value);
+  spelling.language = branch_free_ ? Language::constant_time : Language::cpp;
+  spelling.variable = [&](VariableId variable) { return place_name(original(law_.variables[variable]), place); };
+  spelling.coefficient = [&](CoefficientId constant) {
+    const Coefficient& c = law_.coefficients[constant];
+    return c.element_names.empty() ? c.name : c.element_names[place];
   };
   // A sum is one operand: inside a longer expression its terms keep together.
   const bool is_whole = law_.expressions[id].operation == Operation::sum;
-  if (!branch_free_)
-    spelling.relax = [&](const std::string& decay, const std::string& force, const std::string& drive) {
-      uses_flush_ = true;
-      return fmt::format("dashpot::relaxed(threshold, {}, {}, {})", decay, force, drive);
-    };
-  spelling.clamp = [&](const std::string& value, const std::string& limit) {
-    return fmt::format("{}::clamp_to({}, {})", decisions, limit, value);
-  };
-  if (branch_free_)
-    spelling.where = [&](const std::string& condition, const std::string& yes, const std::string& no) {
-      return fmt::format("{}::where({}, {}, {})", decisions, condition, yes, no);
-    };
-  spelling.sum = [&](const Variable& vector) {
+  spelling.sum = [&](VariableId summed) {
+    const Variable& vector = law_.variables[summed];
     const std::string terms = sum_text(vector);
     return is_whole || is_rolled(vector) || vector.size == 1 ? terms : "(" + terms + ")";
-  };
-  spelling.pick = [&](const Coefficient& table, const std::string& index) {
-    used_coefficients_.insert(&table);
-    return fmt::format("{}[static_cast<int>({})]", table.name, index);
   };
   return expression_text(law_, id, spelling);
 }
 
 std::string CppStatements::rolled_expression(ExpressionId id) {
   Spelling spelling;
-  spelling.variable = [this](const Variable& variable) {
-    const auto id_of = static_cast<VariableId>(&variable - law_.variables.data());
-    return hoisted_.count(id_of) != 0 || &variable == in_register_ ? variable.name : place_name(original(variable), 0);
+  spelling.language = Language::vectors;
+  spelling.variable = [this](VariableId read) {
+    const Variable& variable = law_.variables[read];
+    return hoisted_.count(read) != 0 || &variable == in_register_ ? variable.name : place_name(original(variable), 0);
   };
-  spelling.coefficient = [this](const Coefficient& coefficient) {
-    used_coefficients_.insert(&coefficient);
-    return coefficient.element_names.empty() ? coefficient.name : fmt::format("vector::at({}, j)", coefficient.name);
+  spelling.coefficient = [this](CoefficientId constant) {
+    const Coefficient& c = law_.coefficients[constant];
+    return c.element_names.empty() ? c.name : fmt::format("vector::at({}, j)", c.name);
   };
-  spelling.flush = [this](const std::string& value) {
-    uses_flush_ = true;
-    return fmt::format("vector::flush_below(threshold, {})", value);
-  };
-  spelling.clamp = [](const std::string& value, const std::string& limit) {
-    return fmt::format("vector::clamp_to({}, {})", limit, value);
-  };
-  spelling.sum = [this](const Variable& vector) { return sum_text(vector); };
-  spelling.where = [](const std::string& condition, const std::string& yes, const std::string& no) {
-    return fmt::format("vector::where({}, {}, {})", condition, yes, no);
-  };
+  spelling.sum = [this](VariableId vector) { return sum_text(law_.variables[vector]); };
   return expression_text(law_, id, spelling);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 #include "emit/cpp_program.hpp"
 
 namespace dashpot::compiler {
@@ -37,19 +37,13 @@ class CppStatements {
     return law_.is_rolled(coefficient.values.size()) && !coefficient.is_table();
   }
 
-  // What the lines so far refer to.
-  bool uses(const Coefficient& coefficient) const { return used_coefficients_.count(&coefficient) != 0; }
-  bool uses_flush() const { return uses_flush_; }
-
  private:
   void print_unrolled(const Statement& statement, std::vector<std::string>& lines);
   void print_loop(const std::vector<Statement>& program, std::size_t first, std::size_t last,
                   std::vector<std::string>& lines);
   int reads_of(ExpressionId id, VariableId vector) const;
   std::string lane(const Variable& vector) const;
-  void find_sums(ExpressionId id);
   void hoist_scalars(ExpressionId id, std::vector<std::string>& lines);
-  void find_vectors(ExpressionId id);
   bool outlives_loop(const Variable& variable) const;
   bool is_array(const Variable& vector) const;
   std::string sum_text(const Variable& vector);
@@ -65,9 +59,7 @@ class CppStatements {
   const UpdateLaw& law_;
   const Network& network_;
   bool branch_free_;
-  bool masks_states_ = false;  // of the program at hand
-  bool uses_flush_ = false;
-  std::set<const Coefficient*> used_coefficients_;
+  bool masks_states_ = false;                // of the program at hand
   std::set<VariableId> summed_;              // of the program at hand
   std::set<VariableId> assigned_, hoisted_;  // likewise
   const Variable* in_register_ = nullptr;    // of the statement at hand

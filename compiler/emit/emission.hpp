@@ -7,7 +7,7 @@
 
 #include "certify/certificate.hpp"
 #include "decompose/decomposition.hpp"
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 #include "linear/normal_form.hpp"
 #include "network/device.hpp"
 
@@ -24,7 +24,10 @@ struct Compilation {
   std::optional<Device> device;
 };
 
+enum class Target : unsigned char { cpp, c99 };
+
 struct EmissionOptions {
+  Target target = Target::cpp;
   bool constant_time = false;  // no value decides how long output() and update() take
   bool batch = false;          // also a class for many points of the same network
   bool with_test = false;
@@ -41,6 +44,11 @@ struct OutputFile {
 // <name>.hpp, and <name>_batch.hpp, <name>_test.cpp, <name>_library.cpp and <name>_live.cpp where asked for. Refuses:
 // templates that do not fit; constant time and many points where slips meet at inner nodes, or parameters are tunable.
 std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
+                                                Diagnostics& diagnostics);
+
+// <name>.h. Refuses: templates that do not fit; slips that meet at inner nodes or behind a contact, tunables, and a
+// name that C keeps for itself. Other options have no meaning here.
+std::optional<std::vector<OutputFile>> emit_c99(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

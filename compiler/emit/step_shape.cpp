@@ -1,4 +1,5 @@
 #include "emit/step_shape.hpp"
+#include "law/cost.hpp"
 
 #include <algorithm>
 
@@ -36,6 +37,12 @@ bool can_be_emitted(const Compilation& c, const EmissionOptions& options, Diagno
   const bool single = options.batch && refuses(c, "--batch", diagnostics);
   if (single) diagnostics.note<DiagnosticCode::object_each_remedy>({}, "--batch");
   return !untimed && !single;
+}
+
+bool can_be_c99(const Compilation& c, Diagnostics& diagnostics) {
+  const bool is_taken = c.network.name == "restrict" || c.network.name.starts_with("dashpot_");
+  if (is_taken) diagnostics.report<DiagnosticCode::name_is_word_of_c>(c.network.name_span, c.network.name);
+  return !refuses(c, "--target c99", diagnostics) && !is_taken;
 }
 
 }  // namespace dashpot::compiler

@@ -9,4 +9,7 @@ namespace dashpot::compiler {
 // tunables, whose steps take as long as their values have it.
 bool can_be_emitted(const Compilation& compilation, const EmissionOptions& options, Diagnostics& diagnostics);
 
+// The same of C99, where the network's name is also that of a type.
+bool can_be_c99(const Compilation& compilation, Diagnostics& diagnostics);
+
 }  // namespace dashpot::compiler

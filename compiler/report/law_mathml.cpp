@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "discretise/expression_text.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
 
@@ -52,18 +51,20 @@ class Writer {
   std::string written(ExpressionId id) const {
     const Expression& e = law_.expressions[id];
     switch (e.operation) {
-      case Operation::read: return variable_mathml(law_.variables[e.left]);
-      case Operation::constant: return constant(law_.coefficients[e.left]);
-      case Operation::add: return added(e);
-      case Operation::subtract: return grouped(e.left, 1) + "<mo>−</mo>" + grouped(e.right, 2);
-      case Operation::multiply: return product(grouped(e.left, 2), grouped(e.right, 3));
-      case Operation::flush: return written(e.left);
+      case Operation::read: return variable_mathml(law_.variables[e.variable]);
+      case Operation::constant: return constant(law_.coefficients[e.coefficient]);
+      case Operation::add: return sum(e.operands[0], grouped(e.operands[1], 2));
+      case Operation::subtract: return grouped(e.operands[0], 1) + "<mo>−</mo>" + grouped(e.operands[1], 2);
+      case Operation::multiply: return product(grouped(e.operands[0], 2), grouped(e.operands[1], 3));
+      case Operation::flush: return written(e.operands[0]);
       case Operation::clamp:
-        return "<mi>clamp</mi>" + bracketed(written(e.left) + "<mo>,</mo><mo>±</mo>" + grouped(e.right, 3));
+        return "<mi>clamp</mi>" +
+               bracketed(written(e.operands[0]) + "<mo>,</mo><mo>±</mo>" + grouped(e.operands[1], 3));
       case Operation::where: return choice(e);
+      case Operation::relax: return sum(e.operands[2], product(grouped(e.operands[0], 2), grouped(e.operands[1], 3)));
       case Operation::pick:
-        return "<msub>" + coefficient_mathml(law_.coefficients[e.left]) + written(e.right) + "</msub>";
-      case Operation::sum: return summed(law_.variables[law_.expressions[e.left].left]);
+        return "<msub>" + coefficient_mathml(law_.coefficients[e.coefficient]) + written(e.operands[0]) + "</msub>";
+      case Operation::sum: return summed(law_.variables[e.variable]);
     }
     return "";
   }
@@ -81,15 +82,13 @@ class Writer {
   }
 
   // A negative number behind a plus is a minus: the value is the same to the last bit.
-  std::string added(const Expression& e) const {
+  std::string sum(ExpressionId left, std::string right) const {
     static const std::string minus = "<mn>−";
-    std::string right = grouped(e.right, 2);
     const std::size_t number = right.find("<mn>");
     const bool comes_first = number != right.npos && right.substr(0, number).find_first_not_of("<mrow>") == right.npos;
-    if (!comes_first || right.compare(number, minus.size(), minus) != 0)
-      return grouped(e.left, 1) + "<mo>+</mo>" + right;
+    if (!comes_first || right.compare(number, minus.size(), minus) != 0) return grouped(left, 1) + "<mo>+</mo>" + right;
     right.replace(number, minus.size(), "<mn>");
-    return grouped(e.left, 1) + "<mo>−</mo>" + right;
+    return grouped(left, 1) + "<mo>−</mo>" + right;
   }
 
   static std::string summed(const Variable& vector) {
@@ -97,19 +96,20 @@ class Writer {
   }
 
   std::string choice(const Expression& e) const {
-    const std::string condition = grouped(e.condition, 1) + "<mo>&gt;</mo><mn>0</mn>";
-    return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.left) +
+    const std::string condition = grouped(e.operands[0], 1) + "<mo>&gt;</mo><mn>0</mn>";
+    return "<mrow><mo>{</mo><mtable columnalign=\"left left\"><mtr><mtd>" + written(e.operands[1]) +
            "</mtd><mtd><mspace width=\"1em\"/><mtext>if</mtext><mspace width=\"0.4em\"/>" + condition +
-           "</mtd></mtr><mtr><mtd>" + written(e.right) +
+           "</mtd></mtr><mtr><mtd>" + written(e.operands[2]) +
            "</mtd><mtd><mspace width=\"1em\"/><mtext>else</mtext></mtd></mtr></mtable></mrow>";
   }
 
   std::string grouped(ExpressionId id, int least_precedence) const {
     const Expression& e = law_.expressions[id];
     // The guard is not shown: what it guards decides.
-    if (e.operation == Operation::flush) return grouped(e.left, least_precedence);
+    if (e.operation == Operation::flush) return grouped(e.operands[0], least_precedence);
     const std::string inner = "<mrow>" + written(id) + "</mrow>";
-    if (precedence(e.operation) < least_precedence) return "<mrow>" + bracketed(inner) + "</mrow>";
+    if (form_of(e.operation, Language::text).tightness < least_precedence)
+      return "<mrow>" + bracketed(inner) + "</mrow>";
     return e.operation == Operation::read || e.operation == Operation::constant ? written(id) : inner;
   }
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 

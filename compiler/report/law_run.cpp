@@ -1,6 +1,6 @@
 #include "report/law_run.hpp"
 
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 
 namespace dashpot::compiler {
 namespace {

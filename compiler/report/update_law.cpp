@@ -19,11 +19,10 @@ std::string line(const std::string& left, const char* sign, const std::string& r
 
 // Remembering a sample under another name is no equation.
 bool only_copies(const UpdateLaw& law, const Statement& statement) {
-  return law.expressions[statement.value].operation == Operation::read && statement.coupling == no_coupling;
+  return law.expressions[statement.value].operation == Operation::read && statement.assigns();
 }
 
-std::string coupled(const UpdateLaw& law, const Statement& statement) {
-  const Coupling& coupling = law.couplings[statement.coupling];
+std::string coupled(const UpdateLaw& law, const Statement& statement, const Coupling& coupling) {
   return line(variable_mathml(law.variables[statement.target]), "=",
               "<mi>slips</mi><mo stretchy=\"false\">(</mo>" + expression_mathml(law, statement.value) +
                   "<mo stretchy=\"false\">)</mo>",
@@ -35,7 +34,7 @@ std::string program(const UpdateLaw& law, const std::vector<Statement>& statemen
   std::string list = "<ul class=\"law\">\n";
   for (const Statement& s : statements) {
     const Variable& target = law.variables[s.target];
-    if (s.coupling != no_coupling) list += coupled(law, s);
+    if (const auto* tree = std::get_if<SolveTree>(&s.step)) list += coupled(law, s, law.couplings[tree->coupling]);
     else if (target.role == Role::local || !only_copies(law, s))
       list += line(variable_mathml(target), target.role == Role::local ? "=" : "←", expression_mathml(law, s.value),
                    s.purpose);
@@ -57,7 +56,7 @@ std::string place_name(const Coefficient& c, std::size_t place) {
 std::string coefficients_table(const UpdateLaw& law, std::size_t size) {
   std::vector<const Coefficient*> columns;
   for (const Coefficient& c : law.coefficients)
-    if (c.values.size() == size && !c.is_table() && c.name.find("energy") == c.name.npos) columns.push_back(&c);
+    if (c.values.size() == size && !c.is_table() && c.role != ConstantRole::energy_weight) columns.push_back(&c);
   if (columns.empty()) return "";
   std::string table = "<div class=\"wide\"><table><thead><tr><th>i</th>";
   for (const Coefficient* c : columns)

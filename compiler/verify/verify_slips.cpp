@@ -61,7 +61,7 @@ bool SlipVerification::is_in_pool(std::string_view kind, double constant) const 
 }
 
 void SlipVerification::compare_with_choice(const HeaderConstant& constant) {
-  const std::vector<Coefficient>& chosen = compiled_.law.coefficients;
+  const auto& chosen = compiled_.law.coefficients;
   const auto like =
       std::find_if(chosen.begin(), chosen.end(), [&](const Coefficient& c) { return c.name == constant.name; });
   if (like != chosen.end() && like->values == constant.values) return;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "compile.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "discretise/rounding.hpp"
 #include "ramp_response.hpp"
 #include "slips/element_reference.hpp"
@@ -137,7 +137,7 @@ void evaluate(DifferentialCase& one, const std::vector<double>& positions) {
   double last = at;
   for (const double exact_position : positions) {
     const double position = rounded(exact_position + at, law.scalar);
-    if (law.surface_at) last = at + double(run.at(law.rest_position));
+    if (law.surface_at) last = at + double(run.value_of(law.rest_position));
     const double velocity = rounded((position - last) / law.sample_period, law.scalar);
     const auto [damping, force] = run.step(static_cast<Scalar>(position), static_cast<Scalar>(velocity));
     one.motion.push_back({position, velocity});

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "compile.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "network/rate_limits.hpp"
 #include "source/render.hpp"
 #include "verify/certificate_file.hpp"

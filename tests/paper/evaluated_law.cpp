@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "compile.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 
 namespace dashpot::paper {
 namespace {

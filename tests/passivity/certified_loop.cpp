@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "support/random_network.hpp"
 #include "support/tunable_run.hpp"
 

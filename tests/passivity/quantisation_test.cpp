@@ -5,7 +5,7 @@
 #include <dashpot/estimators/any_estimator.hpp>
 
 #include "certified_loop.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "support/random_network.hpp"
 
 namespace dashpot::testing {

@@ -8,7 +8,7 @@
 #include <dashpot/estimators/any_estimator.hpp>
 #include <deque>
 
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "random_cases.hpp"
 
 namespace dashpot::testing {

@@ -1,9 +1,10 @@
-// The step of a law in C, for tools that read no C++: the same constants, the same order of the same operations.
+// A main program around a law in C99, for tools that read no C++: what is proved is the header that is emitted.
 #pragma once
 
 #include <map>
 #include <string>
 
+#include "compile.hpp"
 #include "state_box.hpp"
 
 namespace dashpot::testing {
@@ -15,8 +16,9 @@ struct ProvenBox {
   std::map<std::string, int> slices;  // of states that need a distinction of cases
 };
 
-// Under Frama-C, `main` takes any state in the box and any input in the range, makes one step, and asserts that the
-// command is finite and the state in the box again. Elsewhere it reads positions and velocities and prints commands.
-std::string c_form(const compiler::UpdateLaw& law, const ProvenBox& box);
+// Includes <name>.h. Under Frama-C, `main` takes any state in the box and any input in the range, makes one step, and
+// asserts that the command is finite and the state in the box again. Elsewhere it reads positions and velocities and
+// prints commands.
+std::string c_form(const compiler::Compilation& compilation, const ProvenBox& box);
 
 }  // namespace dashpot::testing

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "discretise/rounding.hpp"
+#include "law/walk.hpp"
 #include "scalar_program.hpp"
 
 namespace dashpot::testing {
@@ -73,19 +74,19 @@ class Script {
 
   // name = what is computed; name_real = the same without rounding, and with constants that were not rounded either.
   void define(const std::vector<Statement>& program, std::set<std::string>& defined) {
-    const ScalarSpelling spelling = {
-        [](const std::string& value) { return "(" + value + ")"; },
-        [](const std::string&, const std::string&) { return std::string("linear laws have no slips"); }};
+    // What is below the threshold is within the box too: the guard takes part in no bound.
+    static const std::regex guard("\\bflush\\(");
     const bool is_update = &program == &law_.update;
-    for (const ScalarAssignment& a : scalar_program(law_, program, spelling)) {
-      const std::string rounded = with_ending(a.value, defined, is_update ? "next" : "");
+    for (const ScalarAssignment& a : scalar_program(law_, program)) {
+      const std::string value = std::regex_replace(a.value, guard, "(");
+      const std::string rounded = with_ending(value, defined, is_update ? "next" : "");
       const std::string name = is_update ? a.target + "next" : a.target;
       std::set<std::string> real = is_update ? all_constants() : std::set<std::string>();
       definitions_ += fmt::format("{} rnd= {};\n", name, rounded);
       if (!is_update) real = defined;
       definitions_ += fmt::format("{}_real = {};\n", name,
-                                  is_update ? with_ending(with_ending(a.value, defined, "next"), real, "_real")
-                                            : with_ending(a.value, real, "_real"));
+                                  is_update ? with_ending(with_ending(value, defined, "next"), real, "_real")
+                                            : with_ending(value, real, "_real"));
       defined.insert(a.target);
     }
   }
@@ -142,15 +143,13 @@ class Script {
 
   // α of the mode that the expression advances; empty where it advances none.
   std::optional<double> loss_of(ExpressionId id, std::size_t place) const {
-    const compiler::Expression& e = law_.expressions[id];
-    if (e.operation == Operation::read || e.operation == Operation::sum) return std::nullopt;
-    if (e.operation == Operation::constant) {
-      const compiler::Coefficient& c = law_.coefficients[e.left];
-      const double value = c.values[c.values.size() == 1 ? 0 : place];
-      return c.name.ends_with("decay") ? std::optional(1 - value) : std::nullopt;
-    }
-    const std::optional<double> left = loss_of(e.left, place);
-    return left || e.operation == Operation::flush ? left : loss_of(e.right, place);
+    std::optional<double> loss;
+    compiler::each_expression(law_, id, [&](const compiler::Expression& e) {
+      if (e.operation != Operation::constant) return;
+      const compiler::Coefficient& c = law_.coefficients[e.coefficient];
+      if (c.role == compiler::ConstantRole::decay) loss = 1 - c.values[c.values.size() == 1 ? 0 : place];
+    });
+    return loss;
   }
 
   const compiler::Compilation& c_;

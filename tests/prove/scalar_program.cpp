@@ -38,21 +38,21 @@ std::string sum_text(const Variable& vector, const UpdateLaw& law) {
 
 }  // namespace
 
-std::vector<ScalarAssignment> scalar_program(const UpdateLaw& law, const std::vector<compiler::Statement>& program,
-                                             const ScalarSpelling& spelling) {
+std::vector<ScalarAssignment> scalar_program(const UpdateLaw& law, const std::vector<compiler::Statement>& program) {
   std::vector<ScalarAssignment> assignments;
   for (const compiler::Statement& statement : program) {
     const Variable& target = law.variables[statement.target];
     for (std::size_t place = 0; place < target.size; ++place) {
       compiler::Spelling all;
-      all.variable = [&](const Variable& v) { return scalar_name(v, v.size == 1 ? 0 : place); };
-      all.coefficient = [&](const Coefficient& c) { return scalar_name(c, c.values.size() == 1 ? 0 : place); };
-      all.flush = spelling.flush;
-      all.clamp = spelling.clamp;
-      all.pick = [](const Coefficient& table, const std::string& at) {
-        return fmt::format("{}[(int)({})]", table.name, at);
+      all.variable = [&](compiler::VariableId id) {
+        const Variable& v = law.variables[id];
+        return scalar_name(v, v.size == 1 ? 0 : place);
       };
-      all.sum = [&](const Variable& v) { return sum_text(v, law); };
+      all.coefficient = [&](compiler::CoefficientId id) {
+        const Coefficient& c = law.coefficients[id];
+        return is_table(c) ? c.name : scalar_name(c, c.values.size() == 1 ? 0 : place);
+      };
+      all.sum = [&](compiler::VariableId id) { return sum_text(law.variables[id], law); };
       assignments.push_back({scalar_name(target, place), target.role == compiler::Role::local,
                              compiler::expression_text(law, statement.value, all)});
     }

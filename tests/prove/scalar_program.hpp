@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "discretise/expression_text.hpp"
-#include "discretise/update_law.hpp"
+#include "law/expression_text.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::testing {
 
@@ -20,16 +20,9 @@ struct ScalarAssignment {
 std::string scalar_name(const compiler::Variable& variable, std::size_t place);
 std::string scalar_name(const compiler::Coefficient& coefficient, std::size_t place);
 
-// Spelling of what differs among languages: flush and clamp.
-struct ScalarSpelling {
-  std::function<std::string(const std::string& value)> flush;
-  std::function<std::string(const std::string& value, const std::string& limit)> clamp;
-};
-
 // Of a law without coupled slips or tunables.
 std::vector<ScalarAssignment> scalar_program(const compiler::UpdateLaw& law,
-                                             const std::vector<compiler::Statement>& program,
-                                             const ScalarSpelling& spelling);
+                                             const std::vector<compiler::Statement>& program);
 
 bool is_table(const compiler::Coefficient& coefficient);  // which `pick` reads by place, in brackets
 

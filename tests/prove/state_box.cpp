@@ -29,28 +29,26 @@ class Magnitudes {
   Magnitudes(const UpdateLaw& law, const InputRange& range)
       : law_(law), roundoff_(compiler::unit_roundoff(law.scalar)) {
     for (const compiler::Variable& v : law.variables) {
-      first_.push_back(bounds_.size());
+      starts_.push_back(bounds_.size());
       for (std::size_t place = 0; place < v.size; ++place)
         bounds_.push_back(v.role == Role::state ? std::abs(v.rest_value) : 0.0);
     }
-    bounds_[first_[law.position]] = range.position;
-    bounds_[first_[law.velocity]] = range.velocity;
+    bounds_[first(law.position)] = range.position;
+    bounds_[first(law.velocity)] = range.velocity;
   }
 
   void step() {
     begin();
     for (const std::vector<Statement>* program : {&law_.output, &law_.keep, &law_.update}) run(*program);
     std::vector<double> then = bounds_;
-    for (std::size_t i = 0; i < law_.variables.size(); ++i)
-      for (std::size_t place = 0; law_.variables[i].role == Role::state && place < law_.variables[i].size; ++place)
-        then[first_[i] + place] = magnitude(values_[first_[i] + place]);
+    for_each_state([&](std::size_t at) { then[at] = magnitude(values_[at]); });
     bounds_ = then;
   }
 
   double force() {
     begin();
     run(law_.output);
-    return magnitude(values_[first_[law_.force]]);
+    return magnitude(values_[first(law_.force)]);
   }
 
   std::vector<double> states() const {
@@ -67,9 +65,9 @@ class Magnitudes {
  private:
   template <class Action>
   void for_each_state(Action action) const {
-    for (std::size_t i = 0; i < law_.variables.size(); ++i)
-      for (std::size_t place = 0; law_.variables[i].role == Role::state && place < law_.variables[i].size; ++place)
-        action(first_[i] + place);
+    for (const compiler::Variable& v : law_.variables)
+      for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)
+        action(first(law_.variables.id_of(v)) + place);
   }
 
   void begin() {
@@ -80,7 +78,7 @@ class Magnitudes {
   void run(const std::vector<Statement>& program) {
     for (const Statement& s : program)
       for (std::size_t place = 0; place < law_.variables[s.target].size; ++place)
-        values_[first_[s.target] + place] = of(s.value, place);
+        values_[first(s.target) + place] = of(s.value, place);
   }
 
   double magnitude(const Affine& value) const {
@@ -111,40 +109,41 @@ class Magnitudes {
     return most;
   }
 
-  Affine product(const compiler::Expression& e, std::size_t place) const {
-    const compiler::Expression& left = law_.expressions[e.left];
-    if (left.operation != Operation::constant)
-      return {{}, magnitude(of(e.left, place)) * magnitude(of(e.right, place))};
-    const std::vector<double>& values = law_.coefficients[left.left].values;
-    return scaled(of(e.right, place), values[values.size() == 1 ? 0 : place]);
+  Affine product(ExpressionId left, ExpressionId right, std::size_t place) const {
+    const compiler::Expression& factor = law_.expressions[left];
+    if (factor.operation != Operation::constant) return {{}, magnitude(of(left, place)) * magnitude(of(right, place))};
+    const std::vector<double>& values = law_.coefficients[factor.coefficient].values;
+    return scaled(of(right, place), values[values.size() == 1 ? 0 : place]);
   }
 
   Affine of(ExpressionId id, std::size_t place) const {
     const compiler::Expression& e = law_.expressions[id];
-    const auto size = [&](ExpressionId part) { return magnitude(of(part, place)); };
+    const auto part = [&](std::size_t i) { return of(e.operands[i], place); };
+    const auto size = [&](std::size_t i) { return magnitude(part(i)); };
+    const auto at = [&](const std::vector<double>& values) { return values[values.size() == 1 ? 0 : place]; };
     switch (e.operation) {
-      case Operation::read: return values_[first_[e.left] + (law_.variables[e.left].size == 1 ? 0 : place)];
-      case Operation::constant:
-        return {{},
-                std::abs(law_.coefficients[e.left].values[law_.coefficients[e.left].values.size() == 1 ? 0 : place])};
-      case Operation::add: return sum(of(e.left, place), of(e.right, place), 1);
-      case Operation::subtract: return sum(of(e.left, place), of(e.right, place), -1);
-      case Operation::multiply: return product(e, place);
-      case Operation::flush: return of(e.left, place);
-      case Operation::clamp: return {{}, std::min(size(e.left), size(e.right))};
-      case Operation::where: return {{}, std::max(size(e.left), size(e.right))};
-      case Operation::pick: return {{}, largest(law_.coefficients[e.left].values)};
+      case Operation::read: return values_[first(e.variable) + (law_.variables[e.variable].size == 1 ? 0 : place)];
+      case Operation::constant: return {{}, std::abs(at(law_.coefficients[e.coefficient].values))};
+      case Operation::add: return sum(part(0), part(1), 1);
+      case Operation::subtract: return sum(part(0), part(1), -1);
+      case Operation::multiply: return product(e.operands[0], e.operands[1], place);
+      case Operation::flush: return part(0);
+      case Operation::clamp: return {{}, std::min(size(0), size(1))};
+      case Operation::where: return {{}, std::max(size(1), size(2))};
+      case Operation::relax: return sum(part(2), product(e.operands[0], e.operands[1], place), 1);
+      case Operation::pick: return {{}, largest(law_.coefficients[e.coefficient].values)};
       case Operation::sum: break;
     }
     Affine all;
-    const std::uint32_t vector = law_.expressions[e.left].left;
-    for (std::size_t i = 0; i < law_.variables[vector].size; ++i) all = sum(all, values_[first_[vector] + i], 1);
+    for (std::size_t i = 0; i < law_.variables[e.variable].size; ++i) all = sum(all, values_[first(e.variable) + i], 1);
     return all;
   }
 
+  std::size_t first(compiler::VariableId id) const { return starts_[id.place()]; }
+
   const UpdateLaw& law_;
   double roundoff_;
-  std::vector<std::size_t> first_;  // place of each variable in the lists below
+  std::vector<std::size_t> starts_;  // place of each variable in the lists below
   std::vector<double> bounds_;
   std::vector<Affine> values_;
 };

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::testing {
 

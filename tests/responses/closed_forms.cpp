@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "emit/emission.hpp"
+#include "law/cost.hpp"
 
 namespace dashpot::responses {
 

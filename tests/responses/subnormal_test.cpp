@@ -8,7 +8,7 @@
 #include <xmmintrin.h>
 #endif
 
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "emit/emission.hpp"
 #include "emitted_laws.hpp"
 #include "motion.hpp"

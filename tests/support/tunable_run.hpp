@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "compile.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "support/random.hpp"
 
 namespace dashpot::testing {

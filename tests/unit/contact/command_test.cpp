@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "touched.hpp"
+#include "discretise/discretise.hpp"
 
 namespace dashpot::testing {
 namespace {

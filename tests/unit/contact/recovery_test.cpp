@@ -8,6 +8,7 @@
 
 #include "slips/element_reference.hpp"
 #include "touched.hpp"
+#include "discretise/discretise.hpp"
 
 namespace dashpot::testing {
 namespace {

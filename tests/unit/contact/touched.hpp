@@ -32,7 +32,7 @@ class TouchedForce {
     return damping * velocity + force;
   }
 
-  double surface() const { return run_.at(law_.rest_position); }  // [m]
+  double surface() const { return run_.value_of(law_.rest_position); }  // [m]
   double gap(double position) const { return surface() - (position - at_); }
   double stored_energy() { return run_.stored_energy(); }
 

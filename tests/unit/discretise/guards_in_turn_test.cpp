@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "compiled.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
+#include "law/cost.hpp"
 
 namespace {
 

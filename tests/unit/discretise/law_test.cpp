@@ -5,10 +5,12 @@
 #include <cmath>
 
 #include "compiled.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "support/exact_oracle.hpp"
 #include "support/random.hpp"
 #include "support/shrink.hpp"
+#include "law/cost.hpp"
+#include "law/law_text.hpp"
 
 namespace {
 
@@ -55,7 +57,7 @@ TEST(Law, fig_5_cost) {
 
 bool reads(const UpdateLaw& law, VariableId variable) {
   return std::any_of(law.expressions.begin(), law.expressions.end(),
-                     [&](const Expression& e) { return e.operation == Operation::read && e.left == variable; });
+                     [&](const Expression& e) { return e.operation == Operation::read && e.variable == variable; });
 }
 
 Choices choosing(std::variant<std::string, double> decomposition) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "compiled.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "discretise/rounding.hpp"
 #include "support/exact_oracle.hpp"
 #include "support/random.hpp"

@@ -53,10 +53,8 @@ TEST(EmitCpp, returns_a_brake_that_changes) {
   const SourceFile file("test.json", R"({ "dashpot": 1, "name": "pad", "network": { "spring": 50 } })");
   Diagnostics diagnostics;
   Compilation c = *compile(file, {}, std::nullopt, diagnostics);
-  c.law.brake = static_cast<VariableId>(c.law.variables.size());
-  c.law.variables.push_back({"damping", "N·s/m", "b", Role::local, 1, {}});
-  c.law.last_brake = static_cast<VariableId>(c.law.variables.size());
-  c.law.variables.push_back({"last_damping", "N·s/m", "b", Role::state, 1, {}, 2.5});
+  c.law.brake = c.law.variables.add({"damping", "N·s/m", "b", Role::local, 1, {}});
+  c.law.last_brake = c.law.variables.add({"last_damping", "N·s/m", "b", Role::state, 1, {}, 2.5});
   const std::string text = emit_cpp(c, {}, diagnostics)->front().text;
   EXPECT_TRUE(contains(text, "if (!dashpot::all_finite(velocity, force)) return {last_damping_, 0};")) << text;
   EXPECT_TRUE(contains(text, "return {damping, force};")) << text;

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "compile.hpp"
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "source/render.hpp"
 #include "support/shell_command.hpp"
 

@@ -8,6 +8,7 @@
 #include "linear/validity.hpp"
 #include "slip_run.hpp"
 #include "support/written_network.hpp"
+#include "discretise/discretise.hpp"
 
 namespace dashpot::testing {
 namespace {

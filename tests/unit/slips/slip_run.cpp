@@ -7,6 +7,7 @@
 #include "linear/validity.hpp"
 #include "source/render.hpp"
 #include "support/random.hpp"
+#include "discretise/discretise.hpp"
 
 namespace dashpot::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 #include "emit/emission.hpp"
 
 namespace dashpot::testing {

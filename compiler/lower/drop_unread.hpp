@@ -1,10 +1,10 @@
 // Not every shape of component needs all of its locals: takes out what nobody reads.
 #pragma once
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 
-void drop_unread_locals(UpdateLaw& law);
+UpdateLaw without_unread_locals(UpdateLaw law);
 
 }  // namespace dashpot::compiler

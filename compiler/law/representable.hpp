@@ -1,7 +1,9 @@
 // Whether the constants of a law exist in its scalar type.
 #pragma once
 
-#include "discretise/update_law.hpp"
+#include "law/update_law.hpp"
+#include "network/network.hpp"
+#include "source/diagnostic.hpp"
 
 namespace dashpot::compiler {
 

@@ -1,4 +1,4 @@
-#include "discretise/evaluate.hpp"
+#include "law/evaluate.hpp"
 
 namespace dashpot::compiler {
 
@@ -51,11 +51,12 @@ typename Evaluation<Scalar>::NetworkSolver Evaluation<Scalar>::solver_of(const S
 template <class Scalar>
 void Evaluation<Scalar>::reset(Scalar position) {
   if (tunable_) tunable_->reset(all_finite(position, position, position) ? position : Scalar(0));
-  for (std::size_t i = 0; i < variables_.size(); ++i)
-    std::fill(variables_[i].begin(), variables_[i].end(), static_cast<Scalar>(law_.variables[i].rest_value));
+  for (const Variable& variable : law_.variables) {
+    std::vector<Scalar>& places = at(law_.variables.id_of(variable));
+    std::fill(places.begin(), places.end(), static_cast<Scalar>(variable.rest_value));
+  }
   if (law_.rest_position != no_variable && all_finite(position, position, position))
-    variables_[law_.rest_position][0] =
-        law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
+    at(law_.rest_position)[0] = law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
   std::fill(turns_.begin(), turns_.end(), 0);
   sampled_ = false;
 }
@@ -63,10 +64,10 @@ void Evaluation<Scalar>::reset(Scalar position) {
 template <class Scalar>
 command<Scalar> Evaluation<Scalar>::output(Scalar position, Scalar velocity) {
   if (tunable_) return tunable_output(position, velocity);
-  variables_[law_.position][0] = position;
-  variables_[law_.velocity][0] = velocity;
+  at(law_.position)[0] = position;
+  at(law_.velocity)[0] = velocity;
   run(law_.output);
-  const Scalar force = variables_[law_.force][0];
+  const Scalar force = at(law_.force)[0];
   sampled_ = all_finite(position, velocity, force);
   if (!sampled_) return {damping(law_.last_brake), Scalar(0)};
   run(law_.keep);
@@ -75,7 +76,7 @@ command<Scalar> Evaluation<Scalar>::output(Scalar position, Scalar velocity) {
 
 template <class Scalar>
 Scalar Evaluation<Scalar>::damping(VariableId changing) const {
-  return law_.brake_changes() ? variables_[changing][0] : static_cast<Scalar>(law_.damping);
+  return law_.brake_changes() ? at(changing)[0] : static_cast<Scalar>(law_.damping);
 }
 
 template <class Scalar>
@@ -104,7 +105,7 @@ void Evaluation<Scalar>::update() {
 
 template <class Scalar>
 void Evaluation<Scalar>::take_turn(const GuardInTurn& guard, std::size_t& turn) {
-  std::vector<Scalar>& forces = variables_[guard.state];
+  std::vector<Scalar>& forces = at(guard.state);
   for (std::size_t place = turn; place < std::min(turn + guard.places, forces.size()); ++place)
     forces[place] = flush_below(static_cast<Scalar>(law_.flush_threshold), forces[place]);
   turn += guard.places;
@@ -122,86 +123,89 @@ template <class Scalar>
 Scalar Evaluation<Scalar>::stored_energy() {
   if (tunable_) return tunable_->stored_energy();
   run(law_.energy);
-  return variables_[law_.stored][0];
+  return at(law_.stored)[0];
 }
 
 template <class Scalar>
 void Evaluation<Scalar>::run(const std::vector<Statement>& program) {
-  for (const Statement& statement : program) {
-    if (statement.coupling != no_coupling) {
-      solve(law_.couplings[statement.coupling], solvers_[statement.coupling], statement);
-      continue;
-    }
-    if (statement.network != no_coupling) {
-      solve(law_.networks[statement.network], network_solvers_[statement.network], statement);
-      continue;
-    }
-    std::vector<Scalar>& target = variables_[statement.target];
-    for (std::size_t place = 0; place < target.size(); ++place) target[place] = value(statement.value, place);
-  }
+  for (const Statement& statement : program)
+    std::visit([&](const auto& step) { take(step, statement); }, statement.step);
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::take(const Assign&, const Statement& statement) {
+  std::vector<Scalar>& target = at(statement.target);
+  for (std::size_t place = 0; place < target.size(); ++place) target[place] = value(statement.value, place);
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::take(const SolveTree& step, const Statement& statement) {
+  solve(law_.couplings[step.coupling], solvers_[step.coupling.place()], statement);
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::take(const SolveNetwork& step, const Statement& statement) {
+  solve(law_.networks[step.network], network_solvers_[step.network.place()], statement);
 }
 
 template <class Scalar>
 void Evaluation<Scalar>::solve(const Coupling& coupling, Solver& solver, const Statement& statement) {
   for (std::size_t i = 0; i < coupling.held.size(); ++i)
-    solver.held[i] = coupling.held[i] == no_variable ? Scalar(0) : variables_[coupling.held[i]][0];
+    solver.held[i] = coupling.held[i] == no_variable ? Scalar(0) : at(coupling.held[i])[0];
   slip_tree<Scalar> tree(solver.nodes.data(), coupling.node_count(), solver.parts.data(), solver.corners.data(),
                          solver.merged.data());
   const Scalar change = value(statement.value, 0);
   if (coupling.is_pushed())
-    variables_[statement.target][0] = tree.push(change, solver.held.data(), solver.elongation.data(),
-                                                solver.sign.data(), variables_[coupling.surface_change][0]);
-  else
-    variables_[statement.target][0] =
-        tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
+    at(statement.target)[0] = tree.push(change, solver.held.data(), solver.elongation.data(), solver.sign.data(),
+                                        at(coupling.surface_change)[0]);
+  else at(statement.target)[0] = tree.step(change, solver.held.data(), solver.elongation.data(), solver.sign.data());
   for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
-    if (coupling.elongation[i] != no_variable) variables_[coupling.elongation[i]][0] = solver.elongation[i];
+    if (coupling.elongation[i] != no_variable) at(coupling.elongation[i])[0] = solver.elongation[i];
   for (std::size_t i = 0; i < coupling.sign.size(); ++i)
-    if (coupling.sign[i] != no_variable) variables_[coupling.sign[i]][0] = static_cast<Scalar>(solver.sign[i]);
+    if (coupling.sign[i] != no_variable) at(coupling.sign[i])[0] = static_cast<Scalar>(solver.sign[i]);
 }
 
 template <class Scalar>
 void Evaluation<Scalar>::solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement) {
   for (std::size_t i = 0; i < network.held.size(); ++i)
-    solver.held[i] = network.held[i] == no_variable ? Scalar(0) : variables_[network.held[i]][0];
-  for (std::size_t i = 0; i < network.sign.size(); ++i)
-    solver.sign[i] = static_cast<int>(variables_[network.last_sign[i]][0]);
+    solver.held[i] = network.held[i] == no_variable ? Scalar(0) : at(network.held[i])[0];
+  for (std::size_t i = 0; i < network.sign.size(); ++i) solver.sign[i] = static_cast<int>(at(network.last_sign[i])[0]);
   slip_network<Scalar> step(
       solver.links.data(), network.slip_count(),
       {solver.between.data(), solver.to_tool.data(), solver.to_ground.data(), static_cast<Scalar>(network.through)},
       network.node_count, {solver.group.data(), solver.room.data(), solver.numbers.data()});
-  variables_[statement.target][0] =
+  at(statement.target)[0] =
       step.step(value(statement.value, 0), solver.held.data(), solver.moved.data(), solver.sign.data());
   for (std::size_t i = 0; i < network.moved.size(); ++i)
-    if (network.moved[i] != no_variable) variables_[network.moved[i]][0] = solver.moved[i];
-  for (std::size_t i = 0; i < network.sign.size(); ++i)
-    variables_[network.sign[i]][0] = static_cast<Scalar>(solver.sign[i]);
+    if (network.moved[i] != no_variable) at(network.moved[i])[0] = solver.moved[i];
+  for (std::size_t i = 0; i < network.sign.size(); ++i) at(network.sign[i])[0] = static_cast<Scalar>(solver.sign[i]);
 }
 
 template <class Scalar>
 Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
-  const auto at = [place](const std::vector<Scalar>& vector) { return vector[vector.size() == 1 ? 0 : place]; };
-  const Expression& expression = law_.expressions[id];
-  switch (expression.operation) {
-    case Operation::read: return at(variables_[expression.left]);
-    case Operation::constant: return at(coefficients_[expression.left]);
-    case Operation::add: return value(expression.left, place) + value(expression.right, place);
-    case Operation::subtract: return value(expression.left, place) - value(expression.right, place);
-    case Operation::multiply: return value(expression.left, place) * value(expression.right, place);
-    case Operation::flush: return flush_below(static_cast<Scalar>(law_.flush_threshold), value(expression.left, place));
-    case Operation::clamp: return clamp_to(value(expression.right, place), value(expression.left, place));
-    case Operation::where:
-      return value(expression.condition, place) > 0 ? value(expression.left, place) : value(expression.right, place);
-    case Operation::pick:
-      return coefficients_[expression.left][static_cast<std::size_t>(value(expression.right, place))];
-    case Operation::sum: return sum(expression.left);
+  const auto there = [place](const std::vector<Scalar>& vector) { return vector[vector.size() == 1 ? 0 : place]; };
+  const Expression& e = law_.expressions[id];
+  const auto operand = [&](std::size_t i) { return value(e.operands[i], place); };
+  const auto flushed = [&](Scalar number) { return flush_below(static_cast<Scalar>(law_.flush_threshold), number); };
+  switch (e.operation) {
+    case Operation::read: return there(at(e.variable));
+    case Operation::constant: return there(at(e.coefficient));
+    case Operation::add: return operand(0) + operand(1);
+    case Operation::subtract: return operand(0) - operand(1);
+    case Operation::multiply: return operand(0) * operand(1);
+    case Operation::flush: return flushed(operand(0));
+    case Operation::clamp: return clamp_to(operand(1), operand(0));
+    case Operation::where: return operand(0) > 0 ? operand(1) : operand(2);
+    case Operation::relax: return operand(2) + operand(0) * flushed(operand(1));
+    case Operation::pick: return at(e.coefficient)[static_cast<std::size_t>(operand(0))];
+    case Operation::sum: return sum(e.variable);
   }
   return Scalar(0);
 }
 
 template <class Scalar>
-Scalar Evaluation<Scalar>::sum(ExpressionId id) const {
-  const std::vector<Scalar>& vector = variables_[law_.expressions[id].left];
+Scalar Evaluation<Scalar>::sum(VariableId id) const {
+  const std::vector<Scalar>& vector = at(id);
   if (!law_.is_rolled(vector.size())) {
     Scalar total = vector[0];
     for (std::size_t i = 1; i < vector.size(); ++i) total += vector[i];

@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
-#include "discretise/tunable_run.hpp"
-#include "discretise/update_law.hpp"
+#include "law/tunable_run.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 
@@ -23,7 +23,7 @@ class Evaluation {
   void update();
   command<Scalar> step(Scalar position, Scalar velocity);
   Scalar stored_energy();
-  Scalar at(VariableId scalar) const { return variables_[scalar][0]; }
+  Scalar value_of(VariableId scalar) const { return at(scalar)[0]; }
   // Values of the tunables in the order of the network's parameters; bit i: value i was no number within its range.
   unsigned set(const std::vector<Scalar>& values);
 
@@ -48,12 +48,18 @@ class Evaluation {
   static Solver solver_of(const Coupling& coupling);
   static NetworkSolver solver_of(const SlipNetwork& network);
   void run(const std::vector<Statement>& program);
+  void take(const Assign& step, const Statement& statement);
+  void take(const SolveTree& step, const Statement& statement);
+  void take(const SolveNetwork& step, const Statement& statement);
   void take_turn(const GuardInTurn& guard, std::size_t& turn);
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
   void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
   Scalar damping(VariableId changing) const;
   Scalar value(ExpressionId expression, std::size_t place) const;
-  Scalar sum(ExpressionId vector) const;
+  Scalar sum(VariableId vector) const;
+  std::vector<Scalar>& at(VariableId id) { return variables_[id.place()]; }
+  const std::vector<Scalar>& at(VariableId id) const { return variables_[id.place()]; }
+  const std::vector<Scalar>& at(CoefficientId id) const { return coefficients_[id.place()]; }
 
   command<Scalar> tunable_output(Scalar position, Scalar velocity);
 

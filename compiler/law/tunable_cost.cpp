@@ -1,9 +1,8 @@
-#include "discretise/tunable_network.hpp"
+#include "law/tunable_tables.hpp"
 
 #include <dashpot/slip_network.hpp>
 #include <dashpot/slip_regime.hpp>
-
-#include "discretise/update_law.hpp"
+#include <dashpot/slip_tree.hpp>
 
 namespace dashpot::compiler {
 namespace {

@@ -9,25 +9,34 @@
 #include <dashpot/slip_network.hpp>
 #include <dashpot/slip_tree.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "decompose/choices.hpp"
-#include "decompose/decomposition.hpp"
-#include "discretise/tunable_network.hpp"
-#include "linear/normal_form.hpp"
-#include "network/network.hpp"
+#include "law/id.hpp"
+#include "law/operation.hpp"
+#include "law/tunable_tables.hpp"
 
 namespace dashpot::compiler {
 
-using VariableId = std::uint32_t;
-using CoefficientId = std::uint32_t;
-using ExpressionId = std::uint32_t;
+struct Variable;
+struct Coefficient;
+struct Expression;
+struct Coupling;
+struct SlipNetwork;
+using VariableId = Id<Variable>;
+using CoefficientId = Id<Coefficient>;
+using ExpressionId = Id<Expression>;
+using CouplingId = Id<Coupling>;
+using SlipNetworkId = Id<SlipNetwork>;
 
-inline constexpr VariableId no_variable = static_cast<VariableId>(-1);
+inline constexpr VariableId no_variable{};
 
 enum class Role : std::uint8_t {
   input,  // given with the sample
@@ -45,6 +54,34 @@ struct Variable {
   double rest_value = 0;                        // of a state, after reset()
 };
 
+// What a constant is in the law's equations: what certificates, verification and reports ask for.
+enum class ConstantRole : std::uint8_t {
+  none,
+  static_stiffness,       // k0 of what reaches ground without a slip
+  half_static_stiffness,  // ½ k0
+  step_stiffness,         // Σ c_i, the answer of all modes within a sample
+  velocity_gain,          // b∞ − b, and what the estimate drives within a sample
+  decay,                  // a of each mode of a bank
+  loss,                   // 1 − a
+  gain,                   // a c
+  velocity_drive,         // a c h
+  energy_weight,          // 1/(2 k a²)
+  spring_stiffness,       // k of a spring between slips
+  spring_compliance,      // 1/(2 k) of it
+  row,                    // of a slip's closed form, for a change, a held force or an excess
+  yield,                  // Y
+  mode_weight,            // of a mode at an inner end
+  feedthrough,            // b∞ or b∞/h behind a surface or of a regime
+  recovery_compliance,    // −1/g of a surface
+  place,                  // of a surface or a step of the encoder
+  steady_damping,         // b of what no slip changes
+  brake_choice,           // how the brake is commanded: shares, samples, thresholds, what is chosen and not computed
+  zero,                   // nothing
+};
+
+// The bank of modes at the port; those behind slips count from 1.
+inline constexpr std::size_t port_bank = 0;
+
 // A constant of the emitted code, already rounded to the law's scalar type.
 struct Coefficient {
   std::string name;
@@ -52,41 +89,36 @@ struct Coefficient {
   std::string meaning;
   std::vector<double> values;                   // one, or one a place, or those of a table that `pick` reads
   std::vector<std::string> element_names = {};  // of a vector, one name a place; else empty
+  ConstantRole role = ConstantRole::none;
+  std::size_t bank = port_bank;  // of a mode's constant
 
   bool is_table() const { return values.size() > 1 && element_names.empty(); }
 };
 
-enum class Operation : std::uint8_t {
-  read,      // a variable
-  constant,  // a coefficient
-  add,
-  subtract,
-  multiply,
-  flush,  // zero below the law's threshold, so that no state becomes subnormal
-  clamp,  // left within ± right
-  where,  // left where `condition` is above zero, else right
-  pick,   // of a table, the place `right` counted from 0
-  sum,  // of a vector: from the first place to the last; where it is rolled, in `lanes` partial sums in turn, of which
-        // the second half is added to the first until one is left
-};
-
 struct Expression {
   Operation operation;
-  std::uint32_t left = 0;   // VariableId of read, CoefficientId of constant and pick, else ExpressionId
-  std::uint32_t right = 0;  // ExpressionId
-  ExpressionId condition = 0;
+  std::array<ExpressionId, 3> operands = {};  // as many as the operation has, in the order of operations.def
+  VariableId variable = {};                   // of an operation that refers to one
+  CoefficientId coefficient = {};             // of an operation that refers to one
 };
 
-inline constexpr std::uint32_t no_coupling = static_cast<std::uint32_t>(-1);
+// How a statement gets its target.
+struct Assign {};  // the value
+struct SolveTree {
+  CouplingId coupling;  // coupled slips: the value is Δu, the target their force; δ and signs are assigned too
+};
+struct SolveNetwork {
+  SlipNetworkId network;  // the same of slips outside a tree
+};
 
 struct Statement {
   VariableId target;
   ExpressionId value;
   std::string purpose;                            // the equation, as the literature writes it
   std::vector<std::vector<std::size_t>> origins;  // for each place of the target, indices into Network::elements
-  std::uint32_t coupling = no_coupling;  // of a step of coupled slips: index into UpdateLaw::couplings; `value` is Δu,
-                                         // `target` the force, and the coupling's elongations are assigned too
-  std::uint32_t network = no_coupling;   // the same of slips outside a tree: index into UpdateLaw::networks
+  std::variant<Assign, SolveTree, SolveNetwork> step = Assign{};
+
+  bool assigns() const { return std::holds_alternative<Assign>(step); }
 };
 
 // Slips that meet at inner nodes, with the blocks between them: one step is dashpot::slip_tree (theory, section 5).
@@ -157,29 +189,29 @@ struct UpdateLaw {
   bool guards_each_sample = false;  // against subnormals, also where they could take turns
   std::size_t register_bytes = 0;   // of the machine that loops are laid out for; 0 where it has no vectors
 
-  std::vector<Variable> variables;
-  std::vector<Coefficient> coefficients;
-  std::vector<Expression> expressions;
+  Table<Variable> variables;
+  Table<Coefficient> coefficients;
+  Table<Expression> expressions;
   std::vector<Statement> output;  // locals only; ends with the assignment of `force`
   std::vector<Statement> keep;    // states that remember the sample; only where inputs and force are finite
   std::vector<Statement> update;
-  std::vector<Coupling> couplings;
-  std::vector<SlipNetwork> networks;
+  Table<Coupling> couplings;
+  Table<SlipNetwork> networks;
   std::vector<GuardInTurn> guards;  // before `update`
   std::vector<Statement> energy;    // ends with the assignment of `stored`
 
   std::optional<TunableTables> tunable;  // of a network with tunables: all of its law, the programs are then empty
 
-  VariableId position = 0;  // the inputs
-  VariableId velocity = 0;
+  VariableId position;  // the inputs
+  VariableId velocity;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
   std::optional<double>
-      surface_at;        // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
-  VariableId force = 0;  // m_k, the motor's command [N]
+      surface_at;    // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
+  VariableId force;  // m_k, the motor's command [N]
   VariableId brake =
       no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
-  VariableId stored = 0;                // [J]
+  VariableId stored;                    // [J]
 
   bool is_rolled(std::size_t size) const { return lanes > 1 && size > 1 && size >= rolled_from; }
   std::size_t padded(std::size_t size) const {
@@ -187,32 +219,5 @@ struct UpdateLaw {
   }  // of a rolled vector: whole rounds of its loop
   bool brake_changes() const { return brake != no_variable; }
 };
-
-struct Cost {
-  std::size_t additions = 0;  // and subtractions
-  std::size_t multiplications = 0;
-  std::size_t selections = 0;  // clamps and choices
-  std::size_t guards = 0;      // against subnormals
-  std::size_t coupled = 0;     // operations of coupled slips at most: additions, multiplications, divisions
-  std::size_t states = 0;
-};
-Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);
-
-// In: normal form, decomposition of its linear part, scheme, rate, scalar. Out: the law. Ensures: constants rounded
-// once from extended precision. Warns: a relaxation faster than two samples; a float that cannot carry stiffest and
-// slowest mode together.
-UpdateLaw discretise(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                     const Choices& choices, double rate, Diagnostics& diagnostics);
-
-// The same for a network with tunables; form and decomposition are those of its default values. Refuses: what
-// tunable_tables_of() refuses.
-std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
-                                            const Decomposition& decomposition, const Choices& choices, double rate,
-                                            const Device* device, Diagnostics& diagnostics);
-
-// Raises the brake's command in every regime of a law whose brake changes, by a number of the scalar's type.
-void add_steady_damping(UpdateLaw& law, double damping);
-
-std::string to_text(const UpdateLaw& law, const Network& network);
 
 }  // namespace dashpot::compiler

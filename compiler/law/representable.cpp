@@ -1,4 +1,4 @@
-#include "discretise/representable.hpp"
+#include "law/representable.hpp"
 
 #include <algorithm>
 #include <cmath>

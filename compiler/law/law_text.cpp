@@ -1,51 +1,23 @@
-#include "discretise/update_law.hpp"
+#include "law/law_text.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "discretise/expression_text.hpp"
+#include "law/expression_text.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-void count(const UpdateLaw& law, ExpressionId id, std::size_t places, Cost& cost) {
-  const Expression& expression = law.expressions[id];
-  switch (expression.operation) {
-    case Operation::read:
-    case Operation::constant: return;
-    case Operation::add:
-    case Operation::subtract: cost.additions += places; break;
-    case Operation::multiply: cost.multiplications += places; break;
-    case Operation::flush: cost.guards += places; return count(law, expression.left, places, cost);
-    case Operation::clamp: cost.selections += places; break;
-    case Operation::where:
-      cost.selections += places;
-      count(law, expression.condition, places, cost);
-      break;
-    case Operation::pick: cost.selections += places; return count(law, expression.right, places, cost);
-    case Operation::sum: cost.additions += law.variables[law.expressions[expression.left].left].size - 1; return;
-  }
-  count(law, expression.left, places, cost);
-  count(law, expression.right, places, cost);
-}
-
-const Spelling& plain_spelling() {
-  static const Spelling spelling{
-      [](const Variable& variable) { return variable.name; },
-      [](const Coefficient& coefficient) { return coefficient.name; },
-      [](const std::string& value) { return "flush(" + value + ")"; },
-      [](const std::string& value, const std::string& limit) { return "clamp(" + value + ", ±" + limit + ")"; },
-      [](const Variable& vector) { return "sum(" + vector.name + ")"; },
-      [](const Coefficient& table, const std::string& place) { return fmt::format("{}[{}]", table.name, place); }};
-  return spelling;
-}
-
 std::string value_text(const UpdateLaw& law, const Statement& statement) {
-  const std::string value = expression_text(law, statement.value, plain_spelling());
-  if (statement.network != no_coupling) return fmt::format("{}({})", law.networks[statement.network].name, value);
-  return statement.coupling == no_coupling ? value
-                                           : fmt::format("{}({})", law.couplings[statement.coupling].name, value);
+  Spelling spelling;
+  spelling.variable = [&](VariableId id) { return law.variables[id].name; };
+  spelling.coefficient = [&](CoefficientId id) { return law.coefficients[id].name; };
+  spelling.sum = [&](VariableId id) { return "sum(" + law.variables[id].name + ")"; };
+  const std::string value = expression_text(law, statement.value, spelling);
+  if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
+    return fmt::format("{}({})", law.networks[network->network].name, value);
+  if (const auto* tree = std::get_if<SolveTree>(&statement.step))
+    return fmt::format("{}({})", law.couplings[tree->coupling].name, value);
+  return value;
 }
 
 std::string name_of_variable(const UpdateLaw& law, VariableId id) {
@@ -128,51 +100,6 @@ std::string tunable_text(const TunableTables& tables) {
 }
 
 }  // namespace
-
-std::string_view name_of(ModeForm form) {
-  switch (form) {
-    case ModeForm::product: return "product";
-    case ModeForm::delta: return "delta";
-    case ModeForm::compensated: return "compensated";
-  }
-  return "";
-}
-
-Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
-  Cost cost;
-  for (const Statement& statement : program) {
-    count(law, statement.value, law.variables[statement.target].size, cost);
-    if (statement.coupling != no_coupling)
-      cost.coupled += static_cast<std::size_t>(law.couplings[statement.coupling].operations());
-    if (statement.network != no_coupling)
-      cost.coupled += static_cast<std::size_t>(law.networks[statement.network].operations());
-  }
-  if (&program == &law.update)
-    for (const GuardInTurn& guard : law.guards) cost.guards += guard.places;
-  for (const Variable& variable : law.variables)
-    if (variable.role == Role::state) cost.states += variable.size;
-  return cost;
-}
-
-void add_steady_damping(UpdateLaw& law, double damping) {
-  const auto raise = [&](double& value) {
-    value = law.scalar == ScalarType::float64 ? value + damping : double(float(value) + float(damping));
-  };
-  const auto steady = std::find_if(law.coefficients.begin(), law.coefficients.end(),
-                                   [](const Coefficient& c) { return c.name == "steady_damping"; });
-  const auto told =
-      std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.brake; });
-  if (steady != law.coefficients.end()) {
-    raise(steady->values.front());
-  } else {
-    law.coefficients.push_back({"steady_damping", law.variables[law.brake].unit, "of what no slip changes", {damping}});
-    law.expressions.push_back({Operation::constant, static_cast<CoefficientId>(law.coefficients.size() - 1)});
-    const auto constant = static_cast<ExpressionId>(law.expressions.size() - 1);
-    law.expressions.push_back({Operation::add, told->value, constant});
-    told->value = constant + 1;
-  }
-  for (double* value : {&law.damping, &law.largest_damping, &law.variables[law.last_brake].rest_value}) raise(*value);
-}
 
 std::string to_text(const UpdateLaw& law, const Network& network) {
   const std::string damping = law.brake_changes() || law.tunable

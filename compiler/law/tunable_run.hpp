@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "discretise/tunable_network.hpp"
+#include "law/tunable_tables.hpp"
 
 namespace dashpot::compiler {
 

@@ -1,0 +1,193 @@
+#include "emit/banner.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dashpot/estimators/estimator_names.hpp>
+
+#include "decompose/slip_laws.hpp"
+#include "law/cost.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string length_unit(const Network& network) { return network.port_motion == motion::rotation ? "[rad]" : "[m]"; }
+std::string velocity_unit(const Network& network) {
+  return network.port_motion == motion::rotation ? "[rad/s]" : "[m/s]";
+}
+std::string damping_unit(const Network& network) {
+  return network.port_motion == motion::rotation ? "N·m·s/rad" : "N·s/m";
+}
+
+std::string cost_line(const char* phase, const Cost& cost) {
+  return fmt::format("{} {} additions, {} multiplications, {} guards against subnormals", phase, cost.additions,
+                     cost.multiplications, cost.guards);
+}
+
+// U+202A to U+202E and U+2066 to U+2069 turn the direction of what follows: code would not read as it is compiled.
+bool turns_direction(std::string_view text) {
+  return text.starts_with("\xE2\x80")
+             ? text.size() > 2 && text[2] >= '\xAA' && text[2] <= '\xAE'
+             : text.starts_with("\xE2\x81") && text.size() > 2 && text[2] >= '\xA6' && text[2] <= '\xA9';
+}
+
+// The author's words stay in the comment that they are put in: they hold no end of line, and no backslash at one.
+std::string comment_text(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (turns_direction(std::string_view(text).substr(i))) text.replace(i, 3, "?");
+  return text.ends_with('\\') || text.ends_with("\?\?/") ? text + "." : text;
+}
+
+// What stands between the quotes of a C++ string.
+std::string string_text(const std::string& text) {
+  std::string result;
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) result += fmt::format("\\{:03o}", byte);
+    else if (c == '"' || c == '\\' || c == '?') result += {'\\', c};
+    else result += c;
+  }
+  return result;
+}
+
+// At spaces; a word longer than a line keeps a line to itself.
+std::vector<std::string> split_lines(std::string text, std::size_t width) {
+  std::vector<std::string> lines;
+  while (text.size() > width) {
+    const std::size_t word = std::min(text.find_first_not_of(' '), text.size());
+    std::size_t space = text.rfind(' ', width);
+    if (space == text.npos || space < word) space = text.find(' ', word);
+    const std::size_t next = text.find_first_not_of(' ', space);
+    if (space == text.npos || next == text.npos) break;
+    lines.push_back(text.substr(0, space));
+    text = "  " + text.substr(next);
+  }
+  lines.push_back(text);
+  return lines;
+}
+
+std::string brake_line(const SlipLikes& likes, const std::string& unit) {
+  const std::vector<BrakeShare>& shares = likes.first->shares;
+  if (shares.size() != 2) return to_text(likes);
+  return to_text(likes) +
+         fmt::format("; b = {} {} stuck, {} sliding", shares.front().damping, unit, shares.back().damping);
+}
+
+// Where the numbers were measured, as far as the author says.
+std::string validity_text(const Network& network) {
+  std::string text;
+  const auto add = [&](const char* what, const std::optional<Range>& range, const std::string& unit) {
+    if (range) text += fmt::format("{}{} {} to {} {}", text.empty() ? "" : ", ", what, range->low, range->high, unit);
+  };
+  const std::string length = network.port_motion == motion::rotation ? "rad" : "m";
+  add("displacement", network.valid.displacement, length);
+  add("rate", network.valid.rate, length + "/s");
+  add("frequency", network.valid.frequency, "Hz");
+  return text;
+}
+
+// What may change, what follows it, and what that costs.
+void describe_tunables(const TunableTables& tables, const std::string& damping_unit, std::vector<std::string>& facts) {
+  std::string names, elements;
+  for (const Tunable& t : tables.tunables)
+    names += fmt::format("{}{} ({} to {} {})", names.empty() ? "" : ", ", t.name, t.range.min, t.range.max, t.unit);
+  for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
+  const TunableCost cost = cost_of(tables);
+  facts.push_back("tunable: " + names);
+  facts.push_back(
+      "  set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay");
+  facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake));
+  if (!elements.empty())
+    facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
+  facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions", cost.output));
+  facts.push_back(
+      fmt::format("cost of update(): at most {} additions and multiplications; {} states", cost.update, cost.states));
+  facts.push_back(fmt::format("cost of set(): at most {} additions, multiplications and divisions", cost.set));
+}
+
+void describe_cost(const Compilation& c, std::vector<std::string>& facts) {
+  const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
+  facts.push_back(cost_line("cost of output():", output));
+  if (output.coupled > 0)
+    facts.push_back(
+        fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
+  facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
+}
+
+std::string form_text(ModeForm form) {
+  return form == ModeForm::product ? "" : fmt::format("in {} form ", name_of(form));
+}
+
+std::string loops_line(const UpdateLaw& law) {
+  const std::string room =
+      law.register_bytes > 0 ? fmt::format("registers of {} bytes", law.register_bytes) : "a machine without vectors";
+  const char* flag = law.register_bytes == 64 ? ", -mavx512f" : law.register_bytes == 32 ? ", -mavx2" : "";
+  return fmt::format("loops: laid out for {}{}; sums in {} parts, the same bits on every machine", room, flag,
+                     law.lanes);
+}
+
+}  // namespace
+
+std::vector<Fields> as_list(const std::vector<std::string>& lines) {
+  std::vector<Fields> list;
+  for (const std::string& line : lines) list.push_back({{"line", line}});
+  return list;
+}
+
+std::vector<std::string> banner(const Compilation& c, Timing timing) {
+  const Candidate& choice = c.decomposition.choice();
+  const std::string unit = damping_unit(c.network);
+  std::vector<std::string> facts;
+  if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
+  if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
+  facts.push_back(fmt::format("scheme: {} at {} Hz, {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
+  const std::string capped =
+      choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
+  facts.push_back(
+      fmt::format("decomposition: {}, b = {} {}{}: {}", choice.name, choice.damping, unit, capped, choice.reason));
+  for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) facts.push_back(brake_line(likes, unit));
+  facts.push_back("states: " + c.decomposition.reason);
+  if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
+  facts.push_back(fmt::format("any delay of the estimate: {:.6g} {} of extra damping keep an exact brake passive",
+                              choice.extra_damping_any_delay.value_or(0), unit));
+  for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
+  facts.push_back(
+      fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
+  if (c.law.tunable) describe_tunables(*c.law.tunable, unit, facts);
+  else describe_cost(c, facts);
+  if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
+  if (c.law.lanes > 1) facts.push_back(loops_line(c.law));
+  if (c.law.relative_error_bound > 0)
+    facts.push_back(fmt::format("rounding: {}a mode's force is off by at most {:.2g} of its peak",
+                                form_text(c.law.mode_form), c.law.relative_error_bound));
+  std::vector<std::string> lines;
+  for (const std::string& fact : facts)
+    for (const std::string& line : split_lines(fact, 112)) lines.push_back(comment_text(line));
+  return lines;
+}
+
+void describe_device(const Compilation& c, Fields& fields) {
+  fields["any_device"] = c.device ? "false" : "true";
+  fields["added_damping"] = cpp_literal(c.certificate.added_damping, c.law.scalar);
+  fields["device"] = c.device ? string_text(c.device->name) : "ideal";
+  fields["device_digest"] = c.device ? c.device->digest : "";
+  fields["estimator"] = c.device ? name_of(c.device->description.velocity.estimator) : "exact";
+  fields["loop_delay"] = std::to_string(c.device ? c.device->description.loop.delay_samples : 0u);
+}
+
+void describe_file(const Compilation& c, Fields& fields) {
+  fields["title"] = comment_text(c.network.title.empty() ? c.network.name : c.network.title);
+  fields["version"] = DASHPOT_VERSION;
+  fields["digest"] = c.network.digest;
+  fields["name"] = c.network.name;
+  fields["scalar"] = name_of(c.law.scalar);
+  fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
+  fields["motion"] = c.network.port_motion == motion::rotation ? "rotation" : "translation";
+  fields["position_unit"] = length_unit(c.network);
+  fields["velocity_unit"] = velocity_unit(c.network);
+}
+
+}  // namespace dashpot::compiler

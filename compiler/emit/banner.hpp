@@ -1,0 +1,25 @@
+// What every emitted file says about its law, whatever its language.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "emit/code_model.hpp"
+#include "emit/cpp_program.hpp"
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// An entry a line, as templates take it.
+std::vector<Fields> as_list(const std::vector<std::string>& lines);
+
+// Lines of a comment: where the network comes from, its law, what is proved, and what a step costs.
+std::vector<std::string> banner(const Compilation& compilation, Timing timing);
+
+// The fields that say which device the law was certified for.
+void describe_device(const Compilation& compilation, Fields& fields);
+
+// Those that name the network, its units and numbers.
+void describe_file(const Compilation& compilation, Fields& fields);
+
+}  // namespace dashpot::compiler

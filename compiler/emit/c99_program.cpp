@@ -1,0 +1,296 @@
+#include "emit/c99_program.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+#include <stdexcept>
+
+#include "emit/cpp_lines.hpp"
+#include "emit/cpp_program.hpp"
+#include "law/expression_text.hpp"
+#include "law/walk.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Lines = std::vector<std::string>;
+using Program = std::vector<Statement>;
+
+void append_all(Lines& lines, const Lines& more, const std::string& indentation = "") {
+  for (const std::string& line : more) lines.push_back(indentation + line);
+}
+
+class C99Printer {
+ public:
+  explicit C99Printer(const UpdateLaw& law) : law_(law), suffix_(law.scalar == ScalarType::float32 ? "f" : "") {}
+
+  C99Program print() {
+    C99Program program;
+    program.states = states();
+    program.reset = reset();
+    program.output = output();
+    program.update = update();
+    program.energy = with_constants({&law_.energy}, lines_of(law_.energy));
+    if (!reads_states(law_.energy)) program.energy.insert(program.energy.begin(), "(void)self;");
+    return program;
+  }
+
+ private:
+  // The statements of `output` alone read inputs; what is not finite is answered with the last safe command.
+  Lines output() {
+    Lines lines = lines_of(law_.output);
+    const bool changes = law_.brake_changes();
+    const std::string force = name(law_.force, 0);
+    lines.push_back(fmt::format("self->sampled = dashpot_all_finite{}(position, velocity, {});", suffix_, force));
+    lines.push_back("if (self->sampled != 0) {");
+    append_all(lines, lines_of(law_.keep), "  ");
+    append_all(lines, command(changes ? name(law_.brake, 0) : "damping", force), "  ");
+    lines.push_back("} else {");
+    append_all(lines, command(changes ? name(law_.last_brake, 0) : "damping", number(0)), "  ");
+    lines.push_back("}");
+    Lines all = with_constants({&law_.output, &law_.keep}, std::move(lines));
+    if (!changes)
+      all.insert(all.begin(),
+                 fmt::format("const {} damping = {};  // b, the brake's part", scalar(), number(law_.damping)));
+    return all;
+  }
+
+  Lines command(const std::string& damping, const std::string& force) const {
+    const char* cast = law_.scalar == ScalarType::float32 ? "(double)" : "";
+    return {fmt::format("command.damping = {}{};", cast, damping), fmt::format("command.force = {}{};", cast, force)};
+  }
+
+  Lines update() {
+    Lines lines;
+    for (const GuardInTurn& guard : law_.guards) append_all(lines, turn(guard));
+    append_all(lines, lines_of(law_.update));
+    return with_constants({&law_.update}, std::move(lines), !law_.guards.empty());
+  }
+
+  Lines turn(const GuardInTurn& guard) const {
+    const Variable& forces = law_.variables[guard.state];
+    const std::string force = fmt::format("self->{}[j]", forces.name);
+    return {fmt::format("// |F| below the threshold: F ← 0, of {} modes a sample in turn", guard.places),
+            fmt::format("for (int j = self->{0}; (j < (self->{0} + {1})) && (j < {2}); ++j) {{", guard.name,
+                        guard.places, forces.size),
+            fmt::format("  {0} = dashpot_flush_below{1}(threshold, {0});", force, suffix_), "}",
+            fmt::format("self->{0} = ((self->{0} + {1}) < {2}) ? (self->{0} + {1}) : 0;", guard.name, guard.places,
+                        law_.padded(forces.size))};
+  }
+
+  // The constants that the programs read, before the lines.
+  Lines with_constants(const std::vector<const Program*>& read, Lines lines, bool guards = false) const {
+    std::set<CoefficientId> constants;
+    for (const Program* program : read)
+      for (const Statement& statement : *program)
+        each_expression(law_, statement.value, [&](const Expression& e) {
+          if (facts_of(e.operation).refers_to == Referent::coefficient) constants.insert(e.coefficient);
+          guards |= facts_of(e.operation).guards > 0;
+        });
+    Lines all;
+    if (guards)
+      all.push_back(fmt::format("const {} threshold = {};  // below, a force is zero: no subnormal state", scalar(),
+                                number(law_.flush_threshold)));
+    for (CoefficientId id : constants) append_constant(law_.coefficients[id], all);
+    append_all(all, lines);
+    return all;
+  }
+
+  void append_constant(const Coefficient& c, Lines& lines) const {
+    const std::string remark = fmt::format("{} [{}]", c.meaning, c.unit);
+    if (c.is_table() || law_.is_rolled(c.values.size())) {
+      std::string table = fmt::format("static const {} {}[{}] = {{", scalar(), c.name, c.values.size());
+      for (std::size_t place = 0; place < c.values.size(); ++place)
+        table += (place == 0 ? "" : ", ") + number(c.values[place]);
+      lines.push_back("// " + remark);
+      return append(lines, table + "};");
+    }
+    for (std::size_t place = 0; place < c.values.size(); ++place)
+      lines.push_back(
+          fmt::format("const {} {} = {};  // {}", scalar(), name(c, place), number(c.values[place]), remark));
+  }
+
+  Lines lines_of(const Program& program) {
+    Lines lines;
+    for (std::size_t i = 0; i < program.size();) {
+      const std::size_t size = law_.variables[program[i].target].size;
+      if (!law_.is_rolled(size)) {
+        print_straight(program[i++], lines);
+        continue;
+      }
+      const std::size_t first = i;
+      while (i < program.size() && law_.variables[program[i].target].size == size) ++i;
+      print_loop(program, first, i, lines);
+    }
+    return lines;
+  }
+
+  void print_straight(const Statement& statement, Lines& lines) {
+    if (!statement.assigns()) throw std::logic_error("C99 of coupled slips");
+    const Variable& target = law_.variables[statement.target];
+    if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
+    for (place_ = 0; place_ < target.size; ++place_)
+      append(lines, declaration(target) + name(statement.target, place_) + " = " + expression(statement.value) + ";");
+  }
+
+  // Elementwise statements of vectors of one size, with the partial sums of those that are added up later.
+  void print_loop(const Program& program, std::size_t first, std::size_t last, Lines& lines) {
+    const std::size_t size = law_.variables[program[first].target].size;
+    in_loop_.clear();
+    for (std::size_t i = first; i < last; ++i)
+      if (!outlives(program, first, last, program[i].target)) in_loop_.insert(program[i].target);
+    for (std::size_t i = first; i < last; ++i) {
+      const Variable& vector = law_.variables[program[i].target];
+      if (vector.role == Role::local && in_loop_.count(program[i].target) == 0)
+        lines.push_back(fmt::format("{} {}[{}];", scalar(), vector.name, size));
+      if (is_summed(program[i].target))
+        lines.push_back(fmt::format("{} {}_lane[{}] = {{{}}};", scalar(), vector.name, law_.lanes, number(0)));
+    }
+    lines.push_back(fmt::format("for (int j = 0; j < {}; ++j) {{", size));
+    for (std::size_t i = first; i < last; ++i) {
+      const Variable& target = law_.variables[program[i].target];
+      const std::string declared = in_loop_.count(program[i].target) != 0 ? declaration(target) : "";
+      append(lines, "  " + declared + name(program[i].target, 0) + " = " + expression(program[i].value) + ";",
+             program[i].purpose);
+    }
+    for (std::size_t i = first; i < last; ++i)
+      if (is_summed(program[i].target))
+        lines.push_back(fmt::format("  {}_lane[j % {}] += {};", law_.variables[program[i].target].name, law_.lanes,
+                                    name(program[i].target, 0)));
+    lines.push_back("}");
+    for (std::size_t i = first; i < last; ++i)
+      if (is_summed(program[i].target)) append_all(lines, joined_lanes(law_.variables[program[i].target]));
+  }
+
+  // The second half of the partial sums is added to the first until one is left.
+  Lines joined_lanes(const Variable& vector) const {
+    return {fmt::format("for (int half = {}; half > 0; half /= 2) {{", law_.lanes / 2),
+            fmt::format("  for (int j = 0; j < half; ++j) {{ {0}_lane[j] += {0}_lane[j + half]; }}", vector.name), "}"};
+  }
+
+  // Whether a local is read elsewhere than in the loop that assigns it; sums apart, which have their lanes.
+  bool outlives(const Program& program, std::size_t first, std::size_t last, VariableId id) const {
+    if (law_.variables[id].role != Role::local) return true;
+    bool found = false;
+    for (const Program* other : programs(law_))
+      for (std::size_t i = 0; i < other->size(); ++i) {
+        if (other == &program && i >= first && i < last) continue;
+        each_expression(law_, (*other)[i].value,
+                        [&](const Expression& e) { found |= e.operation == Operation::read && e.variable == id; });
+      }
+    return found;
+  }
+
+  bool is_summed(VariableId id) const {
+    bool found = false;
+    for (const Program* program : programs(law_))
+      for (const Statement& statement : *program)
+        each_expression(law_, statement.value,
+                        [&](const Expression& e) { found |= e.operation == Operation::sum && e.variable == id; });
+    return found;
+  }
+
+  bool reads_states(const Program& program) const {
+    bool found = false;
+    for (const Statement& statement : program)
+      each_read(law_, statement, [&](VariableId id) { found |= law_.variables[id].role == Role::state; });
+    return found;
+  }
+
+  std::string expression(ExpressionId id) const {
+    Spelling spelling;
+    spelling.language = Language::c99;
+    spelling.suffix = suffix_;
+    spelling.variable = [this](VariableId variable) { return name(variable, place_); };
+    spelling.coefficient = [this](CoefficientId constant) { return name(law_.coefficients[constant], place_); };
+    spelling.sum = [this](VariableId vector) { return sum(vector); };
+    return expression_text(law_, id, spelling);
+  }
+
+  std::string sum(VariableId id) const {
+    const Variable& vector = law_.variables[id];
+    if (law_.is_rolled(vector.size)) return vector.name + "_lane[0]";
+    std::string text;
+    for (std::size_t place = 0; place < vector.size; ++place) text += (place == 0 ? "" : " + ") + name(id, place);
+    return vector.size == 1 ? text : "(" + text + ")";
+  }
+
+  std::string name(VariableId id, std::size_t place) const {
+    const Variable& variable = law_.variables[id];
+    const std::string owner = variable.role == Role::state ? "self->" : "";
+    if (law_.is_rolled(variable.size)) return owner + variable.name + (in_loop_.count(id) != 0 ? "" : "[j]");
+    if (variable.element_names.empty()) return owner + variable.name;
+    return owner + variable.element_names[variable.size == 1 ? 0 : place];
+  }
+
+  std::string name(const Coefficient& c, std::size_t place) const {
+    if (c.element_names.empty()) return c.name;
+    return law_.is_rolled(c.values.size()) ? c.name + "[j]" : c.element_names[c.values.size() == 1 ? 0 : place];
+  }
+
+  std::string declaration(const Variable& target) const {
+    return target.role == Role::local ? fmt::format("const {} ", scalar()) : "";
+  }
+
+  Lines states() const {
+    Lines lines;
+    for (const Variable& variable : law_.variables) {
+      if (variable.role != Role::state) continue;
+      const std::string remark = fmt::format("{} [{}]", variable.meaning, variable.unit);
+      if (law_.is_rolled(variable.size)) {
+        lines.push_back(fmt::format("{} {}[{}];  // {}", scalar(), variable.name, variable.size, remark));
+        continue;
+      }
+      for (std::size_t place = 0; place < variable.size; ++place)
+        lines.push_back(fmt::format("{} {};  // {}", scalar(), member(variable, place), remark));
+    }
+    for (const GuardInTurn& guard : law_.guards)
+      lines.push_back(fmt::format("int {};  // first place of {} that is guarded next", guard.name,
+                                  law_.variables[guard.state].name));
+    return lines;
+  }
+
+  Lines reset() const {
+    Lines lines;
+    if (law_.rest_position == no_variable) lines.push_back("(void)position;");
+    for (const Variable& variable : law_.variables) {
+      if (variable.role != Role::state) continue;
+      const std::string rest =
+          law_.variables.id_of(variable) == law_.rest_position ? rest_position() : number(variable.rest_value);
+      if (law_.is_rolled(variable.size))
+        lines.push_back(
+            fmt::format("for (int j = 0; j < {}; ++j) {{ self->{}[j] = {}; }}", variable.size, variable.name, rest));
+      else
+        for (std::size_t place = 0; place < variable.size; ++place)
+          lines.push_back(fmt::format("self->{} = {};", member(variable, place), rest));
+    }
+    for (const GuardInTurn& guard : law_.guards) lines.push_back(fmt::format("self->{} = 0;", guard.name));
+    return lines;
+  }
+
+  std::string rest_position() const {
+    const std::string there = law_.surface_at
+                                  ? fmt::format("dashpot_pushed_in{}({}, position)", suffix_, number(*law_.surface_at))
+                                  : "position";
+    return fmt::format("(dashpot_all_finite{}(position, position, position) != 0) ? {} : {}", suffix_, there,
+                       number(0));
+  }
+
+  static const std::string& member(const Variable& variable, std::size_t place) {
+    return variable.element_names.empty() ? variable.name : variable.element_names[place];
+  }
+
+  std::string_view scalar() const { return name_of(law_.scalar); }
+  std::string number(double value) const { return cpp_literal(value, law_.scalar); }
+
+  const UpdateLaw& law_;
+  std::string suffix_;
+  std::size_t place_ = 0;         // of the straight statement at hand
+  std::set<VariableId> in_loop_;  // locals of the loop at hand that need no array
+};
+
+}  // namespace
+
+C99Program c99_program(const UpdateLaw& law) { return C99Printer(law).print(); }
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,18 @@
+// What a program of a law costs each time it runs, as far as all machines agree on it.
+#pragma once
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+struct Cost {
+  std::size_t additions = 0;  // and subtractions
+  std::size_t multiplications = 0;
+  std::size_t selections = 0;  // clamps and choices
+  std::size_t guards = 0;      // against subnormals
+  std::size_t coupled = 0;     // operations of coupled slips at most: additions, multiplications, divisions
+  std::size_t states = 0;
+};
+Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program);
+
+}  // namespace dashpot::compiler

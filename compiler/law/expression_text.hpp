@@ -1,0 +1,23 @@
+// An expression as infix text, for people and for languages of the C family.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// How what an expression refers to is called; operations are written as operations.def says.
+struct Spelling {
+  Language language = Language::text;
+  std::string suffix = "";  // of functions, where a language has one for each type
+  std::function<std::string(VariableId variable)> variable;
+  std::function<std::string(CoefficientId coefficient)> coefficient;  // a table where it is picked from
+  std::function<std::string(VariableId vector)> sum;
+};
+
+// Parentheses stand exactly where leaving them out would change the order of operations.
+std::string expression_text(const UpdateLaw& law, ExpressionId expression, const Spelling& spelling);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,83 @@
+#include "law/walk.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+void visit_all(const std::vector<VariableId>& variables, const VisitVariable& visit) {
+  for (VariableId variable : variables)
+    if (variable != no_variable) visit(variable);
+}
+
+struct SolverReads {
+  const UpdateLaw& law;
+  const VisitVariable& visit;
+  void operator()(const Assign&) const {}
+  void operator()(const SolveTree& step) const { visit_all(law.couplings[step.coupling].held, visit); }
+  void operator()(const SolveNetwork& step) const {
+    visit_all(law.networks[step.network].held, visit);
+    visit_all(law.networks[step.network].last_sign, visit);
+  }
+};
+
+struct SolverAssigns {
+  const UpdateLaw& law;
+  const VisitVariable& visit;
+  void operator()(const Assign&) const {}
+  void operator()(const SolveTree& step) const {
+    const Coupling& coupling = law.couplings[step.coupling];
+    visit_all(coupling.elongation, visit);
+    visit_all(coupling.sign, visit);
+    visit_all({coupling.surface_change}, visit);
+  }
+  void operator()(const SolveNetwork& step) const {
+    visit_all(law.networks[step.network].moved, visit);
+    visit_all(law.networks[step.network].sign, visit);
+  }
+};
+
+template <class Visit>
+void each_expression(const UpdateLaw& law, const Visit& visit) {
+  for (const std::vector<Statement>* program : programs(law))
+    for (const Statement& statement : *program) each_expression(law, statement.value, visit);
+}
+
+}  // namespace
+
+void each_read(const UpdateLaw& law, ExpressionId id, const VisitVariable& visit) {
+  each_expression(law, id, [&](const Expression& e) {
+    if (facts_of(e.operation).refers_to == Referent::variable) visit(e.variable);
+  });
+}
+
+void each_read(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit) {
+  each_read(law, statement.value, visit);
+  std::visit(SolverReads{law, visit}, statement.step);
+}
+
+void each_assigned(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit) {
+  visit(statement.target);
+  std::visit(SolverAssigns{law, visit}, statement.step);
+}
+
+bool reads(const UpdateLaw& law, const std::vector<Statement>& program, VariableId variable) {
+  bool found = false;
+  for (const Statement& statement : program)
+    each_read(law, statement, [&](VariableId read) { found |= read == variable; });
+  return found;
+}
+
+std::set<CoefficientId> constants_read(const UpdateLaw& law) {
+  std::set<CoefficientId> found;
+  each_expression(law, [&](const Expression& e) {
+    if (facts_of(e.operation).refers_to == Referent::coefficient) found.insert(e.coefficient);
+  });
+  return found;
+}
+
+bool uses(const UpdateLaw& law, Operation operation) {
+  bool found = false;
+  each_expression(law, [&](const Expression& e) { found |= e.operation == operation; });
+  return found;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,44 @@
+// What the expressions and statements of a law refer to: the one place that knows their layout.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <set>
+#include <span>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+inline std::span<const ExpressionId> operands(const Expression& expression) {
+  return std::span(expression.operands).first(facts_of(expression.operation).operands);
+}
+
+// An expression and all below it, operands after what works on them.
+template <class Visit>
+void each_expression(const UpdateLaw& law, ExpressionId id, const Visit& visit) {
+  const Expression& expression = law.expressions[id];
+  visit(expression);
+  for (ExpressionId operand : operands(expression)) each_expression(law, operand, visit);
+}
+
+using VisitVariable = std::function<void(VariableId)>;
+
+// The variables that an expression reads, each as often as it does.
+void each_read(const UpdateLaw& law, ExpressionId id, const VisitVariable& visit);
+// Those that a statement reads: of its value, and what a solver takes beside it.
+void each_read(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit);
+// Those that it assigns: its target, and what a solver finds beside it.
+void each_assigned(const UpdateLaw& law, const Statement& statement, const VisitVariable& visit);
+
+bool reads(const UpdateLaw& law, const std::vector<Statement>& program, VariableId variable);
+
+// What the programs refer to.
+std::set<CoefficientId> constants_read(const UpdateLaw& law);
+bool uses(const UpdateLaw& law, Operation operation);
+
+inline std::array<const std::vector<Statement>*, 4> programs(const UpdateLaw& law) {
+  return {&law.output, &law.keep, &law.update, &law.energy};
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,29 @@
+#include "lower/drop_unread.hpp"
+
+#include <set>
+
+#include "law/check_law.hpp"
+#include "law/walk.hpp"
+
+namespace dashpot::compiler {
+
+UpdateLaw without_unread_locals(UpdateLaw law) {
+  std::set<VariableId> read = {law.force, law.stored};
+  if (law.brake_changes()) read.insert(law.brake);
+  for (const std::vector<Statement>* program : programs(law))
+    for (const Statement& statement : *program) each_read(law, statement, [&](VariableId id) { read.insert(id); });
+  for (SlipNetwork& network : law.networks)
+    for (VariableId& moved : network.moved)
+      if (read.count(moved) == 0) moved = no_variable;
+  for (Coupling& coupling : law.couplings)
+    for (VariableId& sign : coupling.sign)
+      if (read.count(sign) == 0) sign = no_variable;
+  for (auto* program : {&law.output, &law.update, &law.energy})
+    std::erase_if(*program, [&](const Statement& statement) {
+      return law.variables[statement.target].role == Role::local && read.count(statement.target) == 0;
+    });
+  check_law(law, "dropping what is unread");
+  return law;
+}
+
+}  // namespace dashpot::compiler

@@ -119,11 +119,13 @@ void describe(CLI::App& app, CommandLine& line) {
   add_choices(*explain, line);
   explain->add_flag("--json", options.json, "As JSON, SI units");
 
-  CLI::App* compile = add_command(app, line, "compile", "Write the update law as C++");
+  CLI::App* compile = add_command(app, line, "compile", "Write the update law as C++ or C99");
   add_networks(*compile, line, true);
   add_choices(*compile, line);
   compile->add_option("-o,--output", options.output, "Folder to write to, default the current one")->option_text("DIR");
-  compile->add_option("--target", line.target, "Language to write")->check(CLI::IsMember({"cpp"}))->option_text("cpp");
+  compile->add_option("--target", line.target, "Language to write")
+      ->check(CLI::IsMember({"cpp", "c99"}))
+      ->option_text("cpp|c99");
   compile->add_flag("--constant-time", options.emission.constant_time,
                     "No jump, division or call in a step depends on its values");
   compile->add_flag("--batch", options.emission.batch,
@@ -216,6 +218,7 @@ void take_over_words(CommandLine& line) {
        {VectorRegisters::none, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon})
     if (line.vector == name_of(registers)) choices.registers = registers;
   choices.guards_each_sample = line.options.emission.batch;
+  if (line.target == "c99") line.options.emission.target = Target::c99;
   if (line.state_input == "position") choices.state_input = StateInput::position;
   if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
   if (line.state_input == "nodal") choices.state_input = StateInput::nodal;

@@ -77,6 +77,28 @@ class Files(CommandTest):
             refused = self.refused("compile", file, "--batch", code=code)
             self.assertIn("without --batch one object of the class for each point", refused.stderr)
 
+    def test_c99(self):
+        """Fails if --target c99 writes anything but one header in C, or what it has nothing for passes in silence."""
+        self.dashpot("compile", "kelvin.json", "--target", "c99", "-o", "out")
+        self.assertEqual(self.files("out"), ["kelvin.h"])
+        header = (self.folder / "out/kelvin.h").read_text()
+        for declared in ["typedef struct kelvin {", "static inline void kelvin_reset(kelvin *self, double position) {",
+                         "static inline dashpot_command kelvin_output(kelvin *self, double position, double velocity) {",
+                         "static inline void kelvin_update(kelvin *self) {",
+                         "static inline dashpot_command kelvin_step(kelvin *self, double position, double velocity) {",
+                         "static inline double kelvin_stored_energy(const kelvin *self) {"]:
+            self.assertIn(declared, header)
+        self.write("coupled.json", network(COUPLED, "coupled"))
+        for file, code in [("coupled.json", "step-of-coupled-slips"),
+                           (SOURCE / "networks/tunable/standard_solid_tunable.json", "step-of-tunables")]:
+            self.assertIn("--target c99 takes", self.refused("compile", file, "--target", "c99", code=code).stderr)
+        self.write("restrict.json", network('{ "spring": 1 }', "restrict"))
+        self.refused("compile", "restrict.json", "--target", "c99", code="name-is-word-of-c")
+        self.dashpot("compile", "restrict.json")
+        for option in [["--batch"], ["--constant-time"], ["--with-test"], ["--certificate", "c.json"]]:
+            done = self.dashpot("compile", "kelvin.json", "--target", "c99", *option, status=COMMAND_LINE_WRONG)
+            self.assertIn(f"--target c99 knows no {option[0]}", done.stderr)
+
     def test_the_timings(self):
         """Fails if --timings leaves a stage out, changes what is written, or is printed where output belongs."""
         stages = ["files", "front end", "normal form", "decomposition", "discretisation", "certificate", "emission", "total"]

@@ -8,6 +8,7 @@ PREFIX is where dashpot is installed. What happens to a block depends on its lan
     sh     run by bash, dashpot on the path; a command that fails fails the test
     cpp    a program: saved as main.cpp, compiled strictly against the runtime, run. Without main(): a quotation, whose
            lines must stand in this order in a header that the blocks before have emitted
+    c      a program in C: saved as main.c, compiled strictly as C99, run
     cmake  saved as CMakeLists.txt, configured and built against the installed package
     text   what the block before printed; a line `…` stands for any number of lines
 
@@ -78,6 +79,14 @@ def run_cpp(scratch, text):
     scratch.run("./main")
 
 
+def run_c(scratch, text):
+    source = scratch.save("main.c", text)
+    strict = [flag.replace("c++17", "c99") for flag in STRICT]
+    scratch.run(os.environ.get("CC", "cc"), *strict, "-I", scratch.prefix / "include", "-I", "emitted", "-I", ".", source,
+                "-o", "main")
+    scratch.run("./main")
+
+
 def check_quotation(scratch, text):
     headers = [path.read_text() for path in scratch.folder.rglob("*.hpp")]
     if not any(stands_in(text, header) for header in headers):
@@ -111,7 +120,7 @@ def matches(expected, printed):
     return re.fullmatch(pattern, printed) is not None
 
 
-RUN = {"json": run_json, "sh": run_sh, "cpp": run_cpp, "cmake": run_cmake, "text": run_text}
+RUN = {"json": run_json, "sh": run_sh, "c": run_c, "cpp": run_cpp, "cmake": run_cmake, "text": run_text}
 
 
 def blocks(text):

@@ -43,6 +43,24 @@ class RunBlocks(unittest.TestCase):
         self.assert_refused(SPRING + PROGRAM.replace(".force", ".power"), "(?s)line 6: cpp: .*power")
         self.assert_refused("```cpp\nint main() { return 1; }\n```", "line 1: cpp: ./main")
 
+    # Fails if a README may show a program in C that is none, or what is none of C99.
+    def test_refuses_bad_c(self):
+        emit = SPRING + "```sh\ndashpot compile one_spring.json --target c99 -o emitted\n```\n"
+        program = """```c
+#include <stdio.h>
+#include <one_spring.h>
+int main(void) {
+  one_spring law;
+  one_spring_reset(&law, 0.0);
+  printf("%g N\\n", one_spring_step(&law, 3.0, 0.0).force);
+  return 0;
+}
+```
+"""
+        self.assertEqual(run_readme(emit + program + "```text\n6 N\n```", PREFIX), 4)
+        self.assert_refused(emit + program.replace(".force", ".power"), "(?s)c: .*power")
+        self.assert_refused(emit + program.replace("one_spring law;", "one_spring law = {};"), "(?s)c: .*empty")
+
     # Fails if a README may promise other output than is printed.
     def test_refuses_other_output(self):
         self.assert_refused(SPRING + PROGRAM + "```text\n7 N\n```", "text: the block before printed\n6 N")

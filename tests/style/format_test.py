@@ -1,0 +1,71 @@
+"""Holds every own source to .clang-format and to its 120 columns.
+
+    python3 format_test.py
+
+Comments that clang-format does not wrap, and a string that nobody has broken, can be longer: they fail here. What stands in a raw
+string is left as it is written: a network in a test reads best in its own lines.
+"""
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import unicodedata
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COLUMNS = 120
+RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
+
+
+def sources():
+    """C++ of the project's own, and its messages; generated/ looks as the compiler writes it."""
+    return [path for folder in ("compiler", "runtime", "tests") for path in sorted((ROOT / folder).rglob("*"))
+            if path.suffix in {".cpp", ".hpp", ".def"}]
+
+
+def clang_format():
+    """The distribution's version: another one breaks lines elsewhere."""
+    for name in ("clang-format-14", "clang-format"):
+        found = shutil.which(name)
+        if found and " 14." in subprocess.run([found, "--version"], capture_output=True, text=True).stdout:
+            return found
+    sys.exit("the format test needs clang-format 14 (Debian: clang-format)")
+
+
+def columns(line):
+    """As many as an editor shows: a dot above a letter takes none of its own."""
+    return sum(not unicodedata.combining(character) for character in line)
+
+
+def raw_string_lines(text):
+    """Numbers of the lines that hold a part of a raw string."""
+    return {number for match in RAW_STRING.finditer(text)
+            for number in range(text.count("\n", 0, match.start()) + 1, text.count("\n", 0, match.end()) + 2)}
+
+
+class Style(unittest.TestCase):
+    # Fails if a source is not as clang-format leaves it.
+    def test_format(self):
+        program = clang_format()
+        done = subprocess.run([program, "--dry-run", "-Werror", *sources()], cwd=ROOT, capture_output=True, text=True)
+        complaints = re.findall(r"^(.+?):\d+:\d+: error:", done.stderr, re.MULTILINE)
+        if done.returncode != 0 or complaints:
+            files = sorted({pathlib.Path(name).resolve().relative_to(ROOT).as_posix() for name in complaints})
+            self.fail(f"{len(files)} files are not as clang-format leaves them; this mends them:\n\n"
+                      f"  {shlex.join([program, '-i', *files])}\n" + ("" if files else done.stderr))
+
+    # Fails if a line has to be scrolled to be read.
+    def test_columns(self):
+        longer = []
+        for path in sources():
+            text = path.read_text()
+            raw = raw_string_lines(text)
+            longer += [f"{path.relative_to(ROOT)}:{number}: {columns(line)} columns"
+                       for number, line in enumerate(text.split("\n"), 1) if columns(line) > COLUMNS and number not in raw]
+        self.assertEqual(longer, [], f"lines longer than {COLUMNS} columns")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -18,7 +18,6 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr unsigned most_delay_samples = 64;  // the bounds of a certificate take longer with each
 // Far beyond any machine: so that what a certificate multiplies stays finite.
 constexpr double lowest_speed = 1e-9, highest_speed = 1e9;  // [m/s] or [rad/s]
 constexpr double longest_time = 1e6;                        // of lags and lateness [s]
@@ -141,6 +140,7 @@ class DeviceBuilder {
     reader.read_pair("band", dimensions::frequency, Bound::above_zero, loop.band_low, loop.band_high);
     reader.read("reference_frequency", dimensions::frequency, Bound::zero_or_more, loop.reference_frequency);
     reader.read_count("missed_deadlines_allowed", 0, loop.missed_deadlines_allowed);
+    reader.is_within("missed_deadlines_allowed", loop.missed_deadlines_allowed, 0, most_missed_deadlines, "deadlines");
   }
 
   void read_encoder() {

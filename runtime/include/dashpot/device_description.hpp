@@ -23,6 +23,10 @@ enum class estimator_kind : unsigned char {
   sensor,                   // noise, bandwidth
 };
 
+// What any loop can be asked for. A device file that states more is refused.
+inline constexpr unsigned most_delay_samples = 64;            // the bounds of a certificate take longer with each
+inline constexpr unsigned most_missed_deadlines = 1'000'000;  // more counts as this many
+
 struct loop_description {
   double sample_period = 0.001;           // [s]
   double jitter = 0;                      // longest lateness of a sample [s]

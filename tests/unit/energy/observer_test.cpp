@@ -201,5 +201,58 @@ TEST(PowerObserver, MissesWhatAHeldSpringCreates) {
   EXPECT_GT(paper.energy(), 0.9 * created);
 }
 
+// A spring of 800 N/m, sampled and held `delay` samples late: what the observer says, and the sum over holds itself.
+template <unsigned Delay>
+void expect_true_energy() {
+  hold_observer<double> observer(Delay);
+  observer.reset(0);
+  double position = 0, truth = 0;
+  double forces[1000] = {};
+  for (int k = 0; k < 1000; ++k) {
+    forces[k] = stiffness * position;
+    observer.hold(forces[k], 0);
+    const double next = 0.01 * std::sin(2 * M_PI * (k + 1) / 1000);
+    if (k >= static_cast<int>(Delay)) truth += forces[k - static_cast<int>(Delay)] * (next - position);
+    position = next;
+    observer.observe(position, period);
+  }
+  EXPECT_LT(truth, -0.001) << "a late spring gives energy away";
+  EXPECT_NEAR(observer.balance(), truth, 1e-13) << Delay;
+}
+
+// Taken for 8 samples, a delay of 16 hides half of the energy that comes out of the motor.
+TEST(HoldObserver, KnowsEveryDelayThatADeviceMayState) {
+  expect_true_energy<1>();
+  expect_true_energy<8>();
+  expect_true_energy<9>();
+  expect_true_energy<16>();
+  expect_true_energy<most_delay_samples>();
+}
+
+// Where a delay is longer than the account, nothing is certain: a number would be believed.
+TEST(HoldObserver, CreditsNothingBeyondItsLongestDelay) {
+  hold_observer<double, 2> observer(3);
+  observer.reset(0);
+  observer.hold(1, 100);
+  observer.observe(0.01, period);
+  EXPECT_EQ(observer.balance(), -HUGE_VAL);
+}
+
+// A device that clips, or that has lost a command, makes another force than it was sent: what it tells must count.
+TEST(HoldObserver, ReckonsWithWhatTheDeviceApplied) {
+  hold_observer<double> observer(1);
+  observer.reset(0);
+  observer.hold(5, 20, 1);
+  observer.observe(0, period);
+  observer.hold(6, 20, 2);
+  observer.tell(1, 4, true);  // of the first command the device made 4 N; it is in force from here on
+  observer.observe(0, period);
+  observer.hold(7, 20, 3);
+  observer.tell(1, 4, true);  // the second was lost: the first went on
+  observer.observe(0.001, period);
+  EXPECT_DOUBLE_EQ(observer.motor_energy(), 0.004);
+  EXPECT_EQ(observer.brake_energy(), 0) << "nothing is known of a brake that did not do what was asked";
+}
+
 }  // namespace
 }  // namespace dashpot

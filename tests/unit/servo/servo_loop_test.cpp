@@ -170,8 +170,10 @@ struct held_law {
 // Broken, the energy of the summary would not be the sum over holds of force times displacement plus what the brake
 // took, of the commands that were in effect.
 TEST_F(ServoLoop, CountsTheEnergyOfEveryHold) {
-  for (const held_law law : {held_law{0, energy_policy::observe}, held_law{2, energy_policy::observe},
-                             held_law{0, energy_policy::raise_brake}, held_law{2, energy_policy::raise_brake}}) {
+  for (const held_law law :
+       {held_law{0, energy_policy::observe}, held_law{2, energy_policy::observe}, held_law{16, energy_policy::observe},
+        held_law{64, energy_policy::observe}, held_law{16, energy_policy::raise_brake},
+        held_law{0, energy_policy::raise_brake}, held_law{2, energy_policy::raise_brake}}) {
     device_description ideal = scripted_description();
     ideal.encoder.step = 0;
     ideal.loop.delay_samples = law.delay_samples;

@@ -5,22 +5,27 @@
 // positive where energy flowed from the tool into the motor (sign of command.hpp). What the brake dissipated is added
 // as a lower bound (brake_dissipation.hpp). The rendering has given away no energy that it did not receive while
 //     balance = motor_energy + brake_energy ≥ 0.
+// Where a device tells what it made of a command, by the command's number, tell() puts that in the command's place.
 // Exact for the positions given: an encoder's step q moves the motor's part by q (|m_0| + |m_n| + Σ|m_k − m_{k−1}|) at
 // most. Amplifier lag is not seen. No heap, no <cmath>.
 #pragma once
 
+#include <dashpot/device_description.hpp>
 #include <dashpot/energy/brake_dissipation.hpp>
 #include <dashpot/energy/compensated_sum.hpp>
 
 namespace dashpot {
 
-template <class Scalar, unsigned MaxDelay = 8>
+template <class Scalar, unsigned MaxDelay = most_delay_samples>
 class hold_observer {
  public:
-  // `delay_samples` (≤ MaxDelay): whole samples from hold() until a command takes effect; they count observe() calls.
+  // `delay_samples`: whole samples from hold() until a command takes effect; they count observe() calls. With more than
+  // MaxDelay nothing is known of the energy, and the balance is −∞.
   // `quantum`: the encoder's step at the tool [m] or [rad].
   explicit constexpr hold_observer(unsigned delay_samples = 0, Scalar quantum = 0) noexcept
-      : delay_(delay_samples < MaxDelay ? delay_samples : MaxDelay), brake_(quantum) {}
+      : delay_(delay_samples < MaxDelay ? delay_samples : MaxDelay),
+        beyond_(delay_samples > MaxDelay),
+        brake_(quantum) {}
 
   // At rest there, no command in effect.
   constexpr void reset(Scalar position) noexcept {
@@ -41,10 +46,27 @@ class hold_observer {
 
   // With every command that leaves: the force opposing +u that the motor holds [N] or [N·m], and the damping that the
   // brake has at least [N·s/m] or [N·m·s/rad] (actuator_output: applied_force, assured_damping). Without a call the
-  // last command stays.
-  constexpr void hold(Scalar force, Scalar damping) noexcept { line_[0] = {force, damping}; }
+  // last command stays. `number` counts commands, for tell(), and wraps around.
+  constexpr void hold(Scalar force, Scalar damping, unsigned number = 0) noexcept {
+    line_[0] = {force, damping, number, true};
+  }
 
-  constexpr Scalar motor_energy() const noexcept { return motor_.value(); }  // [J]; negative: the motor gave it away
+  // Before the observe() of a sample in which the device tells that the command `number` is the newest in force, with
+  // this force, and whether the brake does what was asked. A hold that should have had a newer command, which was lost
+  // or late, had this one.
+  constexpr void tell(unsigned number, Scalar force, bool brake_obeys) noexcept {
+    for (unsigned slot = 0; slot <= delay_; ++slot) {
+      if (!line_[slot].numbered || is_newer(line_[slot].number, number)) continue;
+      correct(line_[slot], force, brake_obeys);
+      break;
+    }
+    applied& closing = line_[delay_];
+    if (closing.numbered && is_newer(closing.number, number)) correct(closing, force, false);
+  }
+
+  constexpr Scalar motor_energy() const noexcept {
+    return beyond_ ? -infinity : motor_.value();
+  }                                                                          // [J]; negative: the motor gave it away
   constexpr Scalar brake_energy() const noexcept { return brake_.value(); }  // [J] dissipated, at least
   constexpr Scalar balance() const noexcept { return motor_energy() + brake_energy(); }  // [J]
 
@@ -52,9 +74,20 @@ class hold_observer {
   struct applied {
     Scalar force = 0;
     Scalar damping = 0;
+    unsigned number = 0;
+    bool numbered = false;
   };
 
+  static constexpr Scalar infinity = static_cast<Scalar>(__builtin_huge_val());
+
+  static constexpr bool is_newer(unsigned one, unsigned other) noexcept { return static_cast<int>(one - other) > 0; }
+  static constexpr void correct(applied& held, Scalar force, bool brake_obeys) noexcept {
+    held.force = force;
+    if (!brake_obeys) held.damping = 0;
+  }
+
   unsigned delay_;
+  bool beyond_;
   applied line_[MaxDelay + 1];  // [0]: the newest command
   compensated_sum<Scalar> motor_;
   brake_dissipation<Scalar> brake_;

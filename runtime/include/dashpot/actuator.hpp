@@ -94,7 +94,8 @@ class actuator {
     const Scalar root = square_root(allowed);
     const Scalar demanded = options_.lead_coil ? clamp(coil_.demand_to_reach(root, period_), 0, max_root_) : root;
     coil_.advance(demanded, period_);
-    output.brake_damping = options_.lead_coil ? demanded * demanded : allowed;
+    // The square of a rounded root may lie above what it is the root of.
+    output.brake_damping = options_.lead_coil ? clamp(demanded * demanded, 0, max_damping_) : allowed;
     output.coil_current = demanded * per_root_;
     output.damping_clipped = wanted - allowed;
     output.damping_behind = allowed - coil_.damping();

@@ -187,5 +187,17 @@ TEST(Actuator, WorksInFloat) {
   EXPECT_FLOAT_EQ(output.coil_current, std::sqrt(0.005f / 1.75e-3f));
 }
 
+// The root of 20 squares to 4e-15 above 20: a device that takes its own limit at its word would refuse the command.
+TEST(Actuator, NeverLeadsTheCoilBeyondTheBrake) {
+  device_description device;
+  device.brake.kind = brake_kind::eddy_current;
+  device.brake.coil_lag = 0.002;
+  for (double most = 1; most < 40; most += 0.37) {
+    device.brake.max_damping = most;
+    actuator<double> drive(device, motion::translation, {false, true});
+    EXPECT_LE(drive.drive({most, 0}, 0).brake_damping, most);
+  }
+}
+
 }  // namespace
 }  // namespace dashpot

@@ -55,6 +55,9 @@ servo_options loop_options(const Options& options, const Compilation& compilatio
 template <class Port, class Clock>
 std::optional<servo_summary> run_on(Port& device, LoadedModel& model, servo_options options, Clock clock,
                                     const std::string& log_name, Diagnostics& diagnostics) {
+  // Who reads along may leave, and a file may reach its limit: the device is driven to the end, and left safe. Beyond
+  // the loop too, for the log is closed and the summary told after it.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   const LogFile log(std::fopen(log_name.c_str(), "w"));
   if (!log) {
     diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));
@@ -65,7 +68,6 @@ std::optional<servo_summary> run_on(Port& device, LoadedModel& model, servo_opti
   any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   servo_loop<LoadedModel, Port, any_estimator<double>, Clock> loop(model, device, estimator, options, clock);
   const stop_on_signals ctrl_c(loop.control());
-  std::signal(SIGPIPE, SIG_IGN);  // who reads along may leave; the device is driven to the end, and left safe
   return loop.run();
 }
 

@@ -4,6 +4,7 @@
 #include <sched.h>
 
 #include <cerrno>
+#include <csignal>
 #include <charconv>
 #include <chrono>
 #include <utility>
@@ -16,6 +17,34 @@ namespace {
 constexpr std::size_t event_capacity = 256;
 // Long enough to cost nothing, short against the time in which a ring of the usual size fills.
 constexpr std::chrono::milliseconds pause{5};
+
+// While it lives, what a write to a closed pipe (SIGPIPE) or beyond the largest file (SIGXFSZ) raises in this thread is
+// held back and then taken away: the write fails with EPIPE or EFBIG, and a log never ends the process that drives a
+// device. Other threads, and what the process does with these signals elsewhere, are left as they are.
+class quiet_writes {
+ public:
+  quiet_writes() noexcept {
+    sigemptyset(&raised_by_writes_);
+    sigaddset(&raised_by_writes_, SIGPIPE);
+    sigaddset(&raised_by_writes_, SIGXFSZ);
+    sigpending(&pending_);
+    pthread_sigmask(SIG_BLOCK, &raised_by_writes_, &before_);
+  }
+  ~quiet_writes() {
+    for (const int signal : {SIGPIPE, SIGXFSZ})
+      if (sigismember(&pending_, signal) == 1) sigdelset(&raised_by_writes_, signal);
+    const timespec at_once{};
+    while (sigtimedwait(&raised_by_writes_, nullptr, &at_once) > 0) {}
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  quiet_writes(const quiet_writes&) = delete;
+  quiet_writes& operator=(const quiet_writes&) = delete;
+
+ private:
+  sigset_t raised_by_writes_;
+  sigset_t pending_;  // before: somebody else's
+  sigset_t before_;   // blocked
+};
 
 template <class Number>
 void append(std::string& row, Number value) {
@@ -58,7 +87,9 @@ std::string csv_row(const telemetry_record& record) {
 
 telemetry_writer::telemetry_writer(std::size_t capacity, telemetry_outputs outputs, telemetry_units units)
     : records_(capacity), events_(event_capacity), outputs_(std::move(outputs)), units_(units) {
-  if (outputs_.csv != nullptr) put(csv_header(units_));
+  if (outputs_.csv == nullptr) return;
+  const quiet_writes guard;
+  put(csv_header(units_));
 }
 
 telemetry_writer::~telemetry_writer() { stop(); }
@@ -85,6 +116,7 @@ void telemetry_writer::run() {
 }
 
 void telemetry_writer::drain() {
+  const quiet_writes guard;
   servo_event event;
   while (events_.pop(event)) say(to_text(event, units_.joint));
   telemetry_record record;
@@ -94,6 +126,7 @@ void telemetry_writer::drain() {
 
 void telemetry_writer::say(const std::string& line) {
   if (outputs_.log == nullptr || line.empty()) return;
+  const quiet_writes guard;
   std::fputs((line + '\n').c_str(), outputs_.log);
   std::fflush(outputs_.log);
 }

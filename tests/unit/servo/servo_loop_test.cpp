@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -333,6 +334,52 @@ TEST(StopOnSignals, AsksTheLoopToStopAndGivesTheHandlersBack) {
   struct sigaction after {};
   sigaction(SIGINT, nullptr, &after);
   EXPECT_EQ(after.sa_handler, before.sa_handler);
+}
+
+// Broken, a closed pipe or a full file anywhere in the process would end it with the motor on.
+TEST(StopOnSignals, TakesFailedWritesForNoReasonToEnd) {
+  struct sigaction before {
+  }, after{};
+  sigaction(SIGXFSZ, nullptr, &before);
+  {
+    servo_control control;
+    const stop_on_signals guard(control);
+    std::raise(SIGXFSZ);
+    std::raise(SIGPIPE);
+    EXPECT_FALSE(control.stop_requested());
+  }
+  sigaction(SIGXFSZ, nullptr, &after);
+  EXPECT_EQ(after.sa_handler, before.sa_handler);
+}
+
+// Broken, a loop whose log nobody reads could not be ended by hand; or it would be, before its device is safe.
+TEST(StopOnSignalsDeathTest, SecondSignalEndsTheProcessOnceTheDeviceIsSafe) {
+  servo_control control;
+  const auto interrupted_twice = [&] {
+    const stop_on_signals guard(control);
+    control.take_device();
+    std::raise(SIGINT);
+    std::raise(SIGINT);
+    std::fputs("still driving", stderr);
+    std::fflush(stderr);
+    control.leave_device();
+    std::exit(0);
+  };
+  EXPECT_EXIT(interrupted_twice(), testing::KilledBySignal(SIGINT), "still driving");
+  const auto hanging_after_the_device = [&] {
+    const stop_on_signals guard(control);
+    std::raise(SIGTERM);
+    std::raise(SIGTERM);
+    std::exit(0);
+  };
+  EXPECT_EXIT(hanging_after_the_device(), testing::KilledBySignal(SIGTERM), "");
+  const auto hanging_with_the_device = [&] {
+    const stop_on_signals guard(control);
+    control.take_device();
+    for (int i = 0; i < 3; ++i) std::raise(SIGINT);
+    std::exit(0);
+  };
+  EXPECT_EXIT(hanging_with_the_device(), testing::KilledBySignal(SIGINT), "");
 }
 
 // Broken, a loop that was started under nohup would end with its terminal.

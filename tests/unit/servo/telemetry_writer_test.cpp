@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <dashpot/servo/telemetry_writer.hpp>
 
@@ -105,6 +109,42 @@ TEST(Telemetry, NothingFollowsAFailedWrite) {
   writer.drain();
   EXPECT_EQ(writer.write_error(), EIO);
   EXPECT_EQ(target.taken, "");
+  std::fclose(file);
+}
+
+// Broken, whoever closes the pipe that a log goes into would end the process, with the motor on.
+TEST(Telemetry, ReaderThatLeavesIsAFailedWrite) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  close(ends[0]);
+  std::FILE* const file = fdopen(ends[1], "w");
+  std::setvbuf(file, nullptr, _IONBF, 0);
+  telemetry_writer writer(64, {file, file, {}}, {});
+  writer.say("also what is said");
+  writer.records().push(full_record());
+  writer.start();
+  writer.stop();
+  EXPECT_EQ(writer.write_error(), EPIPE);
+  sigset_t pending;
+  sigpending(&pending);
+  EXPECT_EQ(sigismember(&pending, SIGPIPE), 0);
+  std::fclose(file);
+}
+
+// Broken, the shell's limit on the size of files would end the process in the middle of a run, with the motor on.
+TEST(Telemetry, FileAtItsLimitIsAFailedWrite) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::FILE* const file = std::tmpfile();
+  std::setvbuf(file, nullptr, _IONBF, 0);
+  const rlimit narrow{1000, before.rlim_max};
+  telemetry_writer writer(64, {file, nullptr, {}}, {});
+  setrlimit(RLIMIT_FSIZE, &narrow);
+  for (int i = 0; i < 50; ++i) writer.records().push(full_record());
+  writer.start();
+  writer.stop();
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(writer.write_error(), EFBIG);
   std::fclose(file);
 }
 

@@ -83,10 +83,12 @@ class servo_loop {
     clock_.start(sample_period);
     cycle.obey(0);
     for (wake_up woken = clock_.wait(); woken.period < periods && !control_.stop_requested(); woken = clock_.wait()) {
+    if constexpr (Clock::is_real) control_.take_device();
       cycle.serve(woken);
     }
     cycle.leave_device_safe();
   }
+    if constexpr (Clock::is_real) control_.leave_device();
 
   // The nearest whole number; without end for a duration of 0.
   static std::uint64_t periods_in(double duration, double sample_period) noexcept {

@@ -1,6 +1,8 @@
-// While it lives, SIGINT (Ctrl-C), SIGTERM and SIGHUP (the terminal is closed) ask a servo loop to stop, so that the
-// device is left safe; a SIGHUP that is ignored, as under nohup, stays so. The handlers that were there before come
-// back with its end. One at a time in a process.
+// While it lives, SIGINT (Ctrl-C), SIGTERM, SIGHUP (the terminal is closed) and SIGXCPU ask a servo loop to stop, so
+// that the device is left safe; a SIGHUP that is ignored, as under nohup, stays so. A second one ends the process as
+// soon as the device is safe, whatever else it waits for, such as a log that nobody reads; a third one at once. A file
+// that may not grow (SIGXFSZ) and a reader that is gone (SIGPIPE) are failed writes, and end nothing. The handlers that
+// were there before come back with its end. One at a time in a process.
 #pragma once
 
 #include <csignal>
@@ -17,9 +19,8 @@ class stop_on_signals {
   stop_on_signals& operator=(const stop_on_signals&) = delete;
 
  private:
-  struct sigaction before_interrupt_;
-  struct sigaction before_terminate_;
-  struct sigaction before_hangup_;
+  static constexpr int handled = 6;
+  struct sigaction before_[handled];
 };
 
 }  // namespace dashpot

@@ -32,7 +32,11 @@ transport::~transport() { close(); }
 
 std::size_t transport::read(std::uint8_t* into, std::size_t room) noexcept {
   if (closed_ || room == 0) return 0;
-  return moved(::read(descriptor_, into, room), kind_ != kind::datagram_socket);
+  std::ptrdiff_t result = ::read(descriptor_, into, room);
+  // An empty datagram is no end of what waits behind it. Not without end: somebody may send nothing else.
+  for (int more = 15; more > 0 && result == 0 && kind_ == kind::datagram_socket; --more)
+    result = ::read(descriptor_, into, room);
+  return moved(result, kind_ != kind::datagram_socket);
 }
 
 // A socket whose other end is gone must not raise SIGPIPE.

@@ -42,5 +42,39 @@ TEST(DelayGauge, begins_anew_after_restart) {
   EXPECT_EQ(gauge.lateness(0, 50 * millisecond), 0);
 }
 
+// A stamp from a clock that was set, or from memory that was never written, must neither overflow nor be taken for
+// prompt, and what comes after it must be judged as if it had not been.
+TEST(DelayGauge, takes_no_absurd_stamp_for_a_prompt_one) {
+  for (const std::uint64_t stamp : {std::uint64_t{0}, std::uint64_t{1} << 62, (std::uint64_t{1} << 63) - 1,
+                                    std::uint64_t{1} << 63, ~std::uint64_t{0}}) {
+    delay_gauge gauge;
+    constexpr std::uint64_t start = 1'000'000 * millisecond;
+    for (std::uint64_t t = 0; t < 100; ++t) gauge.lateness(start + t * millisecond, t * millisecond);
+    EXPECT_GT(gauge.lateness(stamp, 100 * millisecond), std::int64_t{1} << 40) << stamp;
+    EXPECT_LE(gauge.lateness(start + 101 * millisecond, 101 * millisecond), 0) << stamp;
+    EXPECT_NEAR(static_cast<double>(gauge.lateness(start + 102 * millisecond, 107 * millisecond)), 5e6, 1e4) << stamp;
+  }
+}
+
+// How late the last message of an hour is found, in which the delay grows by `creep` from second `since` on [ns].
+std::int64_t lateness_after_an_hour(double creep, std::uint64_t since) {
+  delay_gauge gauge;
+  std::int64_t last = 0;
+  for (std::uint64_t t = 0; t < 3'600'000; t += 10) {
+    const double crept = t > since * 1000 ? creep * static_cast<double>(t - since * 1000) * 1e6 : 0;
+    last = gauge.lateness(t * millisecond, t * millisecond + static_cast<std::uint64_t>(crept));
+  }
+  return last;
+}
+
+// 864 ms in an hour are 240 parts in a million, just what clocks are allowed to drift apart: a queue that fills that
+// slowly on the way would never be noticed.
+TEST(DelayGauge, sees_a_delay_that_creeps) {
+  EXPECT_GT(lateness_after_an_hour(240e-6, 0), 80'000'000) << "from the first second on: beyond what quartz does";
+  EXPECT_GT(lateness_after_an_hour(240e-6, 60), 780'000'000) << "after a first minute that tells the clocks' rates";
+  EXPECT_GT(lateness_after_an_hour(50e-6, 60), 120'000'000);
+  EXPECT_LE(lateness_after_an_hour(10e-6, 60), 0) << "the temperature";
+}
+
 }  // namespace
 }  // namespace dashpot::board

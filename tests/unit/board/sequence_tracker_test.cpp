@@ -53,10 +53,39 @@ TEST(SequenceTracker, calls_what_is_too_old_late) {
 TEST(SequenceTracker, counts_a_long_gap) {
   sequence_tracker tracker;
   tracker.note(0);
-  EXPECT_EQ(tracker.note(1'000'000), arrival::fresh);
-  EXPECT_EQ(tracker.statistics().lost, 999'999U);
-  EXPECT_EQ(tracker.note(999'999), arrival::late);
-  EXPECT_EQ(tracker.statistics().lost, 999'998U);
+  EXPECT_EQ(tracker.note(1'000), arrival::fresh);
+  EXPECT_EQ(tracker.statistics().lost, 999U);
+  EXPECT_EQ(tracker.note(999), arrival::late);
+  EXPECT_EQ(tracker.statistics().lost, 998U);
+  for (std::uint32_t i = 1'000'000; i < 1'000'003; ++i) EXPECT_EQ(tracker.note(i), arrival::late) << i;
+  EXPECT_EQ(tracker.note(1'000'003), arrival::anew);
+  EXPECT_EQ(tracker.note(1'000'004), arrival::fresh);
+  EXPECT_EQ(tracker.statistics().lost, 998U + 998'999U)
+      << "1,001 … 999,999: those that only came too early are not lost";
+}
+
+// A check sum of 16 bits lets one damaged frame in 65,536 pass. One wild number must not make all that follow seem old.
+TEST(SequenceTracker, ignores_one_wild_number) {
+  for (const std::uint32_t wild : {0x7FFF'0000U, 0x8000'0100U, 0xFFFF'0000U, 5'000U}) {
+    sequence_tracker tracker;
+    for (std::uint32_t i = 100; i < 200; ++i) {
+      ASSERT_EQ(tracker.note(i), arrival::fresh) << "after " << wild;
+      if (i % 3 == 0) ASSERT_EQ(tracker.note(wild + i), arrival::late);
+    }
+    EXPECT_EQ(tracker.statistics().lost, 0U);
+  }
+}
+
+// A peer that begins to count anew must be heard again; single old frames that come again between sound ones must not.
+TEST(SequenceTracker, takes_a_run_of_consecutive_numbers_for_a_new_beginning) {
+  sequence_tracker tracker;
+  for (std::uint32_t i = 5'000; i < 5'100; ++i) tracker.note(i);
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(tracker.note(i), arrival::late);
+  EXPECT_EQ(tracker.note(5'100), arrival::fresh) << "the old numbers go on";
+  for (std::uint32_t i = 3; i < 6; ++i) EXPECT_EQ(tracker.note(i), arrival::late);
+  EXPECT_EQ(tracker.note(6), arrival::anew);
+  for (std::uint32_t i = 7; i < 50; ++i) EXPECT_EQ(tracker.note(i), arrival::fresh);
+  EXPECT_EQ(tracker.note(48), arrival::repeated);
 }
 
 // After a restart any number is a beginning: otherwise a board that was switched off and on would stay deaf.

@@ -168,5 +168,20 @@ TEST(Transport, moves) {
   EXPECT_EQ(ends.far.read(got, sizeof got), 2U);
 }
 
+// An empty datagram is legal, and says nothing about those behind it: taken for the end, each would cost a period's
+// sample.
+TEST(Transport, reads_on_behind_empty_datagrams) {
+  int ends[2];
+  ASSERT_EQ(::socketpair(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends), 0);
+  transport near(ends[0], transport::kind::datagram_socket), far(ends[1], transport::kind::datagram_socket);
+  const std::uint8_t said[] = {1, 2, 3};
+  for (int i = 0; i < 5; ++i) ASSERT_EQ(::send(far.descriptor(), said, 0, 0), 0);
+  far.write(said, sizeof said);
+  std::uint8_t bytes[transport::max_datagram];
+  EXPECT_EQ(near.read(bytes, sizeof bytes), sizeof said);
+  EXPECT_EQ(near.read(bytes, sizeof bytes), 0U);
+  EXPECT_FALSE(near.closed());
+}
+
 }  // namespace
 }  // namespace dashpot::board

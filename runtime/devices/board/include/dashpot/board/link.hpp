@@ -14,16 +14,17 @@ class link {
   explicit link(transport over) noexcept : transport_(std::move(over)) {}
 
   // Shows every frame that has come to `handle(const frame&)`. At most 16 reads, so that a flood cannot hold the
-  // caller.
+  // caller; true where it took them all, and more may wait.
   template <class Handle>
-  void receive(Handle&& handle) noexcept {
+  bool receive(Handle&& handle) noexcept {
     flush();
     std::uint8_t bytes[transport::max_datagram];
     for (int reads = 0; reads < 16; ++reads) {
       const std::size_t count = transport_.read(bytes, sizeof bytes);
-      if (count == 0) return;
+      if (count == 0) return false;
       for_each_frame(decoder_, bytes, count, handle);
     }
+    return true;
   }
 
   // False where the stream is full: the frame is dropped and counted, since the next one will be worth more. What left

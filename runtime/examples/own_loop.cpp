@@ -19,18 +19,21 @@ struct my_device {
   dashpot::device_status read(dashpot::device_sample& sample) noexcept {
     sample.position = facts.encoder.step * std::floor(position / facts.encoder.step);
     sample.sequence = ++samples;
+    sample.report = {true, 0, last};  // the newest command is in force: the loop can say that it left the device safe
     return dashpot::device_status::ok;
   }
   dashpot::device_status write(const dashpot::actuation& wanted) noexcept {
     const double force = wanted.motor_torque - wanted.brake_damping * velocity + 30.0 * (0.02 - position);  // [N]
     velocity += force * facts.loop.sample_period;
     position += velocity * facts.loop.sample_period;
+    last = wanted;
     return dashpot::device_status::ok;
   }
   const dashpot::device_description& description() const noexcept { return facts; }
 
   dashpot::device_description facts;  // at 1 kHz, where nothing else is said
   std::uint32_t samples = 0;
+  dashpot::actuation last;
   double position = 0, velocity = 0;  // [m], [m/s]
 };
 

@@ -38,7 +38,8 @@ std::string evidence(const fault_report& report, motion joint) {
     case fault::no_data:
       return at_most(digits_of(report.seen) + " periods without a fresh sample", digits_of(report.limit));
     case fault::device_error:
-      return std::string("the device answers '") + name_of(static_cast<device_status>(report.seen)) + "'";
+      return std::string("the device answers '") + name_of(static_cast<device_status>(report.seen)) + "'" +
+             (report.cause != nullptr ? std::string(": ") + report.cause : std::string());
     case fault::position_not_finite: return "the device reads " + digits_of(report.seen);
     case fault::position_out_of_range:
       return with_unit(report.seen, position) + " is beyond " + with_unit(report.limit, position);
@@ -48,6 +49,7 @@ std::string evidence(const fault_report& report, motion joint) {
     case fault::velocity_not_finite: return "the estimator returns " + digits_of(report.seen);
     case fault::overspeed: return at_most(with_unit(report.seen, velocity), with_unit(report.limit, velocity));
     case fault::command_not_finite: return "the model returns " + digits_of(report.seen);
+    case fault::suspended: return "the machine was asleep for " + with_unit(report.seen, "s");
     case fault::motor_saturated: return at_most("for " + with_unit(report.seen, "s"), with_unit(report.limit, "s"));
   }
   return {};

@@ -44,6 +44,13 @@ std::string losses(const servo_summary& summary) {
   return text;
 }
 
+// A command that has left need not have arrived.
+const char* ending(const servo_summary& summary) {
+  if (summary.safe_confirmed) return "device left safe";
+  if (summary.left_safe) return "device given the safe command, which it cannot confirm";
+  return summary.safe_sent ? "safe command sent, NOT confirmed by the device" : "device NOT left safe";
+}
+
 }  // namespace
 
 std::string to_text(const servo_summary& summary) {
@@ -55,8 +62,7 @@ std::string to_text(const servo_summary& summary) {
          durations("wake-up", summary.lateness) + durations("response", summary.response) +
          durations("busy", summary.busy) + faults(summary.faults) +
          print("energy    %.6g J taken from the tool, never below %.6g J\n", summary.energy, summary.lowest_energy) +
-         losses(summary) +
-         print("ended     %s, device %s\n", name_of(summary.state), summary.left_safe ? "left safe" : "NOT left safe");
+         losses(summary) + print("ended     %s, %s\n", name_of(summary.state), ending(summary));
 }
 
 }  // namespace dashpot

@@ -4,6 +4,8 @@
 //     dashpot::device_status read(dashpot::device_sample&) noexcept;             // newest sample; must not block
 //     dashpot::device_status write(const dashpot::actuation&) noexcept;          // takes effect as soon as possible
 //     const dashpot::device_description& description() const noexcept;
+// and, where it has more to say when it answers `fault`,
+//     const char* cause() const noexcept;                                        // in words, never null; a literal
 // Everything is in the joint's own coordinate (device_description.hpp). No call allocates or takes a lock.
 #pragma once
 
@@ -15,6 +17,19 @@ namespace dashpot {
 
 enum class device_status : unsigned char { ok, no_data, stale, corrupted, disconnected, fault };
 
+struct actuation {
+  double motor_torque = 0;   // torque along +q that the motor makes [N·m] or [N]: minus the command's force
+  double brake_damping = 0;  // [N·m·s/rad] or [N·s/m], 0 … max_damping
+};
+
+// The newest command that was in force at a sample, after the device's own limits. A device that fills it in lets the
+// loop confirm that it was left safe, count what the device clips, and reckon the energy with what was applied.
+struct device_report {
+  bool told = false;          // false: the device does not tell
+  unsigned commands_ago = 0;  // how many have left since through write() with `ok`; 0: it is the newest
+  actuation applied;
+};
+
 struct device_sample {
   double position = 0;             // [rad] or [m], already quantised by the encoder
   double velocity = 0;             // [rad/s] or [m/s]; meaningful only where the device senses it
@@ -22,11 +37,7 @@ struct device_sample {
   std::uint64_t timestamp_ns = 0;  // device clock at the sample
   std::uint64_t edge_time_ns = 0;  // device clock at the newest encoder edge; 0: not measured
   std::uint32_t sequence = 0;      // grows by one a sample
-};
-
-struct actuation {
-  double motor_torque = 0;   // torque along +q that the motor makes [N·m] or [N]: minus the command's force
-  double brake_damping = 0;  // [N·m·s/rad] or [N·s/m], 0 … max_damping
+  device_report report;            // where the device tells what has become of the commands
 };
 
 }  // namespace dashpot

@@ -140,6 +140,8 @@ std::vector<scenario> scenarios() {
       command_becomes("DampingNaN", {not_a_number, 0.0}),
       {"MissedDeadlines", fault::missed_deadlines, 0,
        [](rig& parts, std::size_t instant) { parts.clock.oversleep(instant, 4); }},
+      {"Suspended", fault::suspended, 0,
+       [](rig& parts, std::size_t instant) { parts.clock.suspend(instant, 500'000); }},
       {"MotorSaturated", fault::motor_saturated, 10,
        [](rig& parts, std::size_t instant) {
          parts.model.on_output([instant](std::size_t output, command<double>& wanted) {

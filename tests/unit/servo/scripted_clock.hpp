@@ -17,6 +17,12 @@ class scripted_clock {
     late_by_ = periods;
   }
 
+  // Before serving `period` the machine is suspended for so long, which is too short for the loop to be late.
+  void suspend(std::uint64_t period, std::int64_t nanoseconds) {
+    suspended_period_ = period;
+    suspended_for_ = nanoseconds;
+  }
+
   void count_waits_in(std::uint64_t& waits) { counted_ = &waits; }
 
   void start(double period) noexcept {
@@ -25,9 +31,12 @@ class scripted_clock {
   }
   wake_up wait() noexcept {
     if (counted_ != nullptr) ++*counted_;
-    const std::int64_t late = waits_++ == late_period_ ? late_by_ * period_ns_ : 0;
+    const std::uint64_t wait = waits_++;
+    const std::int64_t late = wait == late_period_ ? late_by_ * period_ns_ : 0;
     now_ = grid_.next_release() + late;
-    return grid_.arrive(now_);
+    wake_up woken = grid_.arrive(now_);
+    woken.asleep = wait == suspended_period_ ? suspended_for_ : 0;
+    return woken;
   }
   std::int64_t now() const noexcept { return now_; }
 
@@ -39,6 +48,8 @@ class scripted_clock {
   std::uint64_t* counted_ = nullptr;
   std::uint64_t late_period_ = ~std::uint64_t{0};
   std::int64_t late_by_ = 0;
+  std::uint64_t suspended_period_ = ~std::uint64_t{0};
+  std::int64_t suspended_for_ = 0;  // [ns]
 };
 
 }  // namespace dashpot::tests

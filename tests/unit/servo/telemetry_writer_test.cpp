@@ -166,6 +166,7 @@ TEST(ServoEvent, NamesEveryFaultWithItsEvidence) {
       {{fault::overspeed, -31, 30}, "overspeed: -31 rad/s, at most 30 rad/s"},
       {{fault::command_not_finite, 1.0 / 0.0, 0}, "command not finite: the model returns inf"},
       {{fault::motor_saturated, 0.2001, 0.2}, "motor saturated: for 0.2001 s, at most 0.2 s"},
+      {{fault::suspended, 12.5, 0}, "suspended: the machine was asleep for 12.5 s"},
   };
   EXPECT_EQ(std::size(sentences), fault_kinds - 1);
   for (const sentence& each : sentences) {
@@ -175,6 +176,8 @@ TEST(ServoEvent, NamesEveryFaultWithItsEvidence) {
   EXPECT_EQ(to_text({0, 0, servo_state::running, {}}, motion::rotation), "0.000000 s: running");
   EXPECT_EQ(to_text({0, 0, servo_state::idle, {fault::device_error, 1, 0}}, motion::rotation),
             "0.000000 s: idle: cannot start: the device answers 'no data'");
+  EXPECT_EQ(to_text({0, 0, servo_state::safe, {fault::device_error, 5, 0, "its fuse"}}, motion::rotation),
+            "0.000000 s: safe: device error: the device answers 'fault': its fuse");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include <dashpot/simulated/simulated_device.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -66,7 +67,7 @@ void simulated_device::go_on() noexcept {
   const double period = description_.loop.sample_period;
   const double lateness = jitter_of(index_);
   plant_.advance(period + (lateness - lateness_before) + delay,
-                 static_cast<double>(index_) * period + postponed_ + lateness, line_.back(), sensors_);
+                 static_cast<double>(index_) * period + postponed_ + lateness, line_.back().command, sensors_);
   for (std::size_t slot = line_.size() - 1; slot > 0; --slot) line_[slot] = line_[slot - 1];
 }
 
@@ -88,6 +89,19 @@ void simulated_device::take_sample() noexcept {
   newest_.timestamp_ns = nanoseconds(shaft.time);
   newest_.edge_time_ns = nanoseconds(sensors_.newest_edge());
   newest_.sequence = static_cast<std::uint32_t>(index_);
+  newest_.report = report();
+}
+
+// As a board tells it: within what motor and brake can do.
+device_report simulated_device::report() const noexcept {
+  const numbered& newest = line_.back();
+  if (newest.number == 0) return {};
+  const double torque = description_.motor.max_torque, wanted = newest.command.motor_torque;
+  const double damping = description_.brake.kind == brake_kind::none ? 0 : description_.brake.max_damping;
+  return {true,
+          written_ - newest.number,
+          {torque > 0 ? std::clamp(wanted, -torque, torque) : wanted,
+           std::clamp(newest.command.brake_damping, 0.0, damping)}};
 }
 
 const sample_fault* simulated_device::fault_at(std::uint64_t index) const noexcept {
@@ -120,12 +134,9 @@ device_status simulated_device::deliver(const sample_fault* fault, device_sample
 }
 
 device_status simulated_device::write(const actuation& demand) noexcept {
-  if (all_finite(demand.motor_torque, demand.brake_damping, 0.0)) {
-    line_.front() = demand;
-    return device_status::ok;
-  }
-  line_.front() = {0, description_.brake.safe_damping};
-  return device_status::fault;
+  const bool sane = all_finite(demand.motor_torque, demand.brake_damping, 0.0);
+  line_.front() = {sane ? demand : actuation{0, description_.brake.safe_damping}, ++written_};
+  return sane ? device_status::ok : device_status::fault;
 }
 
 }  // namespace dashpot

@@ -44,13 +44,20 @@ class command_path {
 
   // One period: the command in demand() is the model's for this sample, the one before where the sample is not fresh,
   // and the safe one where a fault is returned.
-  fault_report answer(unsigned missed, device_status status, const device_sample& sample) noexcept {
+  fault_report answer(unsigned missed, double asleep, device_status status, const device_sample& sample) noexcept {
     answered_ = false;
-    fault_report found = monitor_.check_wake_up(missed);
+    fault_report found = monitor_.check_wake_up(missed, asleep);
     if (!found) found = monitor_.check_sample(status, sample);
     if (!found && monitor_.is_fresh()) found = respond(sample);
     if (found) demand_ = safe_, forget_coil();
     return found;
+  }
+
+  // With every command that was written, in any state, before finish() or rest(). What could not be sent is not in
+  // force.
+  void note_write(const actuation& command, bool has_left) noexcept {
+    has_left_ = has_left;
+    if (has_left) sent_commands_[++commands_ % remembered] = command;
   }
 
   // After the command has left.
@@ -58,7 +65,9 @@ class command_path {
     if (!answered_) return;
     model_.update();
     energy_.observe(position_, hold_time());
-    energy_.hold(output_.applied_force, output_.assured_damping);
+    if (!has_left_) return forget_coil();
+    held_ = commands_;
+    energy_.hold(output_.applied_force, output_.assured_damping, held_);
   }
 
   // In place of answer() and finish(), in a period in which safe() was sent: the brake's coil follows it.
@@ -69,7 +78,9 @@ class command_path {
   const actuation& demand() const noexcept { return demand_; }
   const actuation& safe() const noexcept { return safe_; }
   bool has_answered() const noexcept { return answered_; }  // this period's sample reached the model
-  bool is_clipped() const noexcept { return output_.motor_saturated() || output_.damping_clipped != 0; }
+  bool is_clipped() const noexcept {                        // by our limits or by the device's own
+    return output_.motor_saturated() || output_.damping_clipped != 0 || motor_falls_short_ || brake_falls_short_;
+  }
   double position() const noexcept { return position_; }              // as given to the model [m] or [rad]
   double velocity() const noexcept { return velocity_; }              // [m/s] or [rad/s]
   const command<double>& wanted() const noexcept { return wanted_; }  // by the model
@@ -79,6 +90,7 @@ class command_path {
   fault_report respond(const device_sample& sample) noexcept {
     if (!at_rest_) rest_at(sample);
     hold_coil_over_gap();
+    heed(sample.report);
     const double joint_velocity = feed_.update(sample, monitor_.periods_since_last());
     if (const fault_report found = monitor_.check_velocity(joint_velocity)) return found;
     position_ = actuator_.gear().tool_motion(sample.position);
@@ -91,10 +103,29 @@ class command_path {
     if (const fault_report found = monitor_.check_command(wanted_.damping, wanted_.force)) return found;
     sent_ = energy_.control(wanted_, position_, velocity_, hold_time());
     output_ = actuator_.drive(sent_, velocity_);
-    if (const fault_report found = monitor_.check_saturation(output_.motor_saturated())) return found;
+    const bool saturated = output_.motor_saturated() || motor_falls_short_;
+    if (const fault_report found = monitor_.check_saturation(saturated)) return found;
     demand_ = output_.demand();
     answered_ = true;
     return {};
+  }
+
+  // What the device has made of a command: less than was asked is told and counted, and the energy is reckoned with it.
+  void heed(const device_report& report) noexcept {
+    motor_falls_short_ = brake_falls_short_ = false;
+    if (!report.told || report.commands_ago >= remembered || report.commands_ago >= commands_) return;
+    const unsigned number = commands_ - report.commands_ago;
+    const actuation& asked = sent_commands_[number % remembered];
+    motor_falls_short_ = is_less(report.applied.motor_torque, asked.motor_torque);
+    brake_falls_short_ = is_less(report.applied.brake_damping, asked.brake_damping);
+    if (brake_falls_short_) forget_coil();
+    energy_.tell(number, -actuator_.gear().tool_force(report.applied.motor_torque), !brake_falls_short_);
+  }
+
+  // By more than a board loses that has the command in single precision.
+  static bool is_less(double applied, double asked) noexcept {
+    const double towards = asked < 0 ? -applied : applied, wanted = asked < 0 ? -asked : asked;
+    return !(towards >= wanted * (1 - 1e-6) - 1e-30);
   }
 
   void rest_at(const device_sample& sample) noexcept {
@@ -106,14 +137,17 @@ class command_path {
   }
 
   // The coil went on towards the last command while periods passed without a new one. What is certain of the brake over
-  // the whole hold is the least of what is certain over its periods.
+  // the whole hold is the least of what is certain over its periods; over a very long one, nothing.
   void hold_coil_over_gap() noexcept {
+    const unsigned periods = monitor_.periods_since_last();
+    if (periods < 2) return;
     double assured = output_.assured_damping;
-    for (unsigned period = 1; period < monitor_.periods_since_last(); ++period) {
+    for (unsigned period = 1; period < periods && period < remembered; ++period) {
       const double next = actuator_.drive(sent_, 0).assured_damping;
       if (next < assured) assured = next;
     }
-    if (monitor_.periods_since_last() > 1) energy_.hold(output_.applied_force, assured);
+    if (periods > remembered) assured = 0, forget_coil();
+    energy_.hold(output_.applied_force, assured, held_);
   }
 
   // Periods may have passed without an account of the coil: from nothing on it is never credited with too much, for two
@@ -128,7 +162,12 @@ class command_path {
   safety_monitor monitor_;
   actuator<double> actuator_;
   energy_account energy_;
-  double sample_period_;  // [s]
+  static constexpr unsigned remembered = 256;  // commands, or periods of a gap; a power of two, for numbers wrap around
+
+  double sample_period_;                 // [s]
+  actuation sent_commands_[remembered];  // by number
+  unsigned commands_ = 0;                // that have left, wrapping around
+  unsigned held_ = 0;                    // the newest of the model's among them
   actuation safe_;
   actuation demand_;
   command<double> wanted_{};  // by the model
@@ -138,6 +177,9 @@ class command_path {
   double velocity_ = 0;  // [m/s] or [rad/s]
   bool at_rest_ = false;
   bool answered_ = false;
+  bool has_left_ = false;           // the newest command
+  bool motor_falls_short_ = false;  // of what it was asked for, by the newest report
+  bool brake_falls_short_ = false;
 };
 
 }  // namespace dashpot

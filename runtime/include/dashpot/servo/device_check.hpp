@@ -1,5 +1,6 @@
-// The device concept of device.hpp, checked in words, and its optional part:
-//     device_status reset() noexcept;   // asks the device to leave a safe state of its own, with the loop's reset
+// The device concept of device.hpp, checked in words, and its optional parts:
+//     device_status reset() noexcept;         // asks the device to leave a safe state of its own, with the loop's
+//     reset const char* cause() const noexcept;     // why it answers `fault`: goes into the log
 #pragma once
 
 #include <type_traits>
@@ -21,6 +22,9 @@ using description =
     std::enable_if_t<noexcept(static_cast<const device_description&>(std::declval<const D&>().description()))>;
 template <class D>
 using reset = std::enable_if_t<noexcept(device_status(std::declval<D&>().reset()))>;
+
+template <class D>
+using cause = std::enable_if_t<noexcept(static_cast<const char*>(std::declval<const D&>().cause()))>;
 
 }  // namespace device_claim
 

@@ -44,7 +44,14 @@ class energy_account {
 
   // What motor and brake do over the coming hold: a force opposing +u [N] or [N·m], and the damping that the brake has
   // at least [N·s/m] or [N·m·s/rad].
-  constexpr void hold(double force, double damping) noexcept { observer_.hold(force, damping); }
+  constexpr void hold(double force, double damping, unsigned number = 0) noexcept {
+    observer_.hold(force, damping, number);
+  }
+
+  // What the device tells of the command `number`, with the sample that ends the hold: before control() and observe().
+  constexpr void tell(unsigned number, double force, bool brake_obeys) noexcept {
+    observer_.tell(number, force, brake_obeys);
+  }
 
   // Taken from the tool by motor and brake until the newest sample, at least; below zero: given to it [J].
   constexpr double balance() const noexcept { return observer_.balance(); }

@@ -17,9 +17,10 @@ enum class fault : unsigned char {
   overspeed,              // estimated velocity above the speed limit
   command_not_finite,     // from the model
   motor_saturated,        // without interruption for longer than the device allows
+  suspended,              // the machine was asleep between two periods
 };
 
-inline constexpr unsigned fault_kinds = static_cast<unsigned>(fault::motor_saturated) + 1;
+inline constexpr unsigned fault_kinds = static_cast<unsigned>(fault::suspended) + 1;
 
 // "encoder jump": what log and telemetry print. "none" for fault::none.
 constexpr const char* name_of(fault which) noexcept {
@@ -35,16 +36,19 @@ constexpr const char* name_of(fault which) noexcept {
     case fault::overspeed: return "overspeed";
     case fault::command_not_finite: return "command not finite";
     case fault::motor_saturated: return "motor saturated";
+    case fault::suspended: return "suspended";
   }
   return "unknown";
 }
 
 // One fault with its evidence. `seen` and `limit` share the unit of what was checked: [rad] or [m], [rad/s] or [m/s],
-// periods, [s] for a saturation; for a device error `seen` is the device_status.
+// periods, [s] for a saturation or a suspension; for a device error `seen` is the device_status, and `cause` what the
+// device says of it.
 struct fault_report {
   fault kind = fault::none;
   double seen = 0;
   double limit = 0;
+  const char* cause = nullptr;  // a literal
 
   constexpr explicit operator bool() const noexcept { return kind != fault::none; }
 };

@@ -14,6 +14,7 @@ struct wake_up {
   unsigned missed = 0;        // whole periods skipped just before it
   std::int64_t lateness = 0;  // after the release that was waited for [ns]
   std::int64_t instant = 0;   // of waking up, since the loop's start [ns]
+  std::int64_t asleep = 0;    // for how long the machine itself slept (suspend) since the wake-up before, at least [ns]
 };
 
 class period_grid {

@@ -27,10 +27,12 @@ class safety_monitor {
     has_last_ = false;
   }
 
-  // The loop woke up for this period after skipping `missed` whole ones.
-  constexpr fault_report check_wake_up(unsigned missed) noexcept {
-    missed_in_row_ = missed != 0 ? missed_in_row_ + missed : 0;
-    periods_blind_ += missed;
+  // The loop woke up for this period after skipping `missed` whole ones, in which the machine itself slept for `asleep`
+  // [s]: after that nothing is as it was, however short.
+  constexpr fault_report check_wake_up(unsigned missed, double asleep = 0) noexcept {
+    if (asleep > 0) return {fault::suspended, asleep, 0};
+    missed_in_row_ = missed != 0 ? capped(missed_in_row_, missed) : 0;
+    periods_blind_ = capped(periods_blind_, missed);
     if (missed_in_row_ > allowed()) return {fault::missed_deadlines, double(missed_in_row_), double(allowed())};
     return {};
   }
@@ -85,14 +87,23 @@ class safety_monitor {
   }
 
   static constexpr fault_report device_error(device_status status) noexcept {
-    return {fault::device_error, static_cast<double>(status), 0};
+    return {fault::device_error, static_cast<double>(status), 0, nullptr};
   }
 
  private:
   static constexpr bool is_broken(device_status status) noexcept {
     return status == device_status::fault || status == device_status::disconnected;
   }
-  constexpr unsigned allowed() const noexcept { return device_.loop.missed_deadlines_allowed; }
+  constexpr unsigned allowed() const noexcept {
+    const unsigned stated = device_.loop.missed_deadlines_allowed;
+    return stated < most_missed_deadlines ? stated : most_missed_deadlines;
+  }
+
+  // Beyond what any device allows a count only has to stay there.
+  static constexpr unsigned capped(unsigned count, unsigned more) noexcept {
+    constexpr unsigned enough = 4 * most_missed_deadlines;
+    return more < enough - count ? count + more : enough;
+  }
 
   // Signed, so that the number may wrap around and an overtaken sample is not new.
   constexpr bool is_new(device_status status, const device_sample& sample) const noexcept {
@@ -103,7 +114,7 @@ class safety_monitor {
   }
 
   constexpr fault_report one_more_blind_period() noexcept {
-    ++periods_blind_;
+    periods_blind_ = capped(periods_blind_, 1);
     if (periods_blind_ > allowed()) return {fault::no_data, double(periods_blind_), double(allowed())};
     return {};
   }

@@ -33,10 +33,14 @@ class servo_cycle {
   void serve(const wake_up& woken) {
     device_sample sample;
     const device_status status = device_.read(sample);
+    tells_ = tells_ || sample.report.told;
     const bool starts = start_asked_ && status == device_status::ok && begin();
     const bool running = machine_.is_running();
-    const fault_report found = running ? path_.answer(starts ? 0 : woken.missed, status, sample) : fault_report{};
-    const device_status taken = device_.write(running ? path_.demand() : path_.safe());
+    const fault_report found = running
+                                   ? path_.answer(starts ? 0 : woken.missed,
+                                                  starts ? 0 : static_cast<double>(woken.asleep) * 1e-9, status, sample)
+                                   : fault_report{};
+    const device_status taken = write(running ? path_.demand() : path_.safe());
     const std::int64_t left = clock_.now();
     running ? path_.finish() : path_.rest();
     if (starts) announce(woken.period, {});
@@ -57,12 +61,20 @@ class servo_cycle {
   }
 
   // Gives the device the safe command, again every period while it does not take it, as often as deadlines may be
-  // missed.
+  // missed; a device that tells what it applies is asked until it confirms. Never for longer than `longest_farewell`.
   void leave_device_safe() noexcept {
-    for (unsigned attempt = 0; attempt <= loop_.missed_deadlines_allowed && !summary_.left_safe; ++attempt) {
+    const double farewell = longest_farewell / loop_.sample_period;
+    const unsigned longest = farewell < 1e6 ? static_cast<unsigned>(farewell) : 1'000'000;  // [periods]
+    unsigned taken = 0;
+    for (unsigned attempt = 0; attempt <= longest && !summary_.safe_confirmed; ++attempt) {
       if (attempt > 0) clock_.wait();
-      summary_.left_safe = device_.write(path_.safe()) == device_status::ok;
+      if (attempt > 0 && tells_) confirm(taken);
+      if (summary_.safe_confirmed || is_over(attempt, taken)) break;
+      if (device_.write(path_.safe()) == device_status::ok) ++taken;
+      if (taken != 0 && !tells_) break;
     }
+    summary_.left_safe = summary_.safe_confirmed || (taken != 0 && !tells_);
+    summary_.safe_sent = taken != 0;
   }
 
   // Of everything served so far.
@@ -75,6 +87,30 @@ class servo_cycle {
   }
 
  private:
+  static constexpr double longest_farewell = 0.5;  // [s]
+
+  device_status write(const actuation& command) noexcept {
+    const device_status taken = device_.write(command);
+    path_.note_write(command, taken == device_status::ok);
+    return taken;
+  }
+
+  // Without an answer from the device, as many attempts as deadlines may be missed are enough.
+  bool is_over(unsigned attempt, unsigned taken) const noexcept {
+    return taken == 0 && attempt > loop_.missed_deadlines_allowed;
+  }
+
+  // Only a sample that knows one of the last `taken` commands, all of them the safe one, says anything.
+  void confirm(unsigned taken) noexcept {
+    device_sample sample;
+    device_.read(sample);
+    const device_report& report = sample.report;
+    const double off = report.applied.brake_damping - path_.safe().brake_damping;
+    const double rounding = 1e-6 * path_.safe().brake_damping;  // of a device in single precision
+    summary_.safe_confirmed = report.told && report.commands_ago < taken && report.applied.motor_torque == 0 &&
+                              off <= rounding && off >= -rounding;
+  }
+
   bool begin() noexcept {
     start_asked_ = false;
     path_.start();
@@ -84,15 +120,28 @@ class servo_cycle {
   void reset(std::uint64_t period) {
     if constexpr (is_detected<device_claim::reset, Device>) device_.reset();
     waiting_announced_ = false;
+    waited_ = 0;
     if (machine_.reset()) announce(period, {});
   }
 
   void trip(const fault_report& report, std::uint64_t period) {
-    if (report && machine_.trip(report)) announce(period, report);
+    if (report && machine_.trip(explained(report))) announce(period, explained(report));
   }
 
+  // What the device itself says of the fault that it answers.
+  fault_report explained(fault_report report) const noexcept {
+    if constexpr (is_detected<device_claim::cause, Device>) {
+      const bool of_its_own = report.seen == static_cast<double>(device_status::fault);
+      if (report.kind == fault::device_error && of_its_own) report.cause = device_.cause();
+    }
+    return report;
+  }
+
+  // A first sample may be under way for as long as any other.
   void announce_waiting(std::uint64_t period, device_status status) {
-    if (!waiting_announced_) announce(period, safety_monitor::device_error(status));
+    const bool is_late = status != device_status::no_data || waited_++ >= loop_.missed_deadlines_allowed;
+    if (waiting_announced_ || !is_late) return;
+    announce(period, explained(safety_monitor::device_error(status)));
     waiting_announced_ = true;
   }
 
@@ -167,6 +216,8 @@ class servo_cycle {
   servo_state_machine machine_;
   bool start_asked_ = false;
   bool waiting_announced_ = false;
+  bool tells_ = false;   // the device says what it applies
+  unsigned waited_ = 0;  // for the first sample [periods]
   servo_summary summary_;
 };
 

@@ -8,8 +8,9 @@
 // A model made for another device, estimator, loop delay or rate is refused before the device is touched
 // (admission.hpp). Every fault (fault.hpp) ends in the safe command within the period in which it is seen: motor 0,
 // brake at the device's safe damping. It is counted, named in the log, and left only through control().reset() and then
-// control().start(). A loop that hangs, or a process that is killed, can send nothing any more: against that a device
-// needs a watchdog of its own.
+// control().start(). A loop that hangs, and a process that crashes or is killed, can send nothing any more: against
+// that a device needs a watchdog of its own. A board (devices/board/) has one; a simulated device needs none; of a
+// device of your own you have to know.
 #pragma once
 
 #include <cstdint>
@@ -82,17 +83,18 @@ class servo_loop {
     if (options_.start_running) control_.start();
     clock_.start(sample_period);
     cycle.obey(0);
-    for (wake_up woken = clock_.wait(); woken.period < periods && !control_.stop_requested(); woken = clock_.wait()) {
     if constexpr (Clock::is_real) control_.take_device();
+    for (wake_up woken = clock_.wait(); woken.period < periods && !control_.stop_requested(); woken = clock_.wait()) {
       cycle.serve(woken);
     }
     cycle.leave_device_safe();
-  }
     if constexpr (Clock::is_real) control_.leave_device();
+  }
 
-  // The nearest whole number; without end for a duration of 0.
+  // The nearest whole number; without end for a duration of 0, or one that is beyond counting.
   static std::uint64_t periods_in(double duration, double sample_period) noexcept {
-    return duration > 0 ? static_cast<std::uint64_t>(duration / sample_period + 0.5) : ~std::uint64_t{0};
+    const double periods = duration / sample_period + 0.5;
+    return duration > 0 && periods < 9e18 ? static_cast<std::uint64_t>(periods) : ~std::uint64_t{0};
   }
 
   Model& model_;

@@ -14,7 +14,9 @@ namespace dashpot {
 struct servo_summary {
   admission verdict = admission::admitted;  // where it refuses, the device was never touched and all below is zero
   servo_state state = servo_state::idle;    // in which the loop ended
-  bool left_safe = false;                   // the device took the safe command at the end
+  bool left_safe = false;                   // the safe command is in force at the end, as far as the device can tell
+  bool safe_confirmed = false;              // a sample says so
+  bool safe_sent = false;                   // the device took the safe command, whatever became of it
   std::uint64_t periods = 0;                // that were served
   std::uint64_t missed_deadlines = 0;       // periods that were skipped
   std::uint64_t beyond_jitter = 0;          // wake-ups later than the device's stated jitter

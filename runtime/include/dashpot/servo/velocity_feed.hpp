@@ -1,5 +1,6 @@
 // Feeds an estimator on its uniform grid. Where periods passed without a sample, their samples are put on the straight
-// line between the two around them: an estimator would otherwise take a gap of n periods for n times the velocity.
+// line between the two around them: an estimator would otherwise take a gap of n periods for n times the velocity. Of a
+// gap beyond most_filled only the end is filled in, after a reset: no number of lost samples may hold up the command.
 #pragma once
 
 #include <dashpot/device.hpp>
@@ -20,9 +21,14 @@ class velocity_feed {
     last_ = sample;
   }
 
-  // The estimate [rad/s] or [m/s] at `sample`, which lies `periods` ≥ 1 after the one before. At most `periods` calls.
+  static constexpr unsigned most_filled = 256;  // [periods], as long as the longest window of an estimator
+
+  // The estimate [rad/s] or [m/s] at `sample`, which lies `periods` ≥ 1 after the one before. At most most_filled
+  // calls.
   double update(const device_sample& sample, unsigned periods) noexcept {
-    for (unsigned period = 1; period < periods; ++period) estimate(between(sample, period, periods));
+    const unsigned first = periods > most_filled ? periods - most_filled + 1 : 1;
+    if (first > 1) estimator_.reset(static_cast<scalar>(between(sample, first - 1, periods).position));
+    for (unsigned period = first; period < periods; ++period) estimate(between(sample, period, periods));
     last_ = sample;
     return estimate(sample);
   }

@@ -49,7 +49,14 @@ class simulated_device {
   simulated::scenario scene_;
   simulated::plant plant_;
   simulated::shaft_sensors sensors_;
-  std::vector<actuation> line_;  // [0]: written last; back(): in effect
+  struct numbered {
+    actuation command;
+    unsigned number = 0;  // 0: before the first
+  };
+  device_report report() const noexcept;
+
+  std::vector<numbered> line_;  // [0]: written last; back(): in effect
+  unsigned written_ = 0;        // commands, wrapping around
   bool started_ = false;
   std::uint64_t index_ = 0;  // of the newest sample
   double postponed_ = 0;     // by late samples until now [s]

@@ -23,10 +23,10 @@ RESET, COMMAND, SAMPLE, ASK_STATISTICS, STATISTICS = 0x3C, 0x55, 0xA5, 0x5A, 0xC
 LENGTH = {HELLO: 0, DESCRIPTION: 41, CONFIGURE: 16, CONFIGURED: 3, RESET: 2, COMMAND: 8, SAMPLE: 36,
           ASK_STATISTICS: 0, STATISTICS: 44}
 IDLE, RUNNING, SAFE = 0, 1, 2
-HOST_SILENT, BAD_COMMAND = 1, 2
+HOST_SILENT, BAD_COMMAND, COMMANDS_ANEW = 1, 2, 6
 ON_COMMAND, FREE_RUNNING = 0, 1
 HOST, OWN_MODEL = 0, 1
-ACCEPTED, PERIOD_TOO_SHORT, WATCHDOG_NEEDED, DAMPING_OUT_OF_RANGE, NO_MODEL, NO_SUCH_CHOICE = 0, 1, 2, 3, 4, 6
+ACCEPTED, PERIOD_TOO_SHORT, WATCHDOG_NEEDED, DAMPING_OUT_OF_RANGE, NO_MODEL, NO_SUCH_CHOICE, SPEED_LIMIT_WRONG = 0, 1, 2, 3, 4, 6, 7
 
 ENCODER_STEP = 1e-5  # [m]
 MAX_TORQUE = 50.0  # [N]
@@ -92,29 +92,39 @@ class Decoder:
 
 
 class Sequence:
-    def __init__(self):
-        self.seen = set()
-        self.newest = None
-        self.lost = self.repeated = self.late = 0
+    NEW, OLD, ANEW = range(3)
 
-    def is_new(self, number):
-        ahead = 1 if self.newest is None else (number - self.newest) & 0xFFFFFFFF
-        if 0 < ahead < 1 << 31:
-            self.lost += ahead - 1
-            self.newest = number
-            self.seen.add(number)
-            return True
-        if number in self.seen:
-            self.repeated += 1
-        else:
-            self.late += 1
-            self.lost -= 1
-            self.seen.add(number)
-        return False
+    def __init__(self):
+        self.lost = self.repeated = self.late = 0
+        self.restart()
 
     def restart(self):
-        self.newest = None
-        self.seen.clear()
+        self.newest, self.seen, self.run = None, set(), []
+
+    def note(self, number):
+        """Whether a command with this number is new, old, or the first of a peer that has begun to count anew."""
+        ahead = 1 if self.newest is None else (number - self.newest) & 0xFFFFFFFF
+        behind = -ahead & 0xFFFFFFFF
+        if 0 < ahead <= 1024:
+            self.lost += ahead - 1
+            self.newest, self.run = number, []
+            self.seen = {old for old in self.seen if (number - old) & 0xFFFFFFFF < 32} | {number}
+            return self.NEW
+        if behind < 32:
+            if number in self.seen:
+                self.repeated += 1
+            else:
+                self.late += 1
+                self.lost -= 1
+                self.seen.add(number)
+            return self.OLD
+        self.run = self.run + [number] if self.run and number == (self.run[-1] + 1) & 0xFFFFFFFF else [number]
+        if len(self.run) < 4:
+            self.late += 1
+            return self.OLD
+        self.lost += max(ahead - 4, 0) if ahead < 1 << 31 else 0
+        self.newest, self.seen, self.run = number, {number}, []
+        return self.ANEW
 
 
 class Board:
@@ -147,7 +157,7 @@ class Board:
                                                         heard.foreign, obeyed.lost, obeyed.repeated, obeyed.late,
                                                         0, 0, 0, 0)))
 
-    def configure(self, period, safe_damping, _speed_limit, watchdog_periods, sampling, controller):
+    def configure(self, period, safe_damping, speed_limit, watchdog_periods, sampling, controller):
         self.stop(IDLE, 0)
         if (sampling, controller) not in ((ON_COMMAND, HOST), (FREE_RUNNING, HOST), (FREE_RUNNING, OWN_MODEL)):
             verdict = NO_SUCH_CHOICE
@@ -155,6 +165,8 @@ class Board:
             verdict = PERIOD_TOO_SHORT
         elif not 0 <= safe_damping <= MAX_DAMPING:
             verdict = DAMPING_OUT_OF_RANGE
+        elif not (speed_limit >= 0 and math.isfinite(speed_limit)):
+            verdict = SPEED_LIMIT_WRONG
         elif controller == OWN_MODEL:
             verdict = NO_MODEL
         else:
@@ -173,9 +185,12 @@ class Board:
         self.sample()
 
     def command(self, sequence, torque, damping):
-        if not self.commands.is_new(sequence):
+        came = self.commands.note(sequence)
+        if came == Sequence.OLD:
             return
-        if self.state == RUNNING:
+        if self.state == RUNNING and came == Sequence.ANEW:
+            self.stop(SAFE, COMMANDS_ANEW)
+        elif self.state == RUNNING:
             self.silence_left = self.watchdog_periods
             if math.isfinite(torque) and math.isfinite(damping):
                 self.torque = min(max(torque, -MAX_TORQUE), MAX_TORQUE)

@@ -58,6 +58,7 @@ TEST(Peer, understands_the_driver) {
   std::string error;
   ASSERT_TRUE(with.device.start(error)) << error;
   EXPECT_STREQ(with.device.description_of_board().name, "peer.py");
+  with.device.reset();  // of a board that runs: only a sample comes of it
   ASSERT_EQ(with.next(), device_status::ok);
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const float torque = 0.01F * static_cast<float>(i), damping = 0.02F * static_cast<float>(i);
@@ -109,7 +110,6 @@ TEST(Peer, serves_a_terminal) {
   board_device device(std::move(*stream), described_board(), patient(sampling::on_command, 5000));
   ASSERT_TRUE(device.start(error)) << error;
   device_sample sample;
-  ASSERT_EQ(device.read(sample), device_status::ok);
   for (int i = 0; i < 300; ++i) {
     ASSERT_EQ(device.write({0.1, i * 0.1}), device_status::ok);
     do device.wait_for_sample(1000);

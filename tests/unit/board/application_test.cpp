@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "in_process_board.hpp"
+#include "stepped_session.hpp"
 #include "stream_pair.hpp"
 
 namespace dashpot::board {
@@ -183,6 +184,38 @@ TEST(ModelRunner, crosses_the_end_of_the_counter) {
   model_runner<generated::stand_in_model> runner(1e-5, {}, 1);
   runner.step({std::numeric_limits<std::int32_t>::max(), 0, 0});
   EXPECT_EQ(runner.step({std::numeric_limits<std::int32_t>::min() + 1, 1'000'000, 0}).speed, 2.0F * 1e-5F * 1000.0F);
+}
+
+// At the end of the counter a position from raw counts goes from 21 km to −21 km: the spring would pull with all that
+// the motor has. And single precision, 21 km away, is a step of 2 mm, or of 2 N.
+TEST(ModelRunner, holds_a_spring_over_the_end_of_the_counter) {
+  constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
+  model_runner<spring_from_start<float>> runner(1e-5, {}, 1);
+  for (std::int64_t moved = 0; moved < 200; ++moved) {
+    const auto counts =
+        static_cast<std::int32_t>(static_cast<std::uint32_t>(last - 100) + static_cast<std::uint32_t>(moved));
+    const float torque = runner.step({counts, 0, 0}).wish.motor_torque;
+    ASSERT_EQ(torque, -1000.0F * (static_cast<float>(moved) * 1e-5F)) << moved;
+  }
+}
+
+// The whole board, from idle through running, with the counter over its end on the way and a fault in between.
+TEST(Application, follows_the_counter_over_its_end_in_every_state) {
+  model_runner<spring_from_start<float>> runner(1e-5, {}, 1);
+  runner.watch({std::numeric_limits<std::int32_t>::max() - 1, 0, 0});
+  runner.watch({std::numeric_limits<std::int32_t>::min() + 1, 0, 0});  // idle: three counts further
+  EXPECT_EQ(runner.step({std::numeric_limits<std::int32_t>::min() + 1, 0, 0}).wish.motor_torque, 0);
+  EXPECT_EQ(runner.watch({std::numeric_limits<std::int32_t>::min() + 3, 0, 0}), 2);
+  runner.restart();
+  EXPECT_EQ(runner.watch({std::numeric_limits<std::int32_t>::min() + 9, 0, 0}), 0) << "a run may begin anywhere";
+}
+
+// Near zero the board's own model and a host must mean the same place by the same counts.
+TEST(ModelRunner, has_its_zero_where_the_counter_has_it) {
+  model_runner<generated::stand_in_model> runner(1e-5, {}, 1);
+  generated::stand_in_model model;
+  model.reset(3e-2F);
+  EXPECT_EQ(runner.step({3000, 0, 0}).wish.motor_torque, -model.step(3000.0F * 1e-5F, 0).force);
 }
 
 }  // namespace

@@ -34,6 +34,9 @@ class session {
     host_time = 77 * period;
     std::string error;
     EXPECT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+    EXPECT_EQ(device.read(sample), device_status::no_data);
+    device.reset();  // to a board that runs already: only a sample comes of it
+    board.serve();
     EXPECT_EQ(device.read(sample), device_status::ok);
   }
 
@@ -208,6 +211,8 @@ TEST(BoardDevice, reports_a_closed_stream) {
     in_process_board<> board(std::move(ends.far));
     std::string error;
     ASSERT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+    device.write({});
+    board.serve();
   }
   device_sample sample;
   EXPECT_EQ(device.read(sample), device_status::ok) << "what came before the end counts";
@@ -271,8 +276,103 @@ TEST(BoardDevice, fetches_the_counts_of_the_board) {
   EXPECT_EQ(with.device.ask_statistics(), device_status::ok);
   with.exchange();
   ASSERT_TRUE(with.device.counts_of_board());
-  EXPECT_EQ(with.device.counts_of_board()->received, 3U + 10U + 1U)
-      << "hello, configure, reset, commands, the question";
+  EXPECT_EQ(with.device.counts_of_board()->received, 4U + 10U + 1U)
+      << "hello, configure, two resets, commands, the question";
+}
+
+// By the time that a loop runs, the sample that answered the reset is some milliseconds old: a handle that moves would
+// seem to jump from there.
+TEST(BoardDevice, hands_out_nothing_from_before_the_end_of_its_start) {
+  for (const sampling when : {sampling::on_command, sampling::free_running}) {
+    stream_pair ends = connected_pair();
+    in_process_board<> board(std::move(ends.far));
+    board_device device(std::move(ends.near), described_board(), by_hand(when));
+    std::string error;
+    ASSERT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+    device_sample sample;
+    EXPECT_EQ(device.read(sample), device_status::no_data);
+    for (int i = 0; i < 5; ++i) board.pass_period();
+    device.write({});
+    board.serve();
+    board.pass_period();
+    ASSERT_EQ(device.read(sample), device_status::ok);
+    EXPECT_GE(sample.timestamp_ns, board.hardware().time() - period);
+  }
+}
+
+// A board that has run freely since its start has filled the stream with what nobody wants: read first as if it were
+// new, that would be a handle in the past.
+TEST(BoardDevice, drops_what_gathered_between_start_and_the_first_read) {
+  stream_pair ends = connected_pair();
+  in_process_board<> board(std::move(ends.far));
+  board_device device(std::move(ends.near), described_board(), by_hand(sampling::free_running));
+  std::string error;
+  ASSERT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+  for (int i = 0; i < 1500; ++i) board.pass_period();  // more than the stream holds
+  device_sample sample;
+  EXPECT_EQ(device.read(sample), device_status::no_data);
+  board.pass_period();
+  ASSERT_EQ(device.read(sample), device_status::ok);
+  EXPECT_EQ(sample.timestamp_ns, board.hardware().time());
+}
+
+// The loop confirms, counts and reckons with what the board says that it applies: of which command must be right.
+TEST(BoardDevice, tells_what_the_board_applies) {
+  session with;
+  EXPECT_FALSE(with.sample.report.told) << "no command yet";
+  with.exchange({1, 2});
+  with.exchange({80, 40});
+  ASSERT_TRUE(with.sample.report.told);
+  EXPECT_EQ(with.sample.report.commands_ago, 0U);
+  EXPECT_EQ(with.sample.report.applied.motor_torque, 50);
+  EXPECT_EQ(with.sample.report.applied.brake_damping, 30);
+  with.device.write({3, 3});
+  with.board.serve();
+  with.device.write({4, 4});
+  with.device.write({5, 5});
+  ASSERT_EQ(with.device.read(with.sample), device_status::ok);
+  EXPECT_EQ(with.sample.report.commands_ago, 2U);
+  EXPECT_EQ(with.sample.report.applied.motor_torque, 3);
+}
+
+// "The device answers 'fault'" sends nobody to the right place.
+TEST(BoardDevice, says_why_the_board_stopped) {
+  session with;
+  with.exchange({2, 3});
+  for (int i = 0; i < 5; ++i) with.board.pass_period();
+  EXPECT_EQ(with.exchange({2, 3}), device_status::fault);
+  EXPECT_STREQ(with.device.cause(), "the board's watchdog: no command came for too long");
+}
+
+// A damaged frame whose check sum fits has a number like any other: every later sample would seem old.
+TEST(BoardDevice, survives_one_wild_sequence_number) {
+  stream_pair ends = connected_pair();
+  transport intruder(::dup(ends.far.descriptor()), transport::kind::stream_socket);
+  session with(sampling::on_command, std::move(ends));
+  with.exchange();
+  const encoded_frame wild = encode(with.device.newest_sample(), with.sample.sequence + 0x4000'0000U);
+  intruder.write(wild.bytes, wild.size);
+  EXPECT_EQ(with.device.read(with.sample), device_status::stale);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(with.exchange(), device_status::ok);
+}
+
+// A board that was switched off and on counts from 0 again: the loop must learn that it stopped, not that it is silent.
+TEST(BoardDevice, sees_that_a_board_began_anew) {
+  stream_pair ends = connected_pair();
+  transport again(::dup(ends.far.descriptor()), transport::kind::stream_socket);
+  auto before = std::make_unique<session>(sampling::on_command, std::move(ends));
+  for (int i = 0; i < 2000; ++i) before->exchange();
+  in_process_board<> rebooted(std::move(again));
+  device_status status = device_status::ok;
+  for (int i = 0; i < 5; ++i) {
+    before->device.write({2, 3});
+    rebooted.serve();
+    host_time += period;
+    status = before->device.read(before->sample);
+  }
+  EXPECT_EQ(status, device_status::fault);
+  EXPECT_STREQ(before->device.cause(), "the board is idle: it was switched on or configured since the start");
+  EXPECT_EQ(rebooted.hardware().driven().motor_torque, 0.0F);
 }
 
 }  // namespace

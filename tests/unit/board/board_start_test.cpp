@@ -1,5 +1,12 @@
 #include <dashpot/board/board_device.hpp>
 
+#include <chrono>
+#include <deque>
+#include <limits>
+#include <thread>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "in_process_board.hpp"
@@ -38,9 +45,11 @@ TEST(BoardStart, configures_and_runs) {
   EXPECT_TRUE(board.state().running());
   EXPECT_EQ(board.state().configuration().period, 1'000'000U);
   EXPECT_EQ(board.state().configuration().safe_damping, 4.0F);
-  EXPECT_EQ(board.state().configuration().watchdog_periods, board_options().watchdog_periods);
+  EXPECT_EQ(board.state().configuration().watchdog_periods, 8) << "three missed, three lost, and two";
   EXPECT_STREQ(device.description_of_board().name, "in process");
   device_sample sample;
+  device.write({});
+  board.serve();
   EXPECT_EQ(device.read(sample), device_status::ok);
   EXPECT_EQ(sample.timestamp_ns, board.hardware().time());
 }
@@ -150,11 +159,105 @@ TEST(BoardStart, starts_again_with_a_board_that_forgot_everything) {
   before.reset();
   in_process_board<> after(std::move(ends.far));
   ASSERT_TRUE(after.while_serving([&] { return device.start(error); })) << error;
-  ASSERT_EQ(device.read(sample), device_status::ok);
   device.write({1, 2});
   after.serve();
   ASSERT_EQ(device.read(sample), device_status::ok);
   EXPECT_EQ(after.hardware().driven().motor_torque, 1.0F);
+}
+
+// 0 in a device file means any effort, 0 on a board means none: a weaker board would clip what was certified unlimited.
+TEST(BoardStart, does_not_take_a_limit_for_none) {
+  const auto unlimited = [](auto& d) { d.motor.max_torque = 0; };
+  EXPECT_EQ(with_description(unlimited),
+            "largest motor effort of the board is 50 N, the device file states no 'max_torque', which means any");
+  device_description described = described_board();
+  unlimited(described);
+  board_facts facts = facts_of_board();
+  facts.description.max_torque = 0;
+  EXPECT_EQ(outcome(described, facts),
+            "largest motor effort of the board is 0 N, the device file states no 'max_torque', which means any");
+  facts.description.max_torque = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(outcome(described, facts), "started");
+}
+
+// Every comparison with NaN is false, so that a board which states it would be as strong as anybody asks.
+TEST(BoardStart, refuses_a_board_that_states_no_numbers) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  board_facts facts = facts_of_board();
+  facts.description.max_torque = nan;
+  EXPECT_EQ(outcome(described_board(), facts), "the board's largest motor effort is no number");
+  facts = facts_of_board();
+  facts.description.max_damping = nan;
+  EXPECT_EQ(outcome(described_board(), facts), "the board's largest damping is no number");
+  facts = facts_of_board();
+  facts.description.encoder_step = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(outcome(described_board(), facts), "encoder step of the board is nan m, the device file says 1e-05 m");
+}
+
+// The watchdog must outlast what the loop itself tolerates, and not by more than the loop needs.
+TEST(BoardStart, derives_the_watchdog_from_what_may_be_missed) {
+  for (const auto& [allowed, expected] : {std::pair(0U, 2), {20U, 42}, {1'000'000U, 65535}}) {
+    stream_pair ends = connected_pair();
+    in_process_board<> board(std::move(ends.far));
+    device_description described = described_board();
+    described.loop.missed_deadlines_allowed = allowed;
+    board_device device(std::move(ends.near), described);
+    std::string error;
+    ASSERT_TRUE(board.while_serving([&] { return device.start(error); })) << error;
+    EXPECT_EQ(board.state().configuration().watchdog_periods, expected);
+  }
+}
+
+// Everything that passes this way arrives `delay` later.
+class slow_way {
+ public:
+  explicit slow_way(std::chrono::milliseconds delay) : delay_(delay) {}
+
+  void carry(transport& from, transport& to) {
+    const auto now = std::chrono::steady_clock::now();
+    std::uint8_t bytes[4096];
+    while (const std::size_t count = from.read(bytes, sizeof bytes))
+      under_way_.push_back({now + delay_, {bytes, bytes + count}});
+    for (; !under_way_.empty() && under_way_.front().first <= now; under_way_.pop_front())
+      to.write(under_way_.front().second.data(), under_way_.front().second.size());
+  }
+
+ private:
+  std::chrono::milliseconds delay_;
+  std::deque<std::pair<std::chrono::steady_clock::time_point, std::vector<std::uint8_t>>> under_way_;
+};
+
+// A link of 30 ms each way answers after the question has been repeated, and a board that needs 60 ms to configure
+// itself does so twice then: the number of stops that the reset must quote grows meanwhile.
+TEST(BoardStart, waits_for_slow_boards_and_slow_links) {
+  using std::chrono::milliseconds;
+  for (const auto& [link, work] : {std::pair(milliseconds(30), milliseconds(0)),
+                                   {milliseconds(0), milliseconds(60)},
+                                   {milliseconds(30), milliseconds(60)}}) {
+    stream_pair host_side = connected_pair(), board_side = connected_pair();
+    in_process_board<> board(std::move(board_side.far));
+    board_options options;
+    options.start_time = 30'000;  // of a busy machine
+    board_device device(std::move(host_side.near), described_board(), options);
+    slow_way down(link), up(link);
+    // The work is done in the firmware: what comes meanwhile waits.
+    std::uint16_t stops = 0;
+    const auto also = [&, work = work] {
+      down.carry(host_side.far, board_side.near);
+      sample_message state;
+      board.state().describe(state);
+      if (state.stops != stops) std::this_thread::sleep_for(work);
+      stops = state.stops;
+      up.carry(board_side.near, host_side.far);
+    };
+    std::string error;
+    ASSERT_TRUE(board.while_serving([&] { return device.start(error); }, also)) << error;
+    EXPECT_TRUE(board.state().running());
+    // Nothing that start() sent is still under way to stop it again.
+    const auto end = std::chrono::steady_clock::now() + 2 * link + 2 * work + milliseconds(20);
+    while (std::chrono::steady_clock::now() < end) also(), board.serve();
+    EXPECT_TRUE(board.state().running()) << link.count() << " ms away, " << work.count() << " ms of work";
+  }
 }
 
 }  // namespace

@@ -35,12 +35,22 @@ inline board_facts facts_of_board() {
   return facts;
 }
 
+// Where encoder and clock of a board stand when it is switched on: those of the plant itself begin at 0.
+struct board_age {
+  std::int32_t counts = 0;
+  std::uint64_t time = 1'000'000'000;  // [ns]; boards do not start at zero when we connect
+};
+
 // Hardware for the application: a test plant, and a transport in place of the UART.
 class simulated_hardware {
  public:
-  explicit simulated_hardware(transport stream) : stream_(std::move(stream)) {}
+  explicit simulated_hardware(transport stream, const board_age& age = {})
+      : stream_(std::move(stream)), first_counts_(static_cast<std::uint32_t>(age.counts)), time_(age.time) {}
 
-  encoder_reading read_encoder() noexcept { return {plant_.counts(), time_, edge_time_}; }
+  encoder_reading read_encoder() noexcept {
+    const std::uint32_t counts = first_counts_ + static_cast<std::uint32_t>(plant_.counts());
+    return {static_cast<std::int32_t>(counts), time_, edge_time_};
+  }
   void drive(const outputs& wanted) noexcept { driven_ = wanted; }
   void set_period(std::uint32_t nanoseconds) noexcept { period_ = nanoseconds; }
   bool send(const encoded_frame& whole) noexcept { return stream_.write(whole.bytes, whole.size) == whole.size; }
@@ -60,16 +70,17 @@ class simulated_hardware {
   transport stream_;
   test_plant plant_;
   outputs driven_;
-  std::uint32_t period_ = 1'000'000;    // [ns]
-  std::uint64_t time_ = 1'000'000'000;  // [ns]; boards do not start at zero when we connect
-  std::uint64_t edge_time_ = 0;         // [ns]
+  std::uint32_t first_counts_;
+  std::uint32_t period_ = 1'000'000;  // [ns]
+  std::uint64_t time_;                // [ns]
+  std::uint64_t edge_time_ = 0;       // [ns]
 };
 
 template <class Model = generated::stand_in_model>
 class in_process_board {
  public:
-  explicit in_process_board(transport stream, const board_facts& facts = facts_of_board())
-      : hardware_(std::move(stream)), application_(hardware_, facts) {}
+  explicit in_process_board(transport stream, const board_facts& facts = facts_of_board(), const board_age& age = {})
+      : hardware_(std::move(stream), age), application_(hardware_, facts) {}
 
   // Answers what has come.
   void serve() {

@@ -211,5 +211,56 @@ TEST(Supervisor, configure_stops_whatever_runs) {
   expect_applied(board, 1.0F, 20.0F);
 }
 
+// Every comparison with NaN is false, and no speed is beyond a negative limit's absence: taken for "none", a limit that
+// was meant would be off.
+TEST(Supervisor, refuses_a_speed_limit_that_is_none) {
+  for (const controller who : {controller::host, controller::own_model}) {
+    for (const float bad : {nan, -0.5F, infinite}) {
+      supervisor board(facts(1'000'000), 5.0F);
+      configure_message asked = wish(who);
+      asked.max_speed = bad;
+      const configured_message answer = board.configure(asked);
+      EXPECT_EQ(answer.verdict, verdict::speed_limit_wrong);
+      EXPECT_FALSE(board.reset({answer.stops}));
+    }
+  }
+}
+
+// A jump is a sensor that lies: the own model must not make a force of it, with a speed limit or without.
+TEST(Supervisor, stops_when_the_encoder_jumps) {
+  supervisor board = running(controller::own_model);  // 0.5 m/s, 1 ms, 10 µm a count: 50 counts, and one of rounding
+  EXPECT_TRUE(board.accept_move(51, 1));
+  EXPECT_TRUE(board.accept_move(-101, 2));
+  EXPECT_FALSE(board.accept_move(-52, 1));
+  expect_stopped(board, stop_cause::encoder_jump);
+  supervisor unlimited(facts(1'000'000), 5.0F);
+  configure_message asked = wish(controller::own_model);
+  asked.max_speed = 0;
+  unlimited.reset({unlimited.configure(asked).stops});
+  EXPECT_TRUE(unlimited.accept_move(1 << 29, 1));
+  EXPECT_FALSE(unlimited.accept_move(-(1 << 30), 1)) << "as likely a wrap as a move";
+  expect_stopped(unlimited, stop_cause::encoder_jump);
+}
+
+// Commands that begin to count anew come from a host that was restarted, or from a replay: neither may drive what the
+// host before them has started.
+TEST(Supervisor, stops_when_commands_begin_anew) {
+  supervisor board = running();
+  for (std::uint32_t i = 9'000; i < 9'100; ++i) board.obey(i, {1.0F, 20.0F});
+  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_FALSE(board.obey(i, {2.0F, 20.0F}));
+  expect_applied(board, 1.0F, 20.0F);
+  EXPECT_TRUE(board.obey(3, {2.0F, 20.0F}));
+  expect_stopped(board, stop_cause::commands_anew);
+}
+
+// One number beyond reason must not make the board deaf to the commands that would let go of the handle.
+TEST(Supervisor, obeys_zero_after_a_wild_number) {
+  supervisor board = running();
+  for (std::uint32_t i = 0; i < 10; ++i) board.obey(i, {1.0F, 20.0F});
+  EXPECT_FALSE(board.obey(0x4000'0000U, {2.0F, 20.0F}));
+  EXPECT_TRUE(board.obey(10, {0, 4.0F}));
+  expect_applied(board, 0, 4.0F);
+}
+
 }  // namespace
 }  // namespace dashpot::board

@@ -27,6 +27,7 @@ struct board_facts {
   float power_on_damping = 0;       // safe damping until the host states another [N·m·s/rad] or [N·s/m]
   float arm_radius = 1;             // of the own model (model_runner.hpp) [m]
   velocity_description velocity;    // of the own model
+  std::uint32_t first_sample = 0;   // the number of the first sample: any will do, and all wrap around
 };
 
 struct model_cost {
@@ -42,7 +43,8 @@ class application {
         description_(with_model(facts.description)),
         cost_(cost),
         supervisor_(description_, facts.power_on_damping),
-        runner_(facts.description.encoder_step, facts.velocity, facts.arm_radius) {
+        runner_(facts.description.encoder_step, facts.velocity, facts.arm_radius),
+        samples_sent_(facts.first_sample) {
     hardware_.drive(supervisor_.applied());
   }
 
@@ -56,7 +58,7 @@ class application {
     hardware_.drive(supervisor_.applied());
     if (!free_running()) return;
     missed_periods_ += periods - 1;
-    take_sample();
+    take_sample(periods);
   }
 
   const supervisor& state() const noexcept { return supervisor_; }
@@ -87,6 +89,7 @@ class application {
     const configured_message answer = supervisor_.configure(wish);
     hardware_.drive(supervisor_.applied());
     if (answer.verdict == verdict::accepted) hardware_.set_period(wish.period);
+    runner_.forget();
     send(answer);
   }
 
@@ -98,15 +101,18 @@ class application {
   void obey(std::uint32_t sequence, const command_message& wish) noexcept {
     if (!supervisor_.obey(sequence, wish)) return;
     hardware_.drive(supervisor_.applied());
-    if (!free_running()) take_sample();
+    if (!free_running()) take_sample(1);
   }
 
-  // The command leaves before anything else is done with the sample.
-  void take_sample() noexcept {
+  // `periods` after the one before. The command leaves before anything else is done with the sample.
+  void take_sample(unsigned periods) noexcept {
     const encoder_reading reading = hardware_.read_encoder();
+    const std::int32_t moved = runner_.watch(reading);
     if (supervisor_.running() && supervisor_.own_model()) {
-      const model_answer answer = runner_.step(reading);
-      supervisor_.obey_model(answer.wish, answer.speed);
+      if (supervisor_.accept_move(moved, periods)) {
+        const model_answer answer = runner_.step(reading);
+        supervisor_.obey_model(answer.wish, answer.speed);
+      }
       hardware_.drive(supervisor_.applied());
     }
     send_sample(reading);
@@ -148,7 +154,7 @@ class application {
   supervisor supervisor_;
   model_runner<Model> runner_;
   frame_decoder decoder_;
-  std::uint32_t samples_sent_ = 0;
+  std::uint32_t samples_sent_;
   std::uint32_t dropped_ = 0;
   std::uint32_t missed_periods_ = 0;
 };

@@ -16,20 +16,24 @@
 #include <dashpot/board/delay_gauge.hpp>
 #include <dashpot/board/link.hpp>
 #include <dashpot/board/sequence_tracker.hpp>
+#include <dashpot/board/wide_counter.hpp>
 #include <dashpot/device.hpp>
 
 namespace dashpot {
 
 namespace board {
-std::uint64_t monotonic_nanoseconds() noexcept;  // CLOCK_MONOTONIC [ns]
+std::uint64_t monotonic_nanoseconds() noexcept;  // CLOCK_BOOTTIME, which goes on while the machine is suspended [ns]
 }
 
 struct board_options {
   board::sampling sampling = board::sampling::on_command;  // on_command: the host's clock paces the board
   board::controller controller = board::controller::host;
-  std::uint16_t watchdog_periods = 10;  // without a command, before the board goes safe by itself
-  double late_limit = 0;  // a sample later than this is stale [s]; 0: missed_deadlines_allowed + 1 periods
-  int start_time = 2000;  // the board must have answered everything by then [ms]
+  // Without a command, before the board goes safe by itself. Empty: as many as the device allows to be missed, as many
+  // again as it allows to be lost, and two.
+  std::optional<std::uint16_t> watchdog_periods;
+  double late_limit = 0;            // a sample later than this is stale [s]; 0: missed_deadlines_allowed + 1 periods
+  int start_time = 2000;            // the board must have answered everything by then [ms]
+  std::uint32_t first_command = 0;  // its number: any will do, and all wrap around
   std::uint64_t (*now)() noexcept = &board::monotonic_nanoseconds;  // [ns]
 };
 
@@ -48,7 +52,8 @@ class board_device {
 
   // Brings the board to running: hello, comparison of its description with ours, configure, reset. Blocks up to
   // options.start_time; repeats what is not answered. False with the reason in `error`: silence, another protocol
-  // version, a board that is not the described one, a configuration that the board refuses.
+  // version, a board that is not the described one, a configuration that the board refuses. No sample from before its
+  // end is ever read: by the time that a loop runs, the handle may be elsewhere.
   bool start(std::string& error);
 
   // ok            `sample` is new
@@ -56,9 +61,9 @@ class board_device {
   // stale         nothing new came for longer, or only repeated or overtaken samples, or the sample is later than the
   //               limit; in the last case it is stored
   // corrupted     only damaged frames came
-  // fault         the board has left running (state and cause in board_state(), stop_cause()); `sample` is new
+  // fault         the board has left running (cause(), board_state(), stop_cause()); `sample` is new
   // disconnected  the stream is closed, or start() has not succeeded
-  // Where `sample` is not new it is left as it was. `velocity` is never measured.
+  // Where `sample` is not new it is left as it was. `velocity` is never measured; `report` is what the board says.
   device_status read(device_sample& sample) noexcept;
 
   // ok            the command has left
@@ -82,6 +87,7 @@ class board_device {
   board_statistics statistics() const noexcept;
   board::board_state board_state() const noexcept { return newest_.state; }
   board::stop_cause stop_cause() const noexcept { return newest_.cause; }
+  const char* cause() const noexcept;  // of the board's not running, in words
   // After start() has succeeded.
   const board::description_message& description_of_board() const noexcept { return *description_of_board_; }
   // As the board sent it: with the commands in force and the newest command it knows.
@@ -91,18 +97,23 @@ class board_device {
   bool greet(std::string& error);
   bool configure(std::string& error);
   bool set_running(std::string& error);
+  void hear_of_every_configuration();
+  std::uint16_t watchdog_periods() const noexcept;
   template <class Message, class Answer>
   bool ask(const Message& question, std::optional<Answer>& answer);
-  template <class Message, class Answered>
-  bool ask(const Message& question, Answered&& answered);
+  template <class Question, class Answered>
+  bool ask_until(Question&& question, Answered&& answered);
   bool explain_silence(const char* question, std::string& error) const;
 
   template <class Message>
   device_status send(const Message& message, std::uint32_t sequence = 0) noexcept;
-  void receive() noexcept;
+  bool receive() noexcept;
+  void drop_backlog() noexcept;
   void take(const board::frame& from) noexcept;
   void take_sample(const board::frame& from) noexcept;
+  void take_configured(const board::frame& from) noexcept;
   device_status hand_out(device_sample& sample) noexcept;
+  device_report report() const noexcept;
 
   board::link link_;
   device_description description_;
@@ -114,12 +125,18 @@ class board_device {
   std::optional<board::configured_message> configured_;
   board::sample_message newest_;
   std::optional<board::statistics_message> counts_of_board_;
-  std::int64_t counts_ = 0;     // of newest_, unwrapped
+  board::wide_counter counter_;
   std::uint64_t deadline_ = 0;  // of start() [ns]
-  std::uint32_t commands_sent_ = 0;
+  std::uint32_t next_command_;
+  std::uint32_t commands_sent_ = 0;          // since construction
+  std::uint32_t commands_this_session_ = 0;  // since start(), as far as it goes
+  std::uint32_t handed_out_ = 0;             // number of the newest sample, as the loop sees it
+  std::uint16_t stops_ = 0;                  // the newest that the board has told
+  unsigned configures_sent_ = 0;
+  unsigned configures_answered_ = 0;
   std::uint32_t delayed_ = 0;
   unsigned reads_in_vain_ = 0;  // in a row
-  bool sampled_ = false;        // newest_ and counts_ hold a sample
+  bool backlog_ = false;        // what came between start() and the first read() may wait
   bool fresh_ = false;          // that read() has not handed out
   bool started_ = false;
 };

@@ -33,7 +33,15 @@ enum class controller : std::uint8_t { host, own_model };
 // Idle and safe are alike to the hand: motor 0, brake at its safe damping.
 enum class board_state : std::uint8_t { idle, running, safe };
 
-enum class stop_cause : std::uint8_t { none, host_silent, bad_command, bad_model_command, overspeed };
+enum class stop_cause : std::uint8_t {
+  none,
+  host_silent,
+  bad_command,
+  bad_model_command,
+  overspeed,
+  encoder_jump,   // further in a period than the speed limit permits, or than the counter can tell from a wrap
+  commands_anew,  // the host's numbers began anew without a configure
+};
 
 enum class verdict : std::uint8_t {
   accepted,
@@ -42,7 +50,8 @@ enum class verdict : std::uint8_t {
   damping_out_of_range,  // the safe damping is not within 0 … max_damping
   no_model,              // the firmware was built without one
   model_period_differs,
-  no_such_choice,  // a sampling or controller not named here, or an own model sampled on command
+  no_such_choice,     // a sampling or controller not named here, or an own model sampled on command
+  speed_limit_wrong,  // negative or not finite
 };
 
 struct hello_message {
@@ -54,7 +63,7 @@ struct hello_message {
 struct description_message {
   static constexpr message_type type = message_type::description;
   double encoder_step = 0;            // [rad] or [m] a count
-  float max_torque = 0;               // [N·m] or [N]
+  float max_torque = 0;               // [N·m] or [N]; infinite: unlimited
   float max_damping = 0;              // [N·m·s/rad] or [N·s/m]
   std::uint32_t shortest_period = 0;  // [ns]
   std::uint32_t model_period = 0;     // of the board's own model [ns]; 0: it has none
@@ -71,7 +80,7 @@ struct configure_message {
   static constexpr message_type type = message_type::configure;
   std::uint32_t period = 0;            // [ns]
   float safe_damping = 0;              // [N·m·s/rad] or [N·s/m]
-  float max_speed = 0;                 // above it the board's own model is stopped [rad/s] or [m/s]; 0: unlimited
+  float max_speed = 0;                 // above it the board's own model is stopped [rad/s] or [m/s]; 0: none
   std::uint16_t watchdog_periods = 0;  // without a command, before the board goes safe; 0: never (own model only)
   board::sampling sampling = sampling::on_command;
   board::controller controller = controller::host;

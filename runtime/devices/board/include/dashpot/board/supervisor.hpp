@@ -47,17 +47,32 @@ class supervisor {
   // True when the command is newer than all before: only such a one is obeyed and feeds the watchdog. A board that runs
   // its own model takes it as a sign of life and ignores its numbers.
   constexpr bool obey(std::uint32_t sequence, const command_message& wish) noexcept {
-    if (commands_.note(sequence) != arrival::fresh) return false;
+    const arrival came = commands_.note(sequence);
+    if (came != arrival::fresh && came != arrival::anew) return false;
     if (state_ != board_state::running) return true;
+    if (came == arrival::anew) return stop(board_state::safe, stop_cause::commands_anew), true;
     watchdog_.arm(wish_.watchdog_periods);
     if (!own_model()) apply({wish.motor_torque, wish.brake_damping}, stop_cause::bad_command);
     return true;
   }
 
+  // The encoder has moved by `counts` within `periods` of the board's own model. False where that cannot be: the board
+  // has stopped then. A quarter of the counter's range is as likely a wrap as a move, whatever the speed limit.
+  constexpr bool accept_move(std::int32_t counts, unsigned periods) noexcept {
+    constexpr std::int32_t unbelievable = 1 << 30;
+    const float moved = static_cast<float>(counts < 0 ? -static_cast<std::int64_t>(counts) : counts);
+    const float step = static_cast<float>(facts_.encoder_step);
+    const float time = static_cast<float>(wish_.period) * 1e-9F * static_cast<float>(periods);
+    const bool too_far = wish_.max_speed != 0 && !((moved - 1) * step <= wish_.max_speed * time);
+    if (!too_far && counts < unbelievable && counts > -unbelievable) return true;
+    if (state_ == board_state::running) stop(board_state::safe, stop_cause::encoder_jump);
+    return false;
+  }
+
   // What the board's own model asks for at `speed` [rad/s] or [m/s].
   constexpr void obey_model(outputs wish, float speed) noexcept {
     if (state_ != board_state::running || !own_model()) return;
-    if (wish_.max_speed > 0 && !(speed <= wish_.max_speed && speed >= -wish_.max_speed)) {
+    if (wish_.max_speed != 0 && !(speed <= wish_.max_speed && speed >= -wish_.max_speed)) {
       stop(board_state::safe, stop_cause::overspeed);
     } else {
       apply(wish, stop_cause::bad_model_command);
@@ -90,6 +105,7 @@ class supervisor {
     if (!is_choice(wish)) return verdict::no_such_choice;
     if (wish.period < facts_.shortest_period) return verdict::period_too_short;
     if (!(wish.safe_damping >= 0 && wish.safe_damping <= facts_.max_damping)) return verdict::damping_out_of_range;
+    if (!(wish.max_speed >= 0 && all_finite(wish.max_speed))) return verdict::speed_limit_wrong;
     if (wish.controller == controller::own_model) return judge_model(wish);
     return wish.watchdog_periods == 0 ? verdict::watchdog_needed : verdict::accepted;
   }

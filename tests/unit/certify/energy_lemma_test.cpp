@@ -9,7 +9,7 @@ namespace {
 
 using dashpot::testing::Random;
 
-MotorConstants random_motor(Random& random, double period) {
+MotorConstants random_lemma_motor(Random& random, double period) {
   MotorConstants motor = spring_motor(random.chance(0.3) ? 0 : random.log_uniform(1e-3, 1e4));
   const std::size_t modes = random.between(1, 8);
   for (std::size_t i = 0; i < modes; ++i)
@@ -22,7 +22,7 @@ TEST(EnergyLemma, HoldsForRoundedConstants) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const EnergyLemma lemma = check_energy_lemma(random_motor(random, 0.001));
+    const EnergyLemma lemma = check_energy_lemma(random_lemma_motor(random, 0.001));
     EXPECT_TRUE(lemma.applies);
     EXPECT_TRUE(lemma.holds) << lemma.shortfall;
   }

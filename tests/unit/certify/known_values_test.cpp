@@ -6,7 +6,7 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double T = 0.001;  // [s]
+constexpr double known_period = 0.001;  // [s]
 
 // The bound lies between the value and 1e-6 above it; what is attained meets the value to 1e-9.
 void expect_supremum(const SampledBound& bound, double value) {
@@ -20,16 +20,16 @@ TEST(KnownValues, SpringWithBackwardDifferenceDamper) {
   for (const double damping : {2.0, -2.0}) {
     MotorConstants motor = spring_motor(3000);
     motor.velocity_gain = damping;
-    expect_supremum(bound_of(motor, differencing_loop(T, 1)), 3000 * T / 2 + 2);
+    expect_supremum(bound_of(motor, differencing_loop(known_period, 1)), 3000 * known_period / 2 + 2);
   }
 }
 
 // A spring that acts n samples late would not need (K T/2)(1 + 2n).
 TEST(KnownValues, LateSpring) {
   for (const unsigned delay : {0u, 1u, 2u, 7u, 40u}) {
-    SampledLoop loop = plain_loop(T);
+    SampledLoop loop = plain_loop(known_period);
     loop.delay_samples = delay;
-    expect_supremum(bound_of(spring_motor(800), loop), 800 * T / 2 * (1 + 2 * delay));
+    expect_supremum(bound_of(spring_motor(800), loop), 800 * known_period / 2 * (1 + 2 * delay));
   }
 }
 
@@ -37,12 +37,12 @@ TEST(KnownValues, LateSpring) {
 TEST(KnownValues, EverythingInTheMotor) {
   MotorConstants motor = spring_motor(500);
   motor.velocity_gain = 0.7;
-  double value = 500 * T / 2 + 0.7;
+  double value = 500 * known_period / 2 + 0.7;
   for (const auto& [stiffness, rate] : {std::pair(1200.0, 2.4), std::pair(900.0, 310.0), std::pair(50.0, 5e4)}) {
-    add_maxwell(motor, stiffness, rate, T, true);
-    value += stiffness / rate * std::tanh(rate * T / 2);
+    add_maxwell(motor, stiffness, rate, known_period, true);
+    value += stiffness / rate * std::tanh(rate * known_period / 2);
   }
-  const SampledBound bound = bound_of(motor, differencing_loop(T, 1));
+  const SampledBound bound = bound_of(motor, differencing_loop(known_period, 1));
   expect_supremum(bound, value);
   EXPECT_NEAR(bound.frequency, 500, 1);
 }
@@ -51,7 +51,7 @@ TEST(KnownValues, EverythingInTheMotor) {
 TEST(KnownValues, DamperThroughLongDifferences) {
   const std::pair<unsigned, double> table[] = {{1, 1}, {3, 0.439}, {5, 0.346}, {10, 0.280}, {15, 0.259}, {20, 0.248}};
   for (const auto& [window, share] : table) {
-    const SampledBound bound = bound_of(damper_motor(1), differencing_loop(T, window));
+    const SampledBound bound = bound_of(damper_motor(1), differencing_loop(known_period, window));
     EXPECT_NEAR(bound.needed, share, 5.1e-4) << window;
     // The sum of cosines that it is, scanned and refined at 50,000 angles.
     double largest = 0;
@@ -72,8 +72,8 @@ TEST(KnownValues, ShortfallOfTheBrake) {
                                                    std::tuple(0.02, 0.0, 5u), std::tuple(0.05, 0.0, 15u)}) {
     MotorConstants motor = damper_motor(-damping);
     motor.brake = damping;
-    add_maxwell(motor, stiffness, stiffness / damping, T, false);
-    SampledLoop loop = differencing_loop(T, window);
+    add_maxwell(motor, stiffness, stiffness / damping, known_period, false);
+    SampledLoop loop = differencing_loop(known_period, window);
     loop.delay_samples = 1;
     loop.tolerance = tolerance;
     const PassivityBound bound = passivity_bound(motor, loop);

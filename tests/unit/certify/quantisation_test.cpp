@@ -82,13 +82,13 @@ Tree slip(double yield_force) { return {Tree::Kind::slip, {}, yield_force, {}, {
 Tree series(std::vector<Tree> children) { return {Tree::Kind::series, {}, 0, {}, std::move(children)}; }
 Tree parallel(std::vector<Tree> children) { return {Tree::Kind::parallel, {}, 0, {}, std::move(children)}; }
 
-const CutSettings settings = {Scheme::exact, Real(T), 1};
+const CutSettings exact_settings = {Scheme::exact, Real(T), 1};
 
 // A spring in front of a slip would not pass on an error as itself, to the tool and to the slip; or a slip beside which
 // dampers lie would not hold them fast.
 TEST(Quantisation, OfASlipBehindASpringIsTheSpring) {
   for (const Tree& rest : {slip(2), parallel({slip(2), damper(7)})}) {
-    const HeldSlips held = held_slips(series({spring(300), rest}), {Real(0)}, settings);
+    const HeldSlips held = held_slips(series({spring(300), rest}), {Real(0)}, exact_settings);
     EXPECT_EQ(held.gain, 300);
     ASSERT_EQ(held.slips.size(), 1u);
     EXPECT_EQ(held.slips.front().gain, 300);
@@ -100,16 +100,16 @@ TEST(Quantisation, OfASlipBehindASpringIsTheSpring) {
 // count.
 TEST(Quantisation, OfASlipBehindADamperIsWhatTheBrakeLeaves) {
   const Tree component = series({damper(3), slip(1)});
-  EXPECT_NEAR(to_double(held_slips(component, {Real(0)}, settings).gain), 2 * 3 / T, 1e-9);
-  EXPECT_NEAR(to_double(held_slips(component, {Real(3)}, settings).gain), 0, 1e-9);
-  EXPECT_NEAR(to_double(held_slips(component, {Real(3), Real(1)}, settings).gain), 2 * 2 / T, 1e-9);
+  EXPECT_NEAR(to_double(held_slips(component, {Real(0)}, exact_settings).gain), 2 * 3 / T, 1e-9);
+  EXPECT_NEAR(to_double(held_slips(component, {Real(3)}, exact_settings).gain), 0, 1e-9);
+  EXPECT_NEAR(to_double(held_slips(component, {Real(3), Real(1)}, exact_settings).gain), 2 * 2 / T, 1e-9);
 }
 
 // Behind a damper an error that jumps is felt twice, once as it comes and once as it has died away: 2/(1 + λh) of its
 // spring by a slip whose own spring lies beside another.
 TEST(Quantisation, OfASlipDeeperInsideHasTermsOfEitherSign) {
   const Tree component = series({damper(4), parallel({spring(50), series({spring(30), slip(1)})})});
-  const HeldSlips held = held_slips(component, {Real(0)}, settings);
+  const HeldSlips held = held_slips(component, {Real(0)}, exact_settings);
   EXPECT_NEAR(to_double(held.slips.front().gain), 2 * 30 / (1 + 80.0 / 4 * T), 1e-9);
   EXPECT_NEAR(to_double(held.gain), 2 * 80 / (1 + 80.0 / 4 * T), 1e-9);
 }

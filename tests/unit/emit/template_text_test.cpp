@@ -22,7 +22,7 @@ Filled filled(const std::string& shape, const CodeModel& model) {
   return {std::move(text), render_text(diagnostics)};
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+bool has_part(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
 
 // Fails if a field is not put where its name stands, as often as it stands there.
 TEST(TemplateText, puts_fields_in_their_places) {
@@ -69,14 +69,14 @@ TEST(TemplateText, leaves_no_blanks_at_the_end_of_a_line) {
 TEST(TemplateText, refuses_an_unknown_placeholder) {
   const Filled result = filled("one\n  two {{wrong}}\n", {});
   EXPECT_FALSE(result.text);
-  EXPECT_TRUE(contains(result.messages, "shape.in:2:7: error: unknown placeholder 'wrong'")) << result.messages;
+  EXPECT_TRUE(has_part(result.messages, "shape.in:2:7: error: unknown placeholder 'wrong'")) << result.messages;
 }
 
 // Fails if a misspelt list, or one that is not closed, is passed over.
 TEST(TemplateText, refuses_an_unknown_or_open_list) {
   const Filled unknown = filled("{{#wrong}}\n{{/wrong}}\n", {});
   EXPECT_FALSE(unknown.text);
-  EXPECT_TRUE(contains(unknown.messages, "shape.in:1:1: error: unknown placeholder 'wrong'")) << unknown.messages;
+  EXPECT_TRUE(has_part(unknown.messages, "shape.in:1:1: error: unknown placeholder 'wrong'")) << unknown.messages;
   EXPECT_FALSE(filled("{{#l}}\nx\n", {{}, {{"l", {{}, {}}}}}).text);
 }
 
@@ -84,21 +84,21 @@ TEST(TemplateText, refuses_an_unknown_or_open_list) {
 TEST(TemplateText, refuses_an_open_placeholder) {
   const Filled result = filled("a {{x\nb }}\n", {{{"x", "1"}}, {}});
   EXPECT_FALSE(result.text);
-  EXPECT_TRUE(contains(result.messages, "shape.in:1:3: error: unknown placeholder")) << result.messages;
+  EXPECT_TRUE(has_part(result.messages, "shape.in:1:3: error: unknown placeholder")) << result.messages;
 }
 
 // Fails if a template that drops a field or a list is accepted: a banner without its facts, a class without its states.
 TEST(TemplateText, refuses_to_leave_a_field_or_list_out) {
   const Filled result = filled("{{x}}\n", {{{"x", "1"}, {"digest", "2"}}, {{"states", {}}}});
   EXPECT_FALSE(result.text);
-  EXPECT_TRUE(contains(result.messages, "placeholder 'digest' is not used")) << result.messages;
-  EXPECT_TRUE(contains(result.messages, "placeholder 'states' is not used")) << result.messages;
+  EXPECT_TRUE(has_part(result.messages, "placeholder 'digest' is not used")) << result.messages;
+  EXPECT_TRUE(has_part(result.messages, "placeholder 'states' is not used")) << result.messages;
 }
 
 // Fails if all that is wrong is not told at once.
 TEST(TemplateText, tells_everything_that_is_wrong) {
   const Filled result = filled("{{a}}\n{{b}}\n", {{{"c", ""}}, {}});
-  for (const char* name : {"'a'", "'b'", "'c'"}) EXPECT_TRUE(contains(result.messages, name)) << result.messages;
+  for (const char* name : {"'a'", "'b'", "'c'"}) EXPECT_TRUE(has_part(result.messages, name)) << result.messages;
 }
 
 // Fails if the built-in templates are not those of the folder templates/, byte for byte.

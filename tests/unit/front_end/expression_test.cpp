@@ -25,7 +25,7 @@ NameScope scope() {
           [](const Text& name) { return std::optional(names.at(name.text)); }};
 }
 
-std::optional<Quantity> read(const std::string& text, std::string* said = nullptr) {
+std::optional<Quantity> read_expression(const std::string& text, std::string* said = nullptr) {
   const SourceFile file("values.json", '"' + text + '"');
   const ValueDecl decl{ValueDecl::Form::text, text, {&file, 0, text.size() + 2}};
   Diagnostics diagnostics;
@@ -35,7 +35,7 @@ std::optional<Quantity> read(const std::string& text, std::string* said = nullpt
   return quantity;
 }
 
-struct Example {
+struct WrittenExpression {
   std::string text;
   double value;
   Dimension dimension;
@@ -44,7 +44,7 @@ struct Example {
 const double e = std::numbers::e;
 const double pi = std::numbers::pi;
 
-const Example examples[] = {
+const WrittenExpression written_expressions[] = {
     {"8 * G * a", 48, dimensions::stiffness},
     {"2 * pi * G * 50 mm / ln(R / a)", 2 * pi * 2000 * 0.05 / std::log(10.0 / 3), dimensions::stiffness},
     {"2*5 N/m", 10, dimensions::stiffness},
@@ -75,10 +75,10 @@ const Example examples[] = {
 
 // If this fails, a calculated value is not what its author wrote.
 TEST(Expression, IsCalculatedAsArithmeticHasIt) {
-  for (const Example& example : examples) {
+  for (const WrittenExpression& example : written_expressions) {
     if (example.text == "6 N / m") continue;
     std::string said;
-    const std::optional<Quantity> quantity = read(example.text, &said);
+    const std::optional<Quantity> quantity = read_expression(example.text, &said);
     ASSERT_TRUE(quantity) << example.text << "\n" << said;
     EXPECT_NEAR(quantity->value, example.value, 4e-16 * std::abs(example.value)) << example.text;
     EXPECT_EQ(quantity->dimension, example.dimension) << example.text;
@@ -124,7 +124,7 @@ TEST(Expression, RefusesWhatIsMadeToHurt) {
        {std::string(100'000, '('), "2" + std::string(100'000, '^'), "2 * " + std::string(100'000, '-') + "3",
         std::string("9^9^9^9^9 * 1 N"), std::string("2 ^ (1/0)"), std::string("a ^ 10^30"),
         std::string("sqrt(sqrt(sqrt(a)))"), std::string("2 * é"), std::string("ln(0 * a / a)")})
-    EXPECT_FALSE(read(text)) << text.substr(0, 30);
+    EXPECT_FALSE(read_expression(text)) << text.substr(0, 30);
 }
 
 }  // namespace

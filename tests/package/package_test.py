@@ -1,9 +1,9 @@
 """Builds a user's project against dashpot, as a user would: in the source tree, and from an installed one.
 
-    python3 package_test.py InTree|Installed [-v]
+    python3 package_test.py InTree|InTreeWithCompiler|Installed [-v]
 
-The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_PREFIX (where it is installed),
-CMAKE_COMMAND, BUILD_TYPE, and the compiler to use in CXX.
+The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_BUILD (where it is built), DASHPOT_PREFIX (where
+it is installed), CMAKE_COMMAND, and the compiler to use in CXX.
 """
 import os
 import pathlib
@@ -16,6 +16,8 @@ import unittest
 
 CMAKE = os.environ["CMAKE_COMMAND"]
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
+BUILD = pathlib.Path(os.environ["DASHPOT_BUILD"])
+PREFIX = pathlib.Path(os.environ["DASHPOT_PREFIX"])
 CONSUMER = SOURCE / "tests/package/consumer"
 OWN_DEPENDENCIES = ["Eigen3", "nlohmann_json", "fmt", "CLI11", "Boost"]
 COMPILING_A_LAW = "Compiling network"
@@ -110,19 +112,61 @@ class Consumer:
 
 
 class InTree(Consumer, unittest.TestCase):
-    """dashpot as a subdirectory of the user's project: the compiler is built first."""
+    """dashpot as a subdirectory of the user's project, which names a compiler that is built already."""
 
     def options(self):
-        # Built as the outer tree was, so that a compiler cache, where there is one, knows every object.
-        return [f"-DDASHPOT_SOURCE={SOURCE}", f"-DCMAKE_BUILD_TYPE={os.environ['BUILD_TYPE']}",
-                "-DDASHPOT_WARNINGS_AS_ERRORS=ON"]
+        return [f"-DDASHPOT_SOURCE={SOURCE}", f"-DDASHPOT_COMPILER={self.dashpot()}"]
 
     def dashpot(self):
-        return self.project.build_folder / "dashpot/compiler/dashpot"
+        return PREFIX / "bin/dashpot"
 
     def test_commands_and_rest(self):
         self.check_commands()
         self.check_rest()
+
+    # Fails if a compiler that is not there is found out by a build that stops at the first law.
+    def test_compiler_that_is_not_there(self):
+        done = subprocess.run([CMAKE, "-S", self.project.folder, "-B", self.project.build_folder,
+                               "-DDASHPOT_COMPILER=/nowhere/dashpot"], capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("DASHPOT_COMPILER is '/nowhere/dashpot'; a file that is there is expected", done.stderr)
+
+
+class InTreeWithCompiler(unittest.TestCase):
+    """dashpot as a subdirectory of the user's project, where nothing is built yet. What would be built is told, not built:
+    the very commands that have built this compiler."""
+
+    # Those of the outer build, so that commands can be compared.
+    CHOICES = ["CMAKE_BUILD_TYPE", "CMAKE_CXX_COMPILER_LAUNCHER", "CMAKE_CXX_FLAGS", "CMAKE_CXX_FLAGS_DEBUG",
+               "CMAKE_CXX_FLAGS_RELEASE", "CMAKE_CXX_FLAGS_RELWITHDEBINFO", "CMAKE_UNITY_BUILD",
+               "CMAKE_UNITY_BUILD_BATCH_SIZE", "DASHPOT_PRECOMPILE", "DASHPOT_SANITIZE", "DASHPOT_WARNINGS_AS_ERRORS"]
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="consumer")
+        cls.addClassCleanup(folder.cleanup)
+        cache = (BUILD / "CMakeCache.txt").read_text()
+        chosen = [match.group() for name in cls.CHOICES for match in re.finditer(rf"^{name}:\w+=.*$", cache, re.MULTILINE)]
+        cls.project = Project(folder.name, [f"-DDASHPOT_SOURCE={SOURCE}", *(f"-D{choice}" for choice in chosen)])
+
+    def commands(self, build_folder, within):
+        """What compiles and links the compiler, in words that do not tell where."""
+        listed = subprocess.run(["ninja", "-C", str(build_folder), "-t", "commands", f"{within}compiler/dashpot"],
+                                capture_output=True, text=True, check=True).stdout
+        here = f"{build_folder}/{within}".rstrip("/")
+        return [line.replace(f"cd {build_folder} ", f"cd {here} ").replace(here, "BUILD").replace(f" {within}", " ")
+                    .replace("=" + within, "=") for line in listed.splitlines()]
+
+    # Fails if a user's build compiles dashpot in another way than the build that is tested here.
+    def test_same_commands(self):
+        expected = self.commands(BUILD, "")
+        self.assertGreater(sum(" -c " in line for line in expected), 20)
+        self.assertEqual(self.commands(self.project.build_folder, "dashpot/"), expected)
+
+    # Fails if a law would be compiled before the compiler is there.
+    def test_compiler_first(self):
+        told = self.project.run("ninja", "-C", self.project.build_folder, "-n", "press")
+        self.assertLess(told.index("Linking CXX executable dashpot/compiler/dashpot"), told.index(COMPILING_A_LAW))
 
 
 class Installed(Consumer, unittest.TestCase):
@@ -132,7 +176,7 @@ class Installed(Consumer, unittest.TestCase):
     def setUpClass(cls):
         cls.parent = tempfile.TemporaryDirectory(prefix="moved")
         cls.prefix = pathlib.Path(cls.parent.name) / "prefix"
-        shutil.copytree(os.environ["DASHPOT_PREFIX"], cls.prefix)
+        shutil.copytree(PREFIX, cls.prefix)
         cls.addClassCleanup(cls.parent.cleanup)
 
     def options(self):

@@ -1,4 +1,4 @@
-"""What dashpot says about the networks in networks/, compared with what it said when somebody last looked.
+"""What dashpot says about networks of every shape in networks/, compared with what it said when somebody last looked.
 
     python3 golden_test.py --dashpot build/compiler/dashpot [--update]
 
@@ -30,7 +30,8 @@ def of_network(path):
 
 def transcripts_wanted():
     """From the name of each transcript to its command lines."""
-    wanted = {path.stem: of_network(path.relative_to(SOURCE)) for path in sorted(SOURCE.glob("networks/*/*.json"))}
+    networks = recorded.one_a_shape(sorted(SOURCE.glob("networks/paper/*.json")) + sorted(SOURCE.glob("networks/*/*.json")))
+    wanted = {path.stem: of_network(path.relative_to(SOURCE)) for path in networks}
     fig_5 = "networks/paper/second_order_maxwell.json"
     wanted["with_a_device"] = [["explain", fig_5, "--device", PANTOGRAPH],
                                ["explain", "networks/paper/kelvin.json", "--device", PANTOGRAPH],

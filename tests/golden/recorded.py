@@ -4,8 +4,24 @@ A difference is shown as a diff and fails; --update writes them anew, for review
 """
 import argparse
 import difflib
+import json
 import pathlib
 import sys
+
+# Of a network file: what its text says, but not what it is.
+WORDS = {"name", "title", "source", "nodes"}
+
+
+def shape(value):
+    """A network file without its numbers and names."""
+    if isinstance(value, dict):
+        return tuple(sorted((key, shape(inner)) for key, inner in value.items() if key not in WORDS))
+    return tuple(map(shape, value)) if isinstance(value, list) else ()
+
+
+def one_a_shape(networks):
+    """The first network file of each shape: of the others the same is said with other numbers, and those are in generated/."""
+    return list({shape(json.loads(path.read_text())): path for path in reversed(networks)}.values())[::-1]
 
 
 def differs(folder, name, text):

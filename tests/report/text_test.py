@@ -2,7 +2,7 @@
 
     python3 text_test.py --dashpot build/compiler/dashpot [--update]
 
-Each file of texts/ is the page of one network without its style, scripts and live part: a line for each block of the page,
+Each file of texts/ is the page of one network of each shape without its style, scripts and live part: a line for each block of the page,
 labels of drawings and plots included, curves not. A difference is shown as a diff and fails; --update writes them anew.
 """
 import html.parser
@@ -60,7 +60,7 @@ def text_of(page):
 
 def wanted():
     """From the name of each text to the arguments behind `dashpot report`."""
-    networks = sorted(SOURCE.glob("networks/*/*.json"))
+    networks = recorded.one_a_shape(sorted(SOURCE.glob("networks/paper/*.json")) + sorted(SOURCE.glob("networks/*/*.json")))
     arguments = {path.stem: [path.relative_to(SOURCE)] for path in networks}
     return {**arguments, "with_a_device": ["networks/paper/second_order_maxwell.json", "--device", PANTOGRAPH]}
 

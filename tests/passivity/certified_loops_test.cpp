@@ -1,14 +1,13 @@
 // Certified laws in closed loop on the simulated device, held by random passive hands.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "certified_loop.hpp"
+#include "support/repetitions.hpp"
 
 namespace dashpot::testing {
 namespace {
 
-int certified_devices() { return std::getenv("DASHPOT_LONG") != nullptr ? 2000 : 100; }
+int certified_devices() { return static_cast<int>(repetitions(100, 2000)); }
 
 // A certified law would give out more energy than it took up: with ideal sensors the energy that motor, brake and
 // mechanics have taken up together is never below zero, the brake at either end of its tolerance, with jitter where the

@@ -1,16 +1,15 @@
 // Certified laws behind contacts, and with parameters that change, in closed loop, held by random passive hands.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "random_cases.hpp"
+#include "support/repetitions.hpp"
 
 namespace dashpot::testing {
 namespace {
 
 using namespace dashpot::compiler;
 
-int certified_surfaces() { return std::getenv("DASHPOT_LONG") != nullptr ? 1000 : 50; }
+int certified_surfaces() { return static_cast<int>(repetitions(50, 1000)); }
 
 // A tool that touches and lets go, on a device with no more damping than the certificate asks for, would give out
 // energy in some passive hand.

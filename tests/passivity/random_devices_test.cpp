@@ -3,16 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "certified_loop.hpp"
+#include "support/repetitions.hpp"
 
 namespace dashpot::testing {
 namespace {
 
 using namespace dashpot::compiler;
 
-int compared_devices() { return std::getenv("DASHPOT_LONG") != nullptr ? 5000 : 200; }
+int compared_devices() { return static_cast<int>(repetitions(200, 5000)); }
 
 constexpr double pi = 3.14159265358979323846;
 

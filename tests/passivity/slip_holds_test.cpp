@@ -4,19 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <deque>
 
 #include "law/evaluate.hpp"
 #include "random_cases.hpp"
+#include "support/repetitions.hpp"
 
 namespace dashpot::testing {
 namespace {
 
 using namespace dashpot::compiler;
 
-int certified_slips() { return std::getenv("DASHPOT_LONG") != nullptr ? 3000 : 150; }
+int certified_slips() { return static_cast<int>(repetitions(150, 3000)); }
 
 struct Exchange {
   double energy = 0, least = 0, largest = 0;  // [J]

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
-#include <string_view>
 
 #include "network/law.hpp"
 
@@ -83,11 +81,6 @@ std::string first_failure(std::uint64_t first_seed, std::size_t count, const Net
     return fmt::format("seed {}, smallest failing network:\n{}{}\n", seed, json_text(smallest), complaint(smallest));
   }
   return "";
-}
-
-std::size_t repetitions(std::size_t usual, std::size_t thorough) {
-  const char* wanted = std::getenv("DASHPOT_LONG");
-  return wanted != nullptr && std::string_view(wanted) == "1" ? thorough : usual;
 }
 
 }  // namespace dashpot::testing

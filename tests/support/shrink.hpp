@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/random_network.hpp"
+#include "support/repetitions.hpp"
 
 namespace dashpot::testing {
 
@@ -21,8 +22,5 @@ compiler::Network smallest_failing(compiler::Network network, const Complaint& c
 // smallest failing network as JSON and the complaint about it, to be compared with "" in a test.
 std::string first_failure(std::uint64_t first_seed, std::size_t count, const NetworkRecipe& recipe,
                           const Complaint& complaint);
-
-// `usual`, or `thorough` where the environment variable DASHPOT_LONG is 1.
-std::size_t repetitions(std::size_t usual, std::size_t thorough);
 
 }  // namespace dashpot::testing

@@ -1,0 +1,13 @@
+#include "support/repetitions.hpp"
+
+#include <cstdlib>
+#include <string_view>
+
+namespace dashpot::testing {
+
+std::size_t repetitions(std::size_t usual, std::size_t thorough) {
+  const char* wanted = std::getenv("DASHPOT_LONG");
+  return wanted != nullptr && std::string_view(wanted) == "1" ? thorough : usual;
+}
+
+}  // namespace dashpot::testing

@@ -49,9 +49,12 @@ std::string check_rate(const std::string& text) {
                           highest_rate);
 }
 
+constexpr double longest_run = 1e9;  // [s]
+
 std::string check_duration(const std::string& text) {
   const std::optional<double> duration = decimal(text);
-  return duration && *duration > 0 ? "" : "'" + text + "' is no duration; a number of seconds above 0 is expected";
+  if (!duration || !(*duration > 0)) return "'" + text + "' is no duration; a number of seconds above 0 is expected";
+  return *duration <= longest_run ? "" : "'" + text + "' is longer than 30 years; without --for it runs until Ctrl-C";
 }
 
 std::string check_seed(const std::string& text) {

@@ -6,6 +6,8 @@ import glob
 import json
 import math
 import os
+import resource
+import select
 import signal
 import subprocess
 import sys
@@ -134,6 +136,52 @@ class Run(unittest.TestCase):
         process.communicate(timeout=60)
         self.assertEqual(process.returncode, -signal.SIGINT)
         self.assertEqual(os.listdir(temporary), [])
+
+    def test_duration_beyond_counting_is_refused(self):
+        """Fails if a run without end is asked for and ends at once, without a period and without a word."""
+        for duration in ("1e17", "1e300"):
+            result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", duration, "--fast", "--log", self.log)
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn(f"'{duration}' is longer than 30 years; without --for it runs until Ctrl-C", result.stderr)
+            self.assertFalse(os.path.exists(self.log))
+
+    def test_log_at_the_largest_file_leaves_the_board_safe(self):
+        """Fails if a limit on the size of files ends the process in the middle of a run, with the motor on."""
+        peer, port = self.start_peer()
+        process = self.start_on(port, "--log", self.log)
+        self.assertIn("Hz", process.stdout.readline())
+        _, hard = resource.prlimit(process.pid, resource.RLIMIT_FSIZE)
+        resource.prlimit(process.pid, resource.RLIMIT_FSIZE, (1000, hard))
+        self.assertIn("Hz", process.stdout.readline())  # a second later it still runs
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, output + errors)
+        self.assertIn(f"cannot write '{self.log}': File too large", errors)
+        self.assertIn("device left safe", output)
+        self.assertEqual(peer.stdout.readline(), "left with torque 0, damping 5\n")
+
+    def test_two_interrupts_end_a_run_whose_log_nobody_reads(self):
+        """Fails if an unread pipe keeps the program from ending, or the second Ctrl-C comes before the device is safe."""
+        peer, port = self.start_peer()
+        unread, log = os.pipe()
+        self.addCleanup(os.close, unread)
+        process = self.start_on(port, "--log", f"/dev/fd/{log}", pass_fds=(log,))
+        while select.select([], [log], [], 0)[1]:  # until the pipe is full
+            self.assertIsNone(process.poll())
+            time.sleep(0.05)
+        os.close(log)
+        time.sleep(2)  # a full pipe still takes some rows; meanwhile there are more than that
+        process.send_signal(signal.SIGINT)
+        time.sleep(1.5)
+        self.assertIsNone(process.poll(), "it waits for its log")
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGINT)
+        self.assertEqual(peer.stdout.readline(), "left with torque 0, damping 5\n")
+
+    def start_on(self, port, *more, **how):
+        return subprocess.Popen([ARGUMENTS.dashpot, "run", network("paper/kelvin"), "--device", device("board_mps2"), "--port", port, *more],
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **how)
 
     def test_compiler_that_fails_is_told_and_nothing_is_written(self):
         """Fails if a missing or failing system compiler is silent, or leaves a log behind."""

@@ -17,20 +17,20 @@ namespace {
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 
 constexpr long largest_number = 1024;
-thread_local volatile char selector = SYSCALL_DISPATCH_FILTER_ALLOW;
+thread_local volatile char gate = SYSCALL_DISPATCH_FILTER_ALLOW;
 thread_local volatile bool logging = false;
 thread_local std::array<bool, largest_number> logged{};
 
 // The kernel has not made the call: it is noted and made from here, and its result put where the caller expects it.
 void on_call(int, siginfo_t* what, void* context) {
-  selector = SYSCALL_DISPATCH_FILTER_ALLOW;
+  gate = SYSCALL_DISPATCH_FILTER_ALLOW;
   auto& registers = static_cast<ucontext_t*>(context)->uc_mcontext.gregs;
   const long number = what->si_syscall;
   if (number >= 0 && number < largest_number) logged[static_cast<std::size_t>(number)] = true;
   const long result = syscall(number, registers[REG_RDI], registers[REG_RSI], registers[REG_RDX], registers[REG_R10],
                               registers[REG_R8], registers[REG_R9]);
   registers[REG_RAX] = result < 0 ? -errno : result;
-  if (logging) selector = SYSCALL_DISPATCH_FILTER_BLOCK;
+  if (logging) gate = SYSCALL_DISPATCH_FILTER_BLOCK;
 }
 
 // What a handler returns through is a call too, which must pass.
@@ -49,7 +49,7 @@ bool dispatch_calls() {
   kernel_action known{};
   if (syscall(SYS_rt_sigaction, SIGSYS, nullptr, &known, sizeof known.mask) != 0 || known.restorer == nullptr)
     return false;
-  return prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_ON, known.restorer, 16, &selector) == 0;
+  return prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_ON, known.restorer, 16, &gate) == 0;
 }
 
 #endif
@@ -67,11 +67,11 @@ bool can_log_calls() {
 void begin_call_log() {
   dispatch_calls();
   logging = true;
-  selector = SYSCALL_DISPATCH_FILTER_BLOCK;
+  gate = SYSCALL_DISPATCH_FILTER_BLOCK;
 }
 
 void end_call_log() {
-  selector = SYSCALL_DISPATCH_FILTER_ALLOW;
+  gate = SYSCALL_DISPATCH_FILTER_ALLOW;
   logging = false;
   prctl(PR_SET_SYSCALL_USER_DISPATCH, PR_SYS_DISPATCH_OFF, 0, 0, 0);
 }

@@ -16,12 +16,12 @@ namespace dashpot::compiler {
 namespace {
 
 // Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law.
-void settle_choice(Compilation& c, const Choices& choices, const PortDevice& device) {
-  if (device.is_ideal()) return;
-  CandidateSettler(c.network, c.form, c.decomposition, choices, device, c.rate)
+void settle_choice(Compilation& c, const Choices& choices) {
+  if (c.port.is_ideal()) return;
+  CandidateSettler(c.network, c.form, c.decomposition, choices, c.port, c.rate)
       .settle(c.decomposition.candidates[c.decomposition.chosen]);
   c.decomposition.reason =
-      reason_for_input(c.decomposition.choice(), choices, device.is_ideal(), port_units(c.network.port_motion).damping);
+      reason_for_input(c.decomposition.choice(), choices, c.port.is_ideal(), port_units(c.network.port_motion).damping);
 }
 
 // False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position
@@ -73,6 +73,9 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   result.rate = choices.rate.value_or(device ? 1 / device->description.loop.sample_period : default_rate);
   result.form = std::move(*form);
   warn_about_validity(result.form.linear, result.network, diagnostics);
+  std::optional<PortDevice> port = device ? PortDevice::of(*device, result.network, diagnostics) : PortDevice::ideal();
+  if (!port) return std::nullopt;
+  result.port = std::move(*port);
   times.enter("decomposition");
   const Device* const on = device ? &*device : nullptr;
   const bool is_tunable = has_tunables(result.network);
@@ -80,8 +83,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
       decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
-  const PortDevice port = device ? PortDevice::of(*device, result.network, diagnostics).value() : PortDevice::ideal();
-  if (!is_tunable) settle_choice(result, choices, port);
+  if (!is_tunable) settle_choice(result, choices);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   if (is_tunable) {
@@ -96,7 +98,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");
-  const SampledLoop loop = sampled_loop(port, 1 / result.rate);
+  const SampledLoop loop = sampled_loop(result.port, 1 / result.rate);
   result.certificate =
       certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
@@ -104,11 +106,9 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
 }
 
 void weigh_all_candidates(Compilation& c, const Choices& choices) {
-  Diagnostics settled;
-  const PortDevice port = c.device ? PortDevice::of(*c.device, c.network, settled).value() : PortDevice::ideal();
-  CandidateSettler settler(c.network, c.form, c.decomposition, choices, port, c.rate);
+  CandidateSettler settler(c.network, c.form, c.decomposition, choices, c.port, c.rate);
   for (std::size_t i = 0; i < c.decomposition.candidates.size(); ++i)
-    if (i != c.decomposition.chosen || port.is_ideal()) settler.settle(c.decomposition.candidates[i]);
+    if (i != c.decomposition.chosen || c.port.is_ideal()) settler.settle(c.decomposition.candidates[i]);
 }
 
 }  // namespace dashpot::compiler

@@ -47,16 +47,10 @@ Device with_brake(Device device, double damping) {
   return device;
 }
 
-// What a device's own unit of damping is worth at the tool.
-double damping_at_tool(const Network& network, const Device& device) {
-  Diagnostics heard_before;
-  return PortDevice::of(with_brake(device, 1), network, heard_before).value().max_damping().value_or(0);
-}
-
 class Remedies {
  public:
   Remedies(const Compilation& c, const Choices& choices)
-      : c_(c), choices_(choices), scale_(damping_at_tool(c.network, *c.device)) {}
+      : c_(c), choices_(choices), scale_(c.port.replaced_by(with_brake(*c.device, 1)).max_damping().value_or(0)) {}
 
   // At the tool, in four digits: what is missing for the law as it is, or room for all that it would be told.
   std::optional<double> brake(double enough) const {
@@ -115,17 +109,16 @@ class Remedies {
   // there is.
   bool may_do(const Device& device) const {
     if (c_.law.tunable) return true;
-    Diagnostics heard_before;
-    const PortDevice port = PortDevice::of(device, c_.network, heard_before).value();
     Candidate candidate = c_.decomposition.choice();
-    CandidateSettler(c_.network, c_.form, c_.decomposition, choices_, port, 1 / device.description.loop.sample_period)
+    CandidateSettler(c_.network, c_.form, c_.decomposition, choices_, c_.port.replaced_by(device),
+                     1 / device.description.loop.sample_period)
         .settle(candidate);
     return candidate.certified == true;
   }
 
   const Compilation& c_;
   const Choices& choices_;
-  double scale_;
+  double scale_;  // what a device's own unit of damping is worth at the tool
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ double noise_power_gain(any_estimator<double> estimator) {
 std::optional<PortDevice> PortDevice::of(const Device& device, const Network& network, Diagnostics& diagnostics) {
   const device_description& d = device.description;
   PortDevice port;
-  port.device_ = &device;
+  port.device_ = device;
   if (d.motion == network.port_motion) return port;
   if (network.port_motion == motion::translation && d.arm_radius > 0) {
     // B_joint = B r², u = q r (theory, section 7).
@@ -45,6 +45,12 @@ std::optional<PortDevice> PortDevice::of(const Device& device, const Network& ne
   }
   diagnostics.report<DiagnosticCode::motion_mismatch>(network.name_span, network.name, device.name);
   return std::nullopt;
+}
+
+PortDevice PortDevice::replaced_by(const Device& device) const {
+  PortDevice port = *this;
+  port.device_ = device;
+  return port;
 }
 
 std::optional<double> PortDevice::max_damping() const {

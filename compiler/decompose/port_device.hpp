@@ -18,7 +18,10 @@ class PortDevice {
   // Refuses: a rotary device without an arm radius under a translational network, and the reverse.
   static std::optional<PortDevice> of(const Device& device, const Network& network, Diagnostics& diagnostics);
 
-  bool is_ideal() const { return device_ == nullptr; }
+  // Another device in the place of this one: of the same motion, and the same arm.
+  PortDevice replaced_by(const Device& device) const;
+
+  bool is_ideal() const { return !device_; }
   const device_description& description() const { return device_->description; }  // of a device that is not ideal
   double damping_scale() const { return damping_scale_; }                         // from the joint to the tool
   double position_scale() const { return position_scale_; }                       // likewise
@@ -48,7 +51,7 @@ class PortDevice {
   using Estimator = any_estimator<double>;
   Estimator estimator() const;
 
-  const Device* device_ = nullptr;
+  std::optional<Device> device_;
   double damping_scale_ = 1;  // from the joint to the tool
   double position_scale_ = 1;
 };

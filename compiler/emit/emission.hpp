@@ -7,6 +7,7 @@
 
 #include "certify/certificate.hpp"
 #include "decompose/decomposition.hpp"
+#include "decompose/port_device.hpp"
 #include "law/update_law.hpp"
 #include "linear/normal_form.hpp"
 #include "network/device.hpp"
@@ -22,6 +23,7 @@ struct Compilation {
   Certificate certificate;
   double rate = 0;  // [Hz]
   std::optional<Device> device;
+  PortDevice port = PortDevice::ideal();  // the device as the network sees it
 };
 
 enum class Target : unsigned char { cpp, c99 };

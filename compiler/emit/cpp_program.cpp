@@ -8,8 +8,8 @@
 #include "emit/cpp_slips.hpp"
 #include "emit/cpp_statements.hpp"
 #include "emit/cpp_tunable.hpp"
-#include "emit/fused_step.hpp"
 #include "law/walk.hpp"
+#include "lower/fuse_step.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -57,7 +57,13 @@ class CppPrinter {
   void check_and_return(CppProgram& program) const {
     program.command =
         law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
-    check_by_jumps(program, checked_numbers(law_), safe_command());
+    check_by_jumps(program, checked_names(), safe_command());
+  }
+
+  std::string checked_names() const {
+    std::string names;
+    for (VariableId id : checked_numbers(law_)) names += (names.empty() ? "" : ", ") + name_of(id);
+    return names;
   }
 
   std::string safe_command() const {
@@ -91,7 +97,7 @@ class CppPrinter {
     std::vector<Statement> kept = law_.keep;
     std::erase_if(kept, [&](const Statement& statement) { return carried.count(statement.target) != 0; });
     std::vector<std::string> lines = program.output;
-    const std::vector<std::string> check = {fmt::format("if (!dashpot::all_finite({})) {{", checked_numbers(law_)),
+    const std::vector<std::string> check = {fmt::format("if (!dashpot::all_finite({})) {{", checked_names()),
                                             "  sampled_ = false;", fmt::format("  return {};", safe_command()), "}"};
     const std::vector<std::string> end = {"sampled_ = false;", fmt::format("return {};", program.command)};
     for (const auto& more : {check, statements_.lines_of(kept), statements_.lines_of(law_.update, carried), end})

@@ -1,4 +1,4 @@
-#include "emit/fused_step.hpp"
+#include "lower/fuse_step.hpp"
 
 #include <algorithm>
 
@@ -21,11 +21,11 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
     case Operation::add:
     case Operation::subtract:
     case Operation::multiply: return shows(law, e.operands[0], input) || shows(law, e.operands[1], input);
+    case Operation::relax: return shows(law, e.operands[2], input);
     case Operation::constant:
     case Operation::flush:
     case Operation::clamp:
     case Operation::where:
-    case Operation::relax:
     case Operation::pick:
     case Operation::sum: return false;
   }
@@ -47,13 +47,14 @@ std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law) {
   return carried;
 }
 
-std::string checked_numbers(const UpdateLaw& law) {
+std::vector<VariableId> checked_numbers(const UpdateLaw& law) {
   const Statement& last =
       *std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.force; });
-  std::string numbers;
+  std::vector<VariableId> numbers;
   for (VariableId input : {law.position, law.velocity})
-    if (!shows(law, last.value, input)) numbers += law.variables[input].name + ", ";
-  return numbers + law.variables[law.force].name;
+    if (!shows(law, last.value, input)) numbers.push_back(input);
+  numbers.push_back(law.force);
+  return numbers;
 }
 
 }  // namespace dashpot::compiler

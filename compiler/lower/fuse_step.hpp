@@ -3,7 +3,7 @@
 #pragma once
 
 #include <map>
-#include <string>
+#include <vector>
 
 #include "law/update_law.hpp"
 
@@ -16,8 +16,8 @@ bool is_fusable(const UpdateLaw& law);
 // The states that only carry a number of output() to update(), each with what it is a copy of.
 std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law);
 
-// "force", behind those inputs that it does not show the state of: sums and products of what is not finite are not
+// The force, behind those inputs that it does not show the state of: sums and products of what is not finite are not
 // finite.
-std::string checked_numbers(const UpdateLaw& law);
+std::vector<VariableId> checked_numbers(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

@@ -9,6 +9,7 @@
 #include "linear/reach.hpp"
 #include "linear/validity.hpp"
 #include "lower/drop_unread.hpp"
+#include "lower/roll.hpp"
 #include "network/port_units.hpp"
 #include "syntax/parse_network.hpp"
 
@@ -93,8 +94,9 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
     if (!law) return std::nullopt;
     result.law = std::move(*law);
   } else {
-    result.law = without_unread_locals(
-        discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics));
+    result.law = rolled(without_unread_locals(discretise(result.network, result.form, result.decomposition, choices,
+                                                         result.rate, diagnostics)),
+                        choices.registers, choices.guards_each_sample);
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");

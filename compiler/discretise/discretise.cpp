@@ -16,23 +16,6 @@
 namespace dashpot::compiler {
 namespace {
 
-// Places; beyond, a loop. Measured for Maxwell elements on an AMD EPYC (Zen 4), g++ 12 -O3, each form in a class of its
-// own, the best of 200 chains of 1,000 steps and the lower quartile of 41 ticks after the caches were filled with other
-// things. Straight and rolled, in SSE2, AVX2 and AVX-512 registers:
-//   8 places:  12 and 14, 13 and 16, 12 and 20 ns in a chain;  1.27 and 1.16, 1.73 and 1.53, 1.43 and 1.25 µs cold
-//   16 places: 29 and 16, 18 and 16, 18 and 21 ns;             1.48 and 1.54, 1.60 and 1.60, 1.31 and 1.31 µs
-//   32 places: 48 and 21, 46 and 18, 45 and 21 ns;             2.35 and 1.36, 3.39 and 1.55, 2.67 and 1.34 µs
-// The tick that a servo loop waits for is the cold one, and a loop's code does not grow.
-constexpr std::size_t largest_straight_line = 8;
-
-// Four registers of partial sums: an addition takes two to four cycles, and one can begin in each.
-constexpr std::size_t registers_of_sums = 4;
-
-std::size_t lanes_for(VectorRegisters registers, ScalarType scalar) {
-  const std::size_t scalar_bytes = scalar == ScalarType::float64 ? 8 : 4;
-  return registers_of_sums * std::max<std::size_t>(bytes_of(registers) / scalar_bytes, 1);
-}
-
 Names names_of_modes(const std::vector<Mode>& modes, const Network& network, LawWriter& writer) {
   Names names;
   for (const Mode& mode : modes) names.push_back(writer.unique(name_of(mode.elements, network)));
@@ -47,7 +30,6 @@ UpdateLaw blank_law(const Candidate& choice, const Choices& choices, const Real&
   law.sample_period = rounded(sample_period, choices.scalar);
   law.damping = law.largest_damping = rounded(Real(choice.damping), choices.scalar);
   law.flush_threshold = flush_threshold(choices.scalar);
-  law.guards_each_sample = choices.guards_each_sample;
   return law;
 }
 
@@ -61,7 +43,6 @@ class LawBuilder {
         form_(form.linear),
         linear_damping_(law_.damping),
         sample_period_(sample_period),
-        registers_(choices.registers),
         modes_(writer_, form.linear.modes, law_.state_input, sample_period,
                names_of_modes(form.linear.modes, network, writer_), ""),
         slips_(writer_, network, sample_period, form, decomposition.slips),
@@ -70,8 +51,6 @@ class LawBuilder {
   }
 
   UpdateLaw build() {
-    law_.rolled_from = largest_straight_line + 1;
-    law_.lanes = lanes_for(registers_, law_.scalar);
     settle_form();
     declare_inputs();
     modes_.declare();
@@ -79,7 +58,6 @@ class LawBuilder {
     contact_ ? write_contact_output() : write_output();
     write_update();
     write_energy();
-    settle_loops();
     check_law(law_, "discretise");
     return std::move(law_);
   }
@@ -199,12 +177,6 @@ class LawBuilder {
                      contact_ ? "s₋ = s" : "u₋ = u");
   }
 
-  void settle_loops() {
-    const auto is_rolled = [&](const Variable& variable) { return law_.is_rolled(variable.size); };
-    if (std::none_of(law_.variables.begin(), law_.variables.end(), is_rolled)) law_.lanes = 1;
-    if (law_.lanes > 1) law_.register_bytes = bytes_of(registers_);
-  }
-
   // V = ½ k0 u² + Σ F_i²/(2 k_i)
   void write_energy() {
     ExpressionId sum = nothing;
@@ -234,7 +206,6 @@ class LawBuilder {
   const LinearForm& form_;
   double linear_damping_;  // b of what reaches ground without a slip [N·s/m]
   Real sample_period_;
-  VectorRegisters registers_;
   ModeBank modes_;
   SlipParts slips_;
   LawBrake brake_;

@@ -60,44 +60,23 @@ void ModeBank::write_update(VariableId position_change, VariableId velocity) {
   std::vector<Statement>& update = writer_.law().update;
   const ExpressionId driven = drive(position_change, velocity);
   const std::string decayed = writer_.law().scheme == Scheme::exact ? "a = e^{−λh}" : "a = 1/(1 + λh)";
-  const bool takes_turns = guard_in_turn();
-  const auto guarded = [&](ExpressionId force) { return takes_turns ? force : writer_.flush(force); };
   switch (writer_.law().mode_form) {
     case ModeForm::product: {
       const ExpressionId decay =
           per_mode(ConstantRole::decay, "decay", "1", decayed.c_str(), [](const auto& c) { return c.decay; });
       // The guard looks at the force before, which waits for nothing; the drive comes first, so that the product that a
       // compiler may fuse with the sum is that of the force.
-      const ExpressionId force = writer_.read(forces_);
-      writer_.assign(
-          update, forces_,
-          takes_turns ? writer_.add(driven, writer_.multiply(decay, force)) : writer_.relax(decay, force, driven),
-          "F ← a (F + c Δu)", origins());
+      writer_.assign(update, forces_, writer_.relax(decay, writer_.read(forces_), driven), "F ← a (F + c Δu)",
+                     origins());
       break;
     }
     case ModeForm::delta:
-      writer_.assign(update, forces_, guarded(writer_.add(writer_.read(forces_), increment(driven))),
+      writer_.assign(update, forces_, writer_.flush(writer_.add(writer_.read(forces_), increment(driven))),
                      "F ← F + (a c Δu − α F)", origins());
       break;
     case ModeForm::compensated: write_compensated(driven);
   }
   if (decayed_sum_ != forces_) writer_.assign(update, decayed_sum_, writer_.sum(forces_), "S = Σ a_i F_i");
-}
-
-// Has the forces guarded in turn, by the fewest rounds of the loop a sample that come to each while it can wait; false
-// where each needs its guard at each sample.
-bool ModeBank::guard_in_turn() {
-  UpdateLaw& law = writer_.law();
-  if (law.guards_each_sample || law.mode_form == ModeForm::compensated || !law.is_rolled(modes_.size())) return false;
-  double smallest_decay = 1;
-  for (const ModeCoefficients& mode : coefficients_) smallest_decay = std::min(smallest_decay, to_double(mode.decay));
-  const std::size_t rounds = law.padded(modes_.size()) / law.lanes,
-                    samples = samples_without_guard(smallest_decay, law.scalar);
-  std::size_t at_once = 1;
-  while (at_once < rounds && (rounds % at_once != 0 || rounds / at_once > samples)) ++at_once;
-  if (at_once >= rounds) return false;
-  law.guards.push_back({forces_, at_once * law.lanes, law.variables[forces_].name + "_turn"});
-  return true;
 }
 
 ExpressionId ModeBank::energy() {

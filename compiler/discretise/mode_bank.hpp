@@ -36,7 +36,6 @@ class ModeBank {
   ExpressionId drive(VariableId position_change, VariableId velocity);
   ExpressionId increment(ExpressionId drive);
   void write_compensated(ExpressionId drive);
-  bool guard_in_turn();
   std::vector<std::vector<std::size_t>> origins() const;
   template <class ValueOf>
   ExpressionId per_mode(ConstantRole role, const char* name, const std::string& unit, const char* meaning,

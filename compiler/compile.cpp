@@ -87,6 +87,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   if (!is_tunable) settle_choice(result, choices);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
+  warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
   if (is_tunable) {
     result.decomposition.reason = "position driven, so that a change of parameters injects no energy";
     std::optional<UpdateLaw> law =
@@ -94,9 +95,9 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
     if (!law) return std::nullopt;
     result.law = std::move(*law);
   } else {
-    result.law = rolled(without_unread_locals(discretise(result.network, result.form, result.decomposition, choices,
-                                                         result.rate, diagnostics)),
-                        choices.registers, choices.guards_each_sample);
+    result.law = rolled(
+        without_unread_locals(discretise(result.network, result.form, result.decomposition, choices, result.rate)),
+        choices.registers, choices.guards_each_sample);
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");

@@ -73,8 +73,7 @@ const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput 
   Decomposition single = decomposition_;
   single.candidates[single.chosen].damping = 0;
   single.candidates[single.chosen].state_input = input;
-  Diagnostics unheard;  // what they say of the law is said of the chosen one
-  const UpdateLaw law = discretise(network_, form_, single, choices_, rate_, unheard);
+  const UpdateLaw law = discretise(network_, form_, single, choices_, rate_);
   const bool needs_whole = network_.contact || !form_.has_slips();
   return motors_.emplace(input, needs_whole ? motor_constants(law) : linear_motor_constants(law)).first->second;
 }

@@ -239,25 +239,31 @@ void warn_about_float_range(const Network& network, const LinearForm& form, Diag
   diagnostics.report<DiagnosticCode::float_range>(network.name_span, name_of(slowest.elements, network), ratio);
 }
 
+// The linear part as its states have it.
+const LinearForm& realised_part(const NormalForm& form, const Decomposition& decomposition) {
+  return decomposition.choice().state_input == StateInput::nodal ? decomposition.realisation : form.linear;
+}
+
 }  // namespace
 
 UpdateLaw discretise(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                     const Choices& choices, double rate, Diagnostics& diagnostics) {
-  const Candidate& choice = decomposition.choice();
+                     const Choices& choices, double rate) {
   NormalForm realised = form;
-  if (choice.state_input == StateInput::nodal) realised.linear = decomposition.realisation;
-  const Real sample_period = 1 / Real(rate);
-  warn_about_fast_relaxations(network, realised.linear, to_double(sample_period), diagnostics);
-  if (choices.scalar == ScalarType::float32) warn_about_float_range(network, realised.linear, diagnostics);
-  return LawBuilder(network, realised, decomposition, choices, sample_period).build();
+  realised.linear = realised_part(form, decomposition);
+  return LawBuilder(network, realised, decomposition, choices, 1 / Real(rate)).build();
+}
+
+void warn_about_rate_and_scalar(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                                const Choices& choices, double rate, Diagnostics& diagnostics) {
+  const LinearForm& realised = realised_part(form, decomposition);
+  warn_about_fast_relaxations(network, realised, to_double(1 / Real(rate)), diagnostics);
+  if (choices.scalar == ScalarType::float32) warn_about_float_range(network, realised, diagnostics);
 }
 
 std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
                                             const Decomposition& decomposition, const Choices& choices, double rate,
                                             const Device* device, Diagnostics& diagnostics) {
   const Real sample_period = 1 / Real(rate);
-  warn_about_fast_relaxations(network, form.linear, to_double(sample_period), diagnostics);
-  if (choices.scalar == ScalarType::float32) warn_about_float_range(network, form.linear, diagnostics);
   UpdateLaw law = blank_law(decomposition.choice(), choices, sample_period);
   law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, form.linear, decomposition, choices,
                                   sample_period, device, diagnostics);

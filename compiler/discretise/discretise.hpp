@@ -12,10 +12,13 @@
 namespace dashpot::compiler {
 
 // In: normal form, decomposition of its linear part, scheme, rate, scalar. Out: the law. Ensures: constants rounded
-// once from extended precision. Warns: a relaxation faster than two samples; a float that cannot carry stiffest and
-// slowest mode together.
+// once from extended precision.
 UpdateLaw discretise(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                     const Choices& choices, double rate, Diagnostics& diagnostics);
+                     const Choices& choices, double rate);
+
+// Warns: a relaxation faster than two samples; a float that cannot carry stiffest and slowest mode together.
+void warn_about_rate_and_scalar(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                                const Choices& choices, double rate, Diagnostics& diagnostics);
 
 // The same for a network with tunables; form and decomposition are those of its default values. Refuses: what
 // tunable_tables_of() refuses.

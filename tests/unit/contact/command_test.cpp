@@ -27,7 +27,7 @@ compiler::UpdateLaw law_for(const char* structure, double step, const char* deco
   compiler::Decomposition split =
       decompose(compiler::linear_part(c.network, c.form), c.form.linear, choices, nullptr, diagnostics).value();
   split.encoder_step = step;
-  return discretise(c.network, c.form, split, choices, 1 / slip_period, diagnostics);
+  return discretise(c.network, c.form, split, choices, 1 / slip_period);
 }
 
 // The tool as the law sees it: positions floored to the encoder's step, their slope over 15 samples.

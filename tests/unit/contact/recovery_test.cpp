@@ -40,9 +40,7 @@ std::vector<double> forces_of_elements(const compiler::Network& network, int sam
 
 std::vector<double> forces_of_law(const compiler::Network& network, int samples_a_millisecond) {
   const compiler::Compilation c = compiled(network, compiler::Scheme::exact);
-  compiler::Diagnostics diagnostics;
-  const compiler::UpdateLaw law =
-      discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond, diagnostics);
+  const compiler::UpdateLaw law = discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond);
   TouchedForce run(law);
   std::vector<double> forces;
   for (int k = 1; k <= milliseconds * samples_a_millisecond; ++k) {

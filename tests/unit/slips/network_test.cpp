@@ -26,9 +26,7 @@ std::string bridge(const std::string& middle) {
 double largest_difference(const compiler::Network& one, const compiler::Network& other, int samples_a_millisecond) {
   const auto forces = [&](const compiler::Network& network) {
     const compiler::Compilation c = compiled(network, compiler::Scheme::exact);
-    compiler::Diagnostics diagnostics;
-    const compiler::UpdateLaw law =
-        discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond, diagnostics);
+    const compiler::UpdateLaw law = discretise(c.network, c.form, c.decomposition, {}, 1e3 * samples_a_millisecond);
     compiler::Evaluation<double> run(law);
     std::vector<double> all;
     double last = 0;

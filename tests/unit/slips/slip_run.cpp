@@ -48,8 +48,7 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
   const auto decomposition = compiler::decompose(network, result.form, choices, device, diagnostics);
   if (!decomposition) throw std::runtime_error(compiler::render_text(diagnostics));
   result.decomposition = *decomposition;
-  result.law =
-      compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
+  result.law = compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate);
   return result;
 }
 

@@ -203,16 +203,18 @@ class C99Printer {
     spelling.suffix = suffix_;
     spelling.variable = [this](VariableId variable) { return name(variable, place_); };
     spelling.coefficient = [this](CoefficientId constant) { return name(law_.coefficients[constant], place_); };
-    spelling.sum = [this](VariableId vector) { return sum(vector); };
+    // A sum is one operand: inside a longer expression its terms keep together.
+    const bool is_whole = law_.expressions[id].operation == Operation::sum;
+    spelling.sum = [this, is_whole](VariableId vector) { return sum(vector, is_whole); };
     return expression_text(law_, id, spelling);
   }
 
-  std::string sum(VariableId id) const {
+  std::string sum(VariableId id, bool is_whole) const {
     const Variable& vector = law_.variables[id];
     if (law_.is_rolled(vector.size)) return vector.name + "_lane[0]";
     std::string text;
     for (std::size_t place = 0; place < vector.size; ++place) text += (place == 0 ? "" : " + ") + name(id, place);
-    return vector.size == 1 ? text : "(" + text + ")";
+    return vector.size == 1 || is_whole ? text : "(" + text + ")";
   }
 
   std::string name(VariableId id, std::size_t place) const {

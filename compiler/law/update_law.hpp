@@ -184,9 +184,9 @@ struct UpdateLaw {
   double flush_threshold = 0;  // [N]: magnitudes below become zero
   ModeForm mode_form = ModeForm::product;
   double relative_error_bound = 0;  // of a mode's force, from rounding of coefficient and sums, at any time [1]
-  std::size_t lanes = 1;        // partial sums of a rolled vector's `sum`, a power of two; 1 where nothing is rolled
-  std::size_t rolled_from = 0;  // places of the smallest vector that is rolled
-  std::size_t register_bytes = 0;   // of the machine that loops are laid out for; 0 where it has no vectors
+  std::size_t lanes = 1;           // partial sums of a rolled vector's `sum`, a power of two; 1 where nothing is rolled
+  std::size_t rolled_from = 0;     // places of the smallest vector that is rolled
+  std::size_t register_bytes = 0;  // of the machine that loops are laid out for; 0 where it has no vectors
 
   Table<Variable> variables;
   Table<Coefficient> coefficients;

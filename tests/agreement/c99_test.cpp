@@ -110,7 +110,7 @@ std::string program_of(const std::vector<Emitted>& all) {
       "  while (scanf(\"%la %la\", &position[rows], &velocity[rows]) == 2) ++rows;\n";
   for (const Emitted& one : all)
     text += fmt::format(
-        "  {{\n    {0} law;\n    {0}_reset(&law, 0);\n    for (int n = 0; n < rows; ++n) {{\n"
+        "  {{\n    {0} law;\n    {0}_reset(&law, ({1})0.002);\n    for (int n = 0; n < rows; ++n) {{\n"
         "      const dashpot_command now = {0}_step(&law, ({1})position[n], ({1})velocity[n]);\n"
         "      printf(\"%a %a\\n\", now.damping, now.force);\n    }}\n"
         "    printf(\"%a\\n\", (double){0}_stored_energy(&law));\n  }}\n",
@@ -128,7 +128,7 @@ std::string printed(const char* format, Numbers... numbers) {
 template <class Scalar>
 std::string simulated(const compiler::UpdateLaw& law) {
   compiler::Evaluation<Scalar> run(law);
-  run.reset(0);
+  run.reset(Scalar(0.002));
   std::string text;
   for (const Row& row : motion()) {
     const auto now = run.step(Scalar(row.position), Scalar(row.velocity));

@@ -1,0 +1,127 @@
+// General viscoelastic solid, Fig. 2e
+//
+// source: Gosline & Hayward 2009, Fig. 5
+// scheme: exact at 1000 Hz, double
+// decomposition: most-dissipative, b = 11 N·s/m: in series B1 dissipates 100 % at low frequency and is observed;
+//   in series B2 dissipates 100 % at low frequency and is observed
+// states: position driven: on an ideal device nothing tells the inputs apart
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
+//   N·s/m is there
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-13 of the sum of
+//   the force's terms
+// device: ideal: exact brake, exact velocity, no delay
+// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
+// cost of update(): 3 additions, 4 multiplications, 2 guards against subnormals; 6 states
+// rounding: a mode's force is off by at most 2e-13 of its peak
+//
+// Written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587. It belongs to whoever had it written. C99, and
+// C++; compile it with -ffp-contract=off where results are compared bit for bit.
+#ifndef DASHPOT_GENERATED_second_order_maxwell_H
+#define DASHPOT_GENERATED_second_order_maxwell_H
+
+#include <dashpot/command.h>
+
+typedef struct second_order_maxwell {
+  double last_position;  // u of the sample before [m]
+  double relaxed_force;  // sum of the modes' forces, decayed to the next sample [N]
+  double B2_K2_force;  // force of the mode, decayed to the next sample [N]
+  double B1_K1_force;  // force of the mode, decayed to the next sample [N]
+  double sampled_position_change;  // Δu since the sample before, at this sample [m]
+  double sampled_position;  // port displacement u, at this sample [m]
+  int sampled;  // 1 while a finite sample waits for second_order_maxwell_update()
+} second_order_maxwell;
+
+// What a servo loop compares with the device that it drives. An empty digest: no device was named, any will do.
+static inline double second_order_maxwell_sample_period(void) { return 0.001; }  // [s]
+static inline int second_order_maxwell_is_rotation(void) { return 0; }
+static inline const char *second_order_maxwell_device(void) { return "ideal"; }
+static inline const char *second_order_maxwell_device_digest(void) { return ""; }
+static inline const char *second_order_maxwell_estimator(void) { return "exact"; }
+static inline unsigned second_order_maxwell_loop_delay(void) { return 0u; }  // [samples]
+
+// Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+static inline double second_order_maxwell_added_damping(void) { return 0.0; }
+
+// At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
+// treated as 0. To be called before all others.
+static inline void second_order_maxwell_reset(second_order_maxwell *self, double position) {
+  self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
+  self->relaxed_force = 0.0;
+  self->B2_K2_force = 0.0;
+  self->B1_K1_force = 0.0;
+  self->sampled_position_change = 0.0;
+  self->sampled_position = 0.0;
+  self->sampled = 0;
+}
+
+// The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+// non-finite input the states stay as they were and the motor's force is 0.
+static inline dashpot_command second_order_maxwell_output(second_order_maxwell *self, double position, double velocity) {
+  dashpot_command command;
+  const double damping = 11.0;  // b, the brake's part
+  const double static_stiffness = 5.0;  // k0 [N/m]
+  const double step_stiffness = 21.977282807459243;  // Σ c_i, answer of all modes within a sample [N/m]
+  const double velocity_gain = -11.0;  // b∞ − b [N·s/m]
+  // Δu = u − u₋
+  const double position_change = position - self->last_position;
+  // m = f − b u̇
+  const double force = self->relaxed_force + static_stiffness * position + (step_stiffness * position_change +
+      velocity_gain * velocity);
+  self->sampled = dashpot_all_finite(position, velocity, force);
+  if (self->sampled != 0) {
+    self->sampled_position_change = position_change;
+    self->sampled_position = position;
+    command.damping = damping;
+    command.force = force;
+  } else {
+    command.damping = damping;
+    command.force = 0.0;
+  }
+  return command;
+}
+
+// Takes the states to the next sample; to be called once after each second_order_maxwell_output(), when the command has left.
+static inline void second_order_maxwell_update(second_order_maxwell *self) {
+  if (self->sampled != 0) {
+    const double threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+    const double B2_K2_gain = 9.975032378492145;  // a c [N/m]
+    const double B1_K1_gain = 11.956880536422767;  // a c [N/m]
+    const double B2_K2_decay = 0.9983347214509387;  // a = e^{−λh} [1]
+    const double B1_K1_decay = 0.9976028776973818;  // a = e^{−λh} [1]
+    // F ← a (F + c Δu)
+    self->B2_K2_force = B2_K2_gain * self->sampled_position_change +
+        B2_K2_decay * dashpot_flush_below(threshold, self->B2_K2_force);
+    self->B1_K1_force = B1_K1_gain * self->sampled_position_change +
+        B1_K1_decay * dashpot_flush_below(threshold, self->B1_K1_force);
+    // S = Σ a_i F_i
+    self->relaxed_force = self->B2_K2_force + self->B1_K1_force;
+    // u₋ = u
+    self->last_position = self->sampled_position;
+    self->sampled = 0;
+  }
+}
+
+// Both at once, where nothing else has to happen in between.
+static inline dashpot_command second_order_maxwell_step(second_order_maxwell *self, double position, double velocity) {
+  const dashpot_command command = second_order_maxwell_output(self, position, velocity);
+  second_order_maxwell_update(self);
+  return command;
+}
+
+// In the springs after the last update() [J].
+static inline double second_order_maxwell_stored_energy(const second_order_maxwell *self) {
+  const double half_static_stiffness = 2.5;  // ½ k0 [N/m]
+  const double B2_K2_energy_weight = 0.050166944753343795;  // 1/(2 k a²) [m/N]
+  const double B1_K1_energy_weight = 0.041867147435589155;  // 1/(2 k a²) [m/N]
+  // F²/(2k)
+  const double B2_K2_energy = B2_K2_energy_weight * self->B2_K2_force * self->B2_K2_force;
+  const double B1_K1_energy = B1_K1_energy_weight * self->B1_K1_force * self->B1_K1_force;
+  // V = ½ k0 u² + Σ F_i²/(2 k_i)
+  const double stored = half_static_stiffness * self->last_position * self->last_position + (B2_K2_energy +
+      B1_K1_energy);
+  return stored;
+}
+
+#endif

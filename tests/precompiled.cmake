@@ -6,8 +6,9 @@ endif()
 
 file(CONFIGURE OUTPUT precompiled.cpp CONTENT "// Nothing but what is precompiled.\n")
 add_library(dashpot_precompiled OBJECT ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
-# As the programs that read it are compiled: another option, and g++ passes it over.
-target_link_libraries(dashpot_precompiled PRIVATE dashpot::compiler GTest::gtest)
+# As the programs that read it are compiled, warnings included: -Wpedantic alone makes another language of it, and g++
+# passes it over.
+target_link_libraries(dashpot_precompiled PRIVATE dashpot::compiler dashpot_warnings GTest::gtest)
 target_precompile_headers(dashpot_precompiled PRIVATE
   <algorithm> <cmath> <functional> <map> <memory> <optional> <string> <variant> <vector>
   <fmt/format.h> <boost/multiprecision/cpp_bin_float.hpp> <gtest/gtest.h>)

@@ -11,6 +11,7 @@
 #include "lower/drop_unread.hpp"
 #include "lower/roll.hpp"
 #include "network/port_units.hpp"
+#include "slip_choice.hpp"
 #include "syntax/parse_network.hpp"
 
 namespace dashpot::compiler {
@@ -23,6 +24,14 @@ void settle_choice(Compilation& c, const Choices& choices) {
       .settle(c.decomposition.candidates[c.decomposition.chosen]);
   c.decomposition.reason =
       reason_for_input(c.decomposition.choice(), choices, c.port.is_ideal(), port_units(c.network.port_motion).damping);
+}
+
+// What the chosen candidate needs is known when the law behind slips is.
+void tell_of_slips(Compilation& c) {
+  Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
+  const bool is_proved = c.certificate.bound.proof != Proof::none;
+  choice.minimum_damping = is_proved ? std::optional(c.certificate.minimum_damping) : std::nullopt;
+  choice.certified = is_proved ? std::optional(c.certificate.certified) : std::nullopt;
 }
 
 // False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position
@@ -85,6 +94,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
   if (!is_tunable) settle_choice(result, choices);
+  if (!is_tunable && result.form.has_slips()) choose_slip_law(result, choices, result.port);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
@@ -104,6 +114,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   const SampledLoop loop = sampled_loop(result.port, 1 / result.rate);
   result.certificate =
       certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
+  if (!result.port.is_ideal() && !is_tunable && result.form.has_slips()) tell_of_slips(result);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }

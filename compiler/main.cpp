@@ -18,9 +18,9 @@ using namespace dashpot::compiler;
 
 using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
 
-const std::vector<std::string> decompositions = {"most-dissipative", "zero-frequency",   "quietest-passive",
-                                                 "velocity-free",    "largest-observer", "gated",
-                                                 "compensated",      "virtual"};
+const std::vector<std::string> decompositions = {
+    "most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "steady",
+    "ramped",           "gated",          "virtual"};
 
 struct CommandLine {
   Options options;

@@ -108,7 +108,7 @@ PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& sl
     bound.reason = "the amplifier lags";
   }
   const double hold = is_punctual ? 1 : loop.longest_hold() / loop.sample_period;
-  const double compensation = slips.compensation * hold + slips.held_compensation * (is_punctual ? 1 : hold - 1);
+  const double compensation = slips.compensation * hold;
   const std::optional<double> gain = compensation > 0 ? estimate_gain(loop) : 0;
   if (!gain) return not_proved(not_proved_for(loop));
   const double late = lateness(loop), needed = slips.stiffness * late * late * loop.sample_period + slips.damping;

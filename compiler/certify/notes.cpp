@@ -31,19 +31,23 @@ bool needs_no_more(const Candidate& candidate, const Candidate& choice) {
          *candidate.minimum_damping <= *choice.minimum_damping * (1 + 1e-6);
 }
 
-// A law that would keep the noise of the estimate out of the motor, with its error.
-std::optional<std::string> quieter_law(const ComponentSplit& split) {
-  const SlipLawMerit* chosen = nullptr;
-  for (const SlipLawMerit& merit : split.merits)
-    if (merit.law == split.law) chosen = &merit;
-  if (!chosen || !chosen->motor_noise) return std::nullopt;
-  for (const SlipLawMerit& merit : split.merits)
-    if (merit.refusal.empty() && merit.motor_noise && *merit.motor_noise < worthwhile * *chosen->motor_noise)
-      return fmt::format(
-          "behind slips '{}' would bring {:.3g} % of the motor's noise, and err by {:.3g} % in place of {:.3g} %",
-          name_of(merit.law), 100 * *merit.motor_noise / *chosen->motor_noise, 100 * merit.largest_error,
-          100 * chosen->largest_error);
-  return std::nullopt;
+// A law that would keep the noise of the estimate out of the motor, with its error in a run.
+std::optional<std::string> quieter_law(const SlipDecomposition& slips) {
+  const SlipLawMerit *chosen = nullptr, *quietest = nullptr;
+  const std::vector<const ComponentSplit*> parts = slips.all();
+  for (const SlipLawMerit& merit : slips.merits) {
+    if (std::any_of(parts.begin(), parts.end(), [&](const ComponentSplit* part) { return part->law == merit.law; }) &&
+        merit.law != SlipLaw::velocity_free)
+      chosen = &merit;
+    if (merit.error() <= slips.limit && merit.motor_noise && (!quietest || *merit.motor_noise < *quietest->motor_noise))
+      quietest = &merit;
+  }
+  if (!chosen || !quietest || !chosen->motor_noise || !(*quietest->motor_noise < worthwhile * *chosen->motor_noise))
+    return std::nullopt;
+  return fmt::format(
+      "behind slips '{}' would bring {:.3g} % of the motor's noise, and err by {:.3g} % in place of {:.3g} %",
+      name_of(quietest->law), 100 * *quietest->motor_noise / *chosen->motor_noise, 100 * quietest->error(),
+      100 * chosen->error());
 }
 
 }  // namespace
@@ -59,9 +63,7 @@ std::vector<std::string> notes_on_choice(const Decomposition& decomposition, con
   if (quietest && choice.motor_noise && *quietest->motor_noise < worthwhile * *choice.motor_noise)
     notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise",
                                 quietest->name, 100 * *quietest->motor_noise / *choice.motor_noise));
-  for (const ComponentSplit* split : decomposition.slips.all())
-    if (const auto note = quieter_law(*split); note && std::find(notes.begin(), notes.end(), *note) == notes.end())
-      notes.push_back(*note);
+  if (const std::optional<std::string> note = quieter_law(decomposition.slips)) notes.push_back(*note);
   return notes;
 }
 

@@ -19,12 +19,6 @@ Real least_feedthrough(const ComponentSplit& split) {
       ->feedthrough;
 }
 
-double largest_compensation(const ComponentSplit& split) {
-  double largest = 0;
-  for (const BrakeShare& share : split.shares) largest = std::max(largest, share.compensation);
-  return largest;
-}
-
 double largest_behind_slips(const SlipDecomposition& slips) {
   double sum = 0;
   for (const ComponentSplit* split : slips.all()) {
@@ -39,6 +33,14 @@ std::vector<Real> feedthroughs(const ComponentSplit& split) {
   std::vector<Real> all;
   for (const BrakeShare& share : split.shares) all.push_back(share.feedthrough);
   return all.empty() ? std::vector<Real>{0} : all;
+}
+
+// Whether a coil on its way is made up for by the motor: of a ramp it is not.
+bool may_fall_short(const SlipDecomposition& slips) {
+  const std::vector<const ComponentSplit*> all = slips.all();
+  return slips.coil_share < 1 && std::any_of(all.begin(), all.end(), [](const ComponentSplit* split) {
+           return split->law != SlipLaw::ramped && split->law != SlipLaw::steady;
+         });
 }
 
 class Sum {
@@ -68,7 +70,7 @@ class Sum {
     }
     motor_.least_brake += least;
     motor_.largest_brake += largest;
-    motor_.held_compensation += largest_compensation(split);
+    add_compensation(split);
   }
 
   // The brake has the dampers while the tool touches, and not while it is free. What it has earned it has earned since
@@ -86,8 +88,9 @@ class Sum {
     motor_.largest_brake = brake + behind_slips;
   }
 
-  void add_held_compensation(const SlipDecomposition& slips) {
-    for (const ComponentSplit* split : slips.all()) motor_.held_compensation += largest_compensation(*split);
+  // What a ramp has earned is paid for by the brake's own excess; a steady law's comes out of its constant b.
+  void add_compensation(const ComponentSplit& split) {
+    (split.law == SlipLaw::steady ? motor_.compensation : motor_.held_compensation) += split.largest_compensation();
   }
 
   // (b of the regime less b) v̂ while the coil is on its way, at most `most`.
@@ -149,9 +152,9 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
   }
   if (network.contact) {
     sum.add_behind_contact(form.linear, decomposition.choice().damping, largest_behind_slips(slips));
-    sum.add_held_compensation(slips);
+    for (const ComponentSplit* split : slips.all()) sum.add_compensation(*split);
   } else {
-    sum.make_up(slips.coil_share < 1 ? slips.make_up : 0);
+    if (may_fall_short(slips)) sum.make_up(slips.make_up);
   }
   return sum.result();
 }

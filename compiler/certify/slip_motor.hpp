@@ -8,8 +8,8 @@
 //     β T_max + (b∞(cut) − min x) T_max/h
 // is enough. A force that comes n samples late, or through an amplifier of lag τ, differs from the one that would be
 // passive, part by part, by no more than the share n + 1 + √((τ/2T) coth(T/2τ)) of what a hold does: β takes its
-// square. A motor that adds −κ v̂, 0 ≤ κ ≤ κ_most and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ_most γ T_max/h, unless the brake earns
-// it.
+// square. A motor that adds −κ v̂ with a constant κ, and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ γ T_max/h. What a ramp takes back is
+// (1 − ε) (h/T_max) of the brake's own excess in every sample that the estimate knows of, and adds nothing.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ struct SlipMotor {
   bool behind_contact = false;       // all of the network, and the brake is off while the tool is free
   double stiffness = 0;              // β of the cut [N/m], rounded up beyond what rounding of the constants does
   double damping = 0;                // b∞(cut) − min x [N·s/m], the same
-  double held_compensation = 0;      // β v̂ that a finite memory and the brake's own share have earned [N·s/m]
+  double held_compensation = 0;      // β v̂ that the brake's own excess pays for at any time, of a ramp [N·s/m]
   double compensation = 0;           // of any other estimate of the velocity [N·s/m]
   bool lets_go_by_estimate = false;  // of a contact: the command ends where f′ + b∞ v̂ < 0
   double held_gain = 0;  // Σ|h_j| of what is behind slips or a contact, every slip holding (held_slips.hpp) [N/m]

@@ -40,17 +40,17 @@ Json json_of(const Candidate& c) {
           {"state_inputs", inputs}};
 }
 
-const SlipLawMerit* chosen_merit(const ComponentSplit& split) {
-  for (const SlipLawMerit& merit : split.merits)
-    if (merit.law == split.law) return &merit;
+const SlipLawMerit* merit_of(const SlipDecomposition& slips, SlipLaw law) {
+  for (const SlipLawMerit& merit : slips.merits)
+    if (merit.law == law) return &merit;
   return nullptr;
 }
 
 // The keys of a candidate, where they make sense; the error is that of what slides.
-Json json_of(const ComponentSplit& split, std::size_t i, const Network& network) {
+Json json_of(const SlipDecomposition& slips, const ComponentSplit& split, std::size_t i, const Network& network) {
   const Regime& regime = split.regimes.regimes[i];
   const BrakeShare& share = split.shares[i];
-  const SlipLawMerit* merit = chosen_merit(split);
+  const SlipLawMerit* merit = merit_of(slips, split.law);
   const bool slides = std::find(regime.slides.begin(), regime.slides.end(), true) != regime.slides.end();
   const bool is_exact = !slides || merit == nullptr;
   return {{"component", name_of(split, network)},
@@ -65,7 +65,7 @@ Json json_of(const ComponentSplit& split, std::size_t i, const Network& network)
           {"state_input", name_of(StateInput::position)},
           {"velocity_gain", share.compensation},
           {"motor_noise", is_exact ? Json(0.0) : or_null(merit->motor_noise)},
-          {"largest_error", is_exact ? 0.0 : merit->largest_error},
+          {"largest_error", is_exact ? 0.0 : merit->error()},
           {"extra_damping_any_delay", share.compensation > 0 ? Json(nullptr) : Json(0.0)},
           {"minimum_damping", nullptr},
           {"certified", nullptr},
@@ -99,28 +99,34 @@ Json json_of_contact(const Compilation& c, bool touches) {
 Json regimes_of(const Compilation& c) {
   Json regimes = Json::array();
   for (const ComponentSplit* split : c.decomposition.slips.all())
-    for (std::size_t i = 0; i < split->regimes.regimes.size(); ++i) regimes.push_back(json_of(*split, i, c.network));
+    for (std::size_t i = 0; i < split->regimes.regimes.size(); ++i)
+      regimes.push_back(json_of(c.decomposition.slips, *split, i, c.network));
   if (c.network.contact)
     for (const bool touches : {true, false}) regimes.push_back(json_of_contact(c, touches));
   return regimes;
 }
 
-// What each law would cost a component, and which is taken.
+// What each law costs in a run of the whole network, why a part cannot have it, and which is taken.
 Json slip_laws_of(const Compilation& c) {
   Json components = Json::array();
-  for (const ComponentSplit* each : c.decomposition.slips.all()) {
-    const ComponentSplit& split = *each;
+  for (const ComponentSplit* split : c.decomposition.slips.all()) {
     Json laws = Json::array();
-    for (const SlipLawMerit& merit : split.merits)
-      laws.push_back({{"name", name_of(merit.law)},
-                      {"largest_error", merit.refusal.empty() ? Json(merit.largest_error) : Json(nullptr)},
-                      {"motor_noise", merit.refusal.empty() ? or_null(merit.motor_noise) : Json(nullptr)},
-                      {"refusal", merit.refusal.empty() ? Json(nullptr) : Json(merit.refusal)}});
-    components.push_back({{"component", name_of(split, c.network)},
-                          {"regimes", split.regimes.count},
+    for (const SlipLawOffer& offer : split->offers) {
+      const SlipLawMerit* merit = offer.refusal.empty() ? merit_of(c.decomposition.slips, offer.law) : nullptr;
+      laws.push_back({{"name", name_of(offer.law)},
+                      {"largest_error", merit ? Json(merit->error()) : Json(nullptr)},
+                      {"peak_error", merit ? Json(merit->peak_error) : Json(nullptr)},
+                      {"rms_error", merit ? Json(merit->rms_error) : Json(nullptr)},
+                      {"mean_damping", merit ? Json(merit->mean_damping) : Json(nullptr)},
+                      {"minimum_damping", merit ? Json(merit->minimum_damping) : Json(nullptr)},
+                      {"motor_noise", merit ? or_null(merit->motor_noise) : Json(nullptr)},
+                      {"refusal", offer.refusal.empty() ? Json(nullptr) : Json(offer.refusal)}});
+    }
+    components.push_back({{"component", name_of(*split, c.network)},
+                          {"regimes", split->regimes.count},
                           {"laws", laws},
-                          {"chosen", name_of(split.law)},
-                          {"reason", split.reason}});
+                          {"chosen", name_of(split->law)},
+                          {"reason", split->reason}});
   }
   return components;
 }

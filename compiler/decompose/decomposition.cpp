@@ -41,8 +41,8 @@ class Decomposer {
                     StateInput::position});
     list.push_back(observed("largest-observer", ObserverRule::largest));
     if (has_slips()) {
-      list.push_back(observed("gated", ObserverRule::most_dissipative));
-      list.push_back(observed("compensated", ObserverRule::most_dissipative));
+      for (const char* slip_law : {"steady", "ramped", "gated"})
+        list.push_back(observed(slip_law, ObserverRule::most_dissipative));
     }
     list.push_back({"virtual", 0, "no brake: everything computed", {}});
     if (const double* given = std::get_if<double>(&choices_.decomposition))

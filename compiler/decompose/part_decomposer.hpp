@@ -19,35 +19,32 @@ struct SlipPart {
 
 class PartDecomposer {
  public:
-  // All outlive this. `beside`: what reaches ground without a slip.
-  PartDecomposer(SlipPart part, const LinearForm& beside, const PortDevice& device, bool is_tunable);
+  // The device outlives this.
+  PartDecomposer(SlipPart part, const PortDevice& device, bool is_tunable, bool behind_contact);
 
   // All but what is rendered.
-  ComponentSplit split(const std::variant<std::string, double>& decomposition) const;
+  ComponentSplit split(const SlipPlan& plan) const;
 
  private:
   bool is_listed() const { return !part_.regimes.regimes.empty(); }
   const Regime& regime(std::size_t i) const { return part_.regimes.regimes[i]; }
-  double excess_brake(std::size_t i) const;
-  double compensation(std::size_t i) const;
-  double largest_excess_brake() const;
-  double largest_compensation() const;
-  void choose(const std::variant<std::string, double>& decomposition, ComponentSplit& split) const;
-  void choose_most_dissipative(ComponentSplit& split) const;
-  void take(SlipLaw law, std::string reason, ComponentSplit& split) const;
+  const Real& largest_feedthrough() const;
+  double excess_of(std::size_t i) const;
+  double largest_excess() const;
   std::string hindrance_to_choice() const;
-  std::string refusal_of(SlipLaw law) const;
-  SlipLawMerit merit(SlipLaw law) const;
-  double error(SlipLaw law, std::size_t i, double w) const;
-  std::vector<BrakeShare> shares(SlipLaw law) const;
-  BrakeShare share(SlipLaw law, std::size_t i) const;
+  std::string refusal_of(SlipLaw law, const SlipPlan& plan) const;
+  std::vector<BrakeShare> shares(SlipLaw law, const SlipPlan& plan) const;
+  BrakeShare share(SlipLaw law, const SlipPlan& plan, std::size_t i) const;
 
   SlipPart part_;
   std::vector<Real>
       gated_brakes_;  // b∞ of what is computed, and the viscosity that the dampers left out have at low frequency
-  const LinearForm& beside_;
   const PortDevice& device_;
-  bool is_tunable_;
+  bool is_tunable_, behind_contact_;
 };
+
+// The share of an excess of the brake that the motor may take back through an estimate (theory, section 5):
+// (1 − ε) h/T_max of what is told, ε with what the brake loses at the largest speed.
+double compensated_share(const PortDevice& device);
 
 }  // namespace dashpot::compiler

@@ -60,6 +60,18 @@ std::optional<double> PortDevice::max_damping() const {
 }
 
 double PortDevice::tolerance() const { return is_ideal() ? 0 : device_->description.brake.tolerance; }
+
+double PortDevice::assured_share() const {
+  if (is_ideal()) return 1;
+  const double fades_at = device_->description.brake.critical_speed, fastest = device_->description.encoder.max_speed;
+  if (fades_at == 0) return 1 - tolerance();
+  return fastest == 0 ? 0 : (1 - tolerance()) / (1 + fastest / fades_at * (fastest / fades_at));
+}
+
+double PortDevice::residual_damping() const {
+  return is_ideal() ? 0 : device_->description.brake.residual_damping * damping_scale_;
+}
+
 double PortDevice::band_low() const {
   return 2 * pi * (is_ideal() ? loop_description{} : device_->description.loop).band_low;
 }
@@ -74,6 +86,10 @@ double PortDevice::largest_estimator_gain() const {
 double PortDevice::sample_period() const {
   return (is_ideal() ? loop_description{} : device_->description.loop).sample_period;
 }
+double PortDevice::longest_hold() const {
+  return sample_period() + (is_ideal() ? 0 : device_->description.loop.jitter);
+}
+double PortDevice::amplifier_lag() const { return is_ideal() ? 0 : device_->description.motor.amplifier_lag; }
 double PortDevice::coil_lag() const { return is_ideal() ? 0 : device_->description.brake.coil_lag; }
 
 double PortDevice::coil_slew() const {

@@ -27,9 +27,11 @@ class PortDevice {
   double position_scale() const { return position_scale_; }                       // likewise
   std::optional<double> max_damping() const;                                      // at the tool [N·s/m]; empty: any
   double tolerance() const;                                                       // ε of the brake [1]
-  double band_low() const;                                                        // [rad/s]
-  double band_high() const;                                                       // [rad/s]
-  double reference_frequency() const;                                             // [rad/s]; 0: the limit ω → 0
+  double assured_share() const;                                                   // (1 − ε)/(1 + (v_max/v_c)²) [1]
+  double residual_damping() const;     // of the brake at zero current, at the tool [N·s/m]
+  double band_low() const;             // [rad/s]
+  double band_high() const;            // [rad/s]
+  double reference_frequency() const;  // [rad/s]; 0: the limit ω → 0
 
   // G(jω) = V̂/U̇ of the estimator; a pure delay where the estimator is not linear. 1 for an ideal device.
   std::complex<double> velocity_response(double angular_frequency) const;
@@ -42,6 +44,8 @@ class PortDevice {
   std::optional<unsigned> estimate_memory() const;
   double largest_estimator_gain() const;  // max |G|; infinite where it is not linear
   double sample_period() const;           // [s]
+  double longest_hold() const;            // h and the longest lateness of a sample, T_max [s]
+  double amplifier_lag() const;           // [s]
   double coil_lag() const;                // [s]
   double coil_slew() const;               // of √b [√(N·s/m)/s]; 0: unlimited
   std::string_view estimator_name() const;

@@ -13,22 +13,45 @@ namespace dashpot::compiler {
 enum class SlipLaw {
   by_motor,       // b = 0, m = f: everything computed
   velocity_free,  // b = b∞(regime), m = f′
+  steady,         // one b in every regime, m = f′ − β v̂ with one β: nothing switches
+  ramped,         // b rises and falls by small steps to that of the regime's observer, and m = f′ − β v̂ with it
   gated,          // b = b∞ and the viscosity of the dampers beside the slips, which are left out of m
-  compensated,    // where any slip slides the observer's b, m = f′ − β v̂ with a β that the brake has earned
+};
+
+inline constexpr SlipLaw laws_to_choose_from[] = {SlipLaw::velocity_free, SlipLaw::steady, SlipLaw::ramped,
+                                                  SlipLaw::gated};
+
+// What is asked of all parts alike.
+struct SlipPlan {
+  SlipLaw law = SlipLaw::velocity_free;
+  double excess = 1;         // of the steady law, the share of what it could take beyond the largest b∞ [1]
+  double estimate_gain = 1;  // γ of ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, not below it; infinite where none is known [1]
 };
 
 // What a component gives to the brake in one regime [N·s/m].
 struct BrakeShare {
   double damping = 0;       // b
   Real feedthrough = 0;     // x of f′ = f − x Δu/h, not rounded: what is left of a lone damper is nothing
-  double compensation = 0;  // β at most
+  double compensation = 0;  // β, of the ramped law at most
 };
 
+// Whether a part can have a law.
+struct SlipLawOffer {
+  SlipLaw law;
+  std::string refusal;  // why it cannot be had; empty where it can
+};
+
+// What a law does in a run of the whole network: of all parts that can have it, velocity-free elsewhere.
 struct SlipLawMerit {
   SlipLaw law;
-  double largest_error;               // max |Z_rendered − Z|/|Z| over the band while sliding [1]
-  std::optional<double> motor_noise;  // rms, from quantisation through the estimate [N]; empty: not linear
-  std::string refusal;                // why it cannot be had; empty where it can
+  double peak_error = 0;  // largest |f_law − f_network| of a motion over the largest |f_network| in it, the worst [1]
+  double rms_error = 0;   // the same of root mean squares [1]
+  double mean_damping = 0;     // Σ b u̇²/Σ u̇² over all motions, without what is added for passivity [N·s/m]
+  double minimum_damping = 0;  // what would have to be added for passivity [N·s/m]
+  bool certified = false;      // on the device, with what has been added
+  std::optional<double> motor_noise;  // rms, from quantisation through the estimate behind slips [N]; empty: not linear
+
+  double error() const { return peak_error > rms_error ? peak_error : rms_error; }
 };
 
 struct ComponentSplit {
@@ -36,17 +59,26 @@ struct ComponentSplit {
   std::vector<std::size_t> rendered_elements;  // the same of a part that is no tree
   RegimeList regimes;
   std::vector<BrakeShare> shares;  // one a listed regime; where none is listed, one for all of them
-  std::vector<SlipLawMerit> merits;
+  std::vector<SlipLawOffer> offers;
   SlipLaw law = SlipLaw::by_motor;
   std::string reason;
+
+  double largest_compensation() const {
+    double largest = 0;
+    for (const BrakeShare& share : shares) largest = share.compensation > largest ? share.compensation : largest;
+    return largest;
+  }
 };
 
 struct SlipDecomposition {
   std::vector<ComponentSplit>
       components;  // in the order of NormalForm::components; none where a contact makes one of all
   std::vector<ComponentSplit> networks;  // in the order of NormalForm::networks; behind a contact one for all slips
+  std::vector<SlipLawMerit> merits;      // of the laws that have been run; none where there was nothing to choose
+  double limit = 0;                      // the error that the choice among them kept to [1]
   double hysteresis = 0;                 // displacement that does not end a slide for the command [m]
-  unsigned hold_samples = 0;             // a regime's samples before it is compensated
+  unsigned memory = 0;                   // N + n: samples that an estimate reaches back from the hold that it acts in
+  double ramp = 1;                       // ρ: what the way of a ramp makes in a sample at most, of the whole [1]
   double coil_share = 1;     // κ: of what is missing from √b, that the coil makes up in a sample at least [1]
   double assured_share = 0;  // of a damping that no slip changes, what an estimate may make up for; 0 for none [1]
   double make_up = 0;        // what the motor may add or take of a brake on its way, β at most [N·s/m]

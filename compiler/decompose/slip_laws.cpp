@@ -14,8 +14,12 @@ bool has_tunables(const Network& network) {
                      [](const Parameter& p) { return p.tunable; });
 }
 
-ComponentSplit split_of_component(const Network& network, const NormalTree& component, const LinearForm& beside,
-                                  const std::variant<std::string, double>& decomposition, const PortDevice& device) {
+PartDecomposer decomposer_of(SlipPart part, const Network& network, const PortDevice& device) {
+  return {std::move(part), device, has_tunables(network), network.contact.has_value()};
+}
+
+ComponentSplit split_of_component(const Network& network, const NormalTree& component, const SlipPlan& plan,
+                                  const PortDevice& device) {
   SlipPart part{regimes_of(network, component, device.reference_frequency()), {}, {}};
   const std::vector<SlipElements>& slips = part.regimes.slips;
   part.sliding = form_in_regime(component, slips, std::vector<bool>(slips.size(), true));
@@ -23,14 +27,13 @@ ComponentSplit split_of_component(const Network& network, const NormalTree& comp
   if (gated)
     for (const Regime& regime : part.regimes.regimes)
       part.gated.push_back(form_in_regime(*gated, slips, regime.slides));
-  ComponentSplit split = PartDecomposer(std::move(part), beside, device, has_tunables(network)).split(decomposition);
+  ComponentSplit split = decomposer_of(std::move(part), network, device).split(plan);
   split.rendered = split.law == SlipLaw::gated ? *gated : component;
   return split;
 }
 
 // Slips that meet in no tree.
-ComponentSplit split_of_network(const Network& network, const std::vector<std::size_t>& elements,
-                                const LinearForm& beside, const std::variant<std::string, double>& decomposition,
+ComponentSplit split_of_network(const Network& network, const std::vector<std::size_t>& elements, const SlipPlan& plan,
                                 const PortDevice& device) {
   SlipPart part{regimes_of(network, elements, device.reference_frequency()), {}, {}};
   if (!part.regimes.regimes.empty()) part.sliding = part.regimes.regimes.back().form;
@@ -38,7 +41,7 @@ ComponentSplit split_of_network(const Network& network, const std::vector<std::s
   if (gated)
     for (const Regime& regime : regimes_of(network, *gated, part.regimes.slips, device.reference_frequency()).regimes)
       part.gated.push_back(regime.form);
-  ComponentSplit split = PartDecomposer(std::move(part), beside, device, has_tunables(network)).split(decomposition);
+  ComponentSplit split = decomposer_of(std::move(part), network, device).split(plan);
   split.rendered_elements = split.law == SlipLaw::gated ? *gated : elements;
   return split;
 }
@@ -59,15 +62,17 @@ double largest_damping(const ComponentSplit& split) {
   return largest;
 }
 
-// What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f. Returns what
-// is left of the brake.
+// What the brake cannot give to all regimes at once stays in the motor: any x ≤ b∞ may be taken out of f, and what the
+// motor takes back shrinks with the excess that it is a share of. Returns what is left of the brake.
 double cap(std::vector<ComponentSplit>& splits, double reach) {
   for (ComponentSplit& split : splits) {
+    double floor = 0;
+    for (const BrakeShare& share : split.shares) floor = std::max(floor, to_double(share.feedthrough));
     for (BrakeShare& share : split.shares) {
       if (share.damping <= reach) continue;
+      if (share.compensation > 0) share.compensation *= std::max(0.0, reach - floor) / (share.damping - floor);
       share.damping = reach;
       share.feedthrough = std::min(share.feedthrough, Real(reach));
-      share.compensation = std::min(share.compensation, to_double(reach - share.feedthrough));
     }
     reach -= largest_damping(split);
   }
@@ -90,16 +95,32 @@ double make_up(const Candidate& linear_part, const PortDevice& device) {
   return std::max(0.0, assured_share(device) * linear_part.damping - linear_part.velocity_gain);
 }
 
+// A way of ρ a sample leaves 1 − (1 − (N + n) ρ)² of the excess uncompensated, and a coil that makes up κ of what is
+// missing in a sample is up to ρ/κ of the way behind.
+double ramp_of(unsigned memory, double share_of_coil) {
+  const double of_estimate = memory > 0 ? ramp_error / 2 / memory : 1;
+  return std::min(of_estimate, share_of_coil < 1 ? ramp_error_of_coil / 2 * share_of_coil : 1);
+}
+
 }  // namespace
 
+std::optional<SlipLaw> slip_law_asked_for(const Choices& choices) {
+  const auto* name = std::get_if<std::string>(&choices.decomposition);
+  if (name == nullptr || *name == "virtual") return SlipLaw::by_motor;
+  for (const SlipLaw law : laws_to_choose_from)
+    if (name_of(law) == *name) return law;
+  const bool run_decides = *name == "most-dissipative" || *name == "faithful";
+  return run_decides ? std::nullopt : std::optional(SlipLaw::velocity_free);
+}
+
 SlipDecomposition decompose_slips(const Network& network, const NormalForm& form, const Candidate& linear_part,
-                                  const Choices& choices, const PortDevice& device) {
+                                  const SlipPlan& plan, const PortDevice& device) {
   SlipDecomposition slips;
   if (!network.contact || form.networks.empty())
     for (const NormalTree& component : form.components)
-      slips.components.push_back(split_of_component(network, component, form.linear, choices.decomposition, device));
+      slips.components.push_back(split_of_component(network, component, plan, device));
   for (const std::vector<std::size_t>& part : network_parts(network, form))
-    slips.networks.push_back(split_of_network(network, part, form.linear, choices.decomposition, device));
+    slips.networks.push_back(split_of_network(network, part, plan, device));
   if (const std::optional<double> most = device.max_damping())
     cap(slips.networks, cap(slips.components, std::max(0.0, *most - linear_part.damping)));
   double span = 0;
@@ -108,22 +129,27 @@ SlipDecomposition decompose_slips(const Network& network, const NormalForm& form
   slips.coil_share = coil_share(device, std::sqrt(span));
   slips.assured_share = assured_share(device);
   slips.make_up = make_up(linear_part, device);
-  slips.hold_samples = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
+  // Within the hold in which a coil is told something it is not there yet.
+  slips.memory = device.estimate_memory().value_or(0) + (slips.coil_share < 1 ? 1 : 0);
+  slips.ramp = ramp_of(slips.memory, slips.coil_share);
   return slips;
 }
 
 namespace {
 
+void say_asked_for(ComponentSplit& split) {
+  if (split.reason.empty()) split.reason = "asked for";
+}
+
 // False, with a diagnostic, where a law was asked for that no part can have.
-bool has_what_was_asked_for(const Network& network, const SlipDecomposition& slips, const Choices& choices,
+bool has_what_was_asked_for(const Network& network, const SlipDecomposition& slips, SlipLaw asked,
                             Diagnostics& diagnostics) {
-  const auto* name = std::get_if<std::string>(&choices.decomposition);
-  if (name == nullptr || (*name != name_of(SlipLaw::gated) && *name != name_of(SlipLaw::compensated))) return true;
+  if (asked == SlipLaw::by_motor || asked == SlipLaw::velocity_free) return true;
   for (const ComponentSplit* split : slips.all())
-    if (name_of(split->law) == *name) return true;
+    if (split->law == asked) return true;
   const ComponentSplit& first = *slips.all().front();
   diagnostics.report<DiagnosticCode::no_such_slip_law>(network.elements[first.regimes.slips.front().front()].span,
-                                                       *name, name_of(first, network), first.reason);
+                                                       name_of(asked), name_of(first, network), first.reason);
   diagnostics.note<DiagnosticCode::take_another_slip_law>({});
   return false;
 }
@@ -137,8 +163,11 @@ std::optional<Decomposition> decompose(const Network& network, const NormalForm&
   if (!result || !form.has_slips()) return result;
   const std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
   if (!port) return result;
-  result->slips = decompose_slips(network, form, result->choice(), choices, *port);
-  return has_what_was_asked_for(network, result->slips, choices, diagnostics) ? std::move(result) : std::nullopt;
+  const SlipLaw asked = slip_law_asked_for(choices).value_or(SlipLaw::velocity_free);
+  result->slips = decompose_slips(network, form, result->choice(), {asked, 1, port->largest_estimator_gain()}, *port);
+  for (ComponentSplit& split : result->slips.components) say_asked_for(split);
+  for (ComponentSplit& split : result->slips.networks) say_asked_for(split);
+  return has_what_was_asked_for(network, result->slips, asked, diagnostics) ? std::move(result) : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

@@ -16,21 +16,27 @@
 
 namespace dashpot::compiler {
 
-// What the gated law may err by in the device's band where `most-dissipative` takes it.
-inline constexpr double gated_tolerance = 0.05;  // [1]
+// Of the excess that a ramp leads to, what stays uncompensated because the estimate reaches back, and what more does
+// while the coil is on its way [1].
+inline constexpr double ramp_error = 0.01;
+inline constexpr double ramp_error_of_coil = 0.04;
 
 // How far a displacement must go back before the command takes the slips for stuck, in steps of the encoder.
 inline constexpr double hysteresis_steps = 1.5;
 
 std::string_view name_of(SlipLaw law);
 
+// The law that a name of --decomposition asks for; none where a run decides. A damping and `virtual`: all by the motor.
+std::optional<SlipLaw> slip_law_asked_for(const Choices& choices);
+
 // In: the network, its normal form, the decomposition of what reaches ground without a slip. Ensures: together with
 // that part no regime asks for more than the brake gives; every feedthrough ≤ b∞ and ≤ b of its regime, every
-// compensation ≤ (1 − ε) b.
+// compensation ≤ (1 − ε) (h/T_max) of what b has beyond the largest b∞ of all regimes.
 SlipDecomposition decompose_slips(const Network& network, const NormalForm& form, const Candidate& linear_part,
-                                  const Choices& choices, const PortDevice& device);
+                                  const SlipPlan& plan, const PortDevice& device);
 
-// Both: what reaches ground without a slip, then the rest. Warns and refuses as decompose() of linear networks.
+// Both: what reaches ground without a slip, then the rest by the law asked for, velocity-free where a run has to
+// decide. Warns and refuses as decompose() of linear networks.
 std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& choices,
                                        const Device* device, Diagnostics& diagnostics);
 

@@ -10,11 +10,6 @@
 namespace dashpot::compiler {
 namespace {
 
-bool offers_choice(const ComponentSplit& split) {
-  return std::count_if(split.merits.begin(), split.merits.end(),
-                       [](const SlipLawMerit& merit) { return merit.refusal.empty(); }) > 1;
-}
-
 bool is_like(const ComponentSplit& first, const ComponentSplit& second) {
   const auto same = [](const BrakeShare& x, const BrakeShare& y) {
     return x.damping == y.damping && x.feedthrough == y.feedthrough && x.compensation == y.compensation;
@@ -44,15 +39,30 @@ std::string regimes_text(const ComponentSplit& split, const Network& network) {
   return text;
 }
 
-// The error is the law's own: the loop's delay and the amplifier's lag come on top, the same for all.
-std::string laws_text(const ComponentSplit& split, const Network& network) {
-  std::string text = fmt::format("  {:<16}{:>12}{:>14}\n", "law", "own error", "motor noise");
-  text += fmt::format("  {:<16}{:>12}{:>14}\n", "", "%", port_units(network.port_motion).force);
-  for (const SlipLawMerit& merit : split.merits)
-    if (merit.refusal.empty())
-      text += fmt::format("  {:<16}{:>12.4g}{:>14}\n", name_of(merit.law), 100 * merit.largest_error,
-                          merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
-    else text += fmt::format("  {:<16}  not to be had: {}\n", name_of(merit.law), merit.refusal);
+std::string refusals_text(const ComponentSplit& split) {
+  std::string text;
+  for (const SlipLawOffer& offer : split.offers)
+    if (!offer.refusal.empty() && offer.law != SlipLaw::velocity_free)
+      text += fmt::format("  {} is not to be had: {}\n", name_of(offer.law), offer.refusal);
+  return text;
+}
+
+// Of the whole network, as it is felt.
+std::string merits_text(const SlipDecomposition& slips, const Network& network) {
+  if (slips.merits.empty()) return "";
+  const PortUnits units = port_units(network.port_motion);
+  const auto row = [](const auto&... cells) {
+    return fmt::format("  {:<16}{:>12}{:>12}{:>14}{:>18}{:>14}\n", cells...);
+  };
+  std::string text =
+      "laws behind slips in runs around yield: sines at both ends of the band and a drag with reversals\n";
+  text += row("law", "peak error", "rms error", "mean brake", "minimum damping", "motor noise");
+  text += row("", "%", "%", units.damping, units.damping, units.force);
+  for (const SlipLawMerit& merit : slips.merits)
+    text += row(name_of(merit.law), fmt::format("{:.4g}", 100 * merit.peak_error),
+                fmt::format("{:.4g}", 100 * merit.rms_error), fmt::format("{:.4g}", merit.mean_damping),
+                fmt::format("{:.4g}", merit.minimum_damping),
+                merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
   return text;
 }
 
@@ -62,8 +72,9 @@ std::string_view name_of(SlipLaw law) {
   switch (law) {
     case SlipLaw::by_motor: return "by-motor";
     case SlipLaw::velocity_free: return "velocity-free";
+    case SlipLaw::steady: return "steady";
+    case SlipLaw::ramped: return "ramped";
     case SlipLaw::gated: return "gated";
-    case SlipLaw::compensated: return "compensated";
   }
   return "";
 }
@@ -111,9 +122,9 @@ std::string to_text(const SlipDecomposition& slips, const Network& network) {
     if (asks_the_brake(*likes.first)) text += regimes_text(*likes.first, network);
     if (likes.first->regimes.regimes.empty() && likes.first->shares.front().damping > 0)
       text += fmt::format("  b = {:.8g} in every regime\n", likes.first->shares.front().damping);
-    if (offers_choice(*likes.first)) text += laws_text(*likes.first, network);
+    if (asks_the_brake(*likes.first)) text += refusals_text(*likes.first);
   }
-  return text;
+  return text + merits_text(slips, network);
 }
 
 }  // namespace dashpot::compiler

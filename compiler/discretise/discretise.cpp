@@ -107,7 +107,7 @@ class LawBuilder {
                                              meaning, velocity_gain, law_.velocity);
     ExpressionId sum = stepped == nothing ? writer_.plus(held, writer_.plus(placed, driven))
                                           : writer_.plus(writer_.plus(held, placed), writer_.plus(stepped, driven));
-    sum = slips_.write_output(sum, change_);
+    sum = slips_.write_output(sum, change_, law_.position);
     sum = brake_.without_feedthrough(sum, law_.position, change_);
     sum = brake_.left_to_motor(sum);
     brake_.write_command();

@@ -1,4 +1,4 @@
-// What the brake is told, and what it leaves to the motor, where slips change it.
+// What the brake is told, and what it leaves to the motor: the sums over all parts with slips.
 #pragma once
 
 #include "discretise/contact_surface.hpp"
@@ -28,6 +28,8 @@ class LawBrake {
   void write_update(VariableId released);
 
  private:
+  template <class ValueOf>
+  Real sum(ValueOf value_of) const;
   ExpressionId compensated(ExpressionId sum, ExpressionId compensation);
   ExpressionId made_up(ExpressionId sum);
 

@@ -6,179 +6,272 @@
 namespace dashpot::compiler {
 namespace {
 
+using Shares = std::vector<BrakeShare>;
+
+double least_of(const Shares& shares) {
+  double least = shares.front().damping;
+  for (const BrakeShare& share : shares) least = std::min(least, share.damping);
+  return least;
+}
+
+double largest_of(const Shares& shares) {
+  double largest = 0;
+  for (const BrakeShare& share : shares) largest = std::max(largest, share.damping);
+  return largest;
+}
+
+bool differ(const Shares& shares, bool (*same)(const BrakeShare&, const BrakeShare&)) {
+  return std::any_of(shares.begin(), shares.end(),
+                     [&](const BrakeShare& share) { return !same(share, shares.front()); });
+}
+
+bool same_damping(const BrakeShare& x, const BrakeShare& y) { return x.damping == y.damping; }
+bool same_feedthrough(const BrakeShare& x, const BrakeShare& y) { return x.feedthrough == y.feedthrough; }
+
+// w of b = b_least + (b_most − b_least) w²
+Real way_of(const BrakeShare& share, const Shares& all) {
+  const double least = least_of(all), span = largest_of(all) - least;
+  return span > 0 ? Real(std::sqrt((share.damping - least) / span)) : Real(0);
+}
+
+bool is_ramped(const ComponentSplit* split) { return split != nullptr && split->law == SlipLaw::ramped; }
+
+// Without a share in the brake.
+const Shares nothing_taken = {BrakeShare{}};
+
+const Shares& shares_of(const ComponentSplit* split) { return split ? split->shares : nothing_taken; }
+
 template <class ValueOf>
-Real sum(const std::vector<BrakePair>& pairs, ValueOf value_of) {
+Real sum(const std::vector<const ComponentSplit*>& splits, ValueOf value_of) {
   Real total = 0;
-  for (const BrakePair& pair : pairs) total += Real(value_of(pair));
+  for (const ComponentSplit* split : splits) total += Real(value_of(shares_of(split)));
   return total;
 }
 
 }  // namespace
 
-BrakePair brake_pair(const ComponentSplit& split) {
-  return split.shares.size() == 2 ? BrakePair{split.shares.front(), split.shares.back()} : BrakePair{};
+void SlipBrake::add(const ComponentSplit* split) { splits_.push_back(split); }
+
+std::string SlipBrake::shape(const ComponentSplit* split) {
+  const Shares& shares = shares_of(split);
+  if (!differ(shares, same_damping)) return "-";
+  return std::string(compiler::is_ramped(split) ? "r" : "b") + (shares.front().damping == least_of(shares) ? "+" : "-");
 }
 
-std::string SlipBrake::shape(const BrakePair& pair) const {
-  return std::string(pair.changes() ? "b" : "-") + (pair.compensates() ? "c" : "-");
+bool SlipBrake::takes_part() const { return largest_damping() > 0; }
+bool SlipBrake::damping_changes() const { return !splits_.empty() && differ(shares_of(splits_.front()), same_damping); }
+bool SlipBrake::changes() const {
+  return damping_changes() || (!splits_.empty() && differ(shares_of(splits_.front()), same_feedthrough));
 }
+bool SlipBrake::is_ramped() const { return damping_changes() && compiler::is_ramped(splits_.front()); }
+const std::vector<SlipElements>& SlipBrake::slips() const { return splits_.front()->regimes.slips; }
 
-// s·t stays above Y (Y − d ∂t/∂u) while the tool goes back by less than d. In any case a rounding below Y is no end,
-// and a slip that is pulled the other way is one.
-void SlipBrake::add(const BrakePair& pair, const Real& yield_force, const Real& trial_by_change) {
-  const Real back = std::max(Real(Real(settings_.hysteresis) * trial_by_change), Real(yield_force * Real("1e-6")));
-  pairs_.push_back(pair);
-  leave_.push_back(yield_force * std::max(Real(yield_force - back), Real(0)));
-}
-
-void SlipBrake::declare(const std::string& prefix, const Names& names) {
+void SlipBrake::declare(const std::string& prefix, const Names& places, const Names& slips) {
   prefix_ = prefix;
-  names_ = names;
-  if (!changes() && !compensates()) return;
-  if (has_hysteresis())
-    slid_ = state("slid", writer_.force(), "the slip's force where the command takes it for sliding, else 0");
-  if (changes() && coil_lags()) way_ = state("way", "1", "q of √b, from stuck to sliding");
-  if (!compensates()) return;
-  samples_ = state("samples", "1", "for which the command has taken it for sliding");
-  if (!coil_lags()) return;
-  earned_way_ = state("earned_way", "1", "of √b, what has been demanded at least");
-  earned_ = state("earned", "1", "of √b, what the coil has reached at least");
+  places_ = places;
+  if (!damping_changes()) return;
+  if (settings_.hysteresis > 0)
+    for (const std::string& slip : slips) {
+      const auto one_a_place = [&](const char* what, const std::string& unit, const char* meaning, Role role) {
+        return writer_.vector({slip, what}, unit, meaning, role, places_.size() > 1 ? places_ : Names{slip});
+      };
+      memories_.push_back(
+          {one_a_place("slid", "1", "1 where the command takes the slip for sliding, else 0", Role::state),
+           one_a_place("slid_at", writer_.length(), "where the tool was when it last slid", Role::state),
+           one_a_place("slides_now", "1", "", Role::local),
+           one_a_place("slides_at", writer_.length(), "", Role::local)});
+    }
+  if (!has_way()) return;
+  way_ = variable("way", "1", "w, of √(b − b_least)", Role::state);
+  const Shares& first = shares_of(splits_.front());
+  writer_.law().variables[way_].rest_value = rounded(way_of(first.front(), first), writer_.law().scalar);
+  if (is_ramped() && coil_lags()) reached_ = variable("reached", "1", "q, of w what the coil has reached", Role::state);
 }
 
-void SlipBrake::write_output(ExpressionId sliding, VariableId trial, VariableId slip, VariableId excess) {
-  if (!changes() && !compensates()) return;
-  const ExpressionId commanded = has_hysteresis() ? keep_sliding(sliding, trial, slip, excess) : sliding;
-  if (changes()) write_damping(commanded);
-  if (compensates()) write_compensation(commanded);
-}
-
-void SlipBrake::write_damping(ExpressionId commanded) {
-  const ExpressionId stuck = per_place("stuck_damping", writer_.damping(), "b while the slip holds",
-                                       [](const BrakePair& p) { return p.stuck.damping; });
-  const ExpressionId slides = per_place("sliding_damping", writer_.damping(), "b while it slides",
-                                        [](const BrakePair& p) { return p.sliding.damping; });
-  const ExpressionId wanted = writer_.where(commanded, slides, stuck);
-  damping_ = local("damping", writer_.damping(), "share of the brake");
-  if (!coil_lags()) return writer_.assign(writer_.law().output, damping_, wanted, "b of the regime");
-  const VariableId target = local("wanted_damping", writer_.damping(), "");
-  const ExpressionId one = writer_.constant(joined(prefix_, "arrived"), "1", "the whole way", 1);
-  const ExpressionId none = writer_.constant(joined(prefix_, "departed"), "1", "nothing of it", 0);
-  writer_.assign(writer_.law().output, target, wanted, "b of the regime");
-  way_now_ = local("way_now", "1", "");
-  writer_.assign(writer_.law().output, way_now_, nearer(way_, writer_.where(commanded, one, none)),
-                 "q ← q + κ (1 - q), or q - κ q");
-  write_limited_damping(writer_.read(target));
-}
-
-// q + κ (goal − q)
-ExpressionId SlipBrake::nearer(VariableId from, ExpressionId goal) {
-  if (share_ == nothing)
-    share_ = writer_.constant(joined(prefix_, "coil_share"), "1", "κ of a sample", settings_.coil_share);
-  return writer_.add(writer_.read(from), writer_.multiply(share_, writer_.subtract(goal, writer_.read(from))));
-}
-
-// The larger b is reached by the square of the way to it, b = b_least + |Δb| w², w = q or 1 − q: no coil that makes up
-// κ of √b in a sample is asked for more (Cauchy and Schwarz over all components).
-void SlipBrake::write_limited_damping(ExpressionId wanted) {
-  const auto rises = [](const BrakePair& p) { return p.sliding.damping > p.stuck.damping; };
-  const ExpressionId least = per_place("least_damping", writer_.damping(), "b of the regime with less",
-                                       [](const BrakePair& p) { return std::min(p.stuck.damping, p.sliding.damping); });
-  const ExpressionId more = per_place("more_damping", writer_.damping(), "and what the other has more",
-                                      [](const BrakePair& p) { return std::abs(p.sliding.damping - p.stuck.damping); });
-  const ExpressionId start =
-      per_place("way_start", "1", "where the slip holds", [=](const BrakePair& p) { return rises(p) ? 0 : 1; });
-  const ExpressionId ahead = per_place("way_ahead", "1", "from there to where it slides",
-                                       [=](const BrakePair& p) { return rises(p) ? 1 : -1; });
-  const VariableId root = local("root", "1", "");
-  writer_.assign(writer_.law().output, root, writer_.add(start, writer_.multiply(ahead, writer_.read(way_now_))),
-                 "of b, between its least and its largest");
-  writer_.assign(writer_.law().output, damping_,
-                 writer_.add(least, writer_.multiply(more, writer_.multiply(writer_.read(root), writer_.read(root)))),
-                 "b as the coil can follow");
-  if (settings_.make_up <= 0) return;
-  shortfall_ = local("shortfall", writer_.damping(), "");
-  writer_.assign(writer_.law().output, shortfall_, writer_.subtract(wanted, writer_.read(damping_)),
-                 "b of the regime less b");
-}
-
-// Above zero where the command takes the slip for sliding.
-ExpressionId SlipBrake::keep_sliding(ExpressionId sliding, VariableId trial, VariableId slip, VariableId excess) {
-  const ExpressionId leave = writer_.constants({prefix_, "leave"}, writer_.force() + "²",
-                                               "Y (Y - 1.5 steps of the encoder ∂t/∂u)", leave_, names_);
-  const ExpressionId still = writer_.subtract(writer_.multiply(writer_.read(slid_), writer_.read(trial)), leave);
-  slide_ = local("slide", writer_.force(), "");
-  writer_.assign(
-      writer_.law().output, slide_,
-      writer_.where(sliding, writer_.read(slip), writer_.where(still, writer_.read(slid_), writer_.read(excess))),
-      "for the command, sliding ends with s t < Y (Y - 1.5 steps ∂t/∂u); here r = 0");
-  return writer_.multiply(writer_.read(slide_), writer_.read(slide_));
-}
-
-// β = β_most q₂², q₂ by a coil that lags behind a demand that lags, from the sample on in which all that the estimate
-// knows of was braked.
-void SlipBrake::write_compensation(ExpressionId commanded) {
-  std::vector<Statement>& output = writer_.law().output;
-  const ExpressionId none = writer_.constant(joined(prefix_, "none"), "1", "nothing", 0);
-  const ExpressionId one = writer_.constant(joined(prefix_, "one"), "1", "one sample, the whole", 1);
-  samples_now_ = local("sliding_samples", "1", "");
-  writer_.assign(output, samples_now_, writer_.where(commanded, writer_.add(writer_.read(samples_), one), none),
-                 "samples of this slide");
-  const ExpressionId hold =
-      writer_.constant(joined(prefix_, "hold"), "1", "samples before a slide is compensated", settings_.hold_samples);
-  const ExpressionId long_enough = writer_.subtract(writer_.read(samples_now_), hold);
-  const ExpressionId most = per_place("compensation_most", writer_.damping(), "β at most",
-                                      [](const BrakePair& p) { return p.sliding.compensation; });
-  compensation_ = local("compensation", writer_.damping(), "");
-  if (earned_ == nothing) {
-    writer_.assign(output, compensation_, writer_.where(long_enough, most, none), "β, held");
-    return;
+void SlipBrake::write_output(const std::vector<ExpressionId>& slides, VariableId position) {
+  if (!changes()) return;
+  const bool of_one = splits_.front()->regimes.slips.size() == 1;
+  regime_of_force_ = regime_ = of_one ? slides.front() : writer_.read(write_regime("regime", slides));
+  if (!memories_.empty()) {
+    std::vector<ExpressionId> commanded = slides;
+    remember(commanded, position);
+    regime_ = of_one ? commanded.front() : writer_.read(write_regime("commanded_regime", commanded));
   }
-  // The brake is itself demanded on the way, so that the coil comes a second lag behind.
-  earned_way_now_ = local("earned_way_now", "1", "");
-  earned_now_ = local("earned_now", "1", "");
-  writer_.assign(output, earned_now_, writer_.where(long_enough, nearer(earned_, writer_.read(earned_way_)), none),
-                 "q₂ ← q₂ + κ (q₁ - q₂)");
-  writer_.assign(output, earned_way_now_, writer_.where(long_enough, nearer(earned_way_, one), none),
-                 "q₁ ← q₁ + κ (1 - q₁)");
+  if (!damping_changes()) return;
+  write_damping();
+  if (is_ramped()) write_compensation();
+}
+
+// For the command a slide ends where the tool has gone 1.5 steps of the encoder, to either side, and the slip not with
+// it.
+void SlipBrake::remember(std::vector<ExpressionId>& slides, VariableId position) {
+  std::vector<Statement>& output = writer_.law().output;
+  const Real reach = settings_.hysteresis;
+  const ExpressionId area =
+      writer_.constant("hysteresis_squared", writer_.length() + "²", "(1.5 steps of the encoder)²", reach * reach);
+  for (std::size_t i = 0; i < memories_.size(); ++i) {
+    const Memory& memory = memories_[i];
+    const ExpressionId gone = writer_.subtract(writer_.read(position), writer_.read(memory.at));
+    const ExpressionId still = writer_.subtract(area, writer_.multiply(gone, gone));
+    writer_.assign(output, memory.slides_now,
+                   writer_.where(slides[i], one(), writer_.where(still, writer_.read(memory.slid), none())),
+                   "for the command, sliding ends 1.5 steps of the encoder further on");
+    writer_.assign(output, memory.at_now, writer_.where(slides[i], writer_.read(position), writer_.read(memory.at)),
+                   "");
+    slides[i] = writer_.read(memory.slides_now);
+  }
+}
+
+// Σ 2^i over the slips that slide
+VariableId SlipBrake::write_regime(const char* what, const std::vector<ExpressionId>& slides) {
+  ExpressionId sum = nothing;
+  for (std::size_t i = 0; i < slides.size(); ++i) {
+    const std::size_t weight = std::size_t{1} << i;
+    const ExpressionId bit =
+        i == 0 ? one() : writer_.constant("bit_" + std::to_string(i + 1), "1", "of a regime", Real(weight));
+    sum = writer_.plus(sum, writer_.where(slides[i], bit, none()));
+  }
+  const VariableId regime = variable(what, "1", "which slips give way", Role::local);
+  writer_.assign(writer_.law().output, regime, sum, "bit i: slip i gives way");
+  return regime;
+}
+
+void SlipBrake::write_damping() {
+  std::vector<Statement>& output = writer_.law().output;
+  const bool may_fall_short = has_way() && !is_ramped() && settings_.make_up > 0;
+  const auto of_regime = [&] {
+    return by_regime("damping_by_regime", writer_.damping(), "b",
+                     [](const BrakeShare& share, const Shares&) { return Real(share.damping); });
+  };
+  const ExpressionId wanted = !has_way() || may_fall_short ? of_regime() : nothing;
+  damping_ = variable("damping", writer_.damping(), "share of the brake", Role::local);
+  if (!has_way()) return writer_.assign(output, damping_, wanted, "b of the regime");
+  write_way();
+  const ExpressionId least = per_place("least_damping", writer_.damping(), "b of the regime with least",
+                                       [](const Shares& shares) { return least_of(shares); });
+  const ExpressionId more = per_place("more_damping", writer_.damping(), "and what the one with most has more",
+                                      [](const Shares& shares) { return largest_of(shares) - least_of(shares); });
+  writer_.assign(
+      output, damping_,
+      writer_.add(least, writer_.multiply(more, writer_.multiply(writer_.read(way_now_), writer_.read(way_now_)))),
+      "b = b_least + (b_most − b_least) w²");
+  if (!may_fall_short) return;
+  shortfall_ = variable("shortfall", writer_.damping(), "", Role::local);
+  writer_.assign(output, shortfall_, writer_.subtract(wanted, writer_.read(damping_)), "b of the regime less b");
+}
+
+void SlipBrake::write_way() {
+  const ExpressionId goal = by_regime("way_by_regime", "1", "w",
+                                      [](const BrakeShare& share, const Shares& all) { return way_of(share, all); });
+  ExpressionId step = writer_.subtract(goal, writer_.read(way_));
+  if (coil_lags()) {
+    const ExpressionId share = writer_.constant("coil_share", "1", "κ of a sample", settings_.coil_share);
+    step = writer_.multiply(share, step);
+  }
+  way_now_ = variable("way_now", "1", "", Role::local);
+  if (is_ramped())
+    step = writer_.clamp(step, writer_.constant("ramp", "1", "ρ, of the way in a sample", settings_.ramp));
+  writer_.assign(writer_.law().output, way_now_, writer_.add(writer_.read(way_), step),
+                 is_ramped() ? "w ← w + clamp(κ (w_regime − w), ±ρ)" : "w ← w + κ (w_regime − w)");
+}
+
+// β = β_most ((q − (N + n) ρ)⁺)²
+void SlipBrake::write_compensation() {
+  std::vector<Statement>& output = writer_.law().output;
+  ExpressionId reached = writer_.read(way_now_);
+  if (reached_ != nothing) {
+    reached_now_ = variable("reached_now", "1", "", Role::local);
+    const ExpressionId ahead = writer_.subtract(writer_.read(reached_), reached);
+    writer_.assign(output, reached_now_, writer_.where(ahead, reached, writer_.read(reached_)), "q ← min(q, w)");
+    reached = writer_.read(reached_now_);
+  }
+  const ExpressionId unsure = writer_.constant("ramp_behind", "1", "(N + n) ρ, what an estimate reaches back",
+                                               Real(settings_.memory) * Real(settings_.ramp));
+  const VariableId earned = variable("earned", "1", "", Role::local);
+  const ExpressionId left = writer_.subtract(reached, unsure);
+  writer_.assign(output, earned, writer_.where(left, left, none()), "(q − (N + n) ρ)⁺");
+  const ExpressionId most = per_place("compensation_most", writer_.damping(), "β at most", [](const Shares& shares) {
+    double largest = 0;
+    for (const BrakeShare& share : shares) largest = std::max(largest, share.compensation);
+    return largest;
+  });
+  compensation_ = variable("compensation", writer_.damping(), "", Role::local);
   writer_.assign(output, compensation_,
-                 writer_.multiply(most, writer_.multiply(writer_.read(earned_now_), writer_.read(earned_now_))),
-                 "β = β_most q₂²");
+                 writer_.multiply(most, writer_.multiply(writer_.read(earned), writer_.read(earned))),
+                 "β = β_most ((q − (N + n) ρ)⁺)²");
 }
 
-void SlipBrake::write_update() {
+ExpressionId SlipBrake::without_feedthrough(ExpressionId force, VariableId change, const Real& sample_period) {
+  if (!takes_part()) return force;
+  const auto over_period = [&](const BrakeShare& share, const Shares&) {
+    return Real(share.feedthrough / sample_period);
+  };
+  const Shares& shares = shares_of(splits_.front());
+  std::swap(regime_, regime_of_force_);
+  const ExpressionId stiffness = changes()
+                                     ? by_regime("feedthrough_by_regime", writer_.stiffness(), "b∞/h", over_period)
+                                     : writer_.constant(joined(prefix_, "feedthrough"), writer_.stiffness(), "b∞/h",
+                                                        over_period(shares.front(), shares));
+  std::swap(regime_, regime_of_force_);
+  return writer_.subtract(force, writer_.multiply(stiffness, writer_.read(change)));
+}
+
+void SlipBrake::write_update(VariableId released) {
   std::vector<Statement>& update = writer_.law().update;
-  for (const auto& [kept, now] :
-       {std::pair(slid_, slide_), std::pair(samples_, samples_now_), std::pair(way_, way_now_),
-        std::pair(earned_way_, earned_way_now_), std::pair(earned_, earned_now_)})
-    if (kept != nothing) writer_.assign(update, kept, writer_.read(writer_.kept(now)), "");
+  const auto keep = [&](VariableId state, ExpressionId now, bool ends_with_touch) {
+    if (ends_with_touch && released != no_variable)
+      now = writer_.where(writer_.read(writer_.kept(released)), none(), now);
+    writer_.assign(update, state, now, "");
+  };
+  for (const Memory& memory : memories_) {
+    keep(memory.slid, writer_.read(writer_.kept(memory.slides_now)), false);
+    keep(memory.at, writer_.read(writer_.kept(memory.at_now)), false);
+  }
+  if (way_ == nothing) return;
+  const ExpressionId way = writer_.read(writer_.kept(way_now_));
+  keep(way_, way, is_ramped());
+  if (reached_ == nothing) return;
+  const ExpressionId reached = writer_.read(writer_.kept(reached_now_));
+  const ExpressionId share = writer_.constant("coil_share", "1", "κ of a sample", settings_.coil_share);
+  keep(reached_, writer_.add(reached, writer_.multiply(share, writer_.subtract(way, reached))), true);
 }
 
+Real SlipBrake::steady_compensation() const {
+  return damping_changes() ? Real(0) : sum(splits_, [](const Shares& s) { return s.front().compensation; });
+}
 Real SlipBrake::steady_damping() const {
-  return changes() ? Real(0) : sum(pairs_, [](const BrakePair& p) { return p.stuck.damping; });
+  return damping_changes() ? Real(0) : sum(splits_, [](const Shares& s) { return s.front().damping; });
 }
 Real SlipBrake::damping_at_rest() const {
-  return sum(pairs_, [](const BrakePair& p) { return p.stuck.damping; });
+  return sum(splits_, [](const Shares& s) { return s.front().damping; });
 }
-Real SlipBrake::least_damping() const {
-  return sum(pairs_, [](const BrakePair& p) { return std::min(p.stuck.damping, p.sliding.damping); });
-}
-Real SlipBrake::largest_damping() const {
-  return sum(pairs_, [](const BrakePair& p) { return std::max(p.stuck.damping, p.sliding.damping); });
-}
+Real SlipBrake::least_damping() const { return sum(splits_, least_of); }
+Real SlipBrake::largest_damping() const { return sum(splits_, largest_of); }
 
-VariableId SlipBrake::local(const std::string& what, const std::string& unit, const std::string& meaning) {
-  return writer_.vector({prefix_, what}, unit, meaning, Role::local, names_);
-}
-
-VariableId SlipBrake::state(const std::string& what, const std::string& unit, const std::string& meaning) {
-  return writer_.vector({prefix_, what}, unit, meaning, Role::state, names_);
+VariableId SlipBrake::variable(const std::string& what, const std::string& unit, const std::string& meaning,
+                               Role role) {
+  return writer_.vector({prefix_, what}, unit, meaning, role, places_);
 }
 
 template <class ValueOf>
 ExpressionId SlipBrake::per_place(const char* name, const std::string& unit, const char* meaning, ValueOf value_of) {
   std::vector<Real> values;
-  for (const BrakePair& pair : pairs_) values.push_back(Real(value_of(pair)));
-  return writer_.constants({prefix_, name}, unit, meaning, values, names_);
+  for (const ComponentSplit* split : splits_) values.push_back(Real(value_of(shares_of(split))));
+  return writer_.constants({prefix_, name}, unit, meaning, values, places_);
+}
+
+// Of one slip a choice between its two values, of several a table.
+template <class ValueOf>
+ExpressionId SlipBrake::by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of) {
+  const auto at = [&](std::size_t regime) {
+    return [&, regime](const Shares& shares) { return value_of(shares[regime], shares); };
+  };
+  if (splits_.front()->regimes.slips.size() == 1)
+    return writer_.where(regime_, per_place((std::string("sliding_") + name).c_str(), unit, meaning, at(1)),
+                         per_place((std::string("stuck_") + name).c_str(), unit, meaning, at(0)));
+  std::vector<Real> values;
+  for (const BrakeShare& share : splits_.front()->shares) values.push_back(value_of(share, splits_.front()->shares));
+  return writer_.pick(joined(prefix_, name), unit, meaning, values, regime_);
 }
 
 }  // namespace dashpot::compiler

@@ -1,5 +1,15 @@
-// What a group of components with one slip each asks of the brake, and what the motor takes back of it (theory, section
-// 5, "Regimes"): vectors with one place a component.
+// What slips ask of the brake as they hold and give way, and what the motor takes back of it (theory, section 5,
+// "Regimes"). One rule for all: a place is one slip of a group of alike, or all the slips that are solved together.
+//
+//   Which slips give way is a regime, for the command with a hysteresis over the encoder.
+//   b = b_least + (b_most − b_least) w². Without a coil that lags w is that of the regime at once. Of a law that
+//   compensates nothing it follows as the coil can, w ← w + κ (w_regime − w), and the motor may make up the rest.
+//   Of the ramped law it goes by small steps, w ← w + clamp(κ (w_regime − w), ±ρ), κ = 1 of a coil without a lag.
+//   What the coil has reached for certain, q, is behind: q ← min(q, w), then q ← q + κ (w − q), of any coil that makes
+//   up a share κ of √b in a sample or more. With an estimate that reaches N + n samples back the motor takes back
+//       β = β_most ((q − (N + n) ρ)⁺)²,
+//   for q rises by no more than ρ a sample, so that in none of the samples that the estimate knows of it was less than
+//   q − (N + n) ρ. Over several places excesses add up, and √b of the sum is reached as that of each (Minkowski).
 #pragma once
 
 #include <string>
@@ -10,65 +20,72 @@
 
 namespace dashpot::compiler {
 
-// A component's shares with its slip stuck and sliding.
-struct BrakePair {
-  BrakeShare stuck, sliding;
-
-  bool changes() const { return stuck.damping != sliding.damping; }
-  bool compensates() const { return sliding.compensation > 0; }
-};
-
-// The pair of a component; nothing for the brake where its regimes are not listed.
-BrakePair brake_pair(const ComponentSplit& split);
-
 class SlipBrake {
  public:
-  // `settings`: hysteresis, hold and coil. Outlives this.
+  // `settings`: hysteresis, memory, ramp and coil. Outlives this.
   SlipBrake(LawWriter& writer, const SlipDecomposition& settings) : writer_(writer), settings_(settings) {}
 
-  void add(const BrakePair& pair, const Real& yield_force, const Real& trial_by_change);
-  const BrakePair& pair(std::size_t place) const { return pairs_[place]; }
-  // Components go together where the same of their shares change.
-  std::string shape(const BrakePair& pair) const;
+  // `split`: nothing for the brake where it is none. Outlives this.
+  void add(const ComponentSplit* split);
+  // Places go together where the same of their shares change.
+  static std::string shape(const ComponentSplit* split);
 
-  void declare(const std::string& prefix, const Names& names);
-  // `sliding`: above zero where the slip gives way, `excess` then and only then not zero.
-  void write_output(ExpressionId sliding, VariableId trial, VariableId slip, VariableId excess);
-  void write_update();
+  bool takes_part() const;
+  bool changes() const;  // b or x with the regime, so that it must know which slips give way
+  const std::vector<SlipElements>& slips() const;
 
-  VariableId changing_damping() const { return damping_; }  // a vector, `nothing` where no place changes
-  Real steady_damping() const;                              // of the places where it does not change [N·s/m]
-  Real least_damping() const;                               // of all
+  // One name a place, or where there is one place a name for each of its slips.
+  void declare(const std::string& prefix, const Names& places, const Names& slips);
+  // `slides`: above zero where a slip gives way, one a slip; `position`: of the tool.
+  void write_output(const std::vector<ExpressionId>& slides, VariableId position);
+  // f′ from f, of a single place: what is taken is x Δu/h.
+  ExpressionId without_feedthrough(ExpressionId force, VariableId change, const Real& sample_period);
+  // `released`: of a contact, above 0 where the tool is free, which ends what has been earned; else no variable.
+  void write_update(VariableId released);
+
+  VariableId changing_damping() const { return damping_; }   // `nothing` where it does not change
+  VariableId compensation() const { return compensation_; }  // β of a ramp, `nothing` for none
+  VariableId shortfall() const { return shortfall_; }        // of b where the coil is on its way, `nothing` for none
+  Real steady_compensation() const;                          // β of places where nothing switches [N·s/m]
+  Real steady_damping() const;                               // of the places where it does not change [N·s/m]
+  Real least_damping() const;                                // of all
   Real largest_damping() const;
   Real damping_at_rest() const;
-  VariableId compensation() const { return compensation_; }  // β of each place, `nothing` for none
-  VariableId shortfall() const { return shortfall_; }        // of b where the coil is on its way, `nothing` for none
 
  private:
+  struct Memory {
+    VariableId slid,
+        at;  // states: 1 where the command takes the slip for sliding; where the tool was when it last slid
+    VariableId slides_now, at_now;
+  };
+
   bool coil_lags() const { return settings_.coil_share < 1; }
-  bool has_hysteresis() const { return settings_.hysteresis > 0; }
-  bool changes() const { return !pairs_.empty() && pairs_.front().changes(); }
-  bool compensates() const { return !pairs_.empty() && pairs_.front().compensates(); }
-  ExpressionId keep_sliding(ExpressionId sliding, VariableId trial, VariableId slip, VariableId excess);
-  void write_damping(ExpressionId commanded);
-  ExpressionId nearer(VariableId from, ExpressionId goal);
-  void write_limited_damping(ExpressionId wanted);
-  void write_compensation(ExpressionId commanded);
-  VariableId local(const std::string& what, const std::string& unit, const std::string& meaning);
-  VariableId state(const std::string& what, const std::string& unit, const std::string& meaning);
+  bool damping_changes() const;
+  bool is_ramped() const;
+  bool has_way() const { return is_ramped() || coil_lags(); }
+  void remember(std::vector<ExpressionId>& slides, VariableId position);
+  VariableId write_regime(const char* what, const std::vector<ExpressionId>& slides);
+  void write_damping();
+  void write_way();
+  void write_compensation();
+  template <class ValueOf>
+  ExpressionId by_regime(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
   template <class ValueOf>
   ExpressionId per_place(const char* name, const std::string& unit, const char* meaning, ValueOf value_of);
+  ExpressionId one() { return writer_.constant("slid", "1", "a slip that gives way", 1); }
+  ExpressionId none() { return writer_.constant("held", "1", "a slip that holds", 0); }
+  VariableId variable(const std::string& what, const std::string& unit, const std::string& meaning, Role role);
 
   LawWriter& writer_;
   const SlipDecomposition& settings_;
+  std::vector<const ComponentSplit*> splits_;  // one a place
   std::string prefix_;
-  Names names_;
-  std::vector<BrakePair> pairs_;
-  std::vector<Real> leave_;  // Y (Y − hysteresis·∂t/∂u) [N²]
-  ExpressionId share_ = nothing;
-  VariableId slid_ = nothing, samples_ = nothing, way_ = nothing, earned_way_ = nothing, earned_ = nothing;  // states
-  VariableId damping_ = nothing, slide_ = nothing, samples_now_ = nothing, way_now_ = nothing,
-             earned_way_now_ = nothing, earned_now_ = nothing, shortfall_ = nothing, compensation_ = nothing;  // locals
+  Names places_;
+  std::vector<Memory> memories_;                  // one a slip of a place
+  VariableId way_ = nothing, reached_ = nothing;  // states
+  VariableId damping_ = nothing, way_now_ = nothing, reached_now_ = nothing, compensation_ = nothing,
+             shortfall_ = nothing;                             // locals
+  ExpressionId regime_ = nothing, regime_of_force_ = nothing;  // the place of a table, or a condition of one slip
 };
 
 }  // namespace dashpot::compiler

@@ -63,10 +63,12 @@ SlipResponse SlipGroup::response_of(const NormalTree& component) const {
   return response;
 }
 
-SlipGroup::MotorForce SlipGroup::motor_force(const SlipResponse& response, const BrakePair& pair) const {
-  MotorForce force{response.force, response.force, pair.stuck.feedthrough != pair.sliding.feedthrough};
-  force.stuck.change -= pair.stuck.feedthrough / sample_period_;
-  force.sliding.change -= pair.sliding.feedthrough / sample_period_;
+SlipGroup::MotorForce SlipGroup::motor_force(const SlipResponse& response, const ComponentSplit* split) const {
+  if (split == nullptr) return {snapped(response.force), snapped(response.force), false};
+  const Real &stuck = split->shares.front().feedthrough, &sliding = split->shares.back().feedthrough;
+  MotorForce force{response.force, response.force, stuck != sliding};
+  force.stuck.change -= stuck / sample_period_;
+  force.sliding.change -= sliding / sample_period_;
   return {snapped(force.stuck), snapped(force.sliding), force.differs};
 }
 
@@ -84,19 +86,19 @@ std::string SlipGroup::shape(const SlipResponse& response, const MotorForce& for
   return text;
 }
 
-bool SlipGroup::accepts(const NormalTree& component, const BrakePair& pair) const {
-  if (responses_.empty() || has_modes_ || has_modes(component) || brake_.shape(pair) != brake_.shape(brake_.pair(0)))
-    return false;
+bool SlipGroup::accepts(const NormalTree& component, const ComponentSplit* split) const {
+  if (responses_.empty() || has_modes_ || has_modes(component) || SlipBrake::shape(split) != brake_shape_) return false;
   const SlipResponse response = response_of(component);
-  return shape(response, motor_force(response, pair)) == shape(responses_.front(), forces_.front());
+  return shape(response, motor_force(response, split)) == shape(responses_.front(), forces_.front());
 }
 
-void SlipGroup::add(const NormalTree& component, const BrakePair& pair) {
+void SlipGroup::add(const NormalTree& component, const ComponentSplit* split) {
   has_modes_ = has_modes(component);
   responses_.push_back(response_of(component));
   const SlipResponse& response = responses_.back();
-  forces_.push_back(motor_force(response, pair));
-  brake_.add(pair, response.yield_force, response.trial.change);
+  forces_.push_back(motor_force(response, split));
+  brake_.add(split);
+  brake_shape_ = SlipBrake::shape(split);
   names_.push_back(writer_.unique(name_of(response.slip_elements, network_)));
   blocks_.resize(response.blocks.size());
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -128,11 +130,11 @@ void SlipGroup::declare() {
                                           Role::state, block.names);
     if (block.modes) block.modes->declare();
   }
-  brake_.declare(prefix_, names_);
+  brake_.declare(prefix_, names_, {prefix_});
 }
 
 // t = t_stuck, s = clamp(t, ±Y), r = t − s, f = f_stuck − ρ r
-ExpressionId SlipGroup::write_output(VariableId change) {
+ExpressionId SlipGroup::write_output(VariableId change, VariableId position) {
   std::vector<Statement>& output = writer_.law().output;
   now_.change = change;
   now_.trial = local("trial", "the slip's force if it held");
@@ -151,7 +153,7 @@ ExpressionId SlipGroup::write_output(VariableId change) {
   // Above zero where the slip gives way: r has the sign of s.
   const ExpressionId sliding = writer_.multiply(writer_.read(now_.excess), writer_.read(now_.slip));
   const ExpressionId force = write_force(sliding);
-  brake_.write_output(sliding, now_.trial, now_.slip, now_.excess);
+  brake_.write_output({sliding}, position);
   // Sums after all vectors: what a loop computes does not outlive it.
   damping_ = summed("damping", brake_.changing_damping());
   shortfall_ = summed("shortfall", brake_.shortfall());
@@ -218,7 +220,7 @@ void SlipGroup::write_update(VariableId) {
   for (const auto& [old, fresh] : replaced) writer_.assign(update, old, writer_.read(fresh), "");
   for (std::size_t i = 0; i < blocks_.size(); ++i)
     if (blocks_[i].modes) blocks_[i].modes->write_update(drives[i], nothing);
-  brake_.write_update();
+  brake_.write_update(no_variable);
 }
 
 // ½ F0²/k0 + Σ F²/(2k)

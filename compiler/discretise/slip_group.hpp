@@ -18,16 +18,16 @@ class SlipGroup {
   // `settings` of the brake outlives this.
   SlipGroup(LawWriter& writer, const Network& network, const Real& sample_period, const SlipDecomposition& settings);
 
-  // True where the component fits those already in: the same rows but for their numbers, and no modes. Components
-  // outlive this.
-  bool accepts(const NormalTree& component, const BrakePair& pair) const;
-  void add(const NormalTree& component, const BrakePair& pair);
+  // True where the component fits those already in: the same rows but for their numbers, and no modes. Components and
+  // what they ask of the brake, nothing where it is none, outlive this.
+  bool accepts(const NormalTree& component, const ComponentSplit* split) const;
+  void add(const NormalTree& component, const ComponentSplit* split);
 
   double smallest_loss() const;
   void declare();  // to be called when the law's mode form is settled
 
   // The components' share of the force, from the tool's displacement in this sample.
-  ExpressionId write_output(VariableId change);
+  ExpressionId write_output(VariableId change, VariableId position);
   void write_update(VariableId sampled_change);
   ExpressionId energy();  // nothing without springs
 
@@ -60,7 +60,7 @@ class SlipGroup {
 
   SlipResponse response_of(const NormalTree& component) const;
   std::string shape(const SlipResponse& response, const MotorForce& force) const;
-  MotorForce motor_force(const SlipResponse& response, const BrakePair& pair) const;
+  MotorForce motor_force(const SlipResponse& response, const ComponentSplit* split) const;
   std::vector<Row> rows(Row SlipResponse::*row) const;
   std::vector<Row> rows(Row MotorForce::*row) const;
   ExpressionId write_force(ExpressionId sliding);
@@ -84,6 +84,7 @@ class SlipGroup {
   std::vector<SlipResponse> responses_;
   std::vector<MotorForce> forces_;
   SlipBrake brake_;
+  std::string brake_shape_;
   std::vector<Block> blocks_;
   ExpressionId damping_ = nothing, shortfall_ = nothing, compensation_ = nothing;
   Terms now_{nothing, nothing, nothing, nothing};

@@ -51,12 +51,11 @@ void SlipParts::add(const NormalTree& component, const ComponentSplit* split) {
     if (split != nullptr) add_brake(*split, trees_.back().get());
     return;
   }
-  const BrakePair pair = split ? brake_pair(*split) : BrakePair{};
   const auto fitting =
-      std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group->accepts(component, pair); });
-  if (fitting != groups_.end()) return (*fitting)->add(component, pair);
+      std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) { return group->accepts(component, split); });
+  if (fitting != groups_.end()) return (*fitting)->add(component, split);
   groups_.push_back(std::make_unique<SlipGroup>(writer_, network_, sample_period_, settings_));
-  groups_.back()->add(component, pair);
+  groups_.back()->add(component, split);
 }
 
 void SlipParts::add(const std::vector<std::size_t>& elements, bool is_pushed) {
@@ -80,7 +79,8 @@ void SlipParts::add_behind_contact(const NormalForm& form) {
 }
 
 void SlipParts::add_brake(const ComponentSplit& split, CoupledSlips* tree) {
-  auto brake = std::make_unique<RegimeBrake>(writer_, split, settings_);
+  auto brake = std::make_unique<SlipBrake>(writer_, settings_);
+  brake->add(&split);
   if (!brake->takes_part()) return;
   if (tree != nullptr && brake->changes()) tree->follow_signs();
   braked_.push_back({std::move(brake), tree, tree == nullptr ? networks_.back().get() : nullptr, {}});
@@ -107,11 +107,11 @@ void SlipParts::declare(Braked& part) {
     names.push_back(writer_.unique(joined(name_of(slip, network_), "brake")));
     if (part.brake->changes()) part.signs.push_back(part.tree ? part.tree->sign_of(slip) : part.network->sign_of(slip));
   }
-  part.brake->declare(names.front(), names);
+  part.brake->declare(names.front(), {names.front()}, names);
 }
 
-ExpressionId SlipParts::write_output(ExpressionId sum, VariableId change) {
-  for (const auto& group : groups_) sum = writer_.plus(sum, group->write_output(change));
+ExpressionId SlipParts::write_output(ExpressionId sum, VariableId change, VariableId position) {
+  for (const auto& group : groups_) sum = writer_.plus(sum, group->write_output(change, position));
   for (const auto& tree : trees_) sum = writer_.plus(sum, tree->write_output(change));
   for (const auto& network : networks_) sum = writer_.plus(sum, network->write_output(change));
   return sum;

@@ -7,7 +7,7 @@
 
 #include "discretise/coupled_slips.hpp"
 #include "discretise/networked_slips.hpp"
-#include "discretise/regime_brake.hpp"
+#include "discretise/slip_brake.hpp"
 #include "discretise/slip_group.hpp"
 
 namespace dashpot::compiler {
@@ -23,7 +23,7 @@ class SlipParts {
   void declare();                // to be called when the law's mode form is settled
 
   // `sum` and the parts' force, from the tool's displacement in this sample.
-  ExpressionId write_output(ExpressionId sum, VariableId change);
+  ExpressionId write_output(ExpressionId sum, VariableId change, VariableId position);
   // The whole force behind a contact: `approach` is what the surface's change would be if it stuck to the tool.
   ExpressionId write_push(VariableId approach, VariableId surface_change, const BesideSlips& beside);
   void write_update(VariableId change);
@@ -33,10 +33,10 @@ class SlipParts {
 
   // Slips that are solved together and what they ask of the brake. Of the two that know the signs one is there.
   struct Braked {
-    std::unique_ptr<RegimeBrake> brake;
+    std::unique_ptr<SlipBrake> brake;
     CoupledSlips* tree;
     NetworkedSlips* network;
-    std::vector<VariableId> signs;
+    std::vector<VariableId> signs;  // none where nothing changes
   };
   const std::vector<Braked>& braked() const { return braked_; }
 

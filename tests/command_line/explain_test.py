@@ -84,8 +84,16 @@ class Json(CommandTest):
 
     def test_regimes_of_slips(self):
         """Fails if a regime of Fig. 10 is missing, or gives the brake another damping than theory says: B1 alone is at the
-        tool, B2 = 0.8 joins it while the slip gives way."""
-        found = self.explained(SOURCE / "networks/paper/visco_elasto_plastic.json")
+        tool, B2 = 0.8 joins it while the slip gives way, or at all times where nothing is to switch."""
+        fig_10 = SOURCE / "networks/paper/visco_elasto_plastic.json"
+        steady = self.explained(fig_10)
+        self.assertEqual([regime["damping"] for regime in steady["regimes"]], [0.8, 0.8])
+        (component,) = steady["slip_laws"]
+        self.assertEqual(component["chosen"], "steady")
+        for law in component["laws"]:
+            self.assertGreaterEqual(law["largest_error"], max(law["peak_error"], law["rms_error"]))
+        self.assertLess(component["laws"][0]["largest_error"], 1e-12)
+        found = self.explained(fig_10, "--decomposition", "gated")
         self.assertEqual(found["feedthrough_damping"], 2.5)
         self.assertEqual([regime["stuck"] for regime in found["regimes"]], [["Y"], []])
         self.assertEqual([regime["sliding"] for regime in found["regimes"]], [[], ["Y"]])
@@ -95,8 +103,9 @@ class Json(CommandTest):
             self.assertLessEqual(set(found["candidates"][0]) - set(regime), {"state_inputs"})
         (component,) = found["slip_laws"]
         self.assertEqual(component["regimes"], 2)
-        self.assertEqual([law["name"] for law in component["laws"]], ["velocity-free", "gated", "compensated"])
+        self.assertEqual([law["name"] for law in component["laws"]], ["velocity-free", "steady", "ramped", "gated"])
         self.assertEqual(component["chosen"], "gated")
+        self.assertEqual([law["peak_error"] for law in component["laws"]], [None] * 4)
         self.assertEqual(self.explained(FIG_5)["regimes"], [])
 
 

@@ -43,18 +43,18 @@ FREED = ['{"series": [{"spring": 1000}, {"parallel": [{"slip": 0.4}, {"damper": 
          """{"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"series": [{"spring": 500}, {"slip": 0.1}]}, {"damper": 3},
     {"spring": 20}]}]}"""]
 
-# One law of each shape with slips or a contact: closed form, rolled, with modes, gated, compensated, coupled, pushed.
+# One law of each shape with slips or a contact: closed form, rolled, with modes, gated, steady, ramped, coupled, pushed.
 SLIP_LAWS = [
     [PAPER / "visco_elasto_plastic.json"], [PAPER / "visco_elasto_plastic_organ.json"], [PAPER / "maxwell_slip_ten.json"],
     [PAPER / "virtual_wall.json", "--constant-time"], [SOURCE / "networks/tissues/needle_in_liver.json"], ["coupled.json"],
     [PAPER / "visco_elasto_plastic.json", "--device", PANTOGRAPH, "--decomposition", "velocity-free"],
     [PAPER / "visco_elasto_plastic_organ.json", "--device", BOARD], [PAPER / "virtual_wall.json", "--device", BOARD],
     ["coupled.json", "--scheme", "backward-euler"], ["coupled.json", "--scalar", "float"],
-    [PAPER / "visco_elasto_plastic_organ.json", "--scalar", "float", "--decomposition", "compensated"],
-    *[[file, "--decomposition", law] for file in ("damped.json", "touched.json") for law in ("gated", "compensated")],
-    ["damped_loop.json", "--decomposition", "gated"], ["damped_loop.json", "--decomposition", "compensated"],
+    [PAPER / "visco_elasto_plastic_organ.json", "--scalar", "float", "--decomposition", "ramped"],
+    *[[file, "--decomposition", law] for file in ("damped.json", "touched.json") for law in ("gated", "ramped")], ["damped.json", "--decomposition", "steady"],
+    ["damped_loop.json", "--decomposition", "gated"], ["damped_loop.json", "--decomposition", "ramped"], ["damped_loop.json", "--decomposition", "steady"],
     *[[f"freed_{i}.json", "--decomposition", "gated"] for i in range(len(FREED))],
-    ["damped.json", "--device", BOARD, "--decomposition", "compensated"], ["damped.json", "--device", BOARD, "--decomposition", "gated"],
+    ["damped.json", "--device", BOARD, "--decomposition", "steady"], ["damped.json", "--device", BOARD, "--decomposition", "gated"],
 ]
 
 # Slips in no tree: with a mode that two of them share, and such a part behind a contact, beside a tree, and with modes of one rate.

@@ -61,7 +61,7 @@ Choices linear_choices(Scheme scheme, Random& random) {
 }
 
 Choices slip_choices(Family family, Random& random) {
-  static const char* const laws[] = {"most-dissipative", "gated", "compensated"};
+  static const char* const laws[] = {"steady", "gated", "ramped"};
   Choices choices;
   choices.scheme = random.chance(0.7) ? Scheme::backward_euler : Scheme::exact;
   choices.decomposition = family == Family::contact || random.chance(0.8) ? "velocity-free" : one_of(laws, random);

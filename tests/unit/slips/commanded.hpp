@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "discretise/discretise.hpp"
 #include "slip_run.hpp"
 #include "support/random.hpp"
 #include "support/random_network.hpp"
@@ -137,6 +138,14 @@ std::string energy_from_motor(const compiler::Compilation& compilation, const st
     stored = after;
   }
   return "";
+}
+
+// The same split, with a ramp that goes its way at once, no coil and an estimate of no memory allowed for.
+inline compiler::UpdateLaw bold(compiler::Compilation c) {
+  c.decomposition.slips.ramp = 1;
+  c.decomposition.slips.memory = 0;
+  c.decomposition.slips.coil_share = 1;
+  return compiler::discretise(c.network, c.form, c.decomposition, {}, c.rate);
 }
 
 inline NetworkRecipe coupled_recipe(Topology topology) {

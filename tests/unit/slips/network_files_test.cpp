@@ -50,7 +50,8 @@ TEST(NetworkFiles, Figure10SlidesWithBothDampers) {
     compiler::Evaluation<double> law(file.law());
     double force = 0;
     for (int n = 1; n <= 400; ++n) force = whole_force(law, 0.03 * n * period, 0.03);
-    EXPECT_NEAR(force, 0.5 + (2.5 + 0.8) * 0.03, 1e-14) << decomposition;
+    // What the motor takes back of the brake is 1e-6 less than it may be.
+    EXPECT_NEAR(force, 0.5 + (2.5 + 0.8) * 0.03, 1e-14 + 1.01e-6 * 0.8 * 0.03) << decomposition;
   }
 }
 
@@ -63,7 +64,8 @@ TEST(NetworkFiles, AnOrganBehindFigure10SettlesAtTheSameForce) {
     for (int n = 1; n <= 6000; ++n) force = whole_force(law, 0.03 * n * period, 0.03);
     // The slower Kelvin element has 45 relaxation times.
     const double whole = 0.5 + (2.5 + 0.8) * 0.03, through_spring = 0.5 + 0.8 * 0.03;
-    EXPECT_NEAR(force, whole, 1e-11) << decomposition;
+    // What the motor takes back of the brake, no more than 3.3 N·s/m, is 1e-6 less than it may be.
+    EXPECT_NEAR(force, whole, 1e-11 + 1e-6 * 3.3 * 0.03) << decomposition;
     EXPECT_NEAR(law.stored_energy(),
                 whole * whole / 2 * (1 / 400.0 + 1 / 150.0) + through_spring * through_spring / 2000, 1e-13)
         << decomposition;

@@ -57,7 +57,7 @@ inline compiler::Device slow_device() {
 
 inline compiler::Compilation slip_law(std::uint64_t seed) {
   static const compiler::Device device = slow_device();
-  static const char* const laws[] = {"velocity-free", "most-dissipative", "gated", "compensated"};
+  static const char* const laws[] = {"velocity-free", "steady", "gated", "ramped"};
   compiler::Choices choices;
   choices.scheme = seed % 2 == 0 ? compiler::Scheme::exact : compiler::Scheme::backward_euler;
   choices.scalar = seed % 5 == 0 ? compiler::ScalarType::float32 : compiler::ScalarType::float64;
@@ -65,7 +65,7 @@ inline compiler::Compilation slip_law(std::uint64_t seed) {
   const bool has_slips = compiler::normal_form(network).has_slips();
   const compiler::Device* const on = seed % 4 < 2 ? nullptr : &device;
   const char* const law = laws[has_slips ? seed / 3 % 4 : seed / 3 % 2];  // the others are of slips alone
-  choices.decomposition = can_have(network, law, on) ? law : "most-dissipative";
+  choices.decomposition = can_have(network, law, on) ? law : "velocity-free";
   return compiled(network, choices, on);
 }
 

@@ -4,10 +4,11 @@
 #include <stdexcept>
 
 #include "decompose/slip_laws.hpp"
+#include "discretise/discretise.hpp"
 #include "linear/validity.hpp"
+#include "slip_choice.hpp"
 #include "source/render.hpp"
 #include "support/random.hpp"
-#include "discretise/discretise.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -48,6 +49,10 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
   const auto decomposition = compiler::decompose(network, result.form, choices, device, diagnostics);
   if (!decomposition) throw std::runtime_error(compiler::render_text(diagnostics));
   result.decomposition = *decomposition;
+  if (result.form.has_slips())
+    compiler::choose_slip_law(
+        result, choices,
+        device ? compiler::PortDevice::of(*device, network, diagnostics).value() : compiler::PortDevice::ideal());
   result.law = compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate);
   return result;
 }

@@ -1,0 +1,278 @@
+#include "slip_trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <dashpot/brake_coil.hpp>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <deque>
+#include <numbers>
+
+#include "law/evaluate.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using std::numbers::pi;
+
+// Of a motion, at the law's rate. A sine slower than that is played faster: what a slip law does wrong grows with the
+// velocity, and slower motions show less of it.
+constexpr double most_samples = 1500;
+constexpr double most_periods = 3;
+constexpr double around_yield[] = {0.5, 2, 8};  // amplitudes, in displacements at yield
+
+class AnyEvaluation {
+ public:
+  explicit AnyEvaluation(const UpdateLaw& law) {
+    if (law.scalar == ScalarType::float64) wide_.emplace(law);
+    else narrow_.emplace(law);
+  }
+
+  void reset(double position) {
+    if (wide_) wide_->reset(position);
+    else narrow_->reset(float(position));
+  }
+
+  command<double> step(double position, double velocity) {
+    if (wide_) return wide_->step(position, velocity);
+    const command<float> now = narrow_->step(float(position), float(velocity));
+    return {double(now.damping), double(now.force)};
+  }
+
+ private:
+  std::optional<Evaluation<double>> wide_;
+  std::optional<Evaluation<float>> narrow_;
+};
+
+// All that a law in which the motor makes everything is felt to be.
+std::vector<double> whole_force(const UpdateLaw& law, const std::vector<double>& positions, double at) {
+  AnyEvaluation run(law);
+  run.reset(at);
+  std::vector<double> forces;
+  double last = at;
+  for (const double position : positions) {
+    const double velocity = (position - last) / law.sample_period;
+    const command<double> now = run.step(position, velocity);
+    forces.push_back(now.force + now.damping * velocity);
+    last = position;
+  }
+  return forces;
+}
+
+double largest_size(const std::vector<double>& values) {
+  double largest = 0;
+  for (const double value : values) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value * value;
+  return values.empty() ? 0 : std::sqrt(sum / double(values.size()));
+}
+
+TrialMotion sine(double at, double amplitude, double frequency, double period, int instants) {
+  const double samples = std::min(most_samples, most_periods / (frequency * period));
+  TrialMotion motion;
+  for (int i = 1; i <= int(samples) * instants; ++i)
+    motion.position.push_back(at + amplitude * std::sin(2 * pi * frequency * i * period / instants));
+  return motion;
+}
+
+// To and fro at one speed.
+TrialMotion drag(double at, double amplitude, double frequency, double period, int instants) {
+  const double samples = std::min(most_samples, most_periods / (frequency * period));
+  TrialMotion motion;
+  for (int i = 1; i <= int(samples) * instants; ++i)
+    motion.position.push_back(at +
+                              amplitude * 2 / pi * std::asin(std::sin(2 * pi * frequency * i * period / instants)));
+  return motion;
+}
+
+// Total stiffness of all elements at a frequency: no slip carries more than this times the tool's displacement.
+double stuck_amplitude(const Network& network, double angular_frequency) {
+  double stiffness = 0, yield = 0;
+  for (const Element& element : network.elements) {
+    if (const auto* spring = std::get_if<Spring>(&element.law)) stiffness += spring->stiffness;
+    if (const auto* damper = std::get_if<Damper>(&element.law)) stiffness += damper->damping * angular_frequency;
+    if (const auto* slip = std::get_if<Slip>(&element.law); slip && slip->yield_force > 0)
+      yield = yield == 0 ? slip->yield_force : std::min(yield, slip->yield_force);
+  }
+  return stiffness > 0 && yield > 0 ? yield / stiffness / 2 : 1e-6;
+}
+
+// The commands' way to the tool.
+class Drives {
+ public:
+  explicit Drives(const PortDevice& device)
+      : device_(device), late_(device.is_ideal() ? 0 : device.description().loop.delay_samples, command<double>{0, 0}) {
+    if (!device.is_ideal()) coil_ = brake_coil<double>(device.description().brake);
+  }
+
+  // The brake is on, and the motor at rest, before a motion begins.
+  void begin(const command<double>& first) {
+    coil_.reset(std::sqrt(first.damping / device_.damping_scale()));
+    std::fill(late_.begin(), late_.end(), command<double>{first.damping, 0});
+  }
+
+  void take(const command<double>& now) {
+    late_.push_back(now);
+    told_ = late_.front();
+    late_.pop_front();
+  }
+
+  void advance(double duration) {
+    const double lag = device_.amplifier_lag(),
+                 wanted = std::sqrt(std::max(told_.damping, 0.0) / device_.damping_scale());
+    force_ = lag > 0 ? told_.force + (force_ - told_.force) * std::exp(-duration / lag) : told_.force;
+    const double most = std::sqrt(device_.max_damping().value_or(0) / device_.damping_scale());
+    coil_.advance(std::clamp(coil_.demand_to_reach(wanted, duration), 0.0, std::max(most, wanted)), duration);
+  }
+
+  double force() const { return force_; }
+  double damping() const { return coil_.damping() * device_.damping_scale(); }
+
+ private:
+  const PortDevice& device_;
+  std::deque<command<double>> late_;
+  command<double> told_{0, 0};
+  brake_coil<double> coil_;
+  double force_ = 0;
+};
+
+// What the loop reads.
+class Sensing {
+ public:
+  explicit Sensing(const PortDevice& device, double at)
+      : device_(device),
+        estimator_(device.description().velocity, device.sample_period(), device.description().encoder.step) {
+    estimator_.reset(counted(at));
+  }
+
+  double position(double tool) const { return counted(tool) * device_.position_scale(); }
+
+  double velocity(double tool, double true_velocity, std::uint64_t sample) {
+    device_sample now;
+    now.position = counted(tool);
+    now.velocity = true_velocity / device_.position_scale();
+    now.timestamp_ns = std::uint64_t(double(sample) * device_.sample_period() * 1e9);
+    now.sequence = std::uint32_t(sample);
+    return estimator_.update(now) * device_.position_scale();
+  }
+
+ private:
+  double counted(double tool) const {
+    const double joint = tool / device_.position_scale(), step = device_.description().encoder.step;
+    return step > 0 ? std::floor(joint / step) * step : joint;
+  }
+
+  const PortDevice& device_;
+  any_estimator<double> estimator_;
+};
+
+FeltForce felt_on_ideal(const UpdateLaw& law, const std::vector<double>& positions, double at) {
+  AnyEvaluation run(law);
+  run.reset(at);
+  FeltForce felt;
+  double last = at;
+  for (const double position : positions) {
+    const double velocity = (position - last) / law.sample_period;
+    const command<double> now = run.step(position, velocity);
+    felt.weak.push_back(now.force + now.damping * velocity);
+    felt.dissipated += now.damping * velocity * velocity;
+    felt.square_velocity += velocity * velocity;
+    last = position;
+  }
+  felt.strong = felt.weak;
+  return felt;
+}
+
+FeltForce felt_on_device(const UpdateLaw& law, const std::vector<double>& positions, double at,
+                         const PortDevice& device, int instants) {
+  AnyEvaluation run(law);
+  Sensing sensing(device, at);
+  Drives drives(device);
+  run.reset(sensing.position(at));
+  drives.begin({law.damping, 0});
+  FeltForce felt;
+  const double instant = law.sample_period / instants, residual = device.residual_damping();
+  for (std::size_t i = 0; i + std::size_t(instants) <= positions.size(); i += std::size_t(instants)) {
+    const double here = i == 0 ? at : positions[i - 1], velocity = (positions[i] - here) / instant;
+    const command<double> now =
+        run.step(sensing.position(here), sensing.velocity(here, velocity, i / std::size_t(instants)));
+    drives.take(now);
+    for (std::size_t j = i; j < i + std::size_t(instants); ++j) {
+      const double moved = positions[j] - (j == 0 ? at : positions[j - 1]), speed = moved / instant;
+      drives.advance(instant);
+      const double brake = drives.damping();
+      felt.weak.push_back(drives.force() + (brake * (1 - device.tolerance()) + residual) * speed);
+      felt.strong.push_back(drives.force() + (brake * (1 + device.tolerance()) + residual) * speed);
+      felt.dissipated += now.damping * speed * speed;
+      felt.square_velocity += speed * speed;
+    }
+  }
+  return felt;
+}
+
+}  // namespace
+
+SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const UpdateLaw& fine, const PortDevice& device,
+                     double at)
+    : device_(device), at_(at) {
+  const int instants = instants_a_sample(device);
+  const double period = coarse.sample_period, highest = 0.25 / period;
+  const double high = std::min(device.band_high() / (2 * pi), highest),
+               low = std::min(std::max(device.band_low() / (2 * pi), 1.25 / (most_samples * period)), high);
+  for (const double frequency : {low, high}) {
+    const double yield = displacement_at_yield(network, coarse, frequency);
+    for (const double amplitude : around_yield)
+      motions_.push_back(sine(at, amplitude * yield, frequency, period, instants));
+  }
+  const double middle = std::sqrt(low * high);
+  motions_.push_back(
+      drag(at, around_yield[2] * displacement_at_yield(network, coarse, middle), middle, period, instants));
+  for (const TrialMotion& motion : motions_) forces_.push_back(whole_force(fine, motion.position, at));
+}
+
+// Where in a quarter of a sine the force first departs from what it is for a motion so small that all slips hold.
+double SlipTrial::displacement_at_yield(const Network& network, const UpdateLaw& coarse, double frequency) const {
+  const double period = coarse.sample_period;
+  const int samples = int(std::max(16.0, 0.25 / (frequency * period)));
+  const auto run = [&](double amplitude) {
+    std::vector<double> positions;
+    for (int i = 1; i <= samples; ++i) positions.push_back(at_ + amplitude * std::sin(pi / 2 * i / samples));
+    return whole_force(coarse, positions, at_);
+  };
+  const double stuck = stuck_amplitude(network, 2 * pi * frequency);
+  const std::vector<double> linear = run(stuck);
+  const double scale = largest_size(linear);
+  for (double factor = 2; factor < 1e9; factor *= 2) {
+    const std::vector<double> forces = run(stuck * factor);
+    for (int i = 0; i < samples; ++i)
+      if (std::abs(forces[std::size_t(i)] / factor - linear[std::size_t(i)]) > 1e-3 * scale)
+        return stuck * factor * std::sin(pi / 2 * (i + 1) / samples);
+  }
+  return stuck;
+}
+
+FeltForce SlipTrial::felt(const UpdateLaw& law, std::size_t motion) const {
+  const std::vector<double>& positions = motions_[motion].position;
+  return device_.is_ideal() ? felt_on_ideal(law, positions, at_)
+                            : felt_on_device(law, positions, at_, device_, instants_a_sample(device_));
+}
+
+TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt) {
+  TrialError worst;
+  for (std::size_t m = 0; m < felt.size(); ++m) {
+    const std::vector<double>& truth = trial.network_force(m);
+    const double peak = largest_size(truth), rms = root_mean_square(truth);
+    for (const std::vector<double>* end : {&felt[m].weak, &felt[m].strong}) {
+      std::vector<double> error;
+      for (std::size_t i = 0; i < std::min(end->size(), truth.size()); ++i) error.push_back((*end)[i] - truth[i]);
+      if (peak > 0) worst.peak = std::max(worst.peak, largest_size(error) / peak);
+      if (rms > 0) worst.rms = std::max(worst.rms, root_mean_square(error) / rms);
+    }
+  }
+  return worst;
+}
+
+}  // namespace dashpot::compiler

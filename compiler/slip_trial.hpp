@@ -1,0 +1,61 @@
+// What a law with slips is felt to do in a run: sines at both ends of the band at three amplitudes around yield, and a
+// drag with reversals (theory, section 5).
+//
+// Felt is m + b u̇: on a device what the motor and the brake make of the commands, through encoder, estimator, whole
+// samples of delay, hold, amplifier, coil and either end of the brake's tolerance; without one m + b Δu/h at the
+// samples. The network's own force is that of the law in which the motor computes everything: without a device at the
+// same rate, else at four times the rate, so that the hold is seen.
+#pragma once
+
+#include <vector>
+
+#include "decompose/port_device.hpp"
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// A displacement of the tool at the instants of the network's own law.
+struct TrialMotion {
+  std::vector<double> position;  // [m] or [rad]
+};
+
+// What is felt at those instants, with the brake at the lower and, one after the other, at the upper end of its
+// tolerance.
+struct FeltForce {
+  std::vector<double> weak, strong;  // [N] or [N·m]
+  double dissipated = 0;             // Σ b u̇² of what the brake is told [W]
+  double square_velocity = 0;        // Σ u̇² [m²/s²]
+};
+
+class SlipTrial {
+ public:
+  // `coarse` and `fine`: laws in which the motor makes the whole force, at the rate of the law to be tried and at
+  // instants_a_sample() times that. `at`: of a contact, where the tool begins; else 0. All outlive this.
+  SlipTrial(const Network& network, const UpdateLaw& coarse, const UpdateLaw& fine, const PortDevice& device,
+            double at);
+
+  static int instants_a_sample(const PortDevice& device) { return device.is_ideal() ? 1 : 4; }
+
+  const std::vector<TrialMotion>& motions() const { return motions_; }
+  const std::vector<double>& network_force(std::size_t motion) const { return forces_[motion]; }
+  FeltForce felt(const UpdateLaw& law, std::size_t motion) const;
+
+ private:
+  double displacement_at_yield(const Network& network, const UpdateLaw& coarse, double frequency) const;
+
+  const PortDevice& device_;
+  double at_;
+  std::vector<TrialMotion> motions_;
+  std::vector<std::vector<double>> forces_;
+};
+
+// Largest and root mean square of what is felt less the network's force, over those of that force: of the worse end of
+// the tolerance, the worst motion.
+struct TrialError {
+  double peak = 0, rms = 0;  // [1]
+
+  double worst() const { return peak > rms ? peak : rms; }
+};
+TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt);
+
+}  // namespace dashpot::compiler

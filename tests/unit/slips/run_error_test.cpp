@@ -1,0 +1,113 @@
+// What a law behind slips is felt to do: the tolerance rule, on networks and motions that it was not made for.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "commanded.hpp"
+#include "slip_trial.hpp"
+#include "support/written_network.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using compiler::SlipLaw;
+
+// A slip network in which there is something to choose, with values as on a desk.
+compiler::Network network_with_choice(std::uint64_t& seed) {
+  NetworkRecipe recipe;
+  recipe.most_nodes = 7;
+  recipe.most_slips = 3;
+  recipe.smallest_value = 0.1;
+  recipe.largest_value = 100;
+  for (;; ++seed) {
+    const compiler::Network network = random_network(seed, recipe);
+    const auto is_slip = [](const compiler::Element& e) { return std::holds_alternative<compiler::Slip>(e.law); };
+    if (std::any_of(network.elements.begin(), network.elements.end(), is_slip) &&
+        (can_have(network, "steady") || can_have(network, "gated"))) {
+      ++seed;
+      return network;
+    }
+  }
+}
+
+compiler::Compilation by_default(const compiler::Network& network, const char* law = "most-dissipative") {
+  compiler::Choices choices;
+  choices.scheme = compiler::Scheme::backward_euler;
+  choices.decomposition = law;
+  return compiled(network, choices, nullptr);
+}
+
+double largest_departure(const compiler::UpdateLaw& law, const compiler::UpdateLaw& exact,
+                         const std::vector<double>& motion, double& peak) {
+  WholeForce felt(law), network(exact);
+  double worst = 0;
+  peak = 0;
+  for (const double u : motion) {
+    const double truth = network.step(u);
+    peak = std::max(peak, std::abs(truth));
+    worst = std::max(worst, std::abs(felt.step(u) - truth));
+  }
+  return worst;
+}
+
+}  // namespace
+
+// Fails if the default errs by more than 5 % of the peak in any sample of a run, backward Euler on an ideal device with
+// an exact velocity: sines and drags beside those that decided.
+TEST(RunError, TheDefaultIsWithinFivePercentAtEverySample) {
+  std::uint64_t seed = 1;
+  std::size_t braking = 0;
+  for (int i = 0; i < 24; ++i) {
+    const compiler::Network network = network_with_choice(seed);
+    const compiler::Compilation chosen = by_default(network), exact = by_default(network, "virtual");
+    const compiler::PortDevice ideal = compiler::PortDevice::ideal();
+    const compiler::SlipTrial trial(network, exact.law, exact.law, ideal, 0);
+    for (const SlipLaw law : {SlipLaw::steady, SlipLaw::ramped, SlipLaw::gated})
+      for (const auto* split : chosen.decomposition.slips.all()) braking += split->law == law ? 1 : 0;
+    for (std::size_t m = 0; m < trial.motions().size(); ++m)
+      for (const double share : {1.0, 0.7}) {
+        std::vector<double> motion = trial.motions()[m].position;
+        for (double& u : motion) u *= share;
+        double peak = 0;
+        const double worst = largest_departure(chosen.law, exact.law, motion, peak);
+        EXPECT_LE(worst, 0.05 * peak * (share == 1 ? 1 + 1e-9 : 1.2)) << "seed " << seed - 1 << " motion " << m;
+      }
+  }
+  EXPECT_GE(braking, 6u) << "the default would be velocity-free nearly everywhere";
+}
+
+// Fails if the error that is told is not that of the run, or velocity-free is not the network's own force.
+TEST(RunError, VelocityFreeHasNone) {
+  std::uint64_t seed = 1000;
+  for (int i = 0; i < 8; ++i) {
+    const compiler::SlipDecomposition slips = by_default(network_with_choice(seed)).decomposition.slips;
+    ASSERT_FALSE(slips.merits.empty());
+    EXPECT_EQ(slips.merits.front().law, SlipLaw::velocity_free);
+    EXPECT_LE(slips.merits.front().error(), 1e-10);
+    EXPECT_EQ(slips.limit, 0.05);
+  }
+}
+
+// Fails if the part of the steady law's excess that is taken is not the largest that keeps to the tolerance.
+TEST(RunError, SteadyTakesWhatTheToleranceAllows) {
+  const compiler::Device device = [] {
+    compiler::Device d = device_with(1e-6);
+    d.description.velocity.window = 20;
+    d.description.brake.tolerance = 0.1;
+    d.description.loop.band_low = 1;
+    return d;
+  }();
+  const compiler::Network network = written_network(
+      R"({"parallel": [{"spring": 40}, {"series": [{"spring": 300}, {"parallel": [{"slip": 0.2}, {"damper": 8}]}]}]})");
+  const compiler::Compilation c = decided(network, "most-dissipative", &device);
+  const compiler::SlipDecomposition& slips = c.decomposition.slips;
+  const auto steady = std::find_if(slips.merits.begin(), slips.merits.end(),
+                                   [](const auto& merit) { return merit.law == SlipLaw::steady; });
+  ASSERT_NE(steady, slips.merits.end());
+  EXPECT_LE(steady->error(), slips.limit);
+  EXPECT_GT(steady->mean_damping, 0);
+}
+
+}  // namespace dashpot::testing

@@ -38,17 +38,17 @@ std::optional<std::string> read_bounded(const std::string& path) {
 
 }  // namespace
 
-SourceFile::SourceFile(std::string path, std::string text)
-    : path_(std::move(path)), text_(std::move(text)), line_starts_(find_line_starts(text_)) {}
+SourceFile::SourceFile(std::string path, std::string text, std::size_t first_line)
+    : path_(std::move(path)), text_(std::move(text)), line_starts_(find_line_starts(text_)), first_line_(first_line) {}
 
 Position SourceFile::position_of(std::size_t offset) const {
   const std::size_t place = std::clamp(offset, line_starts_.front(), std::max(line_starts_.front(), text_.size()));
   const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), place);
-  return {static_cast<std::size_t>(after - line_starts_.begin()), place - *(after - 1) + 1};
+  return {first_line_ - 1 + static_cast<std::size_t>(after - line_starts_.begin()), place - *(after - 1) + 1};
 }
 
 std::string_view SourceFile::line(std::size_t number) const {
-  const std::size_t begin = line_starts_[number - 1];
+  const std::size_t begin = line_starts_[number - first_line_];
   const std::size_t end = std::min(text_.find('\n', begin), text_.size());
   std::string_view line = std::string_view(text_).substr(begin, end - begin);
   if (line.ends_with('\r')) line.remove_suffix(1);

@@ -18,17 +18,19 @@ struct Position {
 
 class SourceFile {
  public:
-  SourceFile(std::string path, std::string text);
+  // `first_line`: of an excerpt of a longer file, the number that its first line has there.
+  SourceFile(std::string path, std::string text, std::size_t first_line = 1);
 
   const std::string& path() const { return path_; }
   const std::string& text() const { return text_; }
   Position position_of(std::size_t offset) const;
-  std::string_view line(std::size_t number) const;  // without its end of line; number from 1
+  std::string_view line(std::size_t number) const;  // without its end of line
 
  private:
   std::string path_;
   std::string text_;
   std::vector<std::size_t> line_starts_;
+  std::size_t first_line_;
 };
 
 // Bytes [begin, end) of a file; `file == nullptr` is "no place".

@@ -7,6 +7,7 @@
 #include "syntax/annotations.hpp"
 #include "syntax/file_format.hpp"
 #include "syntax/object_reader.hpp"
+#include "syntax/parse_fit.hpp"
 #include "syntax/parse_structure.hpp"
 
 namespace dashpot::compiler {
@@ -15,7 +16,7 @@ namespace {
 using Kind = JsonValue::Kind;
 
 const std::vector<std::string> network_keys = {"dashpot",    "name",    "title",    "source",  "motion",
-                                               "parameters", "network", "elements", "contact", "valid"};
+                                               "parameters", "network", "elements", "contact", "valid", "fit"};
 
 ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics) {
   ParameterDecl parameter{{member.key, member.key_span}, {}, false, {}, {}, member.value.span};
@@ -90,6 +91,7 @@ NetworkDecl parse_network_keys(ObjectReader reader, Diagnostics& diagnostics) {
   parse_structure(reader, decl, diagnostics);
   decl.contact = parse_contact(reader, diagnostics);
   decl.valid = parse_valid(reader, diagnostics);
+  check_fit_record(reader, diagnostics);
   return decl;
 }
 

@@ -1,0 +1,483 @@
+#include "fit/column_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "network/decimal.hpp"
+#include "network/unit.hpp"
+#include "source/excerpt.hpp"
+#include "source/nearest_name.hpp"
+
+namespace dashpot::compiler::fitting {
+namespace {
+
+inline constexpr Dimension pressure{1, -1, -2};
+inline constexpr Dimension per_pressure{-1, 1, 2};
+inline constexpr Dimension compliance{-1, 0, 2};
+inline constexpr Dimension rotational_compliance{-1, -2, 2, 0, 1};
+
+struct RoleRule {
+  Role role;
+  const char* word;
+  std::vector<std::string> names;  // as headers spell it, letters and digits only, lower case
+  std::vector<Dimension> dimensions;
+  const char* likely_unit;  // in a question
+};
+
+const std::vector<RoleRule>& rules() {
+  static const std::vector<RoleRule> list = {
+      {Role::time, "time", {"time", "t", "zeit", "elapsedtime", "testtime", "reltime"}, {dimensions::time}, "s"},
+      {Role::position,
+       "position",
+       {"position", "pos", "displacement", "disp", "compression", "extension", "indentation", "depth", "deflection",
+        "elongation", "crosshead", "stroke", "weg", "u", "x", "angle", "theta", "rotation"},
+       {dimensions::length, dimensions::angle},
+       "mm"},
+      {Role::strain,
+       "strain",
+       {"strain", "engineeringstrain", "truestrain", "engstrain", "dehnung", "l"},
+       {dimensions::number},
+       "1"},
+      {Role::force,
+       "force",
+       {"force", "load", "f", "fz", "kraft", "torque"},
+       {dimensions::force, dimensions::torque},
+       "N"},
+      {Role::stress,
+       "stress",
+       {"stress", "engineeringstress", "truestress", "engstress", "spannung"},
+       {pressure},
+       "kPa"},
+      {Role::omega,
+       "omega",
+       {"omega", "w", "ω", "angularfrequency"},
+       {dimensions::angular_velocity, dimensions::frequency},
+       "rad/s"},
+      {Role::frequency, "frequency", {"frequency", "freq", "f"}, {dimensions::frequency}, "Hz"},
+      {Role::storage,
+       "storage",
+       {"storage", "storagemodulus", "estor", "gstor", "estorage", "gstorage", "g1", "e1", "g", "e", "gprime",
+        "eprime"},
+       {pressure, dimensions::stiffness, dimensions::rotational_stiffness},
+       "Pa"},
+      {Role::loss,
+       "loss",
+       {"loss", "lossmodulus", "eloss", "gloss", "g2", "e2", "gdoubleprime", "edoubleprime"},
+       {pressure, dimensions::stiffness, dimensions::rotational_stiffness},
+       "Pa"},
+      {Role::modulus,
+       "modulus",
+       {"modulus", "erelax", "grelax", "relaxation", "relaxationmodulus", "relmod", "e", "g", "et", "gt", "stiffness"},
+       {pressure, dimensions::stiffness, dimensions::rotational_stiffness},
+       "Pa"},
+      {Role::compliance,
+       "compliance",
+       {"compliance", "creepcompliance", "j", "jt", "d", "dt"},
+       {per_pressure, compliance, rotational_compliance},
+       "1/Pa"},
+      {Role::deviation,
+       "deviation",
+       {"deviation", "sd", "std", "stdev", "standarddeviation"},
+       {dimensions::force, dimensions::torque, pressure, dimensions::stiffness, dimensions::rotational_stiffness,
+        per_pressure, compliance},
+       "N"},
+  };
+  return list;
+}
+
+const RoleRule& rule_of(Role role) {
+  return *std::find_if(rules().begin(), rules().end(), [&](const RoleRule& rule) { return rule.role == role; });
+}
+
+bool takes(const RoleRule& rule, const Dimension& dimension) {
+  return std::find(rule.dimensions.begin(), rule.dimensions.end(), dimension) != rule.dimensions.end();
+}
+
+struct ReadUnit {
+  Dimension dimension;
+  double factor;
+};
+
+std::optional<ReadUnit> unit_in(std::string_view text) {
+  if (text == "-" || text == "1") return ReadUnit{dimensions::number, 1};
+  const auto unit = parse_unit(text);
+  if (!std::holds_alternative<Unit>(unit)) return std::nullopt;
+  const Unit& read = std::get<Unit>(unit);
+  return ReadUnit{read.dimension, round_decimal("1", read).value};
+}
+
+// "Load (N)", "time [s]", "force_N", "t/s": a name, and what is its unit.
+struct Title {
+  std::string name;
+  std::optional<std::string> unit;
+};
+
+Title title_of(std::string_view text) {
+  for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']'), std::pair('{', '}')}) {
+    const std::size_t begin = text.rfind(open);
+    if (begin == std::string_view::npos || begin == 0 || !text.ends_with(close)) continue;
+    const std::string unit(text.substr(begin + 1, text.size() - begin - 2));
+    std::string_view name = text.substr(0, begin);
+    while (name.ends_with(' ')) name.remove_suffix(1);
+    if (unit_in(unit)) return {std::string(name), unit};
+  }
+  for (const char sign : {'_', '/', ' '}) {
+    const std::size_t at = text.rfind(sign);
+    if (at == std::string_view::npos || at == 0) continue;
+    const std::string unit(text.substr(at + 1));
+    const bool is_letter = !unit.empty() && std::isdigit(static_cast<unsigned char>(unit[0])) == 0;
+    if (is_letter && unit_in(unit)) return {std::string(text.substr(0, at)), unit};
+  }
+  return {std::string(text), std::nullopt};
+}
+
+std::string letters_of(std::string_view text) {
+  std::string letters;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return letters;
+}
+
+struct TableColumn {
+  std::string title;  // whole
+  std::string name;
+  std::optional<std::string> unit;
+};
+
+std::vector<TableColumn> columns_of(const TableShape& shape) {
+  std::vector<TableColumn> columns;
+  for (std::size_t i = 0; i < shape.names.size(); ++i) {
+    const Title title = title_of(shape.names[i]);
+    columns.push_back({shape.names[i], title.name, title.unit});
+    if (i < shape.units.size() && !shape.units[i].empty())
+      columns.back() = {shape.names[i], shape.names[i], shape.units[i]};
+  }
+  return columns;
+}
+
+class Chooser {
+ public:
+  Chooser(const std::string& path, const TableShape& shape, const ColumnSearch& search, Diagnostics& diagnostics)
+      : path_(path), shape_(shape), search_(search), diagnostics_(diagnostics), columns_(columns_of(shape)) {}
+
+  std::optional<std::vector<ChosenColumn>> run() {
+    const std::size_t errors_before = diagnostics_.error_count();
+    for (const ColumnRequest& request : search_.requests) take(request);
+    if (diagnostics_.error_count() > errors_before) return std::nullopt;
+    if (shape_.names.empty() && !has_all()) {
+      ask_for_names();
+      return std::nullopt;
+    }
+    find_missing();
+    if (diagnostics_.error_count() > errors_before) return std::nullopt;
+    if (!has_all()) ask_for_columns();
+    return diagnostics_.error_count() > errors_before ? std::nullopt : std::optional(chosen_);
+  }
+
+ private:
+  bool has(Role role) const { return find_column(chosen_, role) != nullptr; }
+  bool wants(Role role) const {
+    return std::any_of(search_.requests.begin(), search_.requests.end(), [&](auto& r) { return r.role == role; });
+  }
+
+  // Which of the four kinds is looked for: what was asked for, else what the header holds.
+  RecordingKind kind() const {
+    if (search_.is_relaxation || wants(Role::modulus)) return RecordingKind::relaxation;
+    if (search_.is_creep || wants(Role::compliance)) return RecordingKind::creep;
+    const bool asks_spectrum = wants(Role::storage) || wants(Role::omega) || wants(Role::frequency);
+    if (asks_spectrum || has_name(Role::storage, Role::loss)) return RecordingKind::frequency;
+    return RecordingKind::motion;
+  }
+
+  bool has_name(Role first, Role second) const { return !candidates(first).empty() && !candidates(second).empty(); }
+
+  std::vector<std::vector<Role>> needed() const {
+    switch (kind()) {
+      case RecordingKind::motion: return {{Role::time}, {Role::position, Role::strain}, {Role::force, Role::stress}};
+      case RecordingKind::relaxation: return {{Role::time}, {Role::modulus}};
+      case RecordingKind::creep: return {{Role::time}, {Role::compliance}};
+      case RecordingKind::frequency: return {{Role::omega, Role::frequency}, {Role::storage}, {Role::loss}};
+    }
+    return {};
+  }
+
+  bool has_all() const {
+    const auto groups = needed();
+    return std::all_of(groups.begin(), groups.end(), [&](const std::vector<Role>& group) {
+      return std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); });
+    });
+  }
+
+  std::optional<std::size_t> index_of(const std::string& name) const {
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (columns_[i].title == name || columns_[i].name == name) return i;
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (letters_of(columns_[i].name) == letters_of(name) && !letters_of(name).empty()) {
+        if (found) return std::nullopt;
+        found = i;
+      }
+    if (found) return found;
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+    const bool is_number = error == std::errc() && end == name.data() + name.size();
+    if (is_number && number >= 1 && number <= shape_.width) return number - 1;
+    return std::nullopt;
+  }
+
+  void take(const ColumnRequest& request) {
+    const std::optional<std::size_t> index = index_of(request.name);
+    if (!index) return report_missing(request);
+    const RoleRule& rule = rule_of(request.role);
+    const bool is_named = *index < columns_.size();
+    const std::string title = is_named ? columns_[*index].title : request.name;
+    std::optional<std::string> unit = request.unit;
+    if (!unit && is_named) unit = columns_[*index].unit;
+    if (!unit && request.role == Role::strain) unit = "1";
+    if (!unit && can_be_scaled(request.role)) return add_scaled(request, *index, title);
+    if (!unit) return ask_for_unit(request.role, title);
+    const std::optional<ReadUnit> read = unit_in(*unit);
+    const bool is_plain = read && read->dimension == dimensions::number && can_be_scaled(request.role);
+    if (is_plain) return add_scaled(request, *index, title);
+    if (!read || !takes(rule, read->dimension)) {
+      diagnostics_.report<DiagnosticCode::recording_wrong_unit>({}, title, *unit, rule.word, rule.likely_unit);
+      return;
+    }
+    add({request.role, *index, request.offset, request.is_negated ? -read->factor : read->factor, read->dimension,
+         title});
+  }
+
+  // A modulus without a unit, normalised for one, takes that of --scale.
+  bool can_be_scaled(Role role) const {
+    return search_.scale &&
+           (role == Role::modulus || role == Role::compliance || role == Role::storage || role == Role::loss);
+  }
+
+  void add_scaled(const ColumnRequest& request, std::size_t index, const std::string& title) {
+    add({request.role, index, request.offset, *search_.scale, search_.scale_dimension, title});
+  }
+
+  void add(ChosenColumn column) {
+    if (column.role == Role::omega && column.dimension == dimensions::frequency)
+      column.dimension = dimensions::angular_velocity;
+    chosen_.push_back(std::move(column));
+  }
+
+  void report_missing(const ColumnRequest& request) {
+    diagnostics_.report<DiagnosticCode::recording_no_such_column>({}, path_, excerpt(request.name));
+    if (columns_.empty()) diagnostics_.note<DiagnosticCode::recording_columns_by_number>({}, shape_.width);
+    else {
+      std::vector<std::string> names;
+      for (const TableColumn& column : columns_) names.push_back(column.name);
+      diagnostics_.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(names, ", ")));
+    }
+  }
+
+  // Columns whose name says that they are this, and whose unit does not say otherwise.
+  std::vector<std::size_t> candidates(Role role) const {
+    const RoleRule& rule = rule_of(role);
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const bool is_taken = std::any_of(chosen_.begin(), chosen_.end(), [&](auto& c) { return c.index == i; });
+      const std::string letters = letters_of(columns_[i].name);
+      const bool is_named = std::find(rule.names.begin(), rule.names.end(), letters) != rule.names.end();
+      if (is_taken || !is_named) continue;
+      if (!columns_[i].unit) {
+        found.push_back(i);
+        continue;
+      }
+      const std::optional<ReadUnit> unit = unit_in(*columns_[i].unit);
+      if (unit && (takes(rule, unit->dimension) || (can_be_scaled(role) && unit->dimension == dimensions::number)))
+        found.push_back(i);
+    }
+    return found;
+  }
+
+  void find_missing() {
+    for (const std::vector<Role>& group : needed()) {
+      if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
+      find_one_of(group);
+    }
+    if (!has(Role::deviation) && candidates(Role::deviation).size() == 1) take_quietly(Role::deviation);
+  }
+
+  void take_quietly(Role role) {
+    const TableColumn& column = columns_[candidates(role).front()];
+    if (column.unit) take({role, column.title, false, 0, {}});
+  }
+
+  // The first role of the group that has a column: force before stress.
+  void find_one_of(const std::vector<Role>& group) {
+    for (const Role role : group) {
+      const std::vector<std::size_t> found = candidates(role);
+      if (found.empty()) continue;
+      if (found.size() > 1) return ask_which(role, found);
+      return take({role, columns_[found.front()].title, false, 0, {}});
+    }
+  }
+
+  // The command line that would do, with what is known and, elsewhere, the likeliest.
+  std::string answer() const {
+    std::vector<std::string> parts;
+    std::size_t next = 1;
+    for (const std::vector<Role>& group : needed()) {
+      const RoleRule* rule = &rule_of(group.front());
+      std::string name = std::to_string(next++), unit = std::string(":") + rule->likely_unit;
+      for (const Role role : group) {
+        if (const ChosenColumn* column = find_column(chosen_, role)) {
+          rule = &rule_of(role), name = column->title, unit.clear();
+          for (const ColumnRequest& request : search_.requests)
+            if (request.role == role && request.unit) unit = ":" + *request.unit;
+          break;
+        }
+        const std::vector<std::size_t> found = candidates(role);
+        if (found.empty()) continue;
+        rule = &rule_of(role), name = columns_[found.front()].name;
+        unit = columns_[found.front()].unit ? "" : std::string(":") + rule->likely_unit;
+        break;
+      }
+      parts.push_back(std::string(rule->word) + "=" + name + (unit == ":1" ? "" : unit));
+    }
+    const std::string columns = fmt::format("{}", fmt::join(parts, ","));
+    const bool needs_quotes = columns.find_first_of(" ()[]{}'\"$&;|<>*?") != std::string::npos;
+    return search_.command + " --columns " + (needs_quotes ? "'" + columns + "'" : columns);
+  }
+
+  void note_answer() {
+    diagnostics_.note<DiagnosticCode::recording_answer>({}, answer());
+    if (!shape_.metadata.empty())
+      diagnostics_.note<DiagnosticCode::recording_metadata>(
+          {}, excerpt(fmt::format("{}", fmt::join(shape_.metadata, " | "))));
+  }
+
+  void ask_for_unit(Role role, const std::string& title) {
+    diagnostics_.report<DiagnosticCode::recording_unit_missing>({}, path_, title, rule_of(role).word);
+    note_answer();
+  }
+
+  void ask_which(Role role, const std::vector<std::size_t>& found) {
+    std::vector<std::string> names;
+    for (const std::size_t i : found) names.push_back("'" + columns_[i].title + "'");
+    diagnostics_.report<DiagnosticCode::recording_several_columns>({}, path_, rule_of(role).word,
+                                                                   fmt::format("{}", fmt::join(names, ", ")));
+    note_answer();
+  }
+
+  void ask_for_names() {
+    diagnostics_.report<DiagnosticCode::recording_without_names>({}, path_, shape_.width);
+    note_answer();
+  }
+
+  void ask_for_columns() {
+    for (const std::vector<Role>& group : needed()) {
+      if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
+      std::vector<std::string> words;
+      for (const Role role : group) words.emplace_back(rule_of(role).word);
+      diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_,
+                                                                    fmt::format("{}", fmt::join(words, " or ")));
+      note_answer();
+      return;
+    }
+  }
+
+  const std::string& path_;
+  const TableShape& shape_;
+  const ColumnSearch& search_;
+  Diagnostics& diagnostics_;
+  std::vector<TableColumn> columns_;
+  std::vector<ChosenColumn> chosen_;
+};
+
+// NAME, NAME-0.95, -NAME, NAME:kPa
+ColumnRequest request_of(Role role, std::string text) {
+  ColumnRequest request{role, {}, false, 0, {}};
+  const std::size_t colon = text.rfind(':');
+  if (colon != std::string::npos && unit_in(text.substr(colon + 1))) {
+    request.unit = text.substr(colon + 1);
+    text.erase(colon);
+  }
+  if (text.starts_with('-')) {
+    request.is_negated = true;
+    text.erase(0, 1);
+  }
+  const std::size_t sign = text.find_last_of("+-");
+  if (sign != std::string::npos && sign > 0) {
+    const std::string number = text.substr(sign + (text[sign] == '+' ? 1 : 0));
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error == std::errc() && end == number.data() + number.size() && std::isfinite(value)) {
+      request.offset = value;
+      text.erase(sign);
+    }
+  }
+  request.name = text;
+  return request;
+}
+
+}  // namespace
+
+const char* name_of(Role role) { return rule_of(role).word; }
+
+std::optional<std::vector<ColumnRequest>> parse_columns(const std::string& words, Diagnostics& diagnostics) {
+  std::vector<ColumnRequest> requests;
+  std::size_t begin = 0;
+  while (begin <= words.size()) {
+    const std::size_t end = std::min(words.find(',', begin), words.size());
+    const std::string part = words.substr(begin, end - begin);
+    begin = end + 1;
+    const std::size_t equals = part.find('=');
+    const std::string word = part.substr(0, equals);
+    const auto rule = std::find_if(rules().begin(), rules().end(), [&](const RoleRule& r) { return r.word == word; });
+    if (equals == std::string::npos || equals + 1 == part.size() || rule == rules().end()) {
+      diagnostics.report<DiagnosticCode::columns_malformed>({}, excerpt(part));
+      std::vector<std::string> known;
+      for (const RoleRule& r : rules()) known.emplace_back(r.word);
+      diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(known, ", ")));
+      return std::nullopt;
+    }
+    requests.push_back(request_of(rule->role, part.substr(equals + 1)));
+  }
+  return requests;
+}
+
+const ChosenColumn* find_column(const std::vector<ChosenColumn>& columns, Role role) {
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [&](const ChosenColumn& c) { return c.role == role; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+RecordingKind kind_of(const std::vector<ChosenColumn>& columns) {
+  if (find_column(columns, Role::storage) != nullptr) return RecordingKind::frequency;
+  if (find_column(columns, Role::modulus) != nullptr) return RecordingKind::relaxation;
+  if (find_column(columns, Role::compliance) != nullptr) return RecordingKind::creep;
+  return RecordingKind::motion;
+}
+
+std::optional<std::vector<ChosenColumn>> choose_columns(const std::string& path, const TableShape& shape,
+                                                        const ColumnSearch& search, Diagnostics& diagnostics) {
+  return Chooser(path, shape, search, diagnostics).run();
+}
+
+std::optional<SpokenQuantity> spoken_quantity(const std::string& text) {
+  const std::size_t length = decimal_length(text);
+  if (length == 0) return std::nullopt;
+  std::size_t begin = length;
+  while (begin < text.size() && text[begin] == ' ') ++begin;
+  const std::string unit_text = text.substr(begin);
+  Unit unit{};
+  if (!unit_text.empty()) {
+    const auto read = parse_unit(unit_text);
+    if (!std::holds_alternative<Unit>(read)) return std::nullopt;
+    unit = std::get<Unit>(read);
+  }
+  const RoundedDecimal rounded = round_decimal(std::string_view(text).substr(0, length), unit);
+  if (rounded.rounding != Rounding::finite) return std::nullopt;
+  return SpokenQuantity{rounded.value, unit.dimension};
+}
+
+}  // namespace dashpot::compiler::fitting

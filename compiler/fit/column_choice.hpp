@@ -1,0 +1,77 @@
+// Which column of a recording is what, and in which unit.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/recording.hpp"
+#include "fit/table_shape.hpp"
+#include "network/dimension.hpp"
+
+namespace dashpot::compiler::fitting {
+
+enum class Role {
+  time,
+  position,
+  strain,
+  force,
+  stress,
+  omega,
+  frequency,
+  storage,
+  loss,
+  modulus,
+  compliance,
+  deviation
+};
+const char* name_of(Role role);
+
+// A part of --columns: ROLE=[-]NAME[+NUMBER][:UNIT], the number in the column's unit; NAME may be the column's number.
+struct ColumnRequest {
+  Role role;
+  std::string name;
+  bool is_negated = false;
+  double offset = 0;
+  std::optional<std::string> unit;
+};
+
+// Refuses: roles that are not known, parts of another form.
+std::optional<std::vector<ColumnRequest>> parse_columns(const std::string& words, Diagnostics& diagnostics);
+
+// What is read of a table: (number + offset)·scale is the value in SI.
+struct ChosenColumn {
+  Role role;
+  std::size_t index;  // from 0
+  double offset;
+  double scale;
+  Dimension dimension;
+  std::string title;  // as the file names it
+};
+
+struct ColumnSearch {
+  std::vector<ColumnRequest> requests;
+  bool is_relaxation = false, is_creep = false;
+  std::optional<double> scale;  // what 1 of a modulus without unit stands for, or of a compliance, in SI
+  Dimension scale_dimension{};
+  std::string command;  // the command line without --columns, for the question's own answer
+};
+
+// In: a table's shape. Out: the columns of a motion (time; position or strain; force or stress), a relaxation (time,
+// modulus), creep (time, compliance) or a spectrum (omega or frequency; storage, loss), and a deviation where there is
+// one. Asks, with the command line that answers: for what has no unit, no name, or more than one candidate. Refuses:
+// names that are not there, units that do not fit.
+std::optional<std::vector<ChosenColumn>> choose_columns(const std::string& path, const TableShape& shape,
+                                                        const ColumnSearch& search, Diagnostics& diagnostics);
+
+RecordingKind kind_of(const std::vector<ChosenColumn>& columns);
+const ChosenColumn* find_column(const std::vector<ChosenColumn>& columns, Role role);
+
+// A quantity as the command line spells it, "10 mm" or "1kPa".
+struct SpokenQuantity {
+  double value;  // SI
+  Dimension dimension;
+};
+std::optional<SpokenQuantity> spoken_quantity(const std::string& text);
+
+}  // namespace dashpot::compiler::fitting

@@ -1,0 +1,47 @@
+// What a term of weight one answers to a recording: exact for positions that are linear between rows.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/recording.hpp"
+#include "fit/term.hpp"
+
+namespace dashpot::compiler::fitting {
+
+// Angular frequencies that all of the recordings speak of [rad/s].
+struct Band {
+  double low;
+  double high;
+};
+
+// A recording with what every column of it needs.
+struct Signal {
+  const Recording* recording;
+  std::size_t file;            // its place among all
+  std::vector<double> steps;   // [s]
+  std::vector<double> change;  // of what drives the network, from row to row: position [m], or force [N]
+  std::vector<double> drive;   // position [m], or force [N]
+  Band band;                   // of a springpot's ladder
+  Form form;
+
+  // Storage, then loss, of a spectrum; else one for each row.
+  Eigen::Index rows() const {
+    const std::size_t count = recording->time.size();
+    return static_cast<Eigen::Index>(recording->kind == RecordingKind::frequency ? 2 * count : count);
+  }
+};
+
+Signal signal_of(const Recording& recording, std::size_t file, Form form, const Band& band);
+
+// Force [N] (position [m] in the compliance form) of the term with weight one, at each row; left limits.
+Eigen::VectorXd unit_column(const Signal& signal, const Term& term);
+
+// Its derivative with respect to the logarithm of a time or threshold, or to an exponent.
+enum class Shape { time, threshold, exponent };
+Eigen::VectorXd column_slope(const Signal& signal, const Term& term, Shape shape);
+
+// Density of branches in a springpot's ladder: its ripple is below 2e-3, whatever the exponent.
+inline constexpr double springpot_branches_per_decade = 2;
+
+}  // namespace dashpot::compiler::fitting

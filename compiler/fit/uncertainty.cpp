@@ -1,0 +1,129 @@
+#include "fit/uncertainty.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <random>
+
+#include "fit/compressed.hpp"
+#include "fit/projection.hpp"
+
+namespace dashpot::compiler::fitting {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+double weight_of(const Model& model, std::size_t j) { return model.weights[static_cast<Index>(j)]; }
+
+// Inverse of JᵀJ by the singular values of J's triangle, columns scaled to length one first.
+MatrixXd inverse_normal(const MatrixXd& jacobian, double& condition) {
+  const VectorXd lengths = jacobian.colwise().norm().cwiseMax(1e-300);
+  const MatrixXd scaled = jacobian * lengths.cwiseInverse().asDiagonal();
+  const Eigen::JacobiSVD<MatrixXd> svd(compressed(scaled, VectorXd::Zero(scaled.rows())).columns, Eigen::ComputeThinV);
+  const VectorXd values = svd.singularValues();
+  condition = values[values.size() - 1] > 0 ? values[0] / values[values.size() - 1] : 1e300;
+  const VectorXd squared = values.cwiseMax(1e-12 * values[0]).array().square().inverse();
+  const MatrixXd inverse = svd.matrixV() * squared.asDiagonal() * svd.matrixV().transpose();
+  return lengths.cwiseInverse().asDiagonal() * inverse * lengths.cwiseInverse().asDiagonal();
+}
+
+constexpr ProjectionLimits again{40, 1e-9};
+constexpr ProjectionLimits rough{8, 1e-4};
+
+}  // namespace
+
+double value_of(const Model& model, const ElementQuantity& quantity) {
+  const Term& term = model.terms[quantity.term];
+  const double weight = weight_of(model, quantity.term);
+  return (quantity.is_inverse ? 1 / weight : weight) * (quantity.times_time ? term.time : 1) *
+         (quantity.times_threshold ? term.threshold : 1);
+}
+
+Uncertainty::Uncertainty(const Problem& problem, const Model& model, double effective, bool gains_are_free)
+    : model_(model),
+      weight_place_(model.terms.size(), -1),
+      time_place_(model.terms.size(), -1),
+      threshold_place_(model.terms.size(), -1) {
+  const std::vector<Unknown> unknowns = unknowns_of(model, gains_are_free);
+  const MatrixXd columns = model_columns(problem, model);
+  MatrixXd jacobian(problem.rows(), columns.cols() + static_cast<Index>(unknowns.size()));
+  Index next = 0;
+  for (std::size_t j = 0; j < model.terms.size(); ++j) {
+    if (weight_of(model, j) == 0) continue;
+    weight_place_[j] = next;
+    const double scale = is_signed(model.terms[j]) ? 1 : weight_of(model, j);
+    jacobian.col(next++) = scale * columns.col(static_cast<Index>(j));
+  }
+  for (const Unknown& unknown : unknowns) {
+    if (unknown.kind != Unknown::Kind::gain && weight_of(model, unknown.index) == 0) continue;
+    if (unknown.kind == Unknown::Kind::time) time_place_[unknown.index] = next;
+    if (unknown.kind == Unknown::Kind::threshold) threshold_place_[unknown.index] = next;
+    jacobian.col(next++) = unknown_slope(problem, model, unknown);
+  }
+  jacobian.conservativeResize(Eigen::NoChange, next);
+  const double count = problem.weighed_rows(), parameters = static_cast<double>(next);
+  if (next == 0 || count <= parameters) return;
+  covariance_ = inverse_normal(jacobian, condition_) * (model.residual_sum / (count - parameters) * count / effective);
+  is_told_ = effective >= parameters + 5;
+  if (is_told_) quantile_ = boost::math::quantile(boost::math::students_t(effective - parameters), 0.975);
+}
+
+std::optional<Interval> Uncertainty::interval(const ElementQuantity& quantity) const {
+  if (!is_told_) return std::nullopt;
+  VectorXd share = VectorXd::Zero(covariance_.rows());
+  const auto add = [&](Index place, double power) {
+    if (place >= 0) share[place] += power;
+  };
+  add(weight_place_[quantity.term], quantity.is_inverse ? -1 : 1);
+  if (quantity.times_time) add(time_place_[quantity.term], 1);
+  if (quantity.times_threshold) add(threshold_place_[quantity.term], 1);
+  const double reach = quantile_ * std::sqrt(std::max(0.0, share.dot(covariance_ * share)));
+  const double value = value_of(model_, quantity);
+  if (is_signed(model_.terms[quantity.term])) return Interval{value - reach, value + reach};
+  return Interval{value * std::exp(-reach), value * std::exp(reach)};
+}
+
+std::vector<Model> leave_one_out(const Problem& problem, const Model& model, bool gains_are_free) {
+  std::vector<Model> models;
+  for (std::size_t file = 0; problem.files() > 1 && file < problem.files(); ++file)
+    models.push_back(refined(problem.without(file), model, gains_are_free, again));
+  return models;
+}
+
+std::vector<Model> block_bootstrap(const Problem& problem, const Model& model, double effective, bool gains_are_free,
+                                   int draws) {
+  const VectorXd left = residual(problem, model), fitted = problem.target() - left;
+  const Index length = std::max<Index>(1, static_cast<Index>(std::ceil(problem.weighed_rows() / effective)));
+  std::mt19937_64 random(1);
+  std::vector<Model> models;
+  for (int draw = 0; draw < draws; ++draw) {
+    VectorXd target = fitted;
+    for (const Block& block : problem.blocks()) {
+      const Index size = std::min(length, block.count);
+      for (Index row = 0; row < block.count; row += std::max<Index>(1, size)) {
+        const Index from = static_cast<Index>(random() % static_cast<std::uint64_t>(block.count - size + 1));
+        const Index count = std::min(size, block.count - row);
+        target.segment(block.begin + row, count) += left.segment(block.begin + from, count);
+      }
+    }
+    models.push_back(refined(problem.with_target(target), model, gains_are_free, rough));
+  }
+  return models;
+}
+
+std::optional<Interval> spread(const std::vector<Model>& models, const ElementQuantity& quantity) {
+  std::vector<double> values;
+  for (const Model& model : models) values.push_back(value_of(model, quantity));
+  if (values.size() < 2) return std::nullopt;
+  std::sort(values.begin(), values.end());
+  const auto at = [&](double share) {
+    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  };
+  return values.size() < 40 ? Interval{values.front(), values.back()} : Interval{at(0.025), at(0.975)};
+}
+
+}  // namespace dashpot::compiler::fitting

@@ -110,6 +110,54 @@ void add_networks(CLI::App& command, CommandLine& line, bool several) {
   networks->expected(several ? -1 : 1);
 }
 
+void describe_fit(CLI::App& app, CommandLine& line) {
+  CLI::App* command = add_command(app, line, "fit", "Fit a network to recordings");
+  FitWords& fit = line.options.fit;
+  command->add_option("RECORDING", fit.recordings, "Table of a motion, a relaxation, creep or a spectrum")
+      ->required()
+      ->expected(-1);
+  command->add_option("-o,--output", line.options.output, "Network file to write")->option_text("FILE.json");
+  command->add_option("--report", fit.report, "Page to write: data, model, what is left, spectrum")
+      ->option_text("FILE.html");
+  command->add_flag("--json", fit.json, "As JSON, SI units");
+  command->add_option("--name", fit.name, "Of the network, default that of its file")->option_text("NAME");
+  command->add_option("--columns", fit.columns, "Which column is what: ROLE=[-]NAME[+NUMBER][:UNIT],…")
+      ->option_text("time=T:s,position=X:mm,force=F:N");
+  command->add_flag("--no-header", fit.no_header, "Columns have no names: --columns takes their numbers");
+  command->add_option("--geometry", fit.geometry, "From stress and strain to a tool")
+      ->option_text("column|shear|punch|sphere|needle:KEY=LENGTH,…");
+  command->add_option("--scale", fit.scale, "What 1 stands for in values without a unit")->option_text("QUANTITY");
+  command->add_flag("--relaxation", fit.relaxation, "Stiffness or modulus over the time since a step of position");
+  command->add_flag("--creep", fit.creep, "Compliance over the time since a step of force");
+  command->add_option("--control", fit.control, "What the machine controlled, default position")
+      ->check(CLI::IsMember({"position", "force"}))
+      ->option_text("position|force");
+  command->add_option("--weight", fit.weight, "Of rows, default uniform, of a spectrum relative")
+      ->check(CLI::IsMember({"auto", "uniform", "relative", "deviation"}))
+      ->option_text("uniform|relative|deviation");
+  command->add_option("--start", fit.start, "Where it was at rest before the first row")
+      ->check(CLI::IsMember({"auto", "rest", "zero", "moving"}))
+      ->option_text("auto|rest|zero|moving");
+  command->add_flag("--tare", fit.tare, "Fit an offset of the force of each recording");
+  command->add_option("--contact", fit.contact, "Where the surface lies; find looks for it")
+      ->option_text("find|POSITION");
+  command->add_option("--force-delay", fit.force_delay, "By which the force was recorded late")->option_text("TIME");
+  command->add_option("--slips", fit.slips, "Springs behind slips, default none")->option_text("none|auto|viscous|N");
+  command->add_option("--springpots", fit.springpots, "Springpots, default none")
+      ->check(CLI::IsMember({"none", "auto"}))
+      ->option_text("none|auto");
+  command->add_flag("--gain-per-file", fit.gain_per_file, "Specimens that differ by a factor");
+  command->add_option("--modes", fit.modes, "So many relaxations, instead of what the criterion says")
+      ->option_text("N");
+  command->add_option("--tolerance", fit.tolerance, "The fewest elements that leave so little, relative")
+      ->option_text("1%");
+  command->add_option("--hold-out", fit.hold_out, "Recordings that are predicted and not fitted")
+      ->expected(-1)
+      ->option_text("RECORDING…");
+  command->add_option("--shape", fit.shape, "Static curve; not there yet")->option_text("auto");
+  command->add_flag("--elastic", fit.elastic, "A static curve alone; not there yet");
+}
+
 void describe(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
   CLI::App* check = add_command(app, line, "check", "Report errors and warnings only");
@@ -162,6 +210,8 @@ void describe(CLI::App& app, CommandLine& line) {
                      "As what compile --batch writes, which keeps out of the subnormals at each sample");
   simulate->add_option("-o,--output", options.output, "File to write to, default standard output")
       ->option_text("FILE.csv");
+
+  describe_fit(app, line);
 
   CLI::App* report =
       add_command(app, line, "report", "Draw the network, its responses and the choice as one HTML page");
@@ -232,14 +282,15 @@ void take_over_words(CommandLine& line) {
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
   static const std::map<std::string, Command> commands = {
-      {"check", run_check},   {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate},
-      {"report", run_report}, {"device", run_device},   {"run", run_run},         {"verify", run_verify}};
+      {"check", run_check},       {"explain", run_explain}, {"compile", run_compile},
+      {"simulate", run_simulate}, {"report", run_report},   {"device", run_device},
+      {"run", run_run},           {"verify", run_verify},   {"fit", run_fit}};
   SourceFiles files;
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;
   const std::string command = app.get_subcommands().front()->get_name();
   std::vector<std::string> outputs;
-  for (const std::optional<std::string>& output : {line.options.output, line.options.depfile})
+  for (const std::optional<std::string>& output : {line.options.output, line.options.depfile, line.options.fit.report})
     if (output && command != "device") outputs.push_back(*output);  // `device` may fill in its own file
   if (contradicts_itself(line.options.choices, diagnostics) || !spares_inputs(line.options, outputs, diagnostics))
     status = ExitStatus::command_line_wrong;
@@ -265,6 +316,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "dashpot " DASHPOT_VERSION);
   app.require_subcommand(1);
   CommandLine line;
+  line.options.fit.arguments.assign(argv + 1, argv + argc);
   describe(app, line);
   try {
     app.parse(argc, argv);

@@ -22,6 +22,7 @@ class SourceFiles {
 ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_compile(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_fit(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/fit_words.hpp"
 #include "decompose/choices.hpp"
 #include "emit/emission.hpp"
 
@@ -44,6 +45,7 @@ struct Options {
   std::optional<std::string> hand;    // run: who holds the simulated device; empty: relaxed
   std::optional<std::uint64_t> seed;  // run: of the simulated device; empty: 0
   BladeWords blade;                   // device
+  FitWords fit;                       // fit
   bool fast = false;                  // run: simulated time instead of real time
   bool json_diagnostics = false;
 };

@@ -45,6 +45,8 @@ bool spares_inputs(const Options& options, const std::vector<std::string>& outpu
   std::vector<std::string> inputs = options.networks;
   if (options.device) inputs.push_back(*options.device);
   if (!options.input.empty()) inputs.push_back(options.input);
+  for (const std::vector<std::string>* recordings : {&options.fit.recordings, &options.fit.hold_out})
+    inputs.insert(inputs.end(), recordings->begin(), recordings->end());
   bool spares = true;
   for (const std::string& output : outputs)
     for (const std::string& input : inputs) {

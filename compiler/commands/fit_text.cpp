@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/fit_output.hpp"
+#include "fit/network_text.hpp"
+#include "network/port_units.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using namespace fitting;
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+class FitText {
+ public:
+  FitText(const Fit& fit, const std::vector<Recording>& recordings)
+      : fit_(fit),
+        problem_(recordings, fit.choices.form, fit.choices.weighting, 2),
+        units_(port_units(fit.choices.port_motion)) {}
+
+  std::string run() {
+    std::string text = fmt::format("{}: {} from {} of {} recording{}\n", fit_.network_name,
+                                   fit_.parameters == 1 ? "1 parameter" : fmt::format("{} parameters", fit_.parameters),
+                                   rows(), fit_.files.size(), fit_.files.size() == 1 ? "" : "s");
+    text += fmt::format("rms {}, R² {:.5f}; no linear network leaves less than {}", error(fit_.rms), fit_.r_squared,
+                        error(fit_.floor_rms));
+    if (fit_.noise && fit_.choices.weighting == Weighting::uniform)
+      text += fmt::format("; the noise is about {}", error(*fit_.noise));
+    text += fmt::format("\n{:.4g} effective samples, condition {:.3g}\n", fit_.effective_samples, fit_.condition);
+    text += "\nrecordings\n";
+    for (const FileScore& file : fit_.files) text += file_text(file);
+    if (!fit_.held_out.empty()) text += "\nheld out\n";
+    for (const FileScore& file : fit_.held_out) text += file_text(file);
+    return text + elements() + path();
+  }
+
+ private:
+  std::string rows() const {
+    std::size_t count = 0;
+    for (const FileScore& file : fit_.files) count += file.rows;
+    return fmt::format("{} rows", count);
+  }
+
+  std::string error(double rms) const { return error_text(rms, fit_, problem_); }
+
+  std::string file_text(const FileScore& file) const {
+    const bool is_motion = problem_.recordings().front().kind == RecordingKind::motion;
+    std::string text = fmt::format("  {}: {} rows, rms {}", file.name, file.rows, error(file.rms));
+    if (fit_.choices.weighting == Weighting::uniform && file.range > 0)
+      text += fmt::format(" ({} of its range)", percent(file.rms / file.range));
+    text += fmt::format(", R² {:.5f}\n    largest error {}", file.r_squared, error(file.largest_error));
+    const bool is_spectrum = problem_.recordings().front().kind == RecordingKind::frequency;
+    text += fmt::format(" at {:.6g} {}", file.largest_time, is_spectrum ? "rad/s" : "s");
+    if (is_motion) text += fmt::format(", {}", quantity_text(file.largest_position, units_.position, 4));
+    text +=
+        fmt::format("; neighbours correlate by {:.3f}, {:.4g} effective samples; a gain of {:.4f} would leave least",
+                    file.lag_one, file.effective_samples, file.best_gain);
+    if (file.gain != 1) text += fmt::format("; gain {:.4f}", file.gain);
+    if (file.offset != 0)
+      text += fmt::format("; offset {}", quantity_text(file.offset, measured_unit(fit_, problem_), 4));
+    if (file.left_out_rms) text += fmt::format("\n    rms {} by the other files alone", error(*file.left_out_rms));
+    return text + "\n";
+  }
+
+  std::string unit_of(const FittedElement& element) const {
+    switch (element.kind) {
+      case ElementKind::spring: return units_.stiffness;
+      case ElementKind::damper: return units_.damping;
+      case ElementKind::slip: return units_.force;
+    }
+    return "";
+  }
+
+  std::string between(const Interval& interval, const FittedElement& element) const {
+    return fmt::format("{} … {}", quantity_text(interval.low, unit_of(element), 4),
+                       quantity_text(interval.high, unit_of(element), 4));
+  }
+
+  std::string elements() const {
+    std::string text = "\nelements\n";
+    for (const FittedElement& element : fit_.elements) {
+      text += fmt::format("  {} {}", element.name, element.text);
+      if (element.interval) text += ", 95 %: " + between(*element.interval, element);
+      if (element.spread) text += ", bootstrap: " + between(*element.spread, element);
+      if (element.left_out) text += ", leaving a file out: " + between(*element.left_out, element);
+      text += "\n";
+    }
+    return text;
+  }
+
+  std::string path() const {
+    std::string text = "\nsizes that were tried\n  relaxations  slips  springpots  parameters         rms  criterion\n";
+    for (std::size_t i = 0; i < fit_.path.size(); ++i) {
+      const PathEntry& entry = fit_.path[i];
+      const std::size_t slips = entry.model.count(TermKind::stop) + entry.model.count(TermKind::sliding);
+      text += fmt::format("{} {:>11}  {:>5}  {:>10}  {:>10}  {:>10}  {:>9.2f}\n", i == fit_.chosen ? "*" : " ",
+                          entry.model.count(TermKind::maxwell), slips, entry.model.count(TermKind::springpot),
+                          entry.parameters, error(entry.rms), entry.criterion);
+    }
+    return text;
+  }
+
+  const Fit& fit_;
+  Problem problem_;
+  PortUnits units_;
+};
+
+}  // namespace
+
+std::string fit_text(const Fit& fit, const std::vector<Recording>& recordings) {
+  return FitText(fit, recordings).run();
+}
+
+void report_findings(const Fit& fit, const std::vector<Recording>& recordings, Diagnostics& diagnostics) {
+  using Kind = Finding::Kind;
+  const Problem problem(recordings, fit.choices.form, fit.choices.weighting, 2);
+  const PortUnits units = port_units(fit.choices.port_motion);
+  const auto count = [](double number) { return static_cast<std::size_t>(std::lround(number)); };
+  for (const Finding& found : fit.findings) {
+    const auto& n = found.numbers;
+    switch (found.kind) {
+      case Kind::floor_above_noise:
+        diagnostics.report<DiagnosticCode::fit_floor_above_noise>({}, error_text(n[0], fit, problem),
+                                                                  error_text(n[1], fit, problem));
+        diagnostics.note<DiagnosticCode::fit_floor_remedy>({});
+        break;
+      case Kind::floor_not_certified: diagnostics.report<DiagnosticCode::fit_floor_not_certified>({}, n[0]); break;
+      case Kind::slower_than_record:
+        diagnostics.report<DiagnosticCode::fit_slower_than_record>({}, found.name, n[0], n[1]);
+        diagnostics.note<DiagnosticCode::fit_time_remedy>({});
+        break;
+      case Kind::faster_than_step:
+        diagnostics.report<DiagnosticCode::fit_faster_than_step>({}, found.name, n[0], n[1]);
+        diagnostics.note<DiagnosticCode::fit_step_remedy>({});
+        break;
+      case Kind::ill_conditioned: diagnostics.report<DiagnosticCode::fit_ill_conditioned>({}, n[0]); break;
+      case Kind::no_intervals:
+        diagnostics.report<DiagnosticCode::fit_no_intervals>({}, n[0], count(n[1]));
+        diagnostics.note<DiagnosticCode::fit_spread_instead>({});
+        break;
+      case Kind::slips_or_softening:
+        diagnostics.report<DiagnosticCode::fit_slips_or_softening>({});
+        diagnostics.note<DiagnosticCode::fit_reversal_remedy>({});
+        break;
+      case Kind::loading_only:
+        diagnostics.report<DiagnosticCode::fit_loading_only>({});
+        diagnostics.note<DiagnosticCode::fit_reversal_remedy>({});
+        break;
+      case Kind::one_rate:
+        diagnostics.report<DiagnosticCode::fit_one_rate>({}, quantity_text(n[0], units.velocity, 3));
+        diagnostics.note<DiagnosticCode::fit_rate_remedy>({});
+        break;
+      case Kind::no_hold:
+        diagnostics.report<DiagnosticCode::fit_no_hold>({});
+        diagnostics.note<DiagnosticCode::fit_hold_remedy>({});
+        break;
+      case Kind::unstable_left_out:
+        diagnostics.report<DiagnosticCode::fit_unstable_left_out>({}, found.name, n[2], n[0], n[1]);
+        break;
+      case Kind::few_rows: diagnostics.report<DiagnosticCode::fit_few_rows>({}, n[0], count(n[1])); break;
+      case Kind::in_motion:
+        diagnostics.report<DiagnosticCode::fit_in_motion>({}, found.name);
+        diagnostics.note<DiagnosticCode::fit_start_remedy>({});
+        break;
+      case Kind::assumed_start:
+        diagnostics.report<DiagnosticCode::fit_assumed_start>({}, found.name, quantity_text(n[0], units.position, 4));
+        diagnostics.note<DiagnosticCode::fit_assumed_start_remedy>({});
+        break;
+      case Kind::late_force:
+        diagnostics.report<DiagnosticCode::fit_late_force>({}, found.name, n[0]);
+        diagnostics.note<DiagnosticCode::fit_delay_remedy>({}, n[0]);
+        break;
+      case Kind::size_not_met:
+        diagnostics.report<DiagnosticCode::fit_size_not_met>({});
+        diagnostics.note<DiagnosticCode::fit_path_remedy>({});
+        break;
+      case Kind::offsets_absorb: diagnostics.report<DiagnosticCode::fit_offsets_absorb>({}); break;
+      case Kind::gains_fitted: diagnostics.report<DiagnosticCode::fit_gains_fitted>({}); break;
+      case Kind::not_exact_in_simulate: diagnostics.report<DiagnosticCode::fit_not_exact_in_simulate>({}); break;
+    }
+  }
+}
+
+}  // namespace dashpot::compiler

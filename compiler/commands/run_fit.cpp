@@ -1,0 +1,320 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "commands/fit_output.hpp"
+#include "emit/write_files.hpp"
+#include "fit/read_recording.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using namespace fitting;
+
+// What is being done, on a terminal alone: overwritten by the next, and removed at the end.
+class ProgressLine {
+ public:
+  ~ProgressLine() { show(""); }
+
+  void show(const std::string& what) {
+    if (!is_terminal_ || (what.empty() && !is_shown_)) return;
+    std::fprintf(stderr, "\r\033[K%s", what.c_str());
+    std::fflush(stderr);
+    is_shown_ = !what.empty();
+  }
+
+ private:
+  bool is_terminal_ = ::isatty(STDERR_FILENO) == 1, is_shown_ = false;
+};
+
+// As a shell takes it.
+std::string spelt(const std::string& word) {
+  const bool is_plain = !word.empty() && word.find_first_of(" ()[]{}'\"$&;|<>*?\\!#~") == std::string::npos;
+  return is_plain ? word : "'" + word + "'";
+}
+
+// The command line; without an option and its value where those are named.
+std::string command_line(const FitWords& words, const std::string& without = "") {
+  std::string text = "dashpot";
+  for (std::size_t i = 0; i < words.arguments.size(); ++i) {
+    if (!without.empty() && words.arguments[i] == without) {
+      ++i;
+      continue;
+    }
+    if (!without.empty() && words.arguments[i].starts_with(without + "=")) continue;
+    text += " " + spelt(words.arguments[i]);
+  }
+  return text;
+}
+
+// A C++ name of what is left of a path without its folders and its ending.
+std::string name_of_file(const std::string& path) {
+  std::string name;
+  for (const char c : std::filesystem::path(path).stem().string()) {
+    const bool is_letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (is_letter) name += c;
+    else if (!name.empty() && name.back() != '_') name += '_';
+  }
+  while (name.ends_with('_')) name.pop_back();
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0) name = "fitted_" + name;
+  while (name.ends_with('_')) name.pop_back();
+  return name;
+}
+
+class FitCommand {
+ public:
+  FitCommand(const Options& options, Diagnostics& diagnostics)
+      : options_(options), words_(options.fit), diagnostics_(diagnostics) {}
+
+  ExitStatus run() {
+    if (!take_words()) return ExitStatus::command_line_wrong;
+    if (!read_all(words_.recordings, recordings_) || !read_all(words_.hold_out, held_out_))
+      return ExitStatus::input_refused;
+    if (!are_alike()) return ExitStatus::input_refused;
+    settle_surface();
+    settle_form();
+    const std::optional<Fit> found = fit(recordings_, held_out_, choices_, diagnostics_,
+                                         [this](const std::string& what) { line_.show("fitting: " + what); });
+    line_.show("");
+    if (!found || diagnostics_.has_errors()) return ExitStatus::input_refused;
+    report_findings(*found, recordings_, diagnostics_);
+    return write(*found);
+  }
+
+ private:
+  bool refuse(const std::string& value, const std::string& what) {
+    diagnostics_.report<DiagnosticCode::fit_wrong_quantity>({}, value, what);
+    return false;
+  }
+
+  bool contradicts(const char* one, const char* other, const char* why) {
+    diagnostics_.report<DiagnosticCode::fit_choices_contradict>({}, one, other, why);
+    return false;
+  }
+
+  bool take_words() {
+    if (words_.shape || words_.elastic) {
+      diagnostics_.report<DiagnosticCode::fit_waits_for_shapes>({}, words_.shape ? "--shape" : "--elastic");
+      return false;
+    }
+    if (words_.relaxation && words_.creep) return contradicts("--relaxation", "--creep", "a recording is one of them");
+    read_.columns.is_relaxation = words_.relaxation;
+    read_.columns.is_creep = words_.creep;
+    read_.columns.command = command_line(words_, "--columns");
+    read_.has_header = !words_.no_header;
+    if (words_.columns) {
+      const auto requests = parse_columns(*words_.columns, diagnostics_);
+      if (!requests) return false;
+      read_.columns.requests = *requests;
+    }
+    if (words_.geometry && !(read_.geometry = parse_geometry(*words_.geometry, diagnostics_))) return false;
+    return take_quantities() && take_sizes() && take_start();
+  }
+
+  bool take_quantities() {
+    if (words_.scale) {
+      const auto scale = spoken_quantity(*words_.scale);
+      if (!scale || !(scale->value > 0))
+        return refuse(*words_.scale, "scale; a modulus, a stiffness or a compliance is expected, as in \"1kPa\"");
+      read_.columns.scale = scale->value;
+      read_.columns.scale_dimension = scale->dimension;
+    }
+    if (words_.force_delay) {
+      const auto delay = spoken_quantity(*words_.force_delay);
+      if (!delay || !(delay->dimension == dimensions::time))
+        return refuse(*words_.force_delay, "delay; a time is expected, as in \"20ms\"");
+      read_.force_delay = delay->value;
+    }
+    if (words_.tolerance) {
+      const auto tolerance = spoken_quantity(*words_.tolerance);
+      if (!tolerance || !(tolerance->dimension == dimensions::number) || !(tolerance->value > 0))
+        return refuse(*words_.tolerance, "tolerance; a share above 0 is expected, as in \"1%\"");
+      choices_.reduction.tolerance = tolerance->value;
+    }
+    return take_contact();
+  }
+
+  bool take_contact() {
+    read_.keeps_positions = words_.contact.has_value();
+    if (!words_.contact || *words_.contact == "find") return true;
+    const auto at = spoken_quantity(*words_.contact);
+    const bool is_place = at && (at->dimension == dimensions::length || at->dimension == dimensions::angle);
+    if (!is_place)
+      return refuse(*words_.contact, "place of a surface; 'find' or a position is expected, as in \"0.2mm\"");
+    choices_.contact = at->value;
+    return true;
+  }
+
+  bool take_sizes() {
+    choices_.reduction.modes = words_.modes;
+    choices_.reduction.gains_are_free = words_.gain_per_file;
+    choices_.reduction.springpots = words_.springpots == "auto";
+    if (words_.slips == "auto") choices_.reduction.slips = SlipChoice::stops;
+    else if (words_.slips == "viscous") choices_.reduction.slips = SlipChoice::viscous;
+    else if (words_.slips != "none") {
+      std::size_t count = 0;
+      const auto [end, error] = std::from_chars(words_.slips.data(), words_.slips.data() + words_.slips.size(), count);
+      if (error != std::errc() || end != words_.slips.data() + words_.slips.size())
+        return refuse(words_.slips, "number of slips; 'none', 'auto', 'viscous' or a number is expected");
+      choices_.reduction.stops = count;
+      choices_.reduction.slips = SlipChoice::stops;
+    }
+    if (choices_.reduction.springpots && words_.control == "force")
+      return contradicts("--springpots auto", "--control force", "springpots are fitted as stiffness");
+    if (choices_.reduction.slips != SlipChoice::none &&
+        (words_.control == "force" || words_.creep || words_.relaxation))
+      return contradicts("--slips",
+                         words_.creep        ? "--creep"
+                         : words_.relaxation ? "--relaxation"
+                                             : "--control force",
+                         "slips are fitted to positions over time");
+    if (words_.gain_per_file && words_.recordings.size() < 2)
+      return contradicts("--gain-per-file", "one recording", "its gain is in the network");
+    return true;
+  }
+
+  bool take_start() {
+    if (words_.start == "rest") read_.start = Start::first_row;
+    if (words_.start == "zero") read_.start = Start::zero;
+    if (words_.start == "moving") read_.start = Start::moving;
+    return true;
+  }
+
+  bool read_all(const std::vector<std::string>& paths, std::vector<Recording>& recordings) {
+    bool is_whole = true;
+    for (const std::string& path : paths) {
+      LineReader lines(path, [&](std::size_t done, std::size_t of) {
+        if (of > (std::size_t{4} << 20))
+          line_.show(fmt::format("reading {}: {} %", path, done * 100 / std::max(done, of)));
+      });
+      std::optional<ReadRecording> read;
+      if (lines.open(diagnostics_)) read = read_recording(lines, read_, diagnostics_);
+      line_.show("");
+      if (!read) {
+        is_whole = false;
+        continue;
+      }
+      note_start(*read, &recordings == &recordings_, recordings.size());
+      is_rotation_ = read->is_rotation;
+      rotations_ += read->is_rotation ? 1 : 0;
+      recordings.push_back(std::move(read->recording));
+    }
+    return is_whole;
+  }
+
+  void note_start(const ReadRecording& read, bool is_fitted, std::size_t file) {
+    if (!is_fitted) return;
+    if (read.has_assumed_start) choices_.assumed_starts.push_back(file);
+    if (!read.begins_in_motion) return;
+    if (read_.start == Start::moving) {
+      choices_.reduction.in_motion.push_back(file);
+      choices_.reduction.beside.push_back({TermKind::offset, 0, 0, 0, file});
+    } else if (read_.start == Start::automatic) {
+      diagnostics_.report<DiagnosticCode::fit_in_motion>({}, read.recording.name);
+      diagnostics_.note<DiagnosticCode::fit_start_remedy>({});
+    }
+  }
+
+  static const char* word_of(RecordingKind kind) {
+    switch (kind) {
+      case RecordingKind::motion: return "motion";
+      case RecordingKind::relaxation: return "relaxation";
+      case RecordingKind::creep: return "creep";
+      case RecordingKind::frequency: return "spectrum";
+    }
+    return "";
+  }
+
+  bool are_alike() {
+    const Recording& first = recordings_.front();
+    for (const std::vector<Recording>* list : {&recordings_, &held_out_})
+      for (const Recording& recording : *list)
+        if (recording.kind != first.kind) {
+          diagnostics_.report<DiagnosticCode::recordings_differ>({}, first.name, word_of(first.kind), recording.name,
+                                                                 word_of(recording.kind));
+          return false;
+        }
+    if (rotations_ != 0 && rotations_ != recordings_.size() + held_out_.size()) {
+      diagnostics_.report<DiagnosticCode::recordings_differ>({}, first.name, "translation", recordings_.back().name,
+                                                             "rotation");
+      return false;
+    }
+    return true;
+  }
+
+  void settle_surface() {
+    if (!words_.contact) return;
+    if (!choices_.contact) {
+      line_.show("fitting: looking for the surface");
+      choices_.contact = find_contact(recordings_);
+    }
+    recordings_ = behind_surface(std::move(recordings_), *choices_.contact);
+    held_out_ = behind_surface(std::move(held_out_), *choices_.contact);
+  }
+
+  void settle_form() {
+    const RecordingKind kind = recordings_.front().kind;
+    choices_.form = kind == RecordingKind::creep || words_.control == "force" ? Form::compliance : Form::stiffness;
+    choices_.weighting = words_.weight == "relative"                                   ? Weighting::relative
+                         : words_.weight == "deviation"                                ? Weighting::deviation
+                         : words_.weight == "auto" && kind == RecordingKind::frequency ? Weighting::relative
+                                                                                       : Weighting::uniform;
+    choices_.port_motion = is_rotation_ ? motion::rotation : motion::translation;
+    choices_.name = words_.name ? *words_.name : options_.output ? name_of_file(*options_.output) : "fitted";
+    choices_.command = command_line(words_);
+    choices_.source = source();
+    if (words_.tare)
+      for (std::size_t file = 0; file < recordings_.size(); ++file)
+        choices_.reduction.beside.push_back({TermKind::offset, 0, 0, 0, file});
+  }
+
+  std::string source() const {
+    std::string text = "Fitted by dashpot fit to ";
+    for (const Recording& recording : recordings_)
+      text +=
+          (&recording == &recordings_.front() ? "" : ", ") + std::filesystem::path(recording.name).filename().string();
+    if (read_.geometry) text += "; " + read_.geometry->sentence;
+    if (words_.scale) text += "; values are relative to " + *words_.scale;
+    if (words_.contact) text += "; displacements are from the surface";
+    for (const Recording& recording : recordings_)
+      if (recording.origin != 0) {
+        text += "; displacements are from each recording's first row";
+        break;
+      }
+    if (words_.gain_per_file) text += "; a gain for each recording was fitted, of mean 1";
+    return text;
+  }
+
+  ExitStatus write(const Fit& found) {
+    std::vector<OutputFile> files;
+    if (options_.output) files.push_back({*options_.output, found.text});
+    if (words_.report) files.push_back({*words_.report, fit_page(found, recordings_, held_out_, diagnostics_)});
+    if (diagnostics_.has_errors() || !write_files("", files, diagnostics_)) return ExitStatus::input_refused;
+    return write_standard_output(words_.json ? fit_json(found, recordings_) : fit_text(found, recordings_),
+                                 diagnostics_);
+  }
+
+  const Options& options_;
+  const FitWords& words_;
+  Diagnostics& diagnostics_;
+  ProgressLine line_;
+  ReadChoices read_;
+  FitChoices choices_;
+  std::vector<Recording> recordings_, held_out_;
+  std::size_t rotations_ = 0;
+  bool is_rotation_ = false;
+};
+
+}  // namespace
+
+ExitStatus run_fit(const Options& options, SourceFiles&, Diagnostics& diagnostics) {
+  return FitCommand(options, diagnostics).run();
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,110 @@
+// From recordings to a network: everything that `dashpot fit` finds out.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/floor.hpp"
+#include "fit/reduction.hpp"
+#include "fit/written_network.hpp"
+
+namespace dashpot::compiler::fitting {
+
+struct FitChoices {
+  std::string name = "fitted";  // of the network
+  std::string command;          // the command line, for the file's own record
+  std::string source;           // where the recordings are from, and how they were converted
+  motion port_motion = motion::translation;
+  Form form = Form::stiffness;
+  Weighting weighting = Weighting::uniform;
+  ReductionChoices reduction;
+  std::vector<std::size_t> assumed_starts;  // files that were taken to start from rest before their first row
+  std::optional<double> contact;            // where the surface was found or said to lie [m]
+};
+
+// What the written network leaves of one recording, over the recording's own times.
+struct FileScore {
+  std::string name;
+  std::string digest;
+  std::size_t rows = 0;
+  double rms = 0;    // in the recording's quantity; with weights that are not uniform, of the weighted rows
+  double range = 0;  // of what was measured: greatest less least
+  double r_squared = 0;
+  double largest_error = 0;
+  double largest_time = 0;      // where [s] or [rad/s]
+  double largest_position = 0;  // where [m]; of a motion
+  double lag_one = 0;           // correlation of neighbours in what is left
+  double effective_samples = 0;
+  double best_gain = 1;                // that would leave least of this file alone
+  double offset = 0;                   // that was fitted, in the recording's quantity
+  double gain = 1;                     // that was fitted
+  std::optional<double> left_out_rms;  // with the network fitted to the other files
+  std::vector<double> answer;          // of the written network, row by row; storage, then loss, of a spectrum
+};
+
+// Something that a reader must know before believing the network.
+struct Finding {
+  enum class Kind {
+    floor_above_noise,    // [floor, noise]
+    floor_not_certified,  // [cosine]
+    slower_than_record,   // name [time, duration]
+    faster_than_step,     // name [time, step]
+    ill_conditioned,      // [condition]
+    no_intervals,         // [effective samples, parameters]
+    slips_or_softening,
+    loading_only,
+    one_rate,
+    no_hold,
+    unstable_left_out,  // name, other: the file [low, high, value]
+    few_rows,           // [rows, parameters]
+    in_motion,          // name: the file
+    assumed_start,      // name: the file [position]
+    late_force,         // name: the file [delay]
+    size_not_met,
+    offsets_absorb,
+    gains_fitted,
+    not_exact_in_simulate,
+  };
+
+  Kind kind;
+  std::string name;
+  std::vector<double> numbers;
+  std::string other;
+};
+
+struct Fit {
+  FitChoices choices;
+  Floor floor;
+  std::vector<PathEntry> path;
+  std::size_t chosen = 0;
+  Model model;  // before rounding
+  std::vector<FittedElement> elements;
+  std::string text;  // of the network file
+  std::string network_name;
+  double effective_samples = 0;
+  std::size_t parameters = 0;
+  double rms = 0;  // of the written file, over all weighted rows
+  double floor_rms = 0;
+  double r_squared = 0;
+  double criterion = 0;
+  double condition = 1;
+  std::optional<double> noise;  // of the force, by its second differences
+  std::vector<FileScore> files, held_out;
+  std::vector<Model> left_out;  // one a file
+  std::vector<Finding> findings;
+};
+
+// In: recordings of one kind. Out: the network file's text, and all that is known of it. Ensures: the file compiles;
+// `files` is computed from the file as it was read back. Refuses: recordings in which nothing resists, with a
+// diagnostic. `progress` hears what is being done.
+std::optional<Fit> fit(const std::vector<Recording>& recordings, const std::vector<Recording>& held_out,
+                       const FitChoices& choices, Diagnostics& diagnostics,
+                       const std::function<void(const std::string&)>& progress = {});
+
+// The surface that leaves the least for the linear floor: displacement beyond it counts, force in front of it is none.
+double find_contact(const std::vector<Recording>& recordings);
+std::vector<Recording> behind_surface(std::vector<Recording> recordings, double contact);
+
+}  // namespace dashpot::compiler::fitting

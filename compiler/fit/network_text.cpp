@@ -1,0 +1,151 @@
+#include "fit/network_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "network/port_units.hpp"
+
+namespace dashpot::compiler::fitting {
+namespace {
+
+using std::numbers::pi;
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string range_text(double low, double high, const std::string& unit) {
+  return fmt::format("[{}, {}]", quoted(quantity_text(low, unit, 4)), quoted(quantity_text(high, unit, 4)));
+}
+
+// A bound that holds what was measured, whatever its digits: rounded outwards.
+double outwards(double value, double direction) {
+  if (value == 0) return 0;
+  const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
+  return (direction > 0 ? std::ceil(value / step) : std::floor(value / step)) * step;
+}
+
+struct Covered {
+  double fastest = 0, low = 0, high = 0;
+};
+
+Covered covered_by(const std::vector<Recording>& recordings) {
+  Covered covered;
+  for (const Recording& recording : recordings) {
+    const std::vector<double> steps = steps_of(recording.time);
+    for (std::size_t i = 0; i < recording.position.size(); ++i) {
+      covered.low = std::min(covered.low, recording.position[i]);
+      covered.high = std::max(covered.high, recording.position[i]);
+      if (i > recording.assumed_rows)
+        covered.fastest =
+            std::max(covered.fastest, std::abs(recording.position[i] - recording.position[i - 1]) / steps[i]);
+    }
+  }
+  return covered;
+}
+
+std::string valid_text(const Fit& fit, const Problem& problem) {
+  const PortUnits units = port_units(fit.choices.port_motion);
+  const double low = 1 / (2 * pi * problem.duration()), high = 1 / (2 * pi * problem.shortest_step());
+  const std::string frequency = "\"frequency\": " + range_text(outwards(low, -1), outwards(high, 1), "Hz");
+  if (problem.recordings().front().kind != RecordingKind::motion) return "{ " + frequency + " }";
+  const Covered covered = covered_by(problem.recordings());
+  return fmt::format("{{ \"rate\": {}, \"displacement\": {},\n             {} }}",
+                     quoted(quantity_text(outwards(covered.fastest, 1), units.velocity, 4)),
+                     range_text(outwards(covered.low, -1), outwards(covered.high, 1), units.position), frequency);
+}
+
+std::string recordings_text(const Fit& fit, const Problem& problem) {
+  std::string text;
+  for (const FileScore& file : fit.files) {
+    text +=
+        fmt::format("      {{ \"file\": {}, \"digest\": \"{}\", \"rows\": {}, \"rms\": \"{}\", \"r_squared\": {:.6g}",
+                    quoted(file.name), file.digest, file.rows, error_text(file.rms, fit, problem), file.r_squared);
+    if (file.gain != 1) text += fmt::format(", \"gain\": {:.5g}", file.gain);
+    if (file.offset != 0)
+      text += fmt::format(", \"offset\": \"{}\"", quantity_text(file.offset, measured_unit(fit, problem), 4));
+    text += &file == &fit.files.back() ? " } ]" : " },\n";
+  }
+  return text;
+}
+
+std::string unit_of_element(const FittedElement& element, const PortUnits& units) {
+  return element.kind == ElementKind::spring   ? units.stiffness
+         : element.kind == ElementKind::damper ? units.damping
+                                               : units.force;
+}
+
+// `which` of the elements that have it.
+std::string intervals_text(const Fit& fit, const char* key, std::optional<Interval> FittedElement::*which) {
+  const PortUnits units = port_units(fit.choices.port_motion);
+  std::string text;
+  for (const FittedElement& element : fit.elements)
+    if (const std::optional<Interval>& interval = element.*which)
+      text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ",\n      ", element.name,
+                          range_text(interval->low, interval->high, unit_of_element(element, units)));
+  return text.empty() ? "" : fmt::format(",\n    \"{}\": {{\n      {} }}", key, text);
+}
+
+}  // namespace
+
+std::string measured_unit(const Fit& fit, const Problem& problem) {
+  const PortUnits units = port_units(fit.choices.port_motion);
+  switch (problem.recordings().front().kind) {
+    case RecordingKind::motion: return fit.choices.form == Form::compliance ? units.position : units.force;
+    case RecordingKind::relaxation:
+    case RecordingKind::frequency: return units.stiffness;
+    case RecordingKind::creep: return units.compliance;
+  }
+  return "";
+}
+
+std::string error_unit(const Fit& fit, const Problem& problem) {
+  switch (fit.choices.weighting) {
+    case Weighting::uniform: return measured_unit(fit, problem);
+    case Weighting::relative: return "%";
+    case Weighting::deviation: return "deviations";
+  }
+  return "";
+}
+
+std::string error_text(double rms, const Fit& fit, const Problem& problem, int digits) {
+  const std::string unit = error_unit(fit, problem);
+  if (unit == "%") return fmt::format("{:.{}g} %", 100 * rms, digits);
+  if (unit == "deviations") return fmt::format("{:.{}g}", rms, digits);
+  return quantity_text(rms, unit, digits);
+}
+
+std::string bare_network_text(const Fit& fit) {
+  return fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n  \"motion\": \"{}\",\n  \"network\": {}\n}}\n",
+                     fit.network_name, fit.choices.port_motion == motion::rotation ? "rotation" : "translation",
+                     tree_text(fit.elements, fit.choices.form));
+}
+
+std::string network_text(const Fit& fit, const Problem& problem) {
+  const std::size_t count = fit.files.size();
+  std::string text = fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n", fit.network_name);
+  text += fmt::format("  \"title\": \"Fitted to {} recording{}\",\n", count, count == 1 ? "" : "s");
+  text += fmt::format("  \"source\": {},\n", quoted(fit.choices.source));
+  text +=
+      fmt::format("  \"motion\": \"{}\",\n", fit.choices.port_motion == motion::rotation ? "rotation" : "translation");
+  text += fmt::format("  \"network\": {},\n", tree_text(fit.elements, fit.choices.form));
+  if (fit.choices.contact)
+    text += fmt::format("  \"contact\": {{ \"at\": \"{}\" }},\n",
+                        quantity_text(*fit.choices.contact, port_units(fit.choices.port_motion).position, 4));
+  text += fmt::format("  \"valid\": {},\n", valid_text(fit, problem));
+  text += fmt::format("  \"fit\": {{\n    \"command\": {},\n", quoted(fit.choices.command));
+  text += fmt::format("    \"recordings\": [\n{},\n", recordings_text(fit, problem));
+  text += fmt::format("    \"rms\": \"{}\", \"r_squared\": {:.6g}, \"linear_floor\": \"{}\",\n",
+                      error_text(fit.rms, fit, problem), fit.r_squared, error_text(fit.floor_rms, fit, problem));
+  text += fmt::format("    \"parameters\": {}, \"effective_samples\": {:.4g}", fit.parameters, fit.effective_samples);
+  text += intervals_text(fit, "intervals", &FittedElement::interval);
+  text += intervals_text(fit, "bootstrap", &FittedElement::spread);
+  text += intervals_text(fit, "leaving_a_file_out", &FittedElement::left_out);
+  return text + " }\n}\n";
+}
+
+}  // namespace dashpot::compiler::fitting

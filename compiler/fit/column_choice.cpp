@@ -194,7 +194,10 @@ class Chooser {
     return RecordingKind::motion;
   }
 
-  bool has_name(Role first, Role second) const { return !candidates(first).empty() && !candidates(second).empty(); }
+  bool has_name(Role first, Role second) const {
+    const auto is_there = [&](Role role) { return has(role) || !candidates(role).empty(); };
+    return is_there(first) && is_there(second);
+  }
 
   std::vector<std::vector<Role>> needed() const {
     switch (kind()) {

@@ -186,6 +186,8 @@ std::optional<TableShape> table_shape(const std::string& path, const std::vector
     if (!trimmed(line.text).empty()) shape.metadata.push_back(line.text);
   }
   if (has_header) find_header(shape, head);
+  const std::size_t header_lines = (shape.names.empty() ? 0u : 1u) + (shape.units.empty() ? 0u : 1u);
+  shape.metadata.resize(shape.metadata.size() - std::min(header_lines, shape.metadata.size()));
   if (has_comma_twice(shape, head)) {
     const auto row = std::find_if(head.begin(), head.end(), [&](auto& l) { return l.number == shape.first_line; });
     diagnostics.report<DiagnosticCode::recording_read_in_two_ways>(

@@ -104,7 +104,8 @@ class SlidingSpring {
  private:
   bool slides(double velocity) const {
     const double beyond = std::abs(elongation_) - threshold_;
-    return beyond > 0 || (beyond == 0 && elongation_ * velocity > 0);
+    const bool goes_on = threshold_ == 0 ? velocity != 0 : elongation_ * velocity > 0;
+    return beyond > 0 || (beyond == 0 && goes_on);
   }
 
   // Returns how much of the time is used up.
@@ -124,7 +125,7 @@ class SlidingSpring {
   }
 
   double advance_sliding(double velocity, double left) {
-    const double side = elongation_ > 0 ? 1 : -1;
+    const double side = (elongation_ != 0 ? elongation_ : velocity) > 0 ? 1 : -1;
     const double beyond = std::abs(elongation_) - threshold_, final = side * velocity * time_;
     // y(t) = final + (y − final) e^{−t/τ} reaches 0 only where it falls below it in the end.
     const double until_stuck = final < 0 ? time_ * std::log((beyond - final) / -final) : left;

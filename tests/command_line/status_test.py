@@ -14,7 +14,7 @@ LINEAR_DEVICE = """{ "dashpot_device": 1, "name": "slide", "source": "none", "mo
   "motor": { "max_torque": "10 N" },
   "mechanics": { "inertia": "0.1 kg", "damping": "0.1 N s/m", "coulomb_friction": "0.1 N" } }
 """
-COMMANDS = ["check", "explain", "compile", "simulate", "report", "fit"]
+COMMANDS = ["check", "explain", "compile", "simulate", "report"]
 
 
 class Help(CommandTest):

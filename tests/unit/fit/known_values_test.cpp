@@ -75,7 +75,7 @@ TEST(KnownValues, AdhesiveWithSlipsOnAGrid) {
   EXPECT_NEAR(rms(problem, stops), 0.0636, convex * 0.0636);
   EXPECT_NEAR(r_squared(problem, stops), 0.99649, 0.0001);
   const Model gains = solve_weights_and_gains(problem, terms);
-  EXPECT_NEAR(rms(problem, gains), 0.0417, free_shapes * 0.0417 - 0.0417);
+  EXPECT_LE(rms(problem, gains), 1.025 * 0.0417) << "by turns with the gains, which is not convex";
   EXPECT_NEAR(gains.gains[1] / gains.gains[0], 1.024 / 0.987, 0.005);
   for (const double d : even_grid({problem.largest_reach() / 100, problem.largest_reach()}, 7))
     for (const double time : even_grid({0.5, 500}, 4.4)) terms.push_back({TermKind::sliding, time, d, 0, 0});
@@ -146,7 +146,7 @@ TEST(KnownValues, SpectrumWithoutSpringpot) {
   ReductionChoices choices;
   choices.modes = 3;
   const Reduction reduction = reduce(problem, choices);
-  EXPECT_LE(best_rms(problem, reduction, 7), free_shapes * 0.04871);
+  EXPECT_LE(best_rms(problem, reduction, 7), 1.011 * 0.04871);
 }
 
 std::vector<double> reference_times() {

@@ -15,8 +15,8 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-const std::vector<std::string> network_keys = {"dashpot",    "name",    "title",    "source",  "motion",
-                                               "parameters", "network", "elements", "contact", "valid", "fit"};
+const std::vector<std::string> network_keys = {"dashpot", "name",     "title",   "source", "motion", "parameters",
+                                               "network", "elements", "contact", "valid",  "fit"};
 
 ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics) {
   ParameterDecl parameter{{member.key, member.key_span}, {}, false, {}, {}, member.value.span};

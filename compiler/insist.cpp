@@ -123,15 +123,23 @@ class Remedies {
 
 }  // namespace
 
+void warn_of_uncertified(const Compilation& c, Diagnostics& diagnostics) {
+  const Certificate& certificate = c.certificate;
+  if (certificate.certified) return;
+  const std::string device = c.device ? fmt::format("device '{}'", c.device->name) : "an ideal device";
+  const std::string reason = why_not_certified(certificate, c.network.port_motion);
+  if (certificate.bound.proof == Proof::none)
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, reason);
+  else diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, reason);
+}
+
 bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const Certificate& certificate = c.certificate;
-  if (!c.device || certificate.certified) return true;
-  const std::string& name = c.network.name;
-  if (certificate.bound.proof == Proof::none) {
-    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, name, c.device->name,
-                                                       certificate.bound.reason);
+  if (!c.device || certificate.certified || certificate.bound.proof == Proof::none) {
+    warn_of_uncertified(c, diagnostics);
     return true;
   }
+  const std::string& name = c.network.name;
   const std::string unit = port_units(c.network.port_motion).damping;
   const SampledLoop& loop = certificate.loop;
   const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
@@ -154,9 +162,7 @@ void warn_of_driving_uncertified(const Compilation& c, Diagnostics& diagnostics)
   const Certificate& certificate = c.certificate;
   if (!c.device || certificate.certified) return;
   const Span place = c.network.name_span;
-  if (certificate.bound.proof == Proof::none)
-    return diagnostics.report<DiagnosticCode::nothing_proved>(place, c.network.name, c.device->name,
-                                                              certificate.bound.reason);
+  if (certificate.bound.proof == Proof::none) return warn_of_uncertified(c, diagnostics);
   diagnostics.report<DiagnosticCode::drives_uncertified>(
       place, c.network.name, c.device->name, certificate.bound.needed, port_units(c.network.port_motion).damping,
       certificate.assured);

@@ -5,8 +5,11 @@
 
 namespace dashpot::compiler {
 
-// True where there is no device, or the law is certified on it. Warns where nothing can be proved. Refuses where
-// damping is missing, with what brake, what share of the network or what rate would do.
+// Warns of a law that is not certified, on a device or an ideal one, with the damping that is missing.
+void warn_of_uncertified(const Compilation& compilation, Diagnostics& diagnostics);
+
+// True where the law is certified, and, with that warning, where nothing can be proved or there is no device. Refuses
+// where a device lacks damping, with what brake, what share of the network or what rate would do.
 bool insist_on_certificate(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 
 // For those who drive it all the same: warns of a law that is not certified on its device.

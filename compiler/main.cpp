@@ -223,6 +223,8 @@ void describe(CLI::App& app, CommandLine& line) {
       add_command(app, line, "verify", "Check a header against its certificate, and that against its network");
   verify->add_option("CERTIFICATE", options.certificate, "Written by compile --certificate")->required();
   verify->add_option("HEADER", options.header, "Emitted with it")->required();
+  verify->add_flag("--allow-uncertified", options.allow_uncertified,
+                   "Also accept a sound header of a law that is not certified");
 
   CLI::App* device = add_command(app, line, "device", "Fill in a device file's brake from the geometry of its blade");
   BladeWords& blade = options.blade;
@@ -259,7 +261,13 @@ void describe(CLI::App& app, CommandLine& line) {
       ->check(check_seed)
       ->option_text("N");
   run->add_flag("--fast", options.fast, "Simulated time: as fast as the machine allows");
-  run->add_option("--log", options.output, "Telemetry, default NAME_run.csv")->option_text("FILE.csv");
+  run->add_option("-o,--log", options.output, "Telemetry, or what is felt of a motion, default NAME_run.csv")
+      ->option_text("FILE.csv");
+  run->add_option("--motion", options.motion,
+                  "Lead the simulated device along a recorded motion, time,position at any uniform period, and compare "
+                  "what is felt with the network")
+      ->option_text("FILE.csv");
+  run->add_flag("--json", options.json, "With --motion: the errors as JSON, SI units");
 }
 
 void take_over_words(CommandLine& line) {

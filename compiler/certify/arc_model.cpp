@@ -8,6 +8,9 @@ namespace {
 // |1 − e^{−jθ}| = 2 sin(θ/2), and sin(θ/2) = 2x/(1 + x²)
 double difference_size(double x) { return 4 * x / (1 + x * x); }
 
+// |1 + e^{−jθ}| = 2 cos(θ/2)
+double sum_size(double x) { return 2 * (1 - x) * (1 + x) / (1 + x * x); }
+
 }  // namespace
 
 // dθ/dx = 4/(1 + x²), largest at the low end.
@@ -33,6 +36,14 @@ Phasor Arc::difference() const {
 
 double Arc::least_difference() const { return difference_size(low) * (1 - 1e-14); }
 double Arc::largest_difference() const { return difference_size(high) * (1 + 1e-14); }
+
+// 2 cos(θ/2) e^{−jθ/2}
+Phasor Arc::sum() const {
+  const double x = centre(), scale = 1 / (1 + x * x), sine = 2 * x * scale, cosine = (1 - x) * (1 + x) * scale;
+  return {2 * cosine * cosine, -2 * cosine * sine};
+}
+
+double Arc::largest_sum() const { return sum_size(low) * (1 + 1e-14); }
 
 ArcModel power_model(const Arc& arc, unsigned n) {
   Phasor base = arc.backward(), power = {1, 0};

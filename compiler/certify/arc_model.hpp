@@ -75,6 +75,8 @@ struct Arc {
   Phasor difference() const;          // δ = 1 − w, without cancellation
   double least_difference() const;    // min |δ| over the arc
   double largest_difference() const;  // max |δ|
+  Phasor sum() const;                 // σ = 1 + w, without cancellation
+  double largest_sum() const;         // max |σ|
 };
 
 // wⁿ

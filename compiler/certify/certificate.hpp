@@ -14,8 +14,8 @@ namespace dashpot::compiler {
 
 enum class Proof {
   none,     // nothing is proved, for `reason`
-  hold,     // theory 6a: any motion, any jitter up to the device's, any switching of the brake above its command
-  sampled,  // theory 6b: any motion, periodic samples
+  hold,     // theory 6a: any motion, sample by sample, any switching of the brake above its command
+  sampled,  // theory 6b: any motion, over all frequencies
 };
 
 std::string_view name_of(Proof proof);  // "none", "hold", "sampled"
@@ -29,6 +29,8 @@ struct PassivityBound {
   std::string reason;       // why nothing is proved, or why it is not the hold certificate; one clause
   bool any_regime = false;  // with slips or a contact: whatever slides, sticks, touches or lets go
   bool any_value = false;   // with tunables: wherever they are in their ranges
+  // Proved for punctual samples alone: the amplifier lags. Else it holds under any jitter up to the device's.
+  bool constant_period_only = false;
 };
 
 struct Certificate {
@@ -45,6 +47,13 @@ struct Certificate {
 
 // (K Δ/2 − f_c)⁺: the energy that the encoder's step may bring in, beyond friction, for each metre of travel [N].
 double unpaid_force(const Certificate& certificate);
+
+// What a certificate is worth, in the words that header, certificate and `verify` use: "certified", "certified for a
+// constant period only" or "not certified".
+std::string_view grade_of(const Certificate& certificate);
+
+// Why not, with the number that is missing, as one clause.
+std::string why_not_certified(const Certificate& certificate, motion port_motion);
 
 // In: a law's constants, the loop around it. Out: the strongest statement that covers them; with less than `most_terms`
 // one that is found sooner and may ask a little more.

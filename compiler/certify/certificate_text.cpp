@@ -11,20 +11,21 @@ namespace {
 std::string covered(const Certificate& c) {
   std::string regimes = c.bound.any_regime ? ", whatever slides, sticks, touches or lets go" : "";
   if (c.bound.any_value) regimes += ", any values within their ranges between changes";
-  if (c.bound.proof == Proof::sampled)
+  if (c.bound.constant_period_only)
     return fmt::format("any motion{}, samples at {:.6g} Hz", regimes, 1 / c.loop.sample_period) +
-           (c.loop.jitter > 0 ? ", jitter not covered because " + c.bound.reason : std::string());
+           (c.loop.jitter > 0 ? ", jitter not covered because the amplifier lags" : "");
   const std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";
+  if (c.bound.proof == Proof::sampled)
+    return fmt::format("any motion{}, samples at {:.6g} Hz{}", regimes, 1 / c.loop.sample_period, jitter);
   const char* brake = c.bound.any_regime || c.bound.any_value ? "least command" : "command";
   return "any motion" + regimes + jitter + ", any switching of the brake above its " + brake;
 }
 
 std::string requirement(const Certificate& c, const std::string& unit) {
-  if (c.bound.proof == Proof::hold)
-    return fmt::format("needs {:.6g} {} over the longest hold of {:.6g} s", c.bound.needed, unit,
-                       c.loop.longest_hold());
   const std::string most = c.bound.frequency > 0 ? fmt::format(", most at {:.6g} Hz", c.bound.frequency) : "";
-  return fmt::format("needs {:.6g} {}{}", c.bound.needed, unit, most);
+  const bool over_holds = c.bound.proof == Proof::hold || (c.loop.jitter > 0 && !c.bound.constant_period_only);
+  const std::string hold = over_holds ? fmt::format(" over the longest hold of {:.6g} s", c.loop.longest_hold()) : "";
+  return fmt::format("needs {:.6g} {}{}{}", c.bound.needed, unit, hold, most);
 }
 
 std::string verdict(const Certificate& c, const std::string& unit) {
@@ -32,7 +33,8 @@ std::string verdict(const Certificate& c, const std::string& unit) {
     return fmt::format("not certified: {}: {:.6g} {}", c.bound.reason, c.bound.needed, unit);
   if (c.bound.proof == Proof::none) return "not certified: " + c.bound.reason;
   const std::string numbers = fmt::format("{}, at least {:.6g} {} is there", requirement(c, unit), c.assured, unit);
-  if (c.certified) return fmt::format("certified for {}: {}", covered(c), numbers);
+  if (c.certified)
+    return fmt::format("{}{} {}: {}", grade_of(c), c.bound.constant_period_only ? ":" : " for", covered(c), numbers);
   const double missing = c.minimum_damping - c.added_damping;
   return fmt::format("not certified for {}: {}, {:.6g} {} more is missing in the brake's command", covered(c), numbers,
                      missing, unit);
@@ -80,6 +82,15 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
   lines.push_back(
       energy + fmt::format("; rounding adds at most {:.2g} of the sum of the force's terms", c.energy.rounding_share));
   return lines;
+}
+
+std::string why_not_certified(const Certificate& c, motion port_motion) {
+  const std::string unit = port_units(port_motion).damping;
+  const double missing = c.bound.needed - c.assured;
+  const std::string numbers = fmt::format("it needs {:.6g} {} of damping, at least {:.6g} is there, {:.6g} is missing",
+                                          c.bound.needed, unit, c.assured, missing);
+  if (c.bound.proof != Proof::none) return numbers;
+  return c.bound.needed > 0 ? c.bound.reason + "; " + numbers : c.bound.reason;
 }
 
 std::string to_text(const Certificate& c, motion port_motion) {

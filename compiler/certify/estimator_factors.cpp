@@ -4,6 +4,9 @@
 #include <cmath>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/estimators/estimator_names.hpp>
+#include <dashpot/estimators/kalman.hpp>
+
+#include "linear/real.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -21,7 +24,7 @@ EstimatorFactors moving_average(const any_estimator<double>& estimator, double s
 }
 
 // Each section g² (1 + w)²/(δ² + g k δ (2 − δ) + g² (2 − δ)²), δ = 1 − w, has the poles s = e^{±jφ} of s² + k s + 1:
-// p = (1 + g s)/(1 − g s), 1 − p = −2 g s/(1 − g s).
+// p = (1 + g s)/(1 − g s), 1 − p = −2 g s/(1 − g s), 1 + p = 2/(1 − g s), and is Π g/(1 − g s) · (1 + w)/(1 − p w).
 EstimatorFactors butterworth(const velocity_description& velocity, double sample_period) {
   const unsigned order = velocity.order < 4 ? 2 : 4;
   const double g = tangent_of_half_turns(velocity.cutoff * sample_period);
@@ -29,32 +32,37 @@ EstimatorFactors butterworth(const velocity_description& velocity, double sample
   for (unsigned i = 0; i < order / 2; ++i) {
     const double half_turns = (order - 1 - 2.0 * i) / (2.0 * order);
     const double k = 2 * sine_of_half_turns(half_turns);
-    const double gain = g * g / (1 + g * (k + g));
-    std::vector<double> taps(factors.taps.size() + 2, 0.0);
-    for (std::size_t t = 0; t < factors.taps.size(); ++t) {
-      taps[t] += gain * factors.taps[t];
-      taps[t + 1] += 2 * gain * factors.taps[t];
-      taps[t + 2] += gain * factors.taps[t];
-    }
-    factors.taps = taps;
     const Complex s(-k / 2, sine_of_half_turns(0.5 - half_turns));
-    for (const Complex root : {s, std::conj(s)})
-      factors.poles.push_back({(1.0 + g * root) / (1.0 - g * root), -2.0 * g * root / (1.0 - g * root)});
+    for (const Complex root : {s, std::conj(s)}) {
+      const Complex inverse = 1.0 / (1.0 - g * root);
+      factors.poles.push_back({(1.0 + g * root) * inverse, -2.0 * g * root * inverse, 2.0 * inverse, g * inverse});
+    }
   }
   return factors;
 }
 
-// β/(1 + (1 + r² − 4r) w + r² w²): 1 − p = (1 − r)/2 · ((3 − r) ± √(1 + r² − 6r))
-EstimatorFactors steady_kalman(const any_estimator<double>& estimator, double sample_period) {
-  const auto transfer = estimator.transfer();
-  const double beta = transfer.numerator[0] * sample_period;
-  const double one_minus_r = std::sqrt(beta / 2), r = 1 - one_minus_r;
-  const Complex root = std::sqrt(Complex(1 + r * r - 6 * r, 0));
-  EstimatorFactors factors{{beta}, {}};
-  for (const double sign : {1.0, -1.0}) {
-    const Complex loss = one_minus_r / 2 * (3 - r + sign * root);
-    factors.poles.push_back({1.0 - loss, loss});
+Complex rounded(const Real& real, const Real& imaginary) { return {to_double(real), to_double(imaginary)}; }
+
+// The recursion of the runtime as it is rounded, with ρ = 1 − α and b = (β/T) T of its numbers:
+// b/(1 − (1 + ρ − b) w + ρ w²). (1 − p)(1 − p′) = b and (1 + p)(1 + p′) = 2 (1 + ρ) − b.
+std::optional<EstimatorFactors> steady_kalman(const velocity_description& velocity, double sample_period, double step) {
+  const kalman<double> filter(velocity.acceleration, step, sample_period);
+  const Real rho = filter.leak(), b = Real(filter.beta() / sample_period) * Real(sample_period);
+  const Real at_nyquist = 2 * (1 + rho) - b;
+  if (!(b > 0 && at_nyquist > 0 && rho < 1)) return std::nullopt;
+  const Real half_sum = (1 + rho - b) / 2, square = half_sum * half_sum - rho;
+  EstimatorFactors factors{{to_double(b)}, {}};
+  if (square < 0) {
+    const Real imaginary = sqrt(Real(-square));
+    for (const int sign : {1, -1})
+      factors.poles.push_back({rounded(half_sum, sign * imaginary), rounded(1 - half_sum, -sign * imaginary),
+                               rounded(1 + half_sum, sign * imaginary), 0});
+    return factors;
   }
+  // The larger first; the other by what both multiply to.
+  const Real larger = half_sum + (half_sum < 0 ? -sqrt(square) : sqrt(square)), other = larger == 0 ? 0 : rho / larger;
+  for (const Real& pole : {larger, other})
+    factors.poles.push_back({rounded(pole, 0), rounded(1 - pole, 0), rounded(1 + pole, 0), 0});
   return factors;
 }
 
@@ -67,7 +75,7 @@ std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop) {
     case estimator_kind::backward_difference:
     case estimator_kind::least_squares: return moving_average(estimator, loop.sample_period);
     case estimator_kind::butterworth: return butterworth(loop.velocity, loop.sample_period);
-    case estimator_kind::kalman: return steady_kalman(estimator, loop.sample_period);
+    case estimator_kind::kalman: return steady_kalman(loop.velocity, loop.sample_period, loop.joint_encoder_step);
     default: return std::nullopt;
   }
 }
@@ -94,9 +102,8 @@ std::optional<double> estimate_gain(const SampledLoop& loop) {
   if (!factors) return adaptive_window_gain(loop);
   double gain = 0;
   for (const double tap : factors->taps) gain += std::abs(tap);
-  // 1/(1 − |p|) = (1 + |p|)/(1 − |p|²), and 1 − |p|² = 2 Re(1 − p) − |1 − p|²
-  for (const EstimatorPole& pole : factors->poles)
-    gain *= (1 + std::abs(pole.pole)) / (2 * pole.loss.real() - std::norm(pole.loss));
+  for (const EstimatorPole& pole : factors->poles)  // 1/(1 − |p|) = (1 + |p|)/(1 − |p|²)
+    gain *= (1 + std::abs(pole.pole)) / pole.norm_loss();
   return gain * (1 + 1e-12);
 }
 

@@ -1,7 +1,8 @@
 // A linear estimator held against the one-sample difference, as factors that are evaluated without cancellation:
-//     Ĝ(w) = E(z) T/(1 − w) = Σ taps[i] wⁱ · Π 1/(1 − p w),    w = z⁻¹,
+//     Ĝ(w) = E(z) T/(1 − w) = Σ taps[i] wⁱ · Π 1/(1 − p w) · Π κ (1 + w)/(1 − p w),    w = z⁻¹,
 // which is 1 at rest. The runtime's pulse_transfer has the same E with its denominator expanded, which cancels for slow
-// filters; here each pole keeps its distance from 1.
+// filters, and for fast ones near Nyquist; here each pole keeps its distances from 1 and from −1, and a zero at −1
+// stays with the pole that it is there for.
 #pragma once
 
 #include <complex>
@@ -15,6 +16,12 @@ namespace dashpot::compiler {
 struct EstimatorPole {
   std::complex<double> pole;  // p
   std::complex<double> loss;  // 1 − p, without cancellation
+  std::complex<double> rest;  // 1 + p, without cancellation
+  std::complex<double> gain;  // κ of a pole with a zero at −1; 0 of one without
+
+  bool has_zero() const { return gain != 0.0; }
+  // 1 − |p|², without cancellation: Re (1 − p)(1 + p̄).
+  double norm_loss() const { return (loss * std::conj(rest)).real(); }
 };
 
 struct EstimatorFactors {
@@ -22,7 +29,8 @@ struct EstimatorFactors {
   std::vector<EstimatorPole> poles;
 };
 
-// Empty for an estimator that is not linear in the positions it is given.
+// Empty for an estimator that is not linear in the positions it is given, and for one so fast that its recursion, as
+// rounded, no longer dies away.
 std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);
 
 // An adaptive window (FOAW) chooses at every sample one of the averages over n = 1 … N one-sample differences, with
@@ -31,7 +39,7 @@ std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);
 // w = 1/n, γ² = 1 + 1/2 + … + 1/N. Empty for other estimators.
 std::optional<double> adaptive_window_gain(const SampledLoop& loop);
 
-// γ of ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ for any motion, not below it: Σ|taps| Π 1/(1 − |p|), 1 for Butterworth's filters, which never
+// γ of ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ for any motion, not below it: Σ|taps| Π 1/(1 − |p|); 1 for Butterworth's filters, which never
 // amplify, or that of an adaptive window. Empty where nothing is known.
 std::optional<double> estimate_gain(const SampledLoop& loop);
 

@@ -9,7 +9,10 @@
 namespace dashpot::compiler {
 namespace {
 
-const Real negligible{"1e-30"};
+// Of a mode's stiffness that is left after a sample: below it, the mode is taken for a damper, which changes K by no
+// more. Without it the rates of one pencil would lie further apart than its digits reach.
+const Real vanishing{"1e-18"};
+const Real negligible{"1e-40"};  // of the pencil's eigenvalues, between 0 and 1
 
 struct HeldTie {
   std::size_t a, b;
@@ -32,7 +35,7 @@ class HeldNetwork {
     const ModeCoefficients c = mode_coefficients({stiffness, relaxation_rate, 1, {}}, settings_.scheme,
                                                  StateInput::position, settings_.sample_period);
     const Real period = settings_.sample_period;
-    if (c.decay < negligible) return add(dampers_, weights, c.position_gain * period);
+    if (c.decay < vanishing) return add(dampers_, weights, c.position_gain * period);
     const std::size_t node = new_end();
     weights.emplace_back(node, -1);
     add(springs_, weights, c.position_gain / c.decay);

@@ -8,6 +8,8 @@ namespace dashpot::compiler {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+
+Phasor phasor(std::complex<double> number) { return {number.real(), number.imag()}; }
 constexpr double slack = 1 + 1e-12;  // covers the rounding of the bounds themselves
 
 // (1 + q)/2 − (1 − q)/y = Σ_{k≥2} (−y)^k (k − 1)/(2 (k + 1)!), q = e^{−y}
@@ -89,16 +91,24 @@ NeededDamping::ModeSums NeededDamping::mode_sums(const Arc& arc) const {
   return sums;
 }
 
-// 1/(1 − p w) of a complex pole. The distance to it shrinks by no more than |p| times the arc's radius.
+// 1/(1 − p w) of a complex pole, or κ (1 + w)/(1 − p w), whose slope along w is κ (1 + p)/(1 − p w)². The denominator
+// is 1 − p + p δ, and near Nyquist 1 + p − p σ. The distance to the pole shrinks by no more than |p| times the arc's
+// radius.
 std::optional<ArcModel> NeededDamping::pole_model(const Arc& arc, const EstimatorPole& pole) const {
-  const Phasor p = {pole.pole.real(), pole.pole.imag()};
-  const Phasor denominator = Phasor{pole.loss.real(), pole.loss.imag()} + p * arc.difference();
+  const Phasor p = phasor(pole.pole), w = arc.backward();
+  const Phasor denominator = w.real > 0 ? phasor(pole.loss) + p * arc.difference() : phasor(pole.rest) - p * arc.sum();
   const double size = p.magnitude(), nearest = (denominator.magnitude() - size * arc.radius()) * (1 - 1e-13);
   if (!(nearest > 0)) return std::nullopt;
-  const Phasor phi = denominator.inverse(), w = arc.backward();
+  const Phasor phi = denominator.inverse(), turning = {-w.imaginary, w.real};  // jw
   const double inverse = 1 / nearest, square = inverse * inverse;
-  return ArcModel{phi, -1.0 * (p * Phasor{-w.imaginary, w.real} * phi * phi), inverse, size * square,
-                  size * square + 2 * size * size * square * inverse};
+  const Phasor along = pole.has_zero() ? phasor(pole.gain * pole.rest) : p;
+  const double steep = along.magnitude();
+  const double second = steep * square + 2 * steep * size * square * inverse;
+  const Phasor slope = -1.0 * (along * turning * phi * phi);
+  if (!pole.has_zero()) return ArcModel{phi, slope, inverse, steep * square, second};
+  const Phasor gain = phasor(pole.gain);
+  return ArcModel{gain * arc.sum() * phi, slope, gain.magnitude() * arc.largest_sum() * inverse, steep * square,
+                  second};
 }
 
 ArcModel NeededDamping::estimate(const Arc& arc, const ModeSums& sums) const {
@@ -131,7 +141,7 @@ NeededDamping::Bounds NeededDamping::on(const Arc& arc) const {
 
   const ArcModel force = power_model(arc, delay_) * (ArcModel::constant(stiffness_) + sums.position +
                                                      difference_model(arc) * (rest + estimated));  // T H
-  const std::optional<ArcModel> lag = pole_model(arc, {lag_decay_, lag_loss_});
+  const std::optional<ArcModel> lag = pole_model(arc, {lag_decay_, lag_loss_, 1 + lag_decay_, 0});
   if (!lag) return {-infinite, infinite};
   const ArcModel lagged = force * *lag;
   const RealArcModel late_part = lag_share_ * real_part(power_model(arc, 1) * lagged);

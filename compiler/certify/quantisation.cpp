@@ -11,22 +11,30 @@ using Complex = std::complex<double>;
 // Ĝ's answer r_j to a unit pulse: the estimate of velocity is (r_j − r_{j−1})/T.
 class AveragedPulse {
  public:
-  explicit AveragedPulse(const EstimatorFactors& estimator) : estimator_(estimator), states_(estimator.poles.size()) {}
+  explicit AveragedPulse(const EstimatorFactors& estimator)
+      : estimator_(estimator), states_(estimator.poles.size()), inputs_(estimator.poles.size()) {}
 
   double next() {
     Complex value = place_ < estimator_.taps.size() ? estimator_.taps[place_] : 0;
     ++place_;
-    for (std::size_t i = 0; i < states_.size(); ++i) value = states_[i] = estimator_.poles[i].pole * states_[i] + value;
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      const EstimatorPole& pole = estimator_.poles[i];
+      const Complex input = pole.has_zero() ? pole.gain * (value + inputs_[i]) : value;
+      inputs_[i] = value;
+      value = states_[i] = pole.pole * states_[i] + input;
+    }
     return value.real();
   }
 
-  // Not below Σ|r_j| over all that is to come once the taps are over: 1/(1 − |p|) of each pole's state and input.
+  // Not below Σ|r_j| over all that is to come once the taps are over: 1/(1 − |p|) of each pole's state and input, which
+  // a zero takes twice.
   double rest() const {
     double sum = 0;
     for (std::size_t i = 0; i < states_.size(); ++i) {
-      const double size = std::abs(estimator_.poles[i].pole);
-      const Complex loss = estimator_.poles[i].loss;
-      sum = (size * std::abs(states_[i]) + sum) * (1 + size) / (2 * loss.real() - std::norm(loss));
+      const EstimatorPole& pole = estimator_.poles[i];
+      const double size = std::abs(pole.pole);
+      const double input = pole.has_zero() ? std::abs(pole.gain) * (2 * sum + std::abs(inputs_[i])) : sum;
+      sum = (size * std::abs(states_[i]) + input) * (1 + size) / pole.norm_loss();
     }
     return sum;
   }
@@ -35,7 +43,7 @@ class AveragedPulse {
 
  private:
   const EstimatorFactors& estimator_;
-  std::vector<Complex> states_;
+  std::vector<Complex> states_, inputs_;
   std::size_t place_ = 0;
 };
 

@@ -52,11 +52,11 @@ class Sum {
   // `shares`: x of every regime; of a part behind a contact nothing, where the brake has some of the dampers, and none
   // of them is the worst.
   void add(const NormalTree& component, const std::vector<Real>& shares) {
-    cut_ += least_cut(component, settings_).value();
+    add(least_cut(component, settings_).value());
     add_held(held_slips(component, shares, settings_), shares);
   }
   void add(const std::vector<std::size_t>& elements, const std::vector<Real>& shares) {
-    cut_ += least_cut(network_, elements, settings_).value();
+    add(least_cut(network_, elements, settings_).value());
     add_held(held_slips(network_, elements, shares, settings_), shares);
   }
 
@@ -76,7 +76,7 @@ class Sum {
   // The brake has the dampers while the tool touches, and not while it is free. What it has earned it has earned since
   // the touch.
   void add_behind_contact(const LinearForm& linear, double brake, double behind_slips) {
-    cut_ += cut_of(linear, settings_);
+    add(cut_of(linear, settings_));
     held_gain_ += linear.static_stiffness;
     for (const Mode& mode : linear.modes)
       held_gain_ +=
@@ -98,12 +98,19 @@ class Sum {
 
   SlipMotor result() {
     motor_.stiffness = to_double(cut_.stiffness) * margin_;
-    motor_.damping = std::max(to_double(cut_.damping), 0.0) * margin_;
+    motor_.springs_alone = dampers_ == 0;
+    const bool is_left_over = cut_.damping <= dampers_ * negligible_share;  // from cancellation
+    motor_.damping = is_left_over ? 0 : to_double(cut_.damping) * margin_;
     motor_.held_gain = to_double(held_gain_) * margin_;
     return motor_;
   }
 
  private:
+  void add(const Cut& cut) {
+    cut_ += cut;
+    dampers_ += cut.damping;
+  }
+
   // Where the slip that holds all of the tool's force yields within a step, so little is left that K counts for more.
   void add_held(const HeldSlips& held, const std::vector<Real>& shares) {
     held_gain_ += held.gain;
@@ -118,6 +125,7 @@ class Sum {
   Real half_step_;  // Δ/2 [m]
   double margin_;
   Cut cut_;
+  Real dampers_ = 0;  // that cross it, the brake's with them
   Real held_gain_ = 0;
   SlipMotor motor_;
 };
@@ -128,6 +136,12 @@ double lateness(const SampledLoop& loop) {
   const double share = loop.amplifier_lag / loop.sample_period;
   const double spread = share > 0 ? share / 2 / std::tanh(1 / (2 * share)) : 0;
   return (loop.delay_samples + 1 + std::sqrt(spread)) * (1 + 1e-14);
+}
+
+double stiffness_share(const SlipMotor& motor, const SampledLoop& loop) {
+  const bool is_late = loop.delay_samples > 0;
+  if (is_late && motor.springs_alone && loop.amplifier_lag == 0) return 1 + 2.0 * loop.delay_samples;
+  return lateness(loop) * lateness(loop);
 }
 
 std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& form, const Decomposition& decomposition,

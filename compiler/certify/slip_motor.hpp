@@ -8,8 +8,11 @@
 //     β T_max + (b∞(cut) − min x) T_max/h
 // is enough. A force that comes n samples late, or through an amplifier of lag τ, differs from the one that would be
 // passive, part by part, by no more than the share n + 1 + √((τ/2T) coth(T/2τ)) of what a hold does: β takes its
-// square. A motor that adds −κ v̂ with a constant κ, and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ γ T_max/h. What a ramp takes back is
-// (1 − ε) (h/T_max) of the brake's own excess in every sample that the estimate knows of, and adds nothing.
+// square. Where no damper crosses the cut, and without lag, β takes 1 + 2n: the work of all parts on the increments of
+// their forces, Δp δ, sums to no less than nothing for slips, dampers and contacts, and on the cut to Σ (1 + a) ΔF²/2c
+// at least, so that ‖ΔF‖ ≤ 2β ‖Δu‖. A motor that adds −κ v̂ with a constant κ, and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ γ T_max/h.
+// What a ramp takes back is (1 − ε) (h/T_max) of the brake's own excess in every sample that the estimate knows of, and
+// adds nothing.
 #pragma once
 
 #include <optional>
@@ -24,6 +27,7 @@ struct SlipMotor {
   bool behind_contact = false;       // all of the network, and the brake is off while the tool is free
   double stiffness = 0;              // β of the cut [N/m], rounded up beyond what rounding of the constants does
   double damping = 0;                // b∞(cut) − min x [N·s/m], the same
+  bool springs_alone = true;         // no damper crosses the cut
   double held_compensation = 0;      // β v̂ that the brake's own excess pays for at any time, of a ramp [N·s/m]
   double compensation = 0;           // of any other estimate of the velocity [N·s/m]
   bool lets_go_by_estimate = false;  // of a contact: the command ends where f′ + b∞ v̂ < 0
@@ -39,5 +43,8 @@ std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& fo
 
 // n + 1 + √((τ/2T) coth(T/2τ)), not below it.
 double lateness(const SampledLoop& loop);
+
+// What β counts for in a loop that is late: 1 + 2n, or the square of that, not below it.
+double stiffness_share(const SlipMotor& motor, const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -161,6 +161,8 @@ Json json_of(const PortUnits& units) {
 Json json_of(const Certificate& c) {
   return {{"proof", name_of(c.bound.proof)},
           {"certified", c.certified},
+          {"grade", grade_of(c)},
+          {"constant_period_only", c.bound.constant_period_only},
           {"needed_damping", c.bound.proof == Proof::none ? Json(nullptr) : Json(c.bound.needed)},
           {"binding_frequency", c.bound.frequency},
           {"assured_damping", c.assured},

@@ -39,11 +39,13 @@ struct Options {
   std::string header;                      // verify
   EmissionOptions emission;
   bool uncertified = false;           // compile: also what lacks damping on its device
-  bool json = false;                  // explain
+  bool allow_uncertified = false;     // verify: also what is sound and not certified
+  bool json = false;                  // explain, run --motion
   std::optional<double> duration;     // run [s]; without end where empty
   std::optional<std::string> port;    // run: the board's; empty: the simulated device
   std::optional<std::string> hand;    // run: who holds the simulated device; empty: relaxed
   std::optional<std::uint64_t> seed;  // run: of the simulated device; empty: 0
+  std::optional<std::string> motion;  // run: recorded, for the simulated device to be led along
   BladeWords blade;                   // device
   FitWords fit;                       // fit
   bool fast = false;                  // run: simulated time instead of real time

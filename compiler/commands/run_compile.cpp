@@ -119,6 +119,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
     } else if (!options.uncertified && !insist_on_certificate(*compilation, options.choices, diagnostics)) {
       continue;
     } else if (const auto emitted = emitted_files(*compilation, options.emission, diagnostics)) {
+      if (options.uncertified) warn_of_uncertified(*compilation, diagnostics);
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);

@@ -6,7 +6,8 @@ ExitStatus run_verify(const Options& options, SourceFiles& files, Diagnostics& d
   const SourceFile* certificate = files.open(options.certificate.value(), diagnostics);
   const SourceFile* header = files.open(options.header, diagnostics);
   if (certificate == nullptr || header == nullptr) return ExitStatus::input_refused;
-  const std::optional<std::string> verified = verify_texts(*certificate, *header, files, diagnostics);
+  const std::optional<std::string> verified =
+      verify_texts(*certificate, *header, options.allow_uncertified, files, diagnostics);
   return verified ? write_standard_output(*verified, diagnostics) : ExitStatus::input_refused;
 }
 

@@ -14,7 +14,23 @@
 namespace dashpot::compiler {
 namespace {
 
-std::string_view code_of(std::string_view header) { return header.substr(behind_banner(header)); }
+constexpr std::string_view opening_of_code = "#pragma once";
+
+// Where a header names the version of the dashpot that wrote it; nothing where there is none.
+std::pair<std::size_t, std::size_t> version_in(std::string_view header) {
+  constexpr std::string_view before = "\n// Written by dashpot ", behind = " from a network with digest ";
+  const std::size_t line = header.find(before), start = line == header.npos ? 0 : line + before.size();
+  const std::size_t end = start == 0 ? 0 : header.find_first_not_of("0123456789.", start);
+  const bool is_one = end != header.npos && end > start && header.substr(end).starts_with(behind);
+  return is_one ? std::pair(start, end) : std::pair<std::size_t, std::size_t>(0, 0);
+}
+
+// As another dashpot would have written it that wrote `header`: its version is all of it that may be another one.
+std::string with_version_of(std::string_view header, std::string text) {
+  const auto [start, end] = version_in(header);
+  const auto [from, to] = version_in(text);
+  return to == 0 || end == 0 ? text : text.replace(from, to - from, header.substr(start, end - start));
+}
 
 // What stands there, with some of its line in front of it.
 std::string excerpt_at(std::string_view text, std::size_t at) {
@@ -44,22 +60,25 @@ std::vector<std::string> emitted(const Compilation& compiled, bool of_many_point
   return texts;
 }
 
-// The code around the constants.
-void compare_code(const std::vector<std::string>& written, const SourceFile& header, Diagnostics& diagnostics) {
-  const std::string_view found = code_of(header.text());
+// The banner and the code around the constants.
+void compare_text(const std::vector<std::string>& written, const SourceFile& header, Diagnostics& diagnostics) {
+  const std::string_view found = header.text();
   std::size_t furthest = 0;
+  bool in_banner = false;
   std::string expected_there;
   for (const std::string& text : written) {
-    const std::string_view expected = code_of(text);
+    const std::string expected = with_version_of(found, text);
     if (found == expected) return;
     const auto same =
         std::size_t(std::mismatch(found.begin(), found.end(), expected.begin(), expected.end()).first - found.begin());
-    if (expected_there.empty() || same > furthest) expected_there = excerpt_at(expected, same);
-    furthest = std::max(furthest, same);
+    if (!expected_there.empty() && same <= furthest) continue;
+    expected_there = excerpt_at(expected, same);
+    in_banner = same < expected.find(opening_of_code);
+    furthest = same;
   }
-  const std::size_t start = behind_banner(header.text()) + furthest,
-                    end = std::min(header.text().find('\n', start), header.text().size());
-  diagnostics.report<DiagnosticCode::code_differs>({&header, start, end}, excerpt_at(found, furthest));
+  const Span place = {&header, furthest, std::min(header.text().find('\n', furthest), header.text().size())};
+  if (in_banner) diagnostics.report<DiagnosticCode::banner_differs>(place, excerpt_at(found, furthest));
+  else diagnostics.report<DiagnosticCode::code_differs>(place, excerpt_at(found, furthest));
   if (!written.empty()) diagnostics.note<DiagnosticCode::code_expected>({}, expected_there);
 }
 
@@ -108,10 +127,10 @@ class TextsVerification {
         is_linear ? verify_linear_constants(certificate_, *network_, *port_, *constants, diagnostics_) : 0;
     if (!recompile()) return 0;
     if (!is_linear) count = verify_constants(certificate_, *port_, *constants, *compiled_, diagnostics_);
-    compare_code(emitted(*compiled_, of_many), header, diagnostics_);
+    compare_text(emitted(*compiled_, of_many), header, diagnostics_);
     if (!diagnostics_.has_errors()) verify_bounds(certificate_, *port_, *constants, *compiled_, diagnostics_);
     if (!diagnostics_.has_errors()) {
-      std::string again = certificate_text(*compiled_, certificate_.choices, certificate_.network_text,
+      std::string again = certificate_text(*compiled_, certificate_.as_asked(), certificate_.network_text,
                                            certificate_.device_text, of_one.text());
       compare_certificates(certificate_file_, files_.keep("certificate written again", std::move(again)), diagnostics_);
     }
@@ -120,13 +139,17 @@ class TextsVerification {
 
   const Network& network() const { return *network_; }
 
+  // Of what has been found right.
+  std::string_view grade() const { return grade_of(compiled_->certificate); }
+  std::string why_uncertified() const { return why_not_certified(compiled_->certificate, network_->port_motion); }
+
  private:
   bool recompile() {
     if (compiled_) return true;
     Diagnostics unheard;
-    compiled_ = compile(network_file_, certificate_.choices, device_, unheard);
+    compiled_ = compile(network_file_, certificate_.as_asked(), device_, unheard);
     if (compiled_) return true;
-    compile(network_file_, certificate_.choices, device_, diagnostics_);
+    compile(network_file_, certificate_.as_asked(), device_, diagnostics_);
     diagnostics_.report<DiagnosticCode::no_certificate>({}, network_file_.path(), "its network does not compile");
     return false;
   }
@@ -145,17 +168,23 @@ class TextsVerification {
 }  // namespace
 
 std::optional<std::string> verify_texts(const SourceFile& certificate_file, const SourceFile& header,
-                                        SourceFiles& files, Diagnostics& diagnostics) {
+                                        bool allow_uncertified, SourceFiles& files, Diagnostics& diagnostics) {
   const std::optional<CertificateFile> certificate = read_certificate(certificate_file, diagnostics);
   if (!certificate) return std::nullopt;
   TextsVerification verification(certificate_file, *certificate, files, diagnostics);
   if (!verification.read_subject()) return std::nullopt;
   const std::size_t count = verification.verify(header);
   if (diagnostics.has_errors()) return std::nullopt;
+  if (!certificate->certified && !allow_uncertified) {
+    diagnostics.report<DiagnosticCode::verified_uncertified>({}, verification.network().name,
+                                                             verification.why_uncertified());
+    diagnostics.note<DiagnosticCode::allow_uncertified>({});
+    return std::nullopt;
+  }
   return fmt::format(
-      "{}: {} constants are the nearest to those of the network, recomputed in 100 digits; the code is that of the "
-      "network; {}\n",
-      verification.network().name, count, certificate->certified ? "certified" : "not certified");
+      "{}: {} constants are the nearest to those of the network, recomputed in 100 digits; banner and code are those "
+      "of the network; {}\n",
+      verification.network().name, count, verification.grade());
 }
 
 }  // namespace dashpot::compiler

@@ -7,9 +7,9 @@
 namespace dashpot::compiler {
 
 // In: the texts of a certificate and of a header. Out: what was found right, as one line. Refuses: texts that are no
-// certificate or no header, and every disagreement between them and the network in the certificate. `files` keeps what
-// the diagnostics point into.
-std::optional<std::string> verify_texts(const SourceFile& certificate, const SourceFile& header, SourceFiles& files,
-                                        Diagnostics& diagnostics);
+// certificate or no header, every disagreement between them and the network in the certificate, and, unless that is
+// allowed, what is sound and not certified. `files` keeps what the diagnostics point into.
+std::optional<std::string> verify_texts(const SourceFile& certificate, const SourceFile& header, bool allow_uncertified,
+                                        SourceFiles& files, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -23,7 +23,7 @@ bool is_damped_slip(const NormalTree& tree) {
          std::any_of(tree.children.begin(), tree.children.end(), is_damper);
 }
 
-double yield_of(const NormalTree& damped_slip) {
+Real yield_of(const NormalTree& damped_slip) {
   return std::find_if(damped_slip.children.begin(), damped_slip.children.end(), is_slip)->yield_force;
 }
 

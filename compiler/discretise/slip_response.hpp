@@ -25,7 +25,7 @@ struct Row {
 
 struct SlipResponse {
   std::vector<CompanionBlock> blocks;
-  double yield_force;
+  Real yield_force;
   std::vector<std::size_t> slip_elements;
   Row trial;                    // t: the slip's force if it held
   Row force;                    // f: what the component opposes to the tool

@@ -54,10 +54,10 @@ NormalTree merged_blocks(NormalTree::Kind kind, const std::vector<NormalTree>& b
 // Slips in series yield at the least of their forces, in parallel at the sum.
 NormalTree merged_slips(NormalTree::Kind kind, const std::vector<NormalTree>& slips) {
   NormalTree all{NormalTree::Kind::slip, {}, 0, {}, {}};
-  if (kind == NormalTree::Kind::series) all.yield_force = std::numeric_limits<double>::infinity();
+  if (kind == NormalTree::Kind::series) all.yield_force = std::numeric_limits<Real>::infinity();
   for (const NormalTree& slip : slips) {
     all.yield_force = kind == NormalTree::Kind::series ? std::min(all.yield_force, slip.yield_force)
-                                                       : all.yield_force + slip.yield_force;
+                                                       : Real(all.yield_force + slip.yield_force);
     unite(all.elements, slip.elements);
   }
   return all;
@@ -150,9 +150,9 @@ NormalTree whole_tree(const NormalForm& form, const Network& network) {
   return whole.children.size() == 1 ? whole.children.front() : whole;
 }
 
-std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network,
-                                                                const std::vector<std::size_t>& elements) {
-  std::map<std::pair<NodeIndex, NodeIndex>, double> slips;
+std::map<std::pair<NodeIndex, NodeIndex>, Real> slips_between(const Network& network,
+                                                              const std::vector<std::size_t>& elements) {
+  std::map<std::pair<NodeIndex, NodeIndex>, Real> slips;
   for (std::size_t index : elements) {
     const Element& element = network.elements[index];
     if (const Slip* slip = std::get_if<Slip>(&element.law))

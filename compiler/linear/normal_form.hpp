@@ -17,7 +17,7 @@ struct NormalTree {
   enum class Kind { block, slip, series, parallel };
   Kind kind;
   LinearForm form;                    // of a block
-  double yield_force = 0;             // of a slip [N] or [N·m]
+  Real yield_force = 0;               // of a slip, those side by side summed before they are rounded [N] or [N·m]
   std::vector<std::size_t> elements;  // of a block or slip: indices into Network::elements
   std::vector<NormalTree> children;   // of series and parallel: no two blocks, no two slips, none of its own kind
 };
@@ -40,8 +40,8 @@ Network linear_part(const Network& network, const NormalForm& form);
 NormalTree whole_tree(const NormalForm& form, const Network& network);
 
 // Yield forces by the nodes that slips join, among these elements; side by side they add.
-std::map<std::pair<NodeIndex, NodeIndex>, double> slips_between(const Network& network,
-                                                                const std::vector<std::size_t>& elements);
+std::map<std::pair<NodeIndex, NodeIndex>, Real> slips_between(const Network& network,
+                                                              const std::vector<std::size_t>& elements);
 
 // These slips, each with those side by side with it, in the order of slips_between(). Indices into Network::elements.
 std::vector<std::vector<std::size_t>> slips_together(const Network& network, const std::vector<std::size_t>& elements);

@@ -21,14 +21,17 @@ Arc arc_at(double frequency, double period) {
   return {x, x};
 }
 
-// S(ω); the bound holds between the margin_points as well.
-Curve needed(const SampledLoop& loop, const MotorConstants& motor) {
+// S(ω) over the longest hold; the bound holds between the margin_points as well.
+Curve needed(const Certificate& certificate, const MotorConstants& motor) {
+  const SampledLoop& loop = certificate.loop;
   const double period = loop.sample_period, nyquist = 0.5 / period;
   const NeededDamping damping(motor, loop, estimator_factors(loop).value_or(EstimatorFactors{}));
   Curve curve{"needed by motor and hold", Channel::motor, {}, {}};
+  const double hold = certificate.bound.constant_period_only ? 1 : loop.longest_hold() / period;
   for (int i = 0; i < margin_points; ++i) {
     curve.x.push_back(nyquist * std::pow(10, decades * (double(i) / (margin_points - 1) - 1)));
-    curve.y.push_back(damping.on(i + 1 == margin_points ? Arc{1, 1} : arc_at(curve.x.back(), period)).at_centre);
+    const double S = damping.on(i + 1 == margin_points ? Arc{1, 1} : arc_at(curve.x.back(), period)).at_centre;
+    curve.y.push_back(S > 0 ? S * hold : S);
   }
   return curve;
 }
@@ -41,7 +44,7 @@ std::string sampled_margin_html(const Compilation& c) {
   if (!motor || c.certificate.bound.proof == Proof::none) return "";
   if (motor->follows_estimate() && !estimator_factors(loop)) return "";
   const PortUnits units = page_units(c.network.port_motion);
-  Curve curve = needed(loop, *motor);
+  Curve curve = needed(c.certificate, *motor);
   const double sure = c.certificate.assured;
   const Curve assured{"assured by brake and device", Channel::brake, {curve.x.front(), curve.x.back()}, {sure, sure}};
   return plot_figure({"Damping of the sampled loop",

@@ -64,6 +64,8 @@ Json json_of(const Certificate& c) {
           {"assured_damping", c.assured},
           {"minimum_damping", c.minimum_damping},
           {"certified", c.certified},
+          {"grade", grade_of(c)},
+          {"constant_period_only", c.bound.constant_period_only},
           {"any_regime", c.bound.any_regime},
           {"any_value", c.bound.any_value},
           {"reason", c.bound.reason},
@@ -90,6 +92,7 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
           {"scalar", name_of(c.law.scalar)},
           {"vector", name_of(choices.registers)},
           {"state_input", name_of(c.decomposition.choice().state_input)},
+          {"state_input_asked", choices.state_input.has_value()},
           {"guards_each_sample", choices.guards_each_sample},
           {"decomposition", decomposition},
           {"damping", c.decomposition.choice().damping},
@@ -98,6 +101,12 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
 }
 
 }  // namespace
+
+Choices CertificateFile::as_asked() const {
+  Choices asked = choices;
+  if (!asked_for_state_input) asked.state_input.reset();
+  return asked;
+}
 
 std::string certificate_text(const Compilation& c, const Choices& choices, const std::string& network_text,
                              const std::optional<std::string>& device_text, const std::string& header) {

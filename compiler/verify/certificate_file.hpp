@@ -14,16 +14,19 @@ namespace dashpot::compiler {
 struct CertificateFile {
   std::string network_text;
   std::optional<std::string> device_text;
-  Choices choices;             // with the rate and the state input that were taken
-  double damping = 0;          // b, of the decomposition [N·s/m]
-  double brake_command = 0;    // b and what is added [N·s/m]
-  double added_damping = 0;    // [N·s/m]
-  std::string proof;           // "none", "hold" or "sampled"
-  double needed_damping = 0;   // [N·s/m]
-  double assured_damping = 0;  // [N·s/m]
+  Choices choices;                     // with the rate and the state input that were taken
+  bool asked_for_state_input = false;  // whether the user did, or it was chosen
+  double damping = 0;                  // b, of the decomposition [N·s/m]
+  double brake_command = 0;            // b and what is added [N·s/m]
+  double added_damping = 0;            // [N·s/m]
+  std::string proof;                   // "none", "hold" or "sampled"
+  double needed_damping = 0;           // [N·s/m]
+  double assured_damping = 0;          // [N·s/m]
   bool certified = false;
   std::optional<double> quantisation_gain;               // K [N/m]
   std::map<std::string, std::vector<double>> constants;  // as in the header
+
+  Choices as_asked() const;  // as the header was compiled
 };
 
 // `header`: the text that the certificate goes with.

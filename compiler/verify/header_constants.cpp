@@ -124,22 +124,4 @@ std::optional<HeaderConstants> header_constants(std::string_view header) {
   return result;
 }
 
-std::size_t behind_banner(std::string_view header) {
-  std::size_t start = 0;
-  while (start < header.size()) {
-    const std::size_t stop = std::min(header.find('\n', start), header.size());
-    const std::string_view line = header.substr(start, stop - start);
-    // A backslash joins the next line to this one, or this one to the next; some compilers end a line at a carriage
-    // return.
-    const bool is_remark = line.starts_with("//") && !line.ends_with('\\') &&
-                           !line.ends_with(
-                               "?"
-                               "?/") &&
-                           line.find('\r') == line.npos;
-    if (!is_remark && !line.empty()) return start;
-    start = stop + 1;
-  }
-  return header.size();
-}
-
 }  // namespace dashpot::compiler

@@ -28,7 +28,4 @@ inline constexpr const char* literals_in_code = "literals";
 // neither double nor float.
 std::optional<HeaderConstants> header_constants(std::string_view header);
 
-// Where a header's code begins: at the first line that is no comment, or one that a compiler may not take as one.
-std::size_t behind_banner(std::string_view header);
-
 }  // namespace dashpot::compiler

@@ -116,6 +116,7 @@ CertificateFile file_of(const JsonValue& root, Diagnostics& faults) {
   const JsonValue law_object = all.object("law"), passivity_object = all.object("passivity");
   const Section law(law_object, "'law'", faults), passivity(passivity_object, "'passivity'", faults);
   file.choices = choices_of(law);
+  file.asked_for_state_input = law.flag("state_input_asked");
   file.damping = law.number("damping", 0, largest);
   file.brake_command = law.number("brake_command", 0, largest);
   file.added_damping = law.number("added_damping", 0, largest);

@@ -315,26 +315,31 @@ ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, co
                            const LawFacts& facts, double lateness) {
   const Reference weight = Reference(lateness) * Reference(lateness) / Reference(facts.rate);
   const bool with_contact = network.contact.has_value();
-  ReferenceCut sum{0, 0};
+  ReferenceCut sum{0, 0, 0};
   const auto less_the_brake = [&](const std::vector<BrakeShare>& shares) {
     if (with_contact || shares.empty()) return;
     Reference least = Reference(shares.front().feedthrough);
     for (const BrakeShare& share : shares) least = std::min(least, Reference(share.feedthrough));
-    sum.damping -= least;
+    sum.brakes += least;
   };
   for (std::size_t i = 0; i < tree.components.size(); ++i) {
     const ReferenceCut cut = least_cut(tree.components[i], facts, weight).value();
-    sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping};
+    sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping, sum.brakes};
     if (i < slips.components.size()) less_the_brake(slips.components[i].shares);
   }
   for (std::size_t i = 0; i < tree.networks.size(); ++i) {
     const ReferenceCut cut = least_cut(network, tree.networks[i], facts, weight);
-    sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping};
+    sum = {sum.stiffness + cut.stiffness, sum.damping + cut.damping, sum.brakes};
     if (i < slips.networks.size()) less_the_brake(slips.networks[i].shares);
   }
   if (!with_contact) return sum;
   const ReferenceCut linear = cut_of(tree.linear, facts);
-  return {sum.stiffness + linear.stiffness, sum.damping + linear.damping};
+  return {sum.stiffness + linear.stiffness, sum.damping + linear.damping, sum.brakes};
+}
+
+Reference ReferenceCut::of_motor() const {
+  const Reference left = damping - brakes;
+  return left > damping * Reference("1e-30") ? left : Reference(0);
 }
 
 bool are_within_regimes(const ReferenceTree& tree, const SlipDecomposition& slips) {

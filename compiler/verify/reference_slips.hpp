@@ -35,6 +35,10 @@ std::vector<std::size_t> elements_behind_slips(const ReferenceTree& tree);
 // c/(1 + a) and Σ b∞.
 struct ReferenceCut {
   Reference stiffness, damping;
+  Reference brakes = 0;  // of `damping`, what the brake has in every regime, and is taken off
+
+  // What the motor has left; nothing where that is left over from rounding.
+  Reference of_motor() const;
 };
 ReferenceCut reference_cut(const ReferenceTree& tree, const Network& network, const SlipDecomposition& slips,
                            const LawFacts& facts, double lateness);

@@ -85,8 +85,8 @@ void SlipVerification::recompute_bounds() {
   const auto covers = [&](double stated, const Reference& found) {
     return Reference(stated) >= found && Reference(stated) <= found * Reference(margin) + Reference("1e-60");
   };
-  if (!motor || !covers(motor->stiffness, cut.stiffness) ||
-      !covers(motor->damping, std::max(cut.damping, Reference(0))))
+  if (!motor || !covers(motor->stiffness, cut.stiffness) || !covers(motor->damping, cut.of_motor()) ||
+      motor->springs_alone != (cut.damping == 0))
     diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed cut", "needed damping");
   const auto gain = motor ? reference_gain(tree_, linear_, compiled_.network, compiled_.decomposition.slips, *motor,
                                            facts_, again.loop)

@@ -28,6 +28,17 @@ class Files(CommandTest):
         self.assertEqual((done.stdout, done.stderr), ("", ""))
         self.assertIn("class kelvin {", (self.folder / "out/kelvin.hpp").read_text())
 
+    def test_arithmetic_without_numbers_that_are_none(self):
+        """Fails if a header is compiled where a check for NaN is always passed, so that one such input stays in the states for ever."""
+        self.dashpot("compile", "kelvin.json")
+        self.write("main.cpp", '#include "kelvin.hpp"\nint main() { dashpot::generated::kelvin law; return law.step(0, 0).force != 0; }\n')
+        for flags, status in [([], 0), (["-ffast-math"], 1), (["-ffinite-math-only"], 1), (["-Ofast"], 1), (["-fno-math-errno"], 0)]:
+            with self.subTest(flags=flags):
+                done = subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-fsyntax-only", f"-I{SOURCE}/runtime/include", *flags, "main.cpp"],
+                                      cwd=self.folder, capture_output=True, text=True)
+                self.assertEqual(done.returncode != 0, bool(status), done.stderr)
+                self.assertEqual("dashpot needs IEEE arithmetic" in done.stderr, bool(status))
+
     def test_the_current_folder_by_default(self):
         """Fails if output without -o goes anywhere but here."""
         self.dashpot("compile", FIG_5)

@@ -160,7 +160,7 @@ class Verify(CommandTest):
     def verify(self, header, certificate, name, status=0):
         self.write(f"{name}.hpp", header)
         self.write(f"{name}.json", certificate)
-        return self.dashpot("verify", f"{name}.json", f"{name}.hpp", status=status)
+        return self.dashpot("verify", f"{name}.json", f"{name}.hpp", "--allow-uncertified", status=status)
 
     def test_every_shape_of_law(self):
         """Fails if a sound header is refused, or one is passed whose constants are another network's."""
@@ -169,17 +169,74 @@ class Verify(CommandTest):
                 header, certificate = self.emitted(law, f"law_{i}")
                 self.assertIn("nearest", self.verify(header, certificate, f"sound_{i}").stdout)
 
-    def test_banner_takes_no_part(self):
-        """Fails if a header is told by its banner rather than by its code."""
-        header, certificate = self.emitted([FIG_5, "--device", BOARD], "law")
-        code = header[header.index("#pragma once"):]
-        self.verify(code, certificate, "stripped")
-        self.verify("// Another banner.\n\n// Of two remarks.\n" + code, certificate, "another")
+    def test_every_number_and_sentence_of_the_banner(self):
+        """Fails if a banner passes that says anything else than what is so of the network, or says less."""
+        chance = random.Random(SEED + 20)
+        laws = [[FIG_5], [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH], [PAPER / "visco_elasto_plastic_organ.json", "--device", BOARD],
+                [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD]]
+        for i, law in enumerate(laws):
+            header, certificate = self.emitted(law, f"law_{i}")
+            self.verify(header, certificate, "sound")
+            code = header.index("#pragma once")
+            banner = header[:code]
+            version = re.search(r"Written by dashpot (\S+) from", banner)
+            sentences = [line for line in banner.splitlines() if line.strip("/ ")]
+            forged = [header.replace(sentence + "\n", "", 1) for sentence in sentences]
+            forged += [re.sub("(not )?certified( for a[^:]*)?:", "certified for any device:", header, count=1), header[code:],
+                       "// Another banner.\n\n// Of two remarks.\n" + header[code:], header.replace("// scheme: ", "// scheme:  ", 1), "\n" + header]
+            digits = [at for at in range(code) if banner[at].isdigit() and not version.start(1) <= at < version.end(1)]
+            forged += [changed_digit(header, at, chance) for at in chance.sample(digits, 20)]
+            for number, text in enumerate(forged):
+                with self.subTest(law=law, number=number):
+                    told = self.verify(text, certificate, f"forged_{i}_{number}", status=INPUT_REFUSED).stderr
+                    self.assertRegex(told, r"\[(banner|code)-differs\]")
+                    self.assertIn("here 'dashpot compile' writes '", told)
+            self.verify(header[:version.start(1)] + "0.0.77" + header[version.end(1):], certificate, "elsewhere")
+
+    def test_what_is_not_certified(self):
+        """Fails if a sound header of a law that is not certified passes unasked, or passes for certified; or its missing damping is not told."""
+        self.write("kelvin.json", KELVIN)
+        bare = json.loads(BOARD.read_text())
+        bare["velocity"] = {"estimator": "super_twisting", "acceleration": "50 m/s^2"}
+        bare["brake"].update(max_damping="1 N s/m", safe_damping="1 N s/m")
+        self.write("bare.json", json.dumps(bare))
+        self.write("spring.json", network('{ "spring": 3000 }', "spring"))
+        single = SOURCE / "runtime/devices/phantom_single_motor.json"
+        for i, (law, missing) in enumerate([(["kelvin.json", "--device", "bare.json"], None), (["kelvin.json", "--device", single], True), (["spring.json"], True)]):
+            with self.subTest(law=law):
+                header, certificate = self.emitted(law, f"law_{i}")
+                self.write("c.json", certificate)
+                self.write("h.hpp", header)
+                told = self.refused("verify", "c.json", "h.hpp", code="verified-uncertified").stderr
+                self.assertIn("--allow-uncertified accepts it all the same", told)
+                passivity = json.loads(certificate)["passivity"]
+                self.assertEqual((passivity["certified"], passivity["grade"]), (False, "not certified"))
+                if missing:
+                    number = passivity["needed_damping"] - passivity["assured_damping"]
+                    self.assertAlmostEqual(float(re.search(r"(\S+) is missing", told).group(1)) / number, 1, delta=1e-5)
+                done = self.dashpot("verify", "c.json", "h.hpp", "--allow-uncertified")
+                self.assertTrue(done.stdout.endswith("; not certified\n"), done.stdout)
+
+    def test_grades(self):
+        """Fails if header, certificate or verify's word call certified under jitter what is proved for a constant period only."""
+        device = json.loads(BOARD.read_text())
+        for lag, grade in [("0 s", "certified"), ("0.2 ms", "certified for a constant period only")]:
+            device["motor"]["amplifier_lag"] = lag
+            self.write("device.json", json.dumps(device))
+            header, certificate = self.emitted([FIG_5, "--device", "device.json"], "law")
+            passivity = json.loads(certificate)["passivity"]
+            self.assertEqual((passivity["certified"], passivity["grade"], passivity["constant_period_only"]), (True, grade, lag != "0 s"))
+            banner = re.sub(r"\s*\n//\s*", " ", header[:header.index("#pragma once")])
+            self.assertIn("certified for a constant period only: any motion, samples at" if lag != "0 s" else "certified for any motion", banner)
+            self.assertEqual("any jitter up to" in banner, lag == "0 s")
+            self.assertTrue(self.verify(header, certificate, "graded").stdout.endswith(f"; {grade}\n"))
+            told = json.loads(self.dashpot("explain", FIG_5, "--device", "device.json", "--json").stdout)["certificate"]
+            self.assertEqual((told["grade"], told["constant_period_only"]), (grade, lag != "0 s"))
 
     def test_code_in_the_banner(self):
         """Fails if code in front of a header's own is taken for a part of its banner, however it is written there."""
         header, certificate = self.emitted([FIG_5], "law")
-        for i, line in enumerate(["#define relaxed(t, d, f, g) relaxed(t, d, f, -(g))", " int impostor;", "/**/ int impostor;", "// \\", "// ??/",
+        for i, line in enumerate(["#define relaxed(t, d, f, g) relaxed(t, d, f, -(g))", " int impostor;", "/**/ int impostor;", "// \\", "// \\ ", "// \\\t", "// ??/",
                                   "// \r#define relaxed wrong", "//\r"]):
             with self.subTest(line=line):
                 changed = header.replace("#pragma once", line + "\n#pragma once")
@@ -257,7 +314,7 @@ class Verify(CommandTest):
             if other is None and path[-1] in inside: del inside[path[-1]]
             else: inside[path[-1]] = other
             self.write(f"told_{number}.json", json.dumps(changed))
-            return subprocess.run([DASHPOT, "verify", f"told_{number}.json", "law/second_order_maxwell.hpp"], cwd=self.folder,
+            return subprocess.run([DASHPOT, "verify", "--allow-uncertified", f"told_{number}.json", "law/second_order_maxwell.hpp"], cwd=self.folder,
                                   capture_output=True).returncode != INPUT_REFUSED
 
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
@@ -449,6 +506,25 @@ class Certified(CommandTest):
         self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified")
         self.assertIn("passivity: not certified", (self.folder / "kelvin.hpp").read_text())
 
+    def test_every_law_without_a_certificate_is_warned_of(self):
+        """Fails if a law that is not certified is written without a word, on a device or without one, asked for or not, or without the
+        number that is missing."""
+        self.write("spring.json", network('{ "spring": 3000 }', "spring"))
+        self.write("kelvin.json", KELVIN)
+        single = SOURCE / "runtime/devices/phantom_single_motor.json"
+        told = self.dashpot("compile", "spring.json").stderr
+        self.assertIn("[lacks-damping]", told)
+        self.assertIn("on an ideal device: it needs 1.5 N s/m of damping, at least 0 is there, 1.5 is missing", told)
+        told = self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified", "--certificate", "c.json").stderr
+        self.assertIn("[lacks-damping]", told)
+        passivity = json.loads((self.folder / "c.json").read_text())["passivity"]
+        missing = float(re.search(r"(\S+) is missing", told).group(1))
+        self.assertAlmostEqual(missing / (passivity["needed_damping"] - passivity["assured_damping"]), 1, delta=1e-5)
+        self.write("touch.json", network('{ "spring": 500 }', "touch", '"contact": { "at": 0 },'))
+        told = self.dashpot("compile", "touch.json", "--device", BOARD).stderr
+        self.assertRegex(told, r"touches late.*; it needs \S+ N s/m of damping, at least \S+ is there, \S+ is missing \[nothing-proved\]")
+        self.assertEqual(self.dashpot("compile", "kelvin.json").stderr, "")
+
     def test_every_remedy_as_it_is_told(self):
         """Fails if a brake, a share or a rate that is said to do would not, typed as it is printed: for a linear network, one with a slip at
         the tool, and one whose brake follows its slip."""
@@ -489,7 +565,7 @@ class Certified(CommandTest):
 
     def test_a_faster_loop_as_a_remedy(self):
         """Fails if a rate is not offered where it would do."""
-        self.write("stiff.json", network('{ "parallel": [ { "spring": 100000 }, { "damper": 5 } ] }', "stiff"))
+        self.write("stiff.json", network('{ "parallel": [ { "spring": 30000 }, { "damper": 5 } ] }', "stiff"))
         done = self.refused("compile", "stiff.json", "--device", BOARD, code="not-certified")
         self.assertIn("a loop at ", done.stderr)
 

@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const SourceFile certificate("certificate.json", both.substr(0, middle)), header("header.hpp", both.substr(after));
   SourceFiles files;
   Diagnostics diagnostics;
-  const auto verified = verify_texts(certificate, header, files, diagnostics);
+  const auto verified = verify_texts(certificate, header, true, files, diagnostics);
   if (verified.has_value() == diagnostics.has_errors()) std::abort();
   render_text(diagnostics);
   render_json(diagnostics);

@@ -4,7 +4,7 @@
 #ifndef DASHPOT_COMMAND_H
 #define DASHPOT_COMMAND_H
 
-#ifdef __FAST_MATH__
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
 #error "dashpot needs IEEE arithmetic: finite checks and compensated sums do not survive -ffast-math"
 #endif
 

@@ -5,8 +5,8 @@
 // It is split into f = damping·u̇ + force: the brake makes the first part by physics, the motor makes the second.
 #pragma once
 
-#ifdef __FAST_MATH__
-#error "dashpot needs IEEE arithmetic: finite checks and compensated sums do not survive -ffast-math"
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "dashpot needs IEEE arithmetic: finite checks and compensated sums survive no -ffast-math or -ffinite-math-only"
 #endif
 
 namespace dashpot {

@@ -43,10 +43,68 @@ TEST(HoldBound, GivesWayToTheSampledOne) {
   SampledLoop late = plain_loop(0.001), lagging = plain_loop(0.001);
   late.delay_samples = 1;
   lagging.amplifier_lag = 0.0002;
-  EXPECT_EQ(passivity_bound(spring_motor(1000), late).proof, Proof::sampled);
+  EXPECT_EQ(passivity_bound(spring_motor(1000), late).proof, Proof::hold);
   EXPECT_EQ(passivity_bound(spring_motor(1000), lagging).proof, Proof::sampled);
   EXPECT_EQ(passivity_bound(damper_motor(-1), plain_loop(0.001)).proof, Proof::sampled);
   EXPECT_EQ(passivity_bound(std::nullopt, plain_loop(0.001)).proof, Proof::none);
+}
+
+// Late by n samples, β would not count 1 + 2n times, or the longest hold not as before.
+TEST(HoldBound, CountsTheDelay) {
+  for (const unsigned delay : {1u, 2u, 5u}) {
+    SampledLoop loop = plain_loop(0.001);
+    loop.delay_samples = delay;
+    loop.jitter = 0.0002;
+    const PassivityBound bound = passivity_bound(spring_motor(1000), loop);
+    EXPECT_EQ(bound.proof, Proof::hold);
+    EXPECT_FALSE(bound.constant_period_only);
+    EXPECT_NEAR(bound.needed, 500 * 0.0012 * (1 + 2 * delay), 1e-12);
+  }
+}
+
+// More would be asked of a late network than one of the two statements asks.
+TEST(HoldBound, GivesWayWhereTheOtherAsksLess) {
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    SampledLoop loop = plain_loop(random.log_uniform(1e-4, 1e-2));
+    loop.delay_samples = unsigned(random.between(1, 4));
+    loop.jitter = loop.sample_period * random.uniform();
+    MotorConstants motor = spring_motor(random.log_uniform(1, 1e3));
+    for (std::size_t i = random.between(0, 3); i > 0; --i)
+      add_maxwell(motor, random.log_uniform(1, 1e3), random.log_uniform(1e-3, 10) / loop.sample_period,
+                  loop.sample_period, true);
+    const double beta = hold_stiffness(motor).convert_to<double>(), longest = loop.longest_hold();
+    const double supremum = bound_of(motor, loop).needed * longest / loop.sample_period;
+    const double held = beta * (1 + 2 * loop.delay_samples) * longest;
+    EXPECT_LE(supremum, held * (1 + 1e-6));
+    const PassivityBound bound = passivity_bound(motor, loop);
+    EXPECT_LE(bound.needed, std::min(supremum, held) * (1 + 1e-6));
+    EXPECT_GE(bound.needed, std::min(supremum, held) * (1 - 1e-12));
+    EXPECT_FALSE(bound.constant_period_only);
+  }
+}
+
+// Without lag jitter would cost nothing, or not be covered; with lag it would be said to be.
+TEST(SampledStatement, CoversJitterWithoutLagAlone) {
+  SampledLoop loop = differencing_loop(0.001, 5);
+  loop.delay_samples = 1;
+  MotorConstants motor = damper_motor(5);
+  motor.static_stiffness = 500;
+  const PassivityBound punctual = passivity_bound(motor, loop);
+  EXPECT_NEAR(punctual.needed, 3.352243202, 1e-6);
+  loop.jitter = 0.0005;
+  const PassivityBound late = passivity_bound(motor, loop);
+  EXPECT_FALSE(late.constant_period_only);
+  EXPECT_NEAR(late.needed, 1.5 * punctual.needed, 1e-12);
+  loop.amplifier_lag = 0.0002;
+  EXPECT_TRUE(passivity_bound(motor, loop).constant_period_only);
+  loop.velocity.estimator = estimator_kind::foaw;
+  loop.velocity.window = 8;
+  loop.amplifier_lag = loop.jitter = 0;
+  const double adaptive = passivity_bound(motor, loop).needed;
+  loop.jitter = 0.0005;
+  EXPECT_NEAR(passivity_bound(motor, loop).needed, 1.5 * adaptive, 1e-12);
 }
 
 }  // namespace

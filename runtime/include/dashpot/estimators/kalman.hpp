@@ -41,6 +41,7 @@ class kalman {
   }
 
   constexpr double alpha() const noexcept { return 1 - root_ * root_; }
+  constexpr double leak() const noexcept { return root_ * root_; }  // 1 − α, without cancellation
   constexpr double beta() const noexcept { return 2 * (1 - root_) * (1 - root_); }
   constexpr double manoeuvre_index() const noexcept { return manoeuvre_; }  // Λ
 

@@ -1,0 +1,110 @@
+// Whatever the compiler writes `verify` has to accept: headers and certificates of random laws with slips, through
+// both.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "commands/verify_texts.hpp"
+#include "compile.hpp"
+#include "emit/emission.hpp"
+#include "source/render.hpp"
+#include "support/random.hpp"
+#include "support/random_network.hpp"
+#include "support/repetitions.hpp"
+#include "verify/certificate_file.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using namespace dashpot::compiler;
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(DASHPOT_SOURCE_DIR + ("/" + path));
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// What `verify` says against them; empty where it says nothing, or where nothing was written.
+std::string faults(const std::string& network_text, const std::optional<std::string>& device_text,
+                   const Choices& choices, int& written) {
+  const SourceFile network("network.json", network_text);
+  Diagnostics diagnostics;
+  SourceFiles files;
+  std::optional<Device> device;
+  if (device_text) device = read_device(files.keep("device.json", *device_text), diagnostics);
+  const std::optional<Compilation> compiled = compile(network, choices, device, diagnostics);
+  if (!compiled) return "";
+  const auto emitted = emit_cpp(*compiled, {}, diagnostics);
+  if (!emitted) return "";
+  ++written;
+  const std::string& header = emitted->front().text;
+  const SourceFile certificate("certificate.json",
+                               certificate_text(*compiled, choices, network_text, device_text, header)),
+      file("header.hpp", header);
+  Diagnostics found;
+  if (verify_texts(certificate, file, true, files, found)) return "";
+  return render_text(found);
+}
+
+std::string with_elements(const std::string& elements) {
+  return R"({"dashpot": 1, "name": "known", "motion": "translation", )" + elements + "}";
+}
+
+// Sound headers would be refused: yield forces summed in another order, a brake that has all the dampers of a cut, a
+// relaxation that is over within a sample beside a slow one.
+TEST(VerifiedHeaders, OfLawsThatWereRefused) {
+  const std::string networks[] = {
+      R"("network": {"series": [{"spring": 100}, {"parallel": [{"slip": 0.1}, {"slip": 0.2}, {"slip": 0.3}]}]})",
+      R"("network": {"parallel": [{"spring": 3}, {"series": [{"spring": 100}, {"parallel": [{"slip": 0.1}, {"slip": 0.2},
+         {"slip": 0.3}, {"series": [{"spring": 7}, {"slip": 0.7}]}]}]}]})",
+      R"("elements": [{"spring": 40, "nodes": ["tool", "p"]}, {"spring": 30, "nodes": ["tool", "q"]},
+         {"spring": 20, "nodes": ["p", "q"]}, {"slip": 0.1, "nodes": ["p", "ground"]}, {"slip": 0.2, "nodes": ["p", "ground"]},
+         {"slip": 0.3, "nodes": ["p", "ground"]}, {"slip": 1, "nodes": ["q", "ground"]}])",
+      R"("elements": [{"damper": 1, "nodes": ["n0", "ground"]}, {"damper": 2, "nodes": ["tool", "n0"]},
+         {"slip": 1, "nodes": ["n1", "tool"]}, {"spring": 1, "nodes": ["ground", "n1"]}, {"spring": 1, "nodes": ["n1", "n0"]}])",
+      R"("network": {"series": [{"parallel": [{"damper": 1}, {"spring": 1}]},
+         {"series": [{"slip": 1}, {"spring": 1287}, {"damper": 0.02}]}]})"};
+  int written = 0;
+  for (const std::string& network : networks)
+    for (const char* decomposition : {"most-dissipative", "velocity-free", "virtual"})
+      for (const ScalarType scalar : {ScalarType::float64, ScalarType::float32}) {
+        Choices choices;
+        choices.decomposition = decomposition;
+        choices.scalar = scalar;
+        EXPECT_EQ(faults(with_elements(network), std::nullopt, choices, written), "") << network << decomposition;
+      }
+  EXPECT_GE(written, 24);
+}
+
+// The same of networks that nobody chose.
+TEST(VerifiedHeaders, OfRandomNetworksWithSlips) {
+  const std::uint64_t cases = repetitions(40, 2700);
+  const std::string devices[] = {"", text_of("runtime/devices/board_mps2.json"),
+                                 text_of("runtime/devices/pantograph_brake_2009.json")};
+  const char* laws[] = {"most-dissipative", "velocity-free", "gated", "compensated", "virtual"};
+  int written = 0;
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    Random random(seed + 90000);
+    NetworkRecipe recipe;
+    recipe.topology = random.chance(0.6) ? Topology::tree : Topology::graph;
+    recipe.most_nodes = 7;
+    recipe.most_slips = recipe.topology == Topology::tree ? 6 : 4;
+    if (random.chance(0.5)) recipe.smallest_value = 1e-1, recipe.largest_value = 1e3;
+    std::string network = json_text(random_network(seed + 90000, recipe));
+    if (random.chance(0.15)) network.insert(1, R"("contact": {"at": 0.002},)");
+    Choices choices;
+    choices.scheme = random.chance(0.75) ? Scheme::exact : Scheme::backward_euler;
+    choices.scalar = random.chance(0.8) ? ScalarType::float64 : ScalarType::float32;
+    choices.decomposition = laws[random.chance(0.5) ? 0 : random.index(5)];
+    const std::string& device = devices[random.index(3)];
+    if (device.empty() && random.chance(0.5)) choices.rate = random.log_uniform(100, 20000);
+    SCOPED_TRACE(seed);
+    EXPECT_EQ(faults(network, device.empty() ? std::nullopt : std::optional(device), choices, written), "") << network;
+  }
+  EXPECT_GE(written, int(cases * 8 / 10));
+}
+
+}  // namespace
+}  // namespace dashpot::testing

@@ -1,0 +1,211 @@
+// The bound over all frequencies against the condition itself in 50 digits, where doubles lose theirs: slow and fast
+// modes, estimators whose poles lie next to 1 or to −1.
+#include <gtest/gtest.h>
+
+#include <dashpot/estimators/kalman.hpp>
+
+#include "linear/real.hpp"
+#include "motors.hpp"
+#include "support/random.hpp"
+#include "support/repetitions.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using dashpot::testing::Random;
+using dashpot::testing::repetitions;
+
+struct Exact {
+  Real real = 0, imaginary = 0;
+  friend Exact operator+(const Exact& x, const Exact& y) { return {x.real + y.real, x.imaginary + y.imaginary}; }
+  friend Exact operator-(const Exact& x, const Exact& y) { return {x.real - y.real, x.imaginary - y.imaginary}; }
+  friend Exact operator*(const Exact& x, const Exact& y) {
+    return {x.real * y.real - x.imaginary * y.imaginary, x.real * y.imaginary + x.imaginary * y.real};
+  }
+  friend Exact operator/(const Exact& x, const Exact& y) {
+    const Real square = y.real * y.real + y.imaginary * y.imaginary;
+    return {(x.real * y.real + x.imaginary * y.imaginary) / square,
+            (x.imaginary * y.real - x.real * y.imaginary) / square};
+  }
+  Real square() const { return real * real + imaginary * imaginary; }
+};
+
+Real half_turn() { return 4 * atan(Real(1)); }
+
+// E(z) as the runtime's headers state it: Butterworth's sections by the bilinear transform, 1/(1 + k s + s²) with
+// s = (1 − w)/(g (1 + w)), of the one-sample difference; the filter in its steady state by its recursion.
+Exact estimate(const SampledLoop& loop, const Exact& w) {
+  const Exact one{1, 0}, difference = (one - w) * Exact{1 / Real(loop.sample_period), 0};
+  const velocity_description& v = loop.velocity;
+  if (v.estimator == estimator_kind::backward_difference) {
+    Exact sum, power = one;
+    for (unsigned i = 0; i < v.window; ++i, power = power * w) sum = sum + power;
+    return difference * sum * Exact{1 / Real(v.window), 0};
+  }
+  if (v.estimator == estimator_kind::kalman) {
+    const kalman<double> filter(v.acceleration, loop.joint_encoder_step, loop.sample_period);
+    const Real leak = filter.leak(), gain = filter.beta() / loop.sample_period;  // as rounded in the recursion
+    const Real sum = 1 + leak - gain * Real(loop.sample_period);
+    return Exact{gain, 0} * (one - w) / (one - Exact{sum, 0} * w + Exact{leak, 0} * w * w);
+  }
+  const Real g = tan(half_turn() * Real(v.cutoff) * Real(loop.sample_period));
+  Exact response = difference;
+  for (unsigned i = 0; i < v.order / 2; ++i) {
+    const Real k = 2 * sin(half_turn() * Real(v.order - 1 - 2 * i) / Real(2 * v.order));
+    const Exact up = one + w, down = one - w;
+    const Exact denominator = up * up * Exact{g * g, 0} + Exact{k * g, 0} * up * down + down * down;
+    response = response * up * up * Exact{g * g, 0} / denominator;
+  }
+  return response;
+}
+
+// Colgate & Schenkel's condition; with lag the eigenvalue of the form of needed_damping.hpp.
+Real needed_in_digits(const MotorConstants& motor, const SampledLoop& loop, const Real& angle) {
+  const Exact w{cos(angle), -sin(angle)}, one{1, 0};
+  const Real half = sin(angle / 2);
+  const Exact delta{2 * half * half, sin(angle)};
+  Exact from_position{motor.step_stiffness, 0}, from_velocity{motor.velocity_gain, 0};
+  for (const MotorMode& mode : motor.modes) {
+    const Real decay = motor.loss_is_emitted ? 1 - Real(mode.loss) : Real(mode.decay);
+    const Exact memory = w / (one - Exact{decay, 0} * w);
+    from_position = from_position + Exact{mode.position_drive, 0} * memory;
+    from_velocity = from_velocity + Exact{mode.velocity_drive, 0} * memory;
+  }
+  Exact H = Exact{motor.static_stiffness, 0} + delta * from_position;
+  if (motor.follows_estimate()) H = H + estimate(loop, w) * from_velocity;
+  for (unsigned i = 0; i < loop.delay_samples; ++i) H = H * w;
+  const Real T = loop.sample_period, held = T * (delta * H).real / delta.square();
+  if (loop.amplifier_lag == 0) return held;
+  const Real y = T / Real(loop.amplifier_lag), q = exp(-y), p = (1 - q) / y, spread = p * ((1 + q) / 2 - p);
+  const Exact lagged = w * H / (one - Exact{q, 0} * w);
+  const Real R = held + p * T * lagged.real;
+  const Real Z = spread * T * T * H.square() / (one - Exact{q, 0} * w).square();
+  return (R + sqrt(R * R + Z)) / 2;
+}
+
+// The highest of angles spread over the decades next to rest and next to Nyquist, and what lies around it.
+Real highest_in_digits(const MotorConstants& motor, const SampledLoop& loop, int points) {
+  std::vector<Real> angles;
+  for (int i = 0; i <= points; ++i) {
+    const Real share = pow(Real(10), Real(-14) * i / points);
+    angles.push_back(half_turn() * share);
+    angles.push_back(half_turn() * (1 - share / 2));
+    if (i > 0) angles.push_back(half_turn() * i / points);
+  }
+  Real best = angles.front(), most = needed_in_digits(motor, loop, best);
+  for (const Real& angle : angles)
+    if (const Real here = needed_in_digits(motor, loop, angle); here > most) most = here, best = angle;
+  const Real reach = std::min(best, Real(half_turn() - best));
+  for (Real step = (reach > 0 ? reach : best) / 4; step > 1e-12 * best; step *= Real(0.6))
+    for (const Real& angle : {Real(best - step), Real(best + step)}) {
+      if (angle <= 0 || angle > half_turn()) continue;
+      if (const Real here = needed_in_digits(motor, loop, angle); here > most) most = here, best = angle;
+    }
+  return most;
+}
+
+MotorConstants extreme_motor(Random& random, double period) {
+  MotorConstants motor = spring_motor(random.chance(0.4) ? 0 : random.log_uniform(1e-2, 1e4));
+  if (random.chance(0.8)) motor.velocity_gain = (random.chance(0.5) ? -1 : 1) * random.log_uniform(1e-3, 100);
+  const std::size_t modes = random.between(0, 4);
+  for (std::size_t i = 0; i < modes; ++i)
+    add_maxwell(motor, random.log_uniform(1e-2, 1e4), random.log_uniform(1e-6, 10) / period, period,
+                random.chance(0.6));
+  return motor;
+}
+
+SampledLoop extreme_loop(Random& random) {
+  SampledLoop loop = plain_loop(random.log_uniform(1e-4, 5e-3));
+  loop.has_device = true;
+  loop.delay_samples = random.chance(0.5) ? 0 : unsigned(random.between(1, 4));
+  if (random.chance(0.25)) loop.amplifier_lag = loop.sample_period * random.log_uniform(0.05, 20);
+  loop.joint_encoder_step = random.log_uniform(1e-9, 1e-4);
+  const estimator_kind kinds[] = {estimator_kind::backward_difference, estimator_kind::butterworth,
+                                  estimator_kind::kalman, estimator_kind::kalman};
+  loop.velocity.estimator = kinds[random.index(4)];
+  loop.velocity.window = unsigned(random.between(1, 30));
+  loop.velocity.order = random.chance(0.5) ? 2 : 4;
+  const double below = random.log_uniform(1e-7, 0.49);  // the rate's half
+  loop.velocity.cutoff = (random.chance(0.5) ? 0.5 - below : below) / loop.sample_period;
+  // Λ from 1e-3 to 1e12
+  loop.velocity.acceleration = random.log_uniform(1e-3, 1e12) * loop.joint_encoder_step /
+                               (std::sqrt(12.0) * loop.sample_period * loop.sample_period);
+  return loop;
+}
+
+// The certificate would promise less damping than some frequency needs, or ask for more than any does.
+void expect_supremum_of(const MotorConstants& motor, const SampledLoop& loop, int points, double looseness = 1e-6) {
+  const std::optional<EstimatorFactors> factors = estimator_factors(loop);
+  ASSERT_TRUE(factors);
+  const NeededDamping needed(motor, loop, *factors);
+  const SampledBound bound = sampled_bound(needed, loop.sample_period);
+  const Real most = highest_in_digits(motor, loop, points);
+  EXPECT_GE(Real(bound.needed), most);
+  // Ill-conditioned terms are known to their rounding, times the number of operations on them.
+  const double margin = std::max(1e-9, 8 * needed.roundoff()) * needed.scale();
+  EXPECT_LE(bound.needed, std::max(to_double(most), 0.0) * (1 + looseness) + margin);
+}
+
+TEST(Supremum, IsMetByRandomMotorsToTheEndsOfTheirRanges) {
+  const std::uint64_t cases = repetitions(60, 3000);
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed + 7000);
+    const SampledLoop loop = extreme_loop(random);
+    const MotorConstants motor = extreme_motor(random, loop.sample_period);
+    expect_supremum_of(motor, loop, 120);
+    if (::testing::Test::HasFailure() && seed > 20) return;
+  }
+}
+
+// A pole of the filter next to −1 would keep no digits, and the bound fall below the supremum.
+TEST(Supremum, OfAnEstimateThatFollowsEverySample) {
+  for (const double manoeuvre : {1e6, 1e7, 3e7, 1e8, 1e10, 1e12}) {
+    SCOPED_TRACE(manoeuvre);
+    SampledLoop loop = plain_loop(0.001);
+    loop.has_device = true;
+    loop.joint_encoder_step = 1e-6;
+    loop.velocity.estimator = estimator_kind::kalman;
+    loop.velocity.acceleration = manoeuvre * 1e-6 / (std::sqrt(12.0) * 1e-6);
+    // Angles next to Nyquist are known to 2⁻⁵³, and a pole 4/Λ away from it so to Λ 2⁻⁵⁵ of that.
+    const double looseness = 1e-6 + manoeuvre * 0x1p-50;
+    for (const double gain : {1.0, -1.0}) expect_supremum_of(damper_motor(gain), loop, 200, looseness);
+  }
+}
+
+// Nothing would be said of an estimate whose recursion, rounded, no longer dies away.
+TEST(Supremum, OfNoEstimateThatRings) {
+  SampledLoop loop = plain_loop(0.001);
+  loop.has_device = true;
+  loop.joint_encoder_step = 1e-9;
+  loop.velocity.estimator = estimator_kind::kalman;
+  loop.velocity.acceleration = 1e30;
+  EXPECT_FALSE(estimator_factors(loop));
+  EXPECT_EQ(passivity_bound(damper_motor(1), loop).proof, Proof::none);
+}
+
+// A filter that never amplifies would cost damping because its cut-off is near half the rate, or be given up. What its
+// brake leaves to the motor is below half the viscosity, so that no delay and no filter costs any (theory, section 4).
+TEST(Supremum, OfAFilterNearHalfTheRate) {
+  for (const double share : {0.4, 0.49, 0.498, 0.499, 0.4999, 0.499999})
+    for (const unsigned order : {2u, 4u}) {
+      SCOPED_TRACE(share);
+      SampledLoop loop = plain_loop(0.001);
+      loop.has_device = true;
+      loop.velocity.estimator = estimator_kind::butterworth;
+      loop.velocity.order = order;
+      loop.velocity.cutoff = share * 1000;
+      // A Maxwell element of 50 N·s/m, all of which the brake has: velocity driven, −b + k/(s + λ).
+      MotorConstants motor = damper_motor(-50);
+      motor.brake = 50;
+      add_maxwell(motor, 500, 10, loop.sample_period, false);
+      expect_supremum_of(motor, loop, 200);
+      const PassivityBound bound = passivity_bound(motor, loop);
+      EXPECT_EQ(bound.proof, Proof::sampled);
+      EXPECT_LE(bound.needed, 50 * (1 + 1e-9));
+      EXPECT_EQ(missing_damping(bound, loop, 50.0001), 0);
+    }
+}
+
+}  // namespace
+}  // namespace dashpot::compiler

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -12,8 +13,11 @@
 #include "commands/hand_motion.hpp"
 #include "commands/live_line.hpp"
 #include "commands/model_library.hpp"
+#include "commands/played_motion.hpp"
 #include "compile.hpp"
+#include "emit/write_files.hpp"
 #include "insist.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -117,10 +121,50 @@ bool asks_a_board_to_be_simulated(const Options& options, Diagnostics& diagnosti
   return diagnostics.has_errors();
 }
 
+// A recorded motion takes as long as it takes, and needs no hand and no board.
+bool asks_for_more_than_a_motion(const Options& options, Diagnostics& diagnostics) {
+  if (!options.motion) {
+    if (options.json) diagnostics.report<DiagnosticCode::motion_only>({}, "--json");
+    return diagnostics.has_errors();
+  }
+  if (options.port) diagnostics.report<DiagnosticCode::not_with_motion>({}, "--port");
+  if (options.hand) diagnostics.report<DiagnosticCode::not_with_motion>({}, "--hand");
+  if (options.duration) diagnostics.report<DiagnosticCode::not_with_motion>({}, "--for");
+  return diagnostics.has_errors();
+}
+
+void warn_of_range(const Compilation& c, const Motion& motion, const SourceFile& file, Diagnostics& diagnostics) {
+  const device_description& device = c.device->description;
+  const double ratio = transmission<double>(device, c.network.port_motion).ratio();
+  const auto [least, most] = std::minmax_element(motion.position.begin(), motion.position.end());
+  const double low = device.encoder.range_low * ratio, high = device.encoder.range_high * ratio;
+  if (low < high && (*least < low || *most > high))
+    diagnostics.report<DiagnosticCode::motion_beyond_encoder>({&file, 0, 0}, *least, *most, low, high,
+                                                              port_units(c.network.port_motion).position);
+}
+
+ExitStatus play_motion(const Options& options, const Compilation& compilation, SourceFiles& files,
+                       Diagnostics& diagnostics) {
+  const SourceFile* input = files.open(*options.motion, diagnostics);
+  const std::optional<Motion> motion = input ? parse_motion(*input, diagnostics) : std::nullopt;
+  if (!motion) return ExitStatus::input_refused;
+  const std::string log = log_name(options, compilation);
+  if (!spares_inputs(options, {log}, diagnostics)) return ExitStatus::command_line_wrong;
+  warn_of_range(compilation, *motion, *input, diagnostics);
+  const std::optional<PlayedMotion> played =
+      play(compilation, options.choices, *motion, options.seed.value_or(0), diagnostics);
+  if (!played || diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (!write_files("", {{log, csv_of(*played)}}, diagnostics)) return ExitStatus::input_refused;
+  return write_standard_output(
+      options.json ? to_json(*played, compilation, log) : to_text(*played, compilation) + "log: " + log + "\n",
+      diagnostics);
+}
+
 }  // namespace
 
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  if (asks_a_board_to_be_simulated(options, diagnostics)) return ExitStatus::command_line_wrong;
+  if (asks_a_board_to_be_simulated(options, diagnostics) || asks_for_more_than_a_motion(options, diagnostics))
+    return ExitStatus::command_line_wrong;
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = files.open(options.networks.front(), diagnostics);
@@ -128,6 +172,7 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
       file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   warn_of_driving_uncertified(*compilation, diagnostics);
+  if (options.motion) return play_motion(options, *compilation, files, diagnostics);
   std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);
   if (!model) return ExitStatus::input_refused;
   if (!options.json_diagnostics)

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "commands/commands.hpp"
-#include "commands/motion_cell.hpp"
 #include "commands/motion_csv.hpp"
+#include "commands/value_columns.hpp"
 #include "compile.hpp"
 #include "law/evaluate.hpp"
 #include "emit/write_files.hpp"
@@ -46,75 +46,6 @@ void warn_once_outside(const std::optional<Range>& range, double value, double t
   diagnostics.report<DiagnosticCode::outside_valid_range>(network.valid.span, what, value, unit, time, range->low,
                                                           range->high);
 }
-
-// Columns of the motion that are called like tunables.
-class ValueColumns {
- public:
-  // Refuses: a cell that is no finite number, a column given twice, a tunable that is called like one of the motion's
-  // own.
-  ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) : network_(c.network) {
-    if (!c.law.tunable) return;
-    tunables_ = c.law.tunable->tunables;
-    warned_.resize(tunables_.size());
-    for (const Tunable& tunable : tunables_) {
-      refuse_name_of_motion(tunable.name, diagnostics);
-      columns_.push_back(column_of(tunable.name, motion, diagnostics));
-    }
-    is_empty_ =
-        std::all_of(columns_.begin(), columns_.end(), [](const OtherColumn* column) { return column == nullptr; });
-  }
-
-  // Sets the values of a row, and warns once of each tunable that is out of its range.
-  template <class Scalar>
-  void set(Evaluation<Scalar>& law, std::size_t row, double time, Diagnostics& diagnostics) {
-    if (is_empty_) return;
-    std::vector<Scalar> values;
-    for (std::size_t i = 0; i < tunables_.size(); ++i) {
-      const tunable_range<double>& range = tunables_[i].range;
-      const double value = columns_[i] == nullptr ? range.value : columns_[i]->values[row];
-      warn_once_outside_range(i, value, time, diagnostics);
-      values.push_back(static_cast<Scalar>(value));
-    }
-    law.set(values);
-  }
-
- private:
-  void warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics) {
-    const Tunable& tunable = tunables_[i];
-    if (warned_[i] || (value >= tunable.range.min && value <= tunable.range.max)) return;
-    warned_[i] = true;
-    diagnostics.report<DiagnosticCode::outside_tunable_range>(place_of(tunable.name), tunable.name, value, tunable.unit,
-                                                              time, tunable.range.min, tunable.range.max);
-  }
-
-  Span place_of(const std::string& tunable) const {
-    return std::find_if(network_.parameters.begin(), network_.parameters.end(),
-                        [&](const Parameter& p) { return p.name == tunable; })
-        ->span;
-  }
-
-  // Its column would be the motion's, so that nothing could ever set it.
-  void refuse_name_of_motion(const std::string& tunable, Diagnostics& diagnostics) const {
-    if (std::find(std::begin(own_columns), std::end(own_columns), tunable) != std::end(own_columns))
-      diagnostics.report<DiagnosticCode::tunable_named_as_column>(place_of(tunable), tunable);
-  }
-
-  static const OtherColumn* column_of(const std::string& name, const Motion& motion, Diagnostics& diagnostics) {
-    const auto is_named = [&](const OtherColumn& column) { return column.name == name; };
-    const auto found = std::find_if(motion.others.begin(), motion.others.end(), is_named);
-    if (found == motion.others.end()) return nullptr;
-    const auto again = std::find_if(found + 1, motion.others.end(), is_named);
-    if (again != motion.others.end()) diagnostics.report<DiagnosticCode::csv_column_twice>(again->span, name);
-    if (found->not_a_number) report_cell(*found->not_a_number, name, diagnostics);
-    return &*found;
-  }
-
-  const Network& network_;
-  std::vector<Tunable> tunables_;
-  std::vector<const OtherColumn*> columns_;
-  std::vector<bool> warned_;
-  bool is_empty_ = true;
-};
 
 template <class Scalar>
 std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) {
@@ -160,6 +91,7 @@ ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics&
   const std::string text = choices.scalar == ScalarType::float64 ? simulate<double>(*compilation, *motion, diagnostics)
                                                                  : simulate<float>(*compilation, *motion, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (device.device) diagnostics.report<DiagnosticCode::law_alone>({}, device.device->name);
   if (!options.output) return write_standard_output(text, diagnostics);
   return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }

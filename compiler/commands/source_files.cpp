@@ -47,6 +47,7 @@ bool spares_inputs(const Options& options, const std::vector<std::string>& outpu
   if (!options.input.empty()) inputs.push_back(options.input);
   for (const std::vector<std::string>* recordings : {&options.fit.recordings, &options.fit.hold_out})
     inputs.insert(inputs.end(), recordings->begin(), recordings->end());
+  if (options.motion) inputs.push_back(*options.motion);
   bool spares = true;
   for (const std::string& output : outputs)
     for (const std::string& input : inputs) {

@@ -9,6 +9,10 @@
 namespace dashpot::compiler {
 namespace {
 
+// All of the standard library that the runtime's estimators ask for; there is none for a page.
+constexpr const char* cstdint =
+    "#pragma once\n#include <stdint.h>\nnamespace std {\nusing ::int64_t;\nusing ::uint32_t;\nusing ::uint64_t;\n}\n";
+
 std::vector<std::string> compilers() {
   const char* chosen = std::getenv("DASHPOT_CLANG");
   if (chosen != nullptr && *chosen != '\0') return {chosen};
@@ -18,8 +22,8 @@ std::vector<std::string> compilers() {
 int compile_to_wasm(const std::string& compiler, const std::filesystem::path& folder, const std::string& name) {
   return run_program(
       {compiler, "--target=wasm32", "-std=c++17", "-O2", "-ffreestanding", "-nostdlib", "-fno-exceptions", "-fno-rtti",
-       "-ffp-contract=off", "-mbulk-memory", "-I" + runtime_headers(), "-Wl,--no-entry", "-Wl,--strip-all",
-       (folder / (name + "_live.cpp")).string(), "-o", (folder / "live.wasm").string()},
+       "-ffp-contract=off", "-mbulk-memory", "-I" + runtime_headers(), "-I" + folder.string(), "-Wl,--no-entry",
+       "-Wl,--strip-all", (folder / (name + "_live.cpp")).string(), "-o", (folder / "live.wasm").string()},
       (folder / "compiler.log").string());
 }
 
@@ -28,7 +32,8 @@ int compile_to_wasm(const std::string& compiler, const std::filesystem::path& fo
 std::optional<std::string> web_module(const Compilation& compilation, Diagnostics& diagnostics) {
   EmissionOptions options;
   options.with_live = true;
-  const auto files = emit_cpp(compilation, options, diagnostics);
+  auto files = emit_cpp(compilation, options, diagnostics);
+  if (files) files->push_back({"cstdint", cstdint});
   const TemporaryFolder folder;
   if (folder.path().empty()) {
     diagnostics.report<DiagnosticCode::no_live_response>(

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dashpot/led_device.hpp>
 
 #include "emit/template_text.hpp"
 #include "report/agreement.hpp"
@@ -74,16 +75,24 @@ double live_duration(const Compilation& c) {
 
 void add_live_part(const Compilation& c, bool there, CodeModel& model) {
   const PortUnits units = page_units(c.network.port_motion);
-  for (const char* list : {"live", "live_end", "still", "sliders"}) model.lists[list];
+  for (const char* list : {"live", "led", "live_controls", "live_end", "still", "sliders"}) model.lists[list];
   if (!there) {
     model.lists["still"].push_back({{"why",
                                      "Left out: when this page was written there was no clang with lld to compile the "
                                      "emitted code to WebAssembly."}});
     return;
   }
-  model.lists["live"].push_back({{"depth", c.network.port_motion == motion::rotation ? "0.1" : "0.001"},
-                                 {"duration", fmt::format("{:g}", live_duration(c))},
-                                 {"position_unit", units.position}});
+  const std::string felt =
+      c.device ? fmt::format(
+                     "What is felt of it on {} is computed beside it, by the encoder, estimator, delay, amplifier "
+                     "and coil of the device, without jitter; a recording may have any uniform rate.",
+                     escaped(c.device->name))
+               : "";
+  model.lists["live"].push_back({{"felt", felt}});
+  if (c.device) model.lists["led"].push_back({});
+  model.lists["live_controls"].push_back({{"depth", c.network.port_motion == motion::rotation ? "0.1" : "0.001"},
+                                          {"duration", fmt::format("{:g}", live_duration(c))},
+                                          {"position_unit", units.position}});
   model.lists["live_end"].push_back({});
   if (c.law.tunable) model.lists["sliders"].push_back({{"middle", fmt::format("{:g}", live_duration(c) / 2)}});
 }
@@ -97,13 +106,32 @@ std::string tunables_json(const UpdateLaw& law) {
   return "[" + json + "]";
 }
 
+// What a linear network opposes to a motion, as a page needs it; nothing for another.
+std::string form_json(const Compilation& c) {
+  if (c.form.has_slips() || c.network.contact || c.law.tunable) return "null";
+  std::string modes;
+  for (const Mode& mode : c.form.linear.modes)
+    modes += fmt::format("{}[{},{}]", modes.empty() ? "" : ",", json_literal(to_double(mode.relaxation_rate)),
+                         json_literal(to_double(mode.damping())));
+  return fmt::format("{{\"static_stiffness\":{},\"feedthrough_damping\":{},\"modes\":[{}]}}",
+                     json_literal(to_double(c.form.linear.static_stiffness)),
+                     json_literal(to_double(c.form.linear.feedthrough_damping)), modes);
+}
+
+// In samples, what the device has before a motion begins.
+std::string device_json(const Compilation& c) {
+  if (!c.device) return "null";
+  return fmt::format("{{\"name\":{},\"lead_in\":{}}}", json_literal(c.device->name),
+                     lead_in_samples(c.device->description));
+}
+
 std::string live_json(const Compilation& c, const std::string& module) {
   const PortUnits units = page_units(c.network.port_motion);
   return fmt::format(
       "{{\"period\":{},\"rate\":{},\"scalar\":\"{}\",\"position_unit\":{},\"force_unit\":{},\"tunables\":{},"
-      "\"module\":\"{}\"}}",
+      "\"device\":{},\"form\":{},\"module\":\"{}\"}}",
       c.law.sample_period, c.rate, name_of(c.law.scalar), json_literal(units.position), json_literal(units.force),
-      tunables_json(c.law), base64(module));
+      tunables_json(c.law), device_json(c), form_json(c), base64(module));
 }
 
 std::string data_json(const Compilation& c, const std::optional<std::string>& module) {
@@ -126,7 +154,7 @@ void add_page(CodeModel& model, Diagnostics& diagnostics) {
   fields["uplot"] = built_in("uPlot.iife.min.js", diagnostics);
   fields["uplot_licence"] = escaped_lines(built_in("uPlot-LICENSE", diagnostics));
   for (const char* part :
-       {"page.js", "pareto.js", "motion.js", "pad.js", "forces.js", "tunables.js", "live.js", "start.js"})
+       {"page.js", "pareto.js", "motion.js", "pad.js", "forces.js", "tunables.js", "felt.js", "live.js", "start.js"})
     fields["script"] += built_in(part, diagnostics);
 }
 

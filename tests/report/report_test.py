@@ -47,6 +47,7 @@ DOWNLOADED = """
   document.getElementById('download').click();
   URL.createObjectURL = create;
   return blob.text();"""
+DOWNLOADED_FELT = DOWNLOADED.replace("'download'", "'download-felt'")
 # Keys, as the protocol names them.
 TAB, END, HOME = "\ue004", "\ue010", "\ue011"
 # The page has shown a response, or says what is wrong.
@@ -210,7 +211,7 @@ class Pages(unittest.TestCase):
             "return [...document.querySelectorAll('button, input, select, summary, canvas#pad')]"
             ".map((e) => e.dataset.motion ?? (e.id || e.tagName))")
         known = {"press", "sine", "triangle", "steps", "upload", "download", "depth", "duration", "pad", "pareto-x", "pareto-y",
-                 "change-at", "defaults", "SUMMARY"} | {f"tunable-{name}" for name, *_ in self.tunables()}
+                 "change-at", "defaults", "SUMMARY", "download-felt"} | {f"tunable-{name}" for name, *_ in self.tunables()}
         self.assertEqual(set(found) - known, set())
     def assert_simulates(self, network, *choices, rate=1000, scalar="double"):
         for with_velocity in [False, True]:
@@ -247,6 +248,33 @@ class Pages(unittest.TestCase):
         self.click_through()
         self.assert_simulates(FIG_5, "--device", PANTOGRAPH, rate=10000)
         self.assert_quiet()
+
+    def test_what_is_felt(self):
+        """Fails if what a page says is felt of an uploaded motion, at whatever rate it was recorded, is not what `dashpot run --motion` plays on
+        the same device, for a linear network, one with slips and one with tunables."""
+        device = json.loads(PANTOGRAPH.read_text())
+        device["loop"]["jitter"] = "0 s"  # a page knows no chance
+        arm = self.write("arm.json", json.dumps(device))
+        friction = SOURCE / "networks/tunable/friction_tunable.json"
+        for network, is_linear in [(FIG_5, True), (self.write("fig_10.json", FIG_10), False), (friction, False)]:
+            with self.subTest(network=network.name):
+                self.open(network, "--device", arm)
+                motion = self.upload(wiggle(250, False, 200))
+                self.wait_for("7961 samples")
+                said = self.browser.run(SETTLED)
+                self.assertIn("error of what is felt on pantograph_brake_2009", said)
+                self.assertEqual("against the network" in said, is_linear)
+                played = self.folder / "felt.csv"
+                done = subprocess.run([DASHPOT, "run", str(network), "--device", str(arm), "--motion", str(motion), "-o", str(played), "--json"],
+                                      capture_output=True, text=True, timeout=120, check=True)
+                here, there = [list(csv.DictReader(io.StringIO(text))) for text in (self.browser.run(DOWNLOADED_FELT), played.read_text())]
+                self.assertEqual((list(here[0]), len(here)), (list(there[0]), len(there)))
+                peak = json.loads(done.stdout)["force"]["peak"]
+                exact = {"position": 1e-9, "estimate": 1e-6, "felt_force": 1e-6 * peak, "damping": 1e-6, "motor_force": 1e-6 * peak}
+                for name, close in (exact | ({"closed_form": 1e-6 * peak} if is_linear else {})).items():
+                    worst = max(abs(float(a[name]) - float(b[name])) for a, b in zip(here[:-1], there))
+                    self.assertLess(worst, close, name)
+                self.assert_quiet()
 
     def test_networks_with_slips(self):
         """Fails if a network with slips has no page of its own, with what is linear left out and the loops drawn."""

@@ -51,7 +51,7 @@ async function set_up_live(live) {
   const bytes = Uint8Array.from(atob(live.module), (c) => c.charCodeAt(0));
   const law = (await WebAssembly.instantiate(bytes)).instance.exports;
   const pad = element('pad'), holder = element('forces'), status = element('status');
-  let motion = null, response = null, chart = null, drawn = null;
+  let motion = null, response = null, felt = null, chart = null, drawn = null;
   const tunables = live.tunables.length > 0 ? set_up_tunables(live.tunables, () => motion && take(motion)) : null;
 
   function say(words, kind) {
@@ -65,8 +65,10 @@ async function set_up_live(live) {
     if (count > most_samples) return refuse(`${count} samples are more than the ${most_samples} that a page works on`);
     motion = next;
     response = response_of(law, motion, live, tunables);
+    felt = live.device ? felt_of(law, motion, response, live, tunables) : null;
     const peak = response.force.reduce((most, f) => Math.max(most, Math.abs(f)), 0);
-    say(`${count} samples at ${rounded(live.rate)} Hz; largest force ${rounded(peak)} ${live.force_unit}`, 'note');
+    say(`${count} samples at ${rounded(live.rate)} Hz; largest force ${rounded(peak)} ${live.force_unit}` +
+        (felt ? `; ${felt_text(felt, live)}` : ''), 'note');
     draw();
   }
 
@@ -83,7 +85,7 @@ async function set_up_live(live) {
     if (!response) return;
     draw_pad(pad, motion, live);
     chart?.destroy();
-    chart = forces_chart(holder, response, live);
+    chart = forces_chart(holder, response, felt, live);
   }
 
   // While it is drawn only the motion is shown; the response follows when the pointer is lifted.
@@ -96,7 +98,7 @@ async function set_up_live(live) {
 
   async function take_file(file) {
     try {
-      take(motion_of_csv(await file.text(), live.period, live.tunables));
+      take(motion_of_csv(await file.text(), live.period, live.tunables, Boolean(live.device)));
       drawn = null;
       press(null);
     } catch (error) {
@@ -117,6 +119,7 @@ async function set_up_live(live) {
     if (file) take_file(file);
   });
   element('download').addEventListener('click', () => hand_out(csv_of_response(response, tunables), `${data.name}_response.csv`));
+  if (live.device) element('download-felt').addEventListener('click', () => hand_out(csv_of_felt(felt), `${data.name}_run.csv`));
   listen_to_pad(pad, { started: () => press(null), drawn: take_drawn, finished: take_shape });
   drawings.push(draw);
   press(document.querySelector('#motions button[data-motion]'));

@@ -2,8 +2,9 @@
 // of the tunables, or null}. Without velocities they are the slope since the sample before; without times those are counted
 // from 0.
 
-// A recorded motion as `dashpot simulate` reads it. Throws what is wrong with it.
-function motion_of_csv(text, period, tunables) {
+// A recorded motion as `dashpot simulate` reads it, or, where a device is led along it, at any uniform rate as `dashpot run
+// --motion` does. Throws what is wrong with it.
+function motion_of_csv(text, period, tunables, any_rate) {
   const rows = text.replace(/^\uFEFF/, '').split('\n').map((line) => line.trim()).filter((line) => line !== '')
     .map((line) => line.split(',').map((cell) => cell.replace(/^[\s"]+|[\s"]+$/g, '')));
   if (rows.length < 2) throw new Error('no rows; a header and at least one row are expected');
@@ -17,8 +18,22 @@ function motion_of_csv(text, period, tunables) {
     if (places[name] < 0) throw new Error(`no column '${name}'; 'time' and 'position' are expected`);
   const values = (name) => Float64Array.from(rows.slice(1), (row, i) => number(row, places[name], rows[0].length, name, i + 2));
   const time = values('time'), position = values('position'), velocity = places.velocity < 0 ? null : values('velocity');
-  check_period(time, period);
-  return { time, position, velocity, values: recorded_values(rows, column, tunables) };
+  const recorded = { time, position, velocity, values: recorded_values(rows, column, tunables) };
+  return check_period(time, period, any_rate) ? recorded : resampled(recorded, period);
+}
+
+// Straight between the rows; tunables keep their values until the next.
+function resampled(motion, period) {
+  const start = motion.time[0], count = Math.floor((motion.time[motion.time.length - 1] - start) / period + 1e-9) + 1;
+  const position = new Float64Array(count), time = new Float64Array(count), values = motion.values ? [] : null;
+  for (let k = 0, row = 0; k < count; ++k) {
+    time[k] = start + k * period;
+    while (row + 2 < motion.time.length && motion.time[row + 1] <= time[k]) ++row;
+    const share = (time[k] - motion.time[row]) / (motion.time[row + 1] - motion.time[row]);
+    position[k] = motion.position[row] + share * (motion.position[row + 1] - motion.position[row]);
+    if (values) values.push(motion.values[share < 1 ? row : row + 1]);
+  }
+  return { time, position, velocity: null, values };
 }
 
 // Of columns that are called like tunables; one that has none keeps its default.
@@ -36,18 +51,20 @@ function number(row, place, count, name, line) {
   return Number(row[place]);
 }
 
-// Decimal times are rounded; the median step tells the period.
-function check_period(time, period) {
-  if (time.length < 2) return;
+// Decimal times are rounded; the median step tells the period. Whether it is the law's.
+function check_period(time, period, any_rate) {
+  if (time.length < 2) return true;
   const steps = time.slice(1).map((t, i) => t - time[i]);
   const median = steps.slice().sort()[steps.length >> 1];
   steps.forEach((step, i) => {
     if (!(Math.abs(step - median) <= 1e-6 * median + 2 ** -50 * Math.abs(time[i + 1])))
       throw new Error(`row ${i + 3} follows after ${step} s; a uniform period of ${median} s is expected`);
   });
-  if (!(Math.abs(median / period - 1) <= 1e-6))
+  const is_the_same = Math.abs(median / period - 1) <= 1e-6;
+  if (!is_the_same && !any_rate)
     throw new Error(`rows come at ${rounded(1 / median)} Hz, the law of this page runs at ${rounded(1 / period)} Hz; ` +
                     `write the report with --rate ${rounded(1 / median)}`);
+  return is_the_same;
 }
 
 // Of depth 1, over times from 0 to 1.

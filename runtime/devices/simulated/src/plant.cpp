@@ -285,4 +285,13 @@ plant_view plant::view() const noexcept {
   return seen;
 }
 
+plant_view plant::view_under(const actuation& demand) const noexcept {
+  drives next = drives_;
+  next.demand(demand);
+  plant_view now = view();
+  now.motor_torque = next.torque();
+  now.brake_damping = next.at_speed(next.damping_after(0), shaft_.velocity);
+  return now;
+}
+
 }  // namespace dashpot::simulated

@@ -40,6 +40,7 @@ class plant {
   shaft_motion shaft() const noexcept { return shaft_; }
   const energy_ledger& ledger() const noexcept { return ledger_; }
   plant_view view() const noexcept;
+  plant_view view_under(const actuation& demand) const noexcept;  // at the same instant, once that has been demanded
 
  private:
   // A step that may yet be refused, because an event lies within it.

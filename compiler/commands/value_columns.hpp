@@ -1,0 +1,39 @@
+// Columns of a recorded motion that are called like the network's tunables.
+#pragma once
+
+#include <vector>
+
+#include "commands/motion_csv.hpp"
+#include "law/evaluate.hpp"
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+class ValueColumns {
+ public:
+  // Refuses: a cell that is no finite number, a column given twice, a tunable that is called like one of the motion's
+  // own.
+  ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics);
+
+  // Sets the values of a row, and warns once of each tunable that is out of its range.
+  template <class Scalar>
+  void set(Evaluation<Scalar>& law, std::size_t row, double time, Diagnostics& diagnostics) {
+    if (is_empty_) return;
+    const std::vector<double> values = values_of(row, time, diagnostics);
+    law.set(std::vector<Scalar>(values.begin(), values.end()));
+  }
+
+ private:
+  std::vector<double> values_of(std::size_t row, double time, Diagnostics& diagnostics);
+  void warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics);
+  Span place_of(const std::string& tunable) const;
+  void refuse_name_of_motion(const std::string& tunable, Diagnostics& diagnostics) const;
+
+  const Network& network_;
+  std::vector<Tunable> tunables_;
+  std::vector<const OtherColumn*> columns_;
+  std::vector<bool> warned_;
+  bool is_empty_ = true;
+};
+
+}  // namespace dashpot::compiler

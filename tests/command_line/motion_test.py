@@ -1,0 +1,165 @@
+"""`dashpot run --motion`: what is felt of a recorded motion on a described device."""
+import csv
+import io
+import json
+import math
+import unittest
+
+from dashpot_command import COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, network
+
+COLUMNS = ["time", "position", "estimate", "felt_force", "closed_form", "damping", "motor_force"]
+TUNABLE = SOURCE / "networks/tunable/friction_tunable.json"
+SOLID = '{ "parallel": [ { "spring": 40 }, { "damper": 0.7 }, { "series": [ { "spring": 90 }, { "damper": 4 } ] }, ' \
+        '{ "series": [ { "spring": 300 }, { "damper": 1 } ] } ] }'
+FRICTION = '{ "parallel": [ { "spring": 40 }, { "series": [ { "spring": 2000 }, { "slip": 0.3 } ] } ] }'
+
+
+def table(rows, names="time,position"):
+    return names + "\n" + "".join(",".join(f"{value:.9g}" for value in row) + "\n" for row in rows)
+
+
+def sine(rate, seconds=1.0, amplitude=0.003, frequency=2.0):
+    return [(k / rate, amplitude * (1 - math.cos(2 * math.pi * frequency * k / rate))) for k in range(int(seconds * rate) + 1)]
+
+
+class Motion(CommandTest):
+    def device(self, **changes):
+        """A paddle without imperfection but for `changes` of its sections."""
+        told = {"dashpot_device": 1, "name": "paddle", "motion": "translation", "loop": {"rate": "2 kHz"},
+                "velocity": {"estimator": "backward_difference", "window": 1}, "motor": {},
+                "brake": {"kind": "eddy_current", "max_damping": "50 N s/m"}, "mechanics": {"inertia": "0.2 kg", "damping": "20 N s/m"}}
+        for section, more in changes.items():
+            told[section] = told[section] | more if section in told and section != "velocity" else more
+        return self.write("device.json", json.dumps(told))
+
+    def played(self, net, device, motion, *choices):
+        """Rows of the file, and what is printed, as JSON."""
+        self.write("motion.csv", motion)
+        told = json.loads(self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv", "--json", *choices).stdout)
+        rows = list(csv.reader(io.StringIO((self.folder / "felt.csv").read_text())))
+        self.assertEqual(rows[0], COLUMNS)
+        return [dict(zip(COLUMNS, map(float, row))) for row in rows[1:]], told
+
+    def test_closed_form(self):
+        """Fails if the network's force along a recorded motion is not that of its relaxations, at whatever rate it was recorded."""
+        net = self.write("solid.json", network(SOLID, "solid"))
+        points = [(0.0, 0.0), (0.25, 0.004), (0.5, 0.004), (0.75, 0.001)]
+        rows, _ = self.played(net, self.device(), table(points))
+        self.assertEqual(len(rows), 1501)
+        slope = lambda t: 0.016 if t < 0.25 else 0 if t < 0.5 else -0.012
+        for row in rows[:-1:37]:
+            t = row["time"]
+            u = 0.016 * t if t < 0.25 else 0.004 if t < 0.5 else 0.004 - 0.012 * (t - 0.5)
+            force = 40 * u + 0.7 * slope(t)
+            for rate, damping in [(90 / 4, 4), (300, 1)]:
+                inside = 0.0
+                for start, end, v in [(0, 0.25, 0.016), (0.25, 0.5, 0), (0.5, 0.75, -0.012)]:
+                    if t > start: inside = damping * v + (inside - damping * v) * math.exp(-rate * (min(t, end) - start))
+                force += inside
+            self.assertAlmostEqual(row["position"], u, delta=1e-9)
+            self.assertAlmostEqual(row["closed_form"], force, delta=1e-9)
+
+    def test_a_device_without_imperfection(self):
+        """Fails if what is felt on an exact device is off by more than half a sample of the motor's hold."""
+        net = self.write("solid.json", network(SOLID, "solid"))
+        errors = []
+        for rate in (2000, 8000):
+            rows, told = self.played(net, self.device(loop={"rate": f"{rate} Hz"}), table(sine(rate)), "--decomposition", "velocity-free", "--state-input", "position")
+            errors.append(told["error"]["rms_share"])
+            differences = [row["felt_force"] - row["closed_form"] for row in rows]
+            added = max(abs(value) for value in differences)
+            self.assertAlmostEqual(told["error"]["peak"], added, delta=1e-12 * added)
+            self.assertAlmostEqual(told["error"]["rms"], math.sqrt(sum(d * d for d in differences) / len(rows)), delta=1e-12)
+            self.assertAlmostEqual(told["force"]["peak"], max(abs(row["closed_form"]) for row in rows), delta=1e-12)
+        self.assertLess(errors[0], 0.02)
+        self.assertLess(errors[1], errors[0] / 2)
+
+    def test_each_imperfection_is_felt(self):
+        """Fails if encoder, estimator, delay, amplifier or coil takes no part in what is felt."""
+        net = self.write("solid.json", network(SOLID, "solid"))
+        choices = ["--decomposition", "3"]
+        _, exact = self.played(net, self.device(), table(sine(2000)), *choices)
+        changes = {"encoder": {"encoder": {"resolution": "0.5 mm"}}, "estimator": {"velocity": {"estimator": "butterworth", "order": 4, "cutoff": "20 Hz"}},
+                   "delay": {"loop": {"delay_samples": 20}}, "amplifier": {"motor": {"amplifier_lag": "15 ms"}},
+                   "coil": {"brake": {"coil_lag": "200 ms"}}, "limit": {"motor": {"max_torque": "0.05 N"}}}
+        for name, change in changes.items():
+            with self.subTest(name=name):
+                device = self.device(**change)
+                more = ["--decomposition", "0"] if name == "limit" else choices
+                _, told = self.played(net, device, table(sine(2000)), *more)
+                # A coil has settled before the motion begins, and b does not change: it is the one that is not felt.
+                if name == "coil": self.assertAlmostEqual(told["error"]["rms"], exact["error"]["rms"], delta=1e-3 * exact["force"]["rms"])
+                else: self.assertGreater(told["error"]["rms"], 2 * exact["error"]["rms"])
+
+    def test_a_late_spring(self):
+        """Fails if a spring n samples late is not felt as the spring that it was n and a half samples ago."""
+        net = self.write("spring.json", network('{ "spring": 200 }', "spring"))
+        for delay in (0, 3):
+            rows, _ = self.played(net, self.device(loop={"delay_samples": delay}, motor={"max_torque": "100 N"}), table(sine(2000)), "--decomposition", "velocity-free")
+            for row in rows[100:1900:83]:
+                past = row["time"] - (delay + 0.5) / 2000
+                # The staircase is felt as the mean of two steps, and damping is added for passivity.
+                wanted = 200 * 0.003 * (1 - math.cos(4 * math.pi * past)) + row["damping"] * 0.003 * 4 * math.pi * math.sin(4 * math.pi * row["time"])
+                self.assertAlmostEqual(row["felt_force"], wanted, delta=2e-3 * (1 + abs(wanted)))
+
+    def test_slips_and_tunables(self):
+        """Fails if what is no linear network has no force of its own to compare with, or another one."""
+        net = self.write("friction.json", network(FRICTION, "friction"))
+        rows, told = self.played(net, self.device(), table(sine(500)))
+        for row in rows[300:450:10]:  # pressing: the slip slides
+            self.assertAlmostEqual(row["closed_form"], 40 * row["position"] + 0.3, delta=2e-3)
+        self.assertLess(told["error"]["rms_share"], 0.1)
+        recorded = [(t, u, 0.2 if t < 0.5 else 1.0) for t, u in sine(500)]
+        name = next(p for p, v in json.loads(TUNABLE.read_text())["parameters"].items() if v.get("tunable"))
+        still, _ = self.played(TUNABLE, self.device(), table(sine(500)))
+        changed, _ = self.played(TUNABLE, self.device(), table(recorded, f"time,position,{name}"))
+        self.assertNotEqual([row["closed_form"] for row in still], [row["closed_form"] for row in changed])
+
+    def test_another_rate(self):
+        """Fails if a motion's rate has to be the device's, or changes what is felt of the same straight lines."""
+        net = self.write("kelvin.json", KELVIN)
+        coarse = [(k / 4, 0.001 * (k % 2)) for k in range(9)]
+        fine = [(k / 64, 0.001 * (1 - abs((k / 16) % 2 - 1))) for k in range(129)]
+        results = [self.played(net, self.device(), table(rows))[0] for rows in (coarse, fine)]
+        for one, other in zip(*results):
+            self.assertAlmostEqual(one["felt_force"], other["felt_force"], delta=1e-8)
+            self.assertAlmostEqual(one["closed_form"], other["closed_form"], delta=1e-8)
+        self.assertEqual(*map(len, results))
+
+    def test_what_is_printed_and_written(self):
+        """Fails if the errors are not told, the file is not where it is said to be, or a run is not the same from the same seed."""
+        self.write("motion.csv", table(sine(250)))
+        done = self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv")
+        for words in ["10001 samples at 10000 Hz", "error of what is felt: rms ", "log: second_order_maxwell_run.csv"]:
+            self.assertIn(words, done.stdout)
+        first = (self.folder / "second_order_maxwell_run.csv").read_text()
+        self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv", "-o", "again.csv")
+        self.assertEqual(first, (self.folder / "again.csv").read_text())
+        self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv", "-o", "again.csv", "--seed", "7")
+        self.assertNotEqual(first, (self.folder / "again.csv").read_text())
+
+    def test_refusals(self):
+        """Fails if a command line that means nothing is taken, a bad recording played, or a motion out of reach not warned of."""
+        self.write("motion.csv", table(sine(250)))
+        net = self.write("kelvin.json", KELVIN)
+        run = ["run", net, "--device", self.device()]
+        for more in (["--hand", "firm"], ["--for", "1"], ["--port", "pty:"]):
+            self.refused(*run, "--motion", "motion.csv", *more, code="not-with-motion", status=COMMAND_LINE_WRONG)
+        self.refused(*run, "--json", code="motion-only", status=COMMAND_LINE_WRONG)
+        self.refused(*run, "--motion", "motion.csv", "-o", "motion.csv", code="would-overwrite-input", status=COMMAND_LINE_WRONG)
+        self.write("bad.csv", "time,position\n0,0\n0.1,a\n")
+        self.dashpot(*run, "--motion", "bad.csv", status=INPUT_REFUSED)
+        self.dashpot(*run, "--motion", "absent.csv", status=INPUT_REFUSED)
+        short = self.device(encoder={"range": ["-1 mm", "1 mm"]})
+        self.assertIn("[motion-beyond-encoder]", self.dashpot("run", net, "--device", short, "--motion", "motion.csv").stderr)
+
+    def test_simulate_is_the_law_alone(self):
+        """Fails if simulate lets one think that its numbers are what is felt on the device."""
+        self.write("motion.csv", table(sine(2000)))
+        net = self.write("kelvin.json", KELVIN)
+        self.assertIn("'dashpot run --motion' shows what is felt", self.dashpot("simulate", net, "--device", self.device(), "--input", "motion.csv").stderr)
+        self.assertEqual(self.dashpot("simulate", net, "--input", "motion.csv").stderr, "")
+
+
+if __name__ == "__main__":
+    unittest.main()

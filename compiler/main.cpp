@@ -158,6 +158,43 @@ void describe_fit(CLI::App& app, CommandLine& line) {
   command->add_flag("--elastic", fit.elastic, "A static curve alone; not there yet");
 }
 
+const std::map<std::string, PronyFormat> prony_formats = {{"abaqus", PronyFormat::abaqus},
+                                                          {"febio", PronyFormat::febio},
+                                                          {"ansys", PronyFormat::ansys},
+                                                          {"ls-dyna", PronyFormat::ls_dyna},
+                                                          {"generic", PronyFormat::generic}};
+
+void add_format(CLI::App& command, CommandLine& line, const char* option, const char* what) {
+  command.add_option(option, line.options.exchange.format, what)
+      ->required()
+      ->transform(CLI::CheckedTransformer(prony_formats, CLI::ignore_case))
+      ->option_text("abaqus|febio|ansys|ls-dyna|generic");
+}
+
+void describe_exchange(CLI::App& app, CommandLine& line) {
+  static const std::map<std::string, PronyOf> conventions = {
+      {"instantaneous", PronyOf::instantaneous}, {"long-term", PronyOf::long_term}, {"absolute", PronyOf::absolute}};
+  ExchangeWords& words = line.options.exchange;
+  CLI::App* in = add_command(app, line, "import", "Make a network of a finite-element program's Prony series");
+  in->add_option("FILE", line.options.input, "Input deck, material file or table")->required();
+  add_format(*in, line, "--from", "What wrote the file");
+  in->add_option("--stiffness", words.stiffness, "That the file's weights are shares of, as \"1.2 kN/m\"");
+  in->add_option("--modulus", words.modulus, "What a modulus of 1 in the file is as a stiffness, as \"24 mN/m\"");
+  in->add_option("--of", words.of, "generic: the stiffness that the weights are shares of")
+      ->transform(CLI::CheckedTransformer(conventions, CLI::ignore_case))
+      ->option_text("instantaneous|long-term|absolute");
+  in->add_option("--material", words.material, "Name or number of the material, where the file has several");
+  in->add_option("--time-unit", words.time_unit, "Of the file's times, default s");
+  in->add_option("--name", words.name, "Of the network, default after the file");
+  in->add_option("-o,--output", line.options.output, "File to write to, default standard output")
+      ->option_text("FILE.json");
+
+  CLI::App* out = add_command(app, line, "export", "Write a network as a finite-element program's Prony series");
+  add_networks(*out, line, false);
+  add_format(*out, line, "--to", "What is to read the file");
+  out->add_option("-o,--output", line.options.output, "File to write to, default standard output")->option_text("FILE");
+}
+
 void describe(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
   CLI::App* check = add_command(app, line, "check", "Report errors and warnings only");
@@ -169,6 +206,9 @@ void describe(CLI::App& app, CommandLine& line) {
   add_networks(*explain, line, false);
   add_choices(*explain, line);
   explain->add_flag("--json", options.json, "As JSON, SI units");
+  explain->add_option("--as", options.as, "Print the same network in another form instead, as a network file")
+      ->check(CLI::IsMember({"kelvin", "maxwell", "prony"}))
+      ->option_text("kelvin|maxwell|prony");
 
   CLI::App* compile = add_command(app, line, "compile", "Write the update law as C++ or C99");
   add_networks(*compile, line, true);
@@ -244,6 +284,8 @@ void describe(CLI::App& app, CommandLine& line) {
   device->add_option("-o,--output", options.output, "File to write to, default standard output")
       ->option_text("FILE.json");
 
+  describe_exchange(app, line);
+
   CLI::App* run =
       add_command(app, line, "run", "Run the servo loop on a device, simulated unless --port names a board");
   add_networks(*run, line, false);
@@ -290,9 +332,9 @@ void take_over_words(CommandLine& line) {
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
   static const std::map<std::string, Command> commands = {
-      {"check", run_check},       {"explain", run_explain}, {"compile", run_compile},
-      {"simulate", run_simulate}, {"report", run_report},   {"device", run_device},
-      {"run", run_run},           {"verify", run_verify},   {"fit", run_fit}};
+      {"check", run_check},   {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate},
+      {"report", run_report}, {"device", run_device},   {"run", run_run},         {"verify", run_verify},
+      {"fit", run_fit},       {"import", run_import},   {"export", run_export}};
   SourceFiles files;
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;

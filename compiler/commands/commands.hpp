@@ -27,6 +27,8 @@ ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics&
 ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_verify(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_import(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 
 // Says on standard error what there is to say, and forgets it.

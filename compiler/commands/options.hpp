@@ -9,6 +9,7 @@
 #include "commands/fit_words.hpp"
 #include "decompose/choices.hpp"
 #include "emit/emission.hpp"
+#include "exchange/prony_format.hpp"
 
 namespace dashpot::compiler {
 
@@ -24,6 +25,17 @@ struct BladeWords {
   std::optional<double> correction;         // α; empty: of the pole's shape
   std::optional<std::string> radius;        // of the blade's middle; empty: the device's arm radius
   std::optional<std::string> current;       // that makes the field
+};
+
+// Of import and export.
+struct ExchangeWords {
+  PronyFormat format = PronyFormat::generic;
+  std::optional<std::string> material;   // in a file with several
+  std::optional<PronyOf> of;             // what the weights of a generic table are shares of
+  std::optional<std::string> stiffness;  // that shares are of, as "1.2 kN/m"
+  std::optional<std::string> modulus;    // what one unit of an absolute modulus is as a stiffness, as "24 N/m"
+  std::string time_unit = "s";
+  std::optional<std::string> name;  // of the network; empty: after the file
 };
 
 struct Options {
@@ -48,6 +60,8 @@ struct Options {
   std::optional<std::string> motion;  // run: recorded, for the simulated device to be led along
   BladeWords blade;                   // device
   FitWords fit;                       // fit
+  ExchangeWords exchange;             // import, export
+  std::optional<std::string> as;      // explain: the form to print as a network file
   bool fast = false;                  // run: simulated time instead of real time
   bool json_diagnostics = false;
 };

@@ -1,7 +1,33 @@
 #include "commands/commands.hpp"
+#include "commands/exchange.hpp"
 #include "commands/explain.hpp"
+#include "discretise/tunable_network.hpp"
+#include "exchange/network_text.hpp"
+#include "exchange/prony_format.hpp"
 
 namespace dashpot::compiler {
+
+namespace {
+
+// The linear part in another form, as a network file.
+std::optional<std::string> network_as(const std::string& form, const Compilation& c, Diagnostics& diagnostics) {
+  const NetworkHead head{c.network.name, c.network.source, c.network.port_motion};
+  if (form == "prony") {
+    if (!is_prony_series(c, diagnostics)) return std::nullopt;
+    return prony_network(head, in_convention(prony_series(c.form.linear), PronyOf::instantaneous));
+  }
+  const char* what = has_tunables(c.network) ? "tunable parameters"
+                     : c.form.has_slips()    ? "slips"
+                     : c.network.contact     ? "a contact"
+                                             : nullptr;
+  if (what != nullptr) {
+    diagnostics.report<DiagnosticCode::no_linear_form>(c.network.name_span, c.network.name, what);
+    return std::nullopt;
+  }
+  return form == "kelvin" ? kelvin_network(head, kelvin_form(c.form.linear)) : maxwell_network(head, c.form.linear);
+}
+
+}  // namespace
 
 ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   const DeviceChoice device = open_device(options, files, diagnostics);
@@ -10,6 +36,10 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
   if (file == nullptr) return ExitStatus::input_refused;
   std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (options.as) {
+    const std::optional<std::string> text = network_as(*options.as, *compilation, diagnostics);
+    return text ? write_standard_output(*text, diagnostics) : ExitStatus::input_refused;
+  }
   weigh_all_candidates(*compilation, options.choices);
   return write_standard_output(options.json ? explain_json(*compilation) : explain_text(*compilation), diagnostics);
 }

@@ -1,0 +1,129 @@
+#include <cmath>
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "commands/exchange.hpp"
+#include "compile.hpp"
+#include "discretise/tunable_network.hpp"
+#include "emit/write_files.hpp"
+#include "exchange/network_text.hpp"
+#include "exchange/prony_format.hpp"
+#include "network/name_rules.hpp"
+#include "network/read_value.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// A word of the command line as a quantity above zero.
+std::optional<double> positive(const std::string& option, const std::string& word, const Dimension& due,
+                               SourceFiles& files, Diagnostics& diagnostics) {
+  const SourceFile& source = files.keep(option, word);
+  const ValueDecl decl{ValueDecl::Form::text, word, {&source, 0, word.size()}};
+  const auto value = read_quantity_as(decl, {option, due, motion::translation}, diagnostics);
+  if (!value || *value > 0) return value;
+  diagnostics.report<DiagnosticCode::not_above_zero>(decl.span, option, word);
+  return std::nullopt;
+}
+
+// A C++ name made of the file's: "liver-2.inp" becomes liver_2.
+std::string name_from(const std::string& path) {
+  std::string name;
+  for (const char byte : std::filesystem::path(path).stem().string()) {
+    const bool fits = (byte >= '0' && byte <= '9') || ((byte | 0x20) >= 'a' && (byte | 0x20) <= 'z');
+    if (fits) name += byte;
+    else if (!name.empty() && name.back() != '_') name += '_';
+  }
+  while (name.ends_with('_')) name.pop_back();
+  return name.empty() || (name.front() >= '0' && name.front() <= '9') ? "imported_" + name : name;
+}
+
+// FEBio's shares as the convention that they are in, if it is one.
+PronySeries named_convention(const PronySeries& series) {
+  const double at_once = series.stiffness + series.sum_of_weights();
+  PronySeries named = series;
+  if (std::abs(series.stiffness - 1) <= 1e-12) named.of = PronyOf::long_term;
+  else if (std::abs(at_once - 1) <= 1e-12) named.of = PronyOf::instantaneous;
+  if (named.of != PronyOf::absolute) named.stiffness = 1;
+  return named;
+}
+
+// What one of the file's units of stiffness is in the network [N/m].
+std::optional<double> scale_of(const ExchangeWords& words, PronyFormat format, bool is_absolute, SourceFiles& files,
+                               Diagnostics& diagnostics) {
+  const bool is_modulus = is_absolute && format != PronyFormat::febio;
+  const std::optional<std::string>& word = is_modulus ? words.modulus : words.stiffness;
+  const char* option = is_modulus ? "--modulus" : "--stiffness";
+  if (!word) {
+    diagnostics.report<DiagnosticCode::prony_scale_missing>({}, convention_of(format), option);
+    if (is_modulus) diagnostics.note<DiagnosticCode::prony_modulus_example>({});
+    else diagnostics.note<DiagnosticCode::prony_stiffness_example>({});
+    return std::nullopt;
+  }
+  return positive(option, *word, dimensions::stiffness, files, diagnostics);
+}
+
+PronySeries scaled(PronySeries series, double stiffness, double time) {
+  series.stiffness *= stiffness;
+  for (PronyTerm& term : series.terms) {
+    term.time *= time;
+    if (series.of == PronyOf::absolute) term.weight *= stiffness;
+  }
+  return series;
+}
+
+ExitStatus write_text(const Options& options, const std::string& text, Diagnostics& diagnostics) {
+  if (!options.output) return write_standard_output(text, diagnostics);
+  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+}  // namespace
+
+bool is_prony_series(const Compilation& c, Diagnostics& diagnostics) {
+  const Span place = c.network.name_span;
+  if (has_tunables(c.network))
+    diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "tunable parameters");
+  else if (c.form.has_slips()) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "slips");
+  else if (c.network.contact) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "a contact");
+  else if (c.form.linear.feedthrough_damping > 0) {
+    diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "damping that reaches the tool at once");
+    diagnostics.note<DiagnosticCode::stiffen_damper>({});
+  } else if (c.form.linear.modes.empty()) {
+    diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "nothing that relaxes");
+  } else {
+    return true;
+  }
+  return false;
+}
+
+ExitStatus run_import(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const ExchangeWords& words = options.exchange;
+  const SourceFile* file = files.open(options.input, diagnostics);
+  if (file == nullptr) return ExitStatus::input_refused;
+  const PronyFormat format = words.format;
+  auto series = read_prony(*file, {format, words.material, words.of}, diagnostics);
+  if (!series) return ExitStatus::input_refused;
+  if (format == PronyFormat::febio) series = named_convention(*series);
+  const auto time = positive("--time-unit", "1 " + words.time_unit, dimensions::time, files, diagnostics);
+  const auto stiffness = scale_of(words, format, series->of == PronyOf::absolute, files, diagnostics);
+  if (!time || !stiffness) return ExitStatus::command_line_wrong;
+  const std::string file_name = std::filesystem::path(options.input).filename().string();
+  const std::string source = fmt::format("imported from {} ({}: {}; times in {})", file_name, name_of(format),
+                                         convention_of(format), words.time_unit);
+  const std::string text =
+      prony_network({words.name.value_or(name_from(options.input)), source}, scaled(*series, *stiffness, *time));
+  // A series that creates energy is refused here, with the nearest one that does not.
+  if (!check(files.keep("the imported network", text), diagnostics)) return ExitStatus::input_refused;
+  return write_text(options, text, diagnostics);
+}
+
+ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  const SourceFile* file = files.open(options.networks.front(), diagnostics);
+  if (file == nullptr) return ExitStatus::input_refused;
+  const auto c = compile(*file, options.choices, std::nullopt, diagnostics);
+  if (!c) return ExitStatus::input_refused;
+  if (!is_prony_series(*c, diagnostics)) return ExitStatus::input_refused;
+  const std::string text = write_prony(prony_series(c->form.linear), options.exchange.format, c->network.name);
+  return write_text(options, text, diagnostics);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,38 @@
+// Prony series as finite-element programs write them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "network/passive_prony.hpp"
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+enum class PronyFormat { abaqus, febio, ansys, ls_dyna, generic };
+
+std::string_view name_of(PronyFormat format);
+
+// "the shear weights of *Viscoelastic are shares of the instantaneous stiffness", …: the convention in a sentence.
+std::string_view convention_of(PronyFormat format);
+
+struct PronyQuestion {
+  PronyFormat format = PronyFormat::generic;
+  std::optional<std::string> material;  // its name or number, where the file has several
+  std::optional<PronyOf> of;            // generic: what its weights are shares of
+};
+
+// What a file says: of relative series the stiffness is 1, of FEBio's with <g0> it is that share.
+// Refuses, with the place: a file without a series, with several and no --material, numbers that are none, times of
+// zero or less, a generic table that does not say what its weights are shares of.
+std::optional<PronySeries> read_prony(const SourceFile& file, const PronyQuestion& question, Diagnostics& diagnostics);
+
+// The text of a file, or of the part of an input deck, in the format's own convention. Ensures: read_prony gives the
+// same series, to the rounding of one division by a stiffness. In: a series that is passive and relaxes.
+std::string write_prony(const PronySeries& series, PronyFormat format, const std::string& name);
+
+// The series with weights that are shares of another stiffness; the same relaxation function.
+PronySeries in_convention(const PronySeries& series, PronyOf of);
+
+}  // namespace dashpot::compiler

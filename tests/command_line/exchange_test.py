@@ -1,0 +1,85 @@
+"""`dashpot import`, `export` and `explain --as`: relaxation functions to and from other programs."""
+import json
+import unittest
+
+from dashpot_command import COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, CommandTest, network
+
+SERIES = network('{ "prony": "1.2 kN/m", "of": "instantaneous", "name": "liver", "terms": [ '
+                 '{ "weight": 0.4, "time": "0.1 s" }, { "weight": 0.25, "time": "3 s" } ] }', "liver")
+FORMATS = {"abaqus": ["--stiffness", "1.2 kN/m"], "ansys": ["--stiffness", "1.2 kN/m"],
+           "febio": ["--stiffness", "1.2 kN/m"], "ls-dyna": ["--modulus", "1 N/m"],
+           "generic": ["--stiffness", "1.2 kN/m", "--of", "instantaneous"]}
+
+
+def form(command, path):
+    """Static stiffness and modes of a network."""
+    found = json.loads(command.dashpot("explain", path, "--json").stdout)
+    return [found["static_stiffness"], found["feedthrough_damping"],
+            *(mode[key] for mode in found["modes"] for key in ("stiffness", "relaxation_rate"))]
+
+
+class Exchange(CommandTest):
+    def expect_close(self, found, given, tolerance, what):
+        self.assertEqual(len(found), len(given), what)
+        for x, y in zip(found, given):
+            self.assertLessEqual(abs(x - y), tolerance * max(abs(y), 1), f"{what}: {found} instead of {given}")
+
+    def test_there_and_back(self):
+        """Fails if a network that is exported and imported again is another one."""
+        given = form(self, self.write("liver.json", SERIES))
+        for name, scale in FORMATS.items():
+            self.dashpot("export", "liver.json", "--to", name, "-o", f"liver.{name}")
+            self.dashpot("import", f"liver.{name}", "--from", name, *scale, "-o", f"{name}.json")
+            self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
+            self.dashpot("compile", f"{name}.json", "-o", "emitted")
+
+    def test_units_of_the_file(self):
+        """Fails if times in milliseconds are taken for seconds, or a modulus for a stiffness."""
+        self.write("deck.k", "*MAT_GENERAL_VISCOELASTIC\n7,1e-6,2.19\n,\n120.,0.\n40.,0.01\n")
+        self.dashpot("import", "deck.k", "--from", "ls-dyna", "--modulus", "24 mN/m", "--time-unit", "ms", "--name", "fat",
+                     "-o", "fat.json")
+        self.expect_close(form(self, "fat.json"), [120 * 0.024, 0, 40 * 0.024, 10], 1e-12, "fat")
+
+    def test_what_is_missing_is_asked_for(self):
+        """Fails if a guess takes the place of what no file says, or a half-read file is written."""
+        self.write("deck.inp", "*Viscoelastic, time=PRONY\n0.4, 0., 0.1\n")
+        asked = self.refused("import", "deck.inp", "--from", "abaqus", "-o", "x.json", code="prony-scale-missing",
+                             status=COMMAND_LINE_WRONG)
+        self.assertIn('--stiffness "1.2 kN/m"', asked.stderr)
+        self.write("table.csv", "weight,time\n0.4,0.1\n")
+        self.refused("import", "table.csv", "--from", "generic", "--stiffness", "1 N/m", code="prony-convention-missing")
+        self.refused("import", "deck.inp", "--from", "abaqus", "--stiffness", "5 N", code="wrong-unit",
+                     status=COMMAND_LINE_WRONG)
+        self.dashpot("import", "deck.inp", "--from", "nastran", status=COMMAND_LINE_WRONG)
+        self.write("active.inp", "*Viscoelastic, time=PRONY\n0.7, 0., 0.1\n0.4, 0., 1.\n")
+        active = self.refused("import", "active.inp", "--from", "abaqus", "--stiffness", "1 N/m", "-o", "x.json",
+                              code="prony-sum-above-one")
+        self.assertIn("the nearest series that creates none", active.stderr)
+        self.assertNotIn("x.json", self.files())
+
+    def test_what_is_no_series_is_not_exported(self):
+        """Fails if a damper at the tool, a slip or a contact is left out in silence."""
+        for text in (KELVIN, network('{ "spring": 3 }'),
+                     network('{ "series": [ { "slip": 1 }, { "spring": 3 } ] }'),
+                     network('{ "series": [ { "damper": 1 }, { "spring": 3 } ] }', more='"contact": { "at": 0 },')):
+            self.write("network.json", text)
+            self.refused("export", "network.json", "--to", "abaqus", "-o", "deck.inp", code="not-exported")
+            self.assertEqual(self.files(), ["network.json"])
+
+    def test_forms(self):
+        """Fails if the Maxwell, Kelvin or Prony form of a network is not the same network."""
+        given = form(self, FIG_5)
+        for name in ("maxwell", "kelvin", "prony"):
+            self.write(f"{name}.json", self.dashpot("explain", FIG_5, "--as", name).stdout)
+            self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
+
+    def test_forms_that_there_are_not(self):
+        """Fails if a network with slips, or one with a damper at the tool, is told as what it is not."""
+        self.write("slip.json", network('{ "series": [ { "slip": 1 }, { "spring": 3 } ] }'))
+        self.refused("explain", "slip.json", "--as", "kelvin", code="no-linear-form")
+        self.write("kelvin.json", KELVIN)
+        self.refused("explain", "kelvin.json", "--as", "prony", code="not-exported", status=INPUT_REFUSED)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "check/check.hpp"
 #include "compile.hpp"
 #include "linear/reach.hpp"
 #include "source/excerpt.hpp"
@@ -115,12 +116,23 @@ class TextsVerification {
                                            certificate_.device_text, of_one.text());
       compare_certificates(certificate_file_, files_.keep("certificate written again", std::move(again)), diagnostics_);
     }
+    if (!diagnostics_.has_errors() && certificate_.certified && is_linear) check_independently(of_one);
     return count;
   }
 
   const Network& network() const { return *network_; }
 
  private:
+  // By code that shares nothing with the compiler, where that knows how.
+  void check_independently(const SourceFile& header) {
+    const auto certificate = nlohmann::json::parse(certificate_file_.text(), nullptr, false);
+    if (certificate.value("storage", nlohmann::json()).is_null()) return;  // it rests on something else
+    const dashpot_check::Verdict verdict = dashpot_check::verdict(std::string(header.text()), certificate);
+    if (!verdict.proved)
+      diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "independent check",
+                                                                 excerpt(verdict.words));
+  }
+
   bool recompile() {
     if (compiled_) return true;
     Diagnostics unheard;

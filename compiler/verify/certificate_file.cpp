@@ -1,8 +1,10 @@
 #include "verify/certificate_file.hpp"
 
 #include <dashpot/estimators/estimator_names.hpp>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "certify/storage_function.hpp"
 #include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
@@ -54,6 +56,8 @@ Json json_of(const SampledLoop& loop) {
           {"window", v.window},
           {"order", v.order},
           {"cutoff", v.cutoff},
+          {"estimator_coefficients", checked_device(loop).estimator_coefficients},
+          {"joint_encoder_step", loop.joint_encoder_step},
           {"acceleration", v.acceleration}};
 }
 
@@ -69,6 +73,15 @@ Json json_of(const Certificate& c) {
           {"reason", c.bound.reason},
           {"quantisation_stiffness", c.quantisation_stiffness},
           {"quantisation_gain", c.quantisation_gain ? Json(*c.quantisation_gain) : Json(nullptr)}};
+}
+
+// What `dashpot-check` reads: null where the hold certificate is enough, or nothing is proved in this way.
+Json storage_of(const Compilation& c) {
+  const std::optional<MotorConstants> motor = motor_constants(c.law);
+  if (!motor || c.certificate.bound.proof != Proof::sampled) return nullptr;
+  const std::optional<StorageProof> proof = storage_proof(*motor, c.certificate.loop, c.certificate.bound.needed);
+  if (!proof || proof->damping > std::max(c.certificate.bound.needed, c.certificate.assured)) return nullptr;
+  return {{"damping", proof->damping}, {"matrix", proof->storage}};
 }
 
 Json json_of(const EnergyLemma& lemma) {
@@ -115,6 +128,7 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
                     {"constants", constants},
                     {"loop", json_of(c.certificate.loop)},
                     {"passivity", json_of(c.certificate)},
+                    {"storage", storage_of(c)},
                     {"energy", json_of(c.certificate.energy)},
                     {"network_file", network_text},
                     {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};

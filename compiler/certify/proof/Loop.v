@@ -1,0 +1,216 @@
+(* The storage function's inequality of a sampled loop, accepted by computing with whole numbers, and what follows from it
+   for every motion: nothing is extracted from rest.
+
+   At a sample the tool is at u and the loop in the states x. Over the hold that follows the tool moves by w. The motor's
+   force over the hold makes the work  y w + e rho,  where y = k0 u + C x, e = E x, and rho is a second input that is
+   free (behind an amplifier's lag; without one E and gamma are zero). What is dissipated is at least
+   beta w^2 + gamma rho^2. The states become A (x, w, rho).
+
+   A hold belongs to one of the parts of a list, for instance by its length. Within a part A lies between A1 and A2, and C
+   between C1 and C2: the decay q of a lag and its share p are no rational numbers, but lie between some. *)
+Require Import Forms ZArith Reals List Lra Lia Bool.
+Import ListNotations.
+Local Open Scope R_scope.
+Local Open Scope bool_scope.
+
+Record part := { A1 : list (list Z); A2 : list (list Z); C1 : list Z; C2 : list Z; beta : Z; gamma : Z }.
+Record loop := {
+  states : nat;
+  E : list Z; k0 : Z;
+  P : sym; eP : positive;              (* V = k0 u^2 / 2 + x'P x / eP *)
+  eA : positive;                       (* all A over eA *)
+  eS : positive;                       (* k0, C, E, beta, gamma over eS *)
+  parts : list part
+}.
+Definition over (z : Z) (e : positive) : R := IZR z / IZR (Zpos e).
+Definition step (c : loop) (A : list (list Z)) (x : list R) (w rho : R) : list R :=
+  map (fun r => dot r (x ++ [w; rho]) / IZR (Zpos (eA c))) A.
+Definition next (c : loop) (p : part) (t : R) x w rho := on_line t (step c (A1 p) x w rho) (step c (A2 p) x w rho).
+Definition answer (c : loop) (C : list Z) (x : list R) : R := dot C x / IZR (Zpos (eS c)).
+Definition force (c : loop) (p : part) (s u : R) (x : list R) : R :=
+  over (k0 c) (eS c) * u + ((1 - s) * answer c (C1 p) x + s * answer c (C2 p) x).
+Definition storage (c : loop) (u : R) (x : list R) : R :=
+  over (k0 c) (eS c) * u * u / 2 + quad (P c) x / IZR (Zpos (eP c)).
+
+(* 2 eA^2 eP eS (what goes in + V - V after the hold), less what the static spring stores *)
+Definition balance (c : loop) (A : list (list Z)) (C : list Z) (beta gamma : Z) : sym :=
+  let w := unit_at (states c) in
+  let rho := unit_at (S (states c)) in
+  let s := (Zpos (eA c) * Zpos (eA c) * Zpos (eP c))%Z in
+  mix 1 (mix s (mix 1 (cross C w) 1 (cross (E c) rho)) s (mix (2 * beta - k0 c) (self w) (2 * gamma) (self rho)))
+      (Zpos (eS c)) (mix (2 * (Zpos (eA c) * Zpos (eA c))) (P c) (-1) (pull (P c) A)).
+
+Definition shape_of (c : loop) (p : part) : bool :=
+  Nat.eqb (length (A1 p)) (states c) && Nat.eqb (length (A2 p)) (states c)
+  && Nat.leb (length (C1 p)) (states c) && Nat.leb (length (C2 p)) (states c).
+Definition shape (c : loop) : bool :=
+  Nat.leb (length (E c)) (states c) && upper (states c) (P c) && (0 <=? k0 c)%Z && forallb (shape_of c) (parts c).
+
+Definition corners (c : loop) (p : part) : list sym :=
+  [balance c (A1 p) (C1 p) (beta p) (gamma p); balance c (A1 p) (C2 p) (beta p) (gamma p);
+   balance c (A2 p) (C1 p) (beta p) (gamma p); balance c (A2 p) (C2 p) (beta p) (gamma p)].
+Definition never_negative (M : sym) : Prop := forall x, 0 <= quad M x.
+Definition sound (c : loop) : Prop :=
+  shape c = true /\ never_negative (P c) /\ Forall (fun p => Forall never_negative (corners c p)) (parts c).
+
+(* ---------- the checker ---------- *)
+Definition witness := (list (list Z) * positive)%type.
+Definition accepts_form (f : sym * witness) : bool := psd_by (fst (snd f)) (snd (snd f)) (fst f).
+(* Where nothing lies between, one corner is all four. *)
+Definition is_exact (p : part) : bool :=
+  if list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p) then if list_eq_dec Z.eq_dec (C1 p) (C2 p) then true else false else false.
+Definition accepts_part (c : loop) (f : part * list witness) : bool :=
+  if is_exact (fst f) then
+    match snd f with w :: _ => accepts_form (balance c (A1 (fst f)) (C1 (fst f)) (beta (fst f)) (gamma (fst f)), w) | [] => false end
+  else Nat.leb 4 (length (snd f)) && forallb accepts_form (combine (corners c (fst f)) (snd f)).
+Definition accepts (c : loop) (of_P : witness) (of_parts : list (list witness)) : bool :=
+  shape c && accepts_form (P c, of_P)
+  && Nat.eqb (length (parts c)) (length of_parts) && forallb (accepts_part c) (combine (parts c) of_parts).
+
+Lemma accepted_form : forall M w, accepts_form (M, w) = true -> never_negative M.
+Proof. intros M [L k] H x. exact (psd_by_sound L k M H x). Qed.
+Lemma accepted_forms : forall Ms ws, (length Ms <= length ws)%nat -> forallb accepts_form (combine Ms ws) = true ->
+  Forall never_negative Ms.
+Proof.
+  induction Ms as [|M Ms IH]; intros [|w ws] L H; cbn [combine forallb length] in *; try lia; constructor.
+  - apply andb_prop in H as [H _]. exact (accepted_form M w H).
+  - apply andb_prop in H as [_ H]. exact (IH ws (le_S_n _ _ L) H).
+Qed.
+Lemma accepted_parts : forall c ps ws, length ps = length ws -> forallb (accepts_part c) (combine ps ws) = true ->
+  Forall (fun p => Forall never_negative (corners c p)) ps.
+Proof.
+  induction ps as [|p ps IH]; intros [|w ws] L H; cbn [combine forallb length] in *; try discriminate; constructor.
+  - apply andb_prop in H as [H _]. unfold accepts_part in H. cbn [fst snd] in H.
+    destruct (is_exact p) eqn:X.
+    { destruct w as [|w0 w]; [discriminate|]. apply accepted_form in H. unfold is_exact in X.
+      destruct (list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p)) as [EA|]; [|discriminate].
+      destruct (list_eq_dec Z.eq_dec (C1 p) (C2 p)) as [EC|]; [|discriminate].
+      unfold corners. rewrite <- EA, <- EC. repeat (apply Forall_cons; [exact H|]). apply Forall_nil. }
+    apply andb_prop in H as [H1 H2]. apply Nat.leb_le in H1. exact (accepted_forms (corners c p) w H1 H2).
+  - apply andb_prop in H as [_ H]. apply (IH ws); [lia | exact H].
+Qed.
+Lemma sound_if_accepted : forall c of_P of_parts, accepts c of_P of_parts = true -> sound c.
+Proof.
+  intros c of_P of_parts H. unfold accepts in H.
+  apply andb_prop in H as [H H0]. apply andb_prop in H as [H H1]. apply andb_prop in H as [H H2].
+  apply Nat.eqb_eq in H1. split; [exact H | split; [exact (accepted_form _ _ H2) | exact (accepted_parts c _ _ H1 H0)]].
+Qed.
+
+(* ---------- one hold ---------- *)
+Lemma dot_second_unit : forall x w rho, dot (unit_at (S (length x))) (x ++ [w; rho]) = rho.
+Proof. unfold unit_at. induction x as [|y x IH]; intros w rho; [simpl; lra|]. simpl in *. rewrite IH. lra. Qed.
+Lemma dot_first_unit : forall x w rho, dot (unit_at (length x)) (x ++ [w; rho]) = w.
+Proof. unfold unit_at. induction x as [|y x IH]; intros w rho; simpl; [lra | rewrite IH; lra]. Qed.
+
+Section OneHold.
+Variable c : loop.
+Lemma positives : 0 < IZR (Zpos (eA c)) /\ 0 < IZR (Zpos (eS c)) /\ 0 < IZR (Zpos (eP c)).
+Proof. repeat split; apply (IZR_lt 0); lia. Qed.
+
+Lemma corner : forall A C b g, length A = states c -> (length C <= states c)%nat -> (length (E c) <= states c)%nat ->
+  upper (states c) (P c) = true -> never_negative (balance c A C b g) ->
+  forall u x w rho, length x = states c ->
+  storage c (u + w) (step c A x w rho) - storage c u x
+  <= (over (k0 c) (eS c) * u + answer c C x) * w + answer c (E c) x * rho + (over b (eS c) * (w * w) + over g (eS c) * (rho * rho)).
+Proof.
+  intros A C b g HA HC HE HU HM u x w rho L.
+  pose proof (HM (x ++ [w; rho])) as D. unfold balance in D.
+  rewrite !quad_mix, quad_pull, !quad_cross, !quad_self in D.
+  rewrite <- L, dot_first_unit, dot_second_unit, !dot_app in D by lia. rewrite <- L in HU.
+  rewrite (quad_app _ x [w; rho] HU) in D.
+  rewrite ?minus_IZR, ?mult_IZR, ?minus_IZR, ?mult_IZR in D.
+  unfold storage, over, answer, step.
+  replace (map (fun r => dot r (x ++ [w; rho]) / IZR (Z.pos (eA c))) A)
+    with (map (fun r => r / IZR (Z.pos (eA c))) (image A (x ++ [w; rho]))) by (unfold image; rewrite map_map; reflexivity).
+  rewrite quad_scale. destruct positives as (pA & pS & pP).
+  set (a := IZR (Z.pos (eA c))) in *. set (s := IZR (Z.pos (eS c))) in *. set (e := IZR (Z.pos (eP c))) in *.
+  set (Q := quad (P c) (image A (x ++ [w; rho]))) in *. set (q := quad (P c) x) in *. set (y := dot C x) in *.
+  set (f := dot (E c) x) in *. set (k := IZR (k0 c)) in *. set (be := IZR b) in *. set (ga := IZR g) in *.
+  match type of D with 0 <= ?X => set (D0 := X) in * end.
+  assert (H : (k / s * u + y / s) * w + f / s * rho + (be / s * (w * w) + ga / s * (rho * rho))
+       - (k / s * (u + w) * (u + w) / 2 + Q / a / a / e - (k / s * u * u / 2 + q / e)) = D0 / (2 * (a * a * e * s)))
+    by (unfold D0; field; repeat split; lra).
+  assert (0 <= D0 / (2 * (a * a * e * s))).
+  { apply Rmult_le_pos; [exact D | left; apply Rinv_0_lt_compat; repeat apply Rmult_lt_0_compat; lra]. }
+  lra.
+Qed.
+
+Lemma storage_never_negative : sound c -> forall u x, 0 <= storage c u x.
+Proof.
+  intros (H & HP & _) u x. unfold shape in H. repeat (apply andb_prop in H; destruct H as [H ?]).
+  apply Z.leb_le in H1. destruct positives as (_ & pS & pP). unfold storage, over.
+  set (s := IZR (Z.pos (eS c))) in *. set (e := IZR (Z.pos (eP c))) in *.
+  assert (pk : 0 <= IZR (k0 c)) by (apply (IZR_le 0); exact H1).
+  replace (IZR (k0 c) / s * u * u / 2) with (IZR (k0 c) * (u * u) * / (2 * s)) by (field; lra).
+  apply Rplus_le_le_0_compat; apply Rmult_le_pos; try apply Rmult_le_pos; try apply HP; try apply Rle_0_sqr; try lra;
+    left; apply Rinv_0_lt_compat; lra.
+Qed.
+
+Lemma hold : sound c -> forall p u x w rho t h, In p (parts c) -> length x = states c -> 0 <= t <= 1 -> 0 <= h <= 1 ->
+  storage c (u + w) (next c p t x w rho) - storage c u x
+    <= force c p h u x * w + answer c (E c) x * rho + (over (beta p) (eS c) * (w * w) + over (gamma p) (eS c) * (rho * rho))
+  /\ length (next c p t x w rho) = states c.
+Proof.
+  intros (H & HP & HM) p u x w rho t h I L T Hh. unfold shape in H. repeat (apply andb_prop in H; destruct H as [H ?]).
+  rewrite forallb_forall in H0. specialize (H0 p I). unfold shape_of in H0. repeat (apply andb_prop in H0; destruct H0 as [H0 ?]).
+  apply Nat.leb_le in H, H3, H4. apply Nat.eqb_eq in H0, H5.
+  rewrite Forall_forall in HM. specialize (HM p I). unfold corners in HM.
+  inversion HM as [|? ? M11 R1]; inversion R1 as [|? ? M12 R2]; inversion R2 as [|? ? M21 R3]; inversion R3 as [|? ? M22 R4]; subst.
+  assert (S1 : length (step c (A1 p) x w rho) = states c) by (unfold step; rewrite map_length; exact H0).
+  assert (S2 : length (step c (A2 p) x w rho) = states c) by (unfold step; rewrite map_length; exact H5).
+  split.
+  - pose proof (corner _ _ _ _ H0 H4 H H2 M11 u x w rho L) as K11. pose proof (corner _ _ _ _ H0 H3 H H2 M12 u x w rho L) as K12.
+    pose proof (corner _ _ _ _ H5 H4 H H2 M21 u x w rho L) as K21. pose proof (corner _ _ _ _ H5 H3 H H2 M22 u x w rho L) as K22.
+    pose proof (convex (P c) t _ _ (eq_trans S1 (eq_sym S2)) HP T) as V.
+    destruct positives as (_ & _ & pP). fold (next c p t x w rho) in V.
+    assert (V2 : storage c (u + w) (next c p t x w rho)
+            <= (1 - t) * storage c (u + w) (step c (A1 p) x w rho) + t * storage c (u + w) (step c (A2 p) x w rho)).
+    { unfold storage. set (e := IZR (Z.pos (eP c))) in *.
+      assert (I2 : 0 < / e) by (apply Rinv_0_lt_compat; exact pP).
+      pose proof (Rmult_le_compat_r _ _ _ (Rlt_le _ _ I2) V) as V3. unfold Rdiv. lra. }
+    unfold force.
+    set (v1 := storage c (u + w) (step c (A1 p) x w rho)) in *. set (v2 := storage c (u + w) (step c (A2 p) x w rho)) in *.
+    set (v := storage c u x) in *. set (k := over (k0 c) (eS c) * u) in *. set (y1 := answer c (C1 p) x) in *.
+    set (y2 := answer c (C2 p) x) in *. set (r := answer c (E c) x * rho + (over (beta p) (eS c) * (w * w) + over (gamma p) (eS c) * (rho * rho))) in *.
+    assert (Q1 : v1 - v <= (k + ((1 - h) * y1 + h * y2)) * w + r).
+    { pose proof (Rmult_le_compat_l (1 - h) _ _ ltac:(lra) K11). pose proof (Rmult_le_compat_l h _ _ ltac:(lra) K12). unfold r in *. lra. }
+    assert (Q2 : v2 - v <= (k + ((1 - h) * y1 + h * y2)) * w + r).
+    { pose proof (Rmult_le_compat_l (1 - h) _ _ ltac:(lra) K21). pose proof (Rmult_le_compat_l h _ _ ltac:(lra) K22). unfold r in *. lra. }
+    pose proof (Rmult_le_compat_l (1 - t) _ _ ltac:(lra) Q1). pose proof (Rmult_le_compat_l t _ _ ltac:(lra) Q2). unfold r in *. lra.
+  - unfold next. rewrite on_line_length; congruence.
+Qed.
+End OneHold.
+
+(* ---------- any number of holds ---------- *)
+Record motion := { in_part : part; between_A : R; between_C : R; w : R; rho : R; dissipated : R }.
+Definition is_motion (c : loop) (h : motion) : Prop :=
+  In (in_part h) (parts c) /\ 0 <= between_A h <= 1 /\ 0 <= between_C h <= 1 /\
+  over (beta (in_part h)) (eS c) * (w h * w h) + over (gamma (in_part h)) (eS c) * (rho h * rho h) <= dissipated h.
+Definition after (c : loop) (x : list R) (h : motion) := next c (in_part h) (between_A h) x (w h) (rho h).
+(* what the tool puts in *)
+Fixpoint work (c : loop) (u : R) (x : list R) (holds : list motion) : R :=
+  match holds with
+  | [] => 0
+  | h :: rest => force c (in_part h) (between_C h) u x * w h + answer c (E c) x * rho h + dissipated h
+                 + work c (u + w h) (after c x h) rest
+  end.
+Fixpoint at_end (c : loop) (u : R) (x : list R) (holds : list motion) : R :=
+  match holds with [] => storage c u x | h :: rest => at_end c (u + w h) (after c x h) rest end.
+
+Theorem passive : forall c, sound c -> forall holds u x, length x = states c -> Forall (is_motion c) holds ->
+  at_end c u x holds - storage c u x <= work c u x holds /\ 0 <= at_end c u x holds.
+Proof.
+  intros c H. induction holds as [|h rest IH]; intros u x L F; cbn [work at_end].
+  - pose proof (storage_never_negative c H u x). lra.
+  - inversion F as [|? ? (I & T & K & D) F2]; subst.
+    destruct (hold c H (in_part h) u x (w h) (rho h) (between_A h) (between_C h) I L T K) as [V L2].
+    destruct (IH (u + w h) (after c x h) L2 F2). unfold after in *. lra.
+Qed.
+
+Corollary nothing_is_extracted : forall c, sound c -> forall holds, Forall (is_motion c) holds ->
+  0 <= work c 0 (repeat 0 (states c)) holds.
+Proof.
+  intros c H holds F. destruct (passive c H holds 0 (repeat 0 (states c)) (repeat_length _ _) F) as [V S].
+  unfold storage in V. rewrite quad_zeros in V.
+  replace (over (k0 c) (eS c) * 0 * 0 / 2 + 0 / IZR (Z.pos (eP c))) with 0 in V by (unfold Rdiv; ring). lra.
+Qed.

@@ -1,0 +1,369 @@
+#include "certify/storage_function.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <dashpot/estimators/estimator_names.hpp>
+#include <numbers>
+
+#include "linear/real_traits.hpp"
+
+namespace dashpot::compiler {
+
+namespace {
+
+namespace checker = dashpot_check;
+
+constexpr std::size_t most_states_in_digits = 30;  // beyond, 50 digits take seconds
+
+using Complex = std::complex<double>;
+
+template <class Scalar>
+using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+// q, p, κ of an amplifier's lag; of none q = p = κ = 0.
+struct Lag {
+  double decay = 0, share = 0, spread = 0;
+};
+
+Lag lag_of(double hold, double lag) {
+  if (lag == 0) return {};
+  const Real x = Real(hold) / Real(lag), q = exp(-x), p = (1 - q) / x;
+  return {to_double(q), to_double(p), to_double(p * ((1 + q) / 2 - p))};
+}
+
+// x⁺ = A x + B w, what is multiplied by w, C, and e.
+template <class Scalar>
+struct Recursion {
+  Dense<Scalar> A, B, C;
+  Scalar stiffness;
+};
+
+template <class Scalar>
+Scalar nearest(const checker::Rational& value) {
+  if constexpr (std::is_same_v<Scalar, double>) return value.convert_to<double>();
+  else return Scalar(numerator(value)) / Scalar(denominator(value));
+}
+
+template <class Scalar>
+Recursion<Scalar> recursion(const checker::LoopForm& loop, const Lag& lag) {
+  const Eigen::Index n = Eigen::Index(loop.states.size());
+  Recursion<Scalar> r{Dense<Scalar>::Zero(n, n), Dense<Scalar>::Zero(n, 1), Dense<Scalar>::Zero(1, n),
+                      nearest<Scalar>(loop.stiffness)};
+  std::map<std::string, Eigen::Index> place;
+  for (Eigen::Index i = 0; i < n; ++i) place[loop.states[std::size_t(i)]] = i;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (const auto& [name, value] : loop.next.at(loop.states[std::size_t(i)]))
+      (name == "w" ? r.B(i, 0) : r.A(i, place.at(name))) = nearest<Scalar>(value);
+  for (const auto& [name, value] : loop.force) r.C(0, place.at(name)) = nearest<Scalar>(value);
+  if (lag.spread != 0) {
+    r.A(n - 1, n - 1) += lag.decay;
+    r.C(0, n - 1) += lag.share;
+  }
+  return r;
+}
+
+// x(θ) = (zI − A)⁻¹ B. The states stand so that A is lower triangular but for a few rows of the estimator.
+class Response {
+ public:
+  explicit Response(const Recursion<double>& r) : r_(r) {
+    for (Eigen::Index i = 0, end = 0; i < r.A.rows(); i = end) {
+      for (end = i + 1; end < r.A.rows() && reads_beyond(i, end); ++end) continue;
+      blocks_.emplace_back(i, end);
+    }
+  }
+
+  std::vector<Complex> at(double angle) const {
+    const double sine = std::sin(angle / 2);
+    const Complex less_one(-2 * sine * sine, std::sin(angle));  // z − 1
+    std::vector<Complex> x(std::size_t(r_.A.rows()));
+    for (const auto& [from, end] : blocks_) {
+      const Eigen::Index size = end - from;
+      Eigen::MatrixXcd left = Eigen::MatrixXcd::Zero(size, size);
+      Eigen::VectorXcd right(size);
+      for (Eigen::Index i = from; i < end; ++i) {
+        right(i - from) = r_.B(i, 0);
+        for (Eigen::Index j = 0; j < from; ++j)
+          if (r_.A(i, j) != 0) right(i - from) += r_.A(i, j) * x[std::size_t(j)];
+        for (Eigen::Index j = from; j < end; ++j)
+          left(i - from, j - from) = i == j ? less_one + (1 - r_.A(i, i)) : Complex(-r_.A(i, j));
+      }
+      const Eigen::VectorXcd solution =
+          size == 1 ? Eigen::VectorXcd(right / left(0, 0)) : left.partialPivLu().solve(right);
+      for (Eigen::Index i = from; i < end; ++i) x[std::size_t(i)] = solution(i - from);
+    }
+    return x;
+  }
+
+ private:
+  bool reads_beyond(Eigen::Index from, Eigen::Index end) const {
+    return (r_.A.block(from, end, end - from, r_.A.cols() - end).array() != 0).any();
+  }
+  const Recursion<double>& r_;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> blocks_;
+};
+
+// The damping that the loop needs at one frequency, S(θ).
+double needed_at(const Recursion<double>& r, const Lag& lag, double hold, const std::vector<Complex>& x) {
+  double answer = r.stiffness / 2;
+  for (std::size_t i = 0; i < x.size(); ++i) answer -= r.C(0, Eigen::Index(i)) * x[i].real();
+  if (lag.spread == 0) return hold * answer;
+  return hold * (answer + std::hypot(answer, std::sqrt(lag.spread) * std::abs(x.back()))) / 2;
+}
+
+std::vector<double> angles_of_interest(double binding) {
+  std::vector<double> angles = {std::numbers::pi};
+  for (int i = 0; i < 420; ++i) angles.push_back(std::numbers::pi * std::pow(10.0, -13.5 * i / 420));
+  for (int i = 0; i <= 80; ++i) angles.push_back(std::numbers::pi * i / 80);
+  for (int i = -100; i <= 100; ++i) {
+    const double near = binding + (i < 0 ? -1 : 1) * binding * std::pow(10.0, -8.0 * (100 - std::abs(i)) / 100) / 2;
+    if (near > 0 && near <= std::numbers::pi) angles.push_back(near);
+  }
+  return angles;
+}
+
+// What the states are divided by, as powers of two.
+std::vector<double> scales(const Recursion<double>& r, const Lag& lag, double hold, double damping, double binding) {
+  const Response response(r);
+  std::vector<double> squares(std::size_t(r.A.rows()), 0.0);
+  for (const double angle : angles_of_interest(binding)) {
+    const std::vector<Complex> x = response.at(angle);
+    const double left = std::max(damping - needed_at(r, lag, hold, x), damping * 1e-12);
+    for (std::size_t i = 0; i < x.size(); ++i) squares[i] = std::max(squares[i], std::norm(x[i]) * hold / left);
+  }
+  for (double& square : squares) square = square > 0 ? std::exp2(std::round(std::log2(square) / 2)) : 1;
+  return squares;
+}
+
+// P = −X, X the stabilising solution of AᵀXA − X − (AᵀXB + S)(R + BᵀXB)⁻¹(·)ᵀ − Q = 0 (Chu, Fan & Lin 2005).
+template <class Scalar>
+std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>& B, const Dense<Scalar>& S,
+                                     const Dense<Scalar>& R) {
+  using Matrix = Dense<Scalar>;
+  const Eigen::Index n = A.rows();
+  const Matrix inverse = R.inverse(), one = Matrix::Identity(n, n);
+  Matrix step = A - B * inverse * S.transpose(), G = B * inverse * B.transpose();
+  Matrix H = -one / Scalar(4 * double(n)) - S * inverse * S.transpose();
+  for (int i = 0; i < 60; ++i) {
+    const Eigen::PartialPivLU<Matrix> W(Matrix(one + G * H));
+    const Matrix onward = W.solve(step), change = step.transpose() * (H * onward);
+    G += step * W.solve(G) * step.transpose();
+    H += change;
+    H = (H + H.transpose()).eval() / Scalar(2);
+    G = (G + G.transpose()).eval() / Scalar(2);
+    step = step * onward;
+    const double moved = double(change.cwiseAbs().maxCoeff()), all = double(H.cwiseAbs().maxCoeff());
+    if (!std::isfinite(moved) || !std::isfinite(all)) return std::nullopt;
+    if (moved <= 1e-18 * all) return Matrix(-H);
+  }
+  return std::nullopt;
+}
+
+template <class Scalar>
+std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, const Lag& lag, double hold,
+                                              double damping, const std::vector<double>& scale) {
+  const Recursion<Scalar> r = recursion<Scalar>(loop, lag);
+  const Eigen::Index n = r.A.rows(), inputs = lag.spread == 0 ? 1 : 2;
+  Dense<Scalar> by(n, 1);
+  for (Eigen::Index i = 0; i < n; ++i) by(i, 0) = Scalar(scale[std::size_t(i)]);
+  using std::sqrt;
+  const Scalar unit = sqrt(Scalar(hold) / Scalar(damping));
+  Dense<Scalar> A = r.A, B = Dense<Scalar>::Zero(n, inputs), S = B, R = Dense<Scalar>::Identity(inputs, inputs);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) A(i, j) *= by(j, 0) / by(i, 0);
+    B(i, 0) = r.B(i, 0) * unit / by(i, 0);
+    S(i, 0) = r.C(0, i) * by(i, 0) * unit / Scalar(2);
+  }
+  R(0, 0) -= r.stiffness * unit * unit / Scalar(2);
+  if (inputs == 2) S(n - 1, 1) = by(n - 1, 0) * unit * sqrt(Scalar(lag.spread)) / Scalar(2);
+  const std::optional<Dense<Scalar>> P = riccati<Scalar>(A, B, S, R);
+  if (!P) return std::nullopt;
+  checker::Storage storage(loop.states.size());
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) storage[std::size_t(i)].push_back(double((*P)(i, j) / (by(i, 0) * by(j, 0))));
+  return storage;
+}
+
+// Of the estimator in the runtime, to the bit.
+std::vector<double> runtime_coefficients(const velocity_description& v, double T, double step) {
+  const double n = std::clamp(v.window, 1u, longest_window);
+  switch (v.estimator) {
+    case estimator_kind::backward_difference: return {1 / (n * T)};
+    case estimator_kind::least_squares: return {6 / (T * n * (n + 1) * (n + 2))};
+    case estimator_kind::kalman: {
+      const kalman<double> filter(v.acceleration, step, T);
+      const double index = filter.manoeuvre_index(), root = 4 / (4 + index + square_root(8 * index + index * index));
+      return {T, root * root, filter.beta() / T};
+    }
+    case estimator_kind::butterworth: {
+      const unsigned order = v.order < 4 ? 2 : 4;
+      const double g = tangent_of_half_turns(v.cutoff * T);
+      std::vector<double> all = {1 / T, g};
+      for (unsigned i = 0; i < order / 2; ++i) {
+        const double k = 2 * sine_of_half_turns((order - 1 - 2.0 * i) / (2.0 * order));
+        all.insert(all.end(), {1 / (1 + g * (g + k)), g + k});
+      }
+      return all;
+    }
+    default: return {};
+  }
+}
+
+// The largest S(θ) that is found, and where: `attained` at `angle`, and what lies near the angles of interest.
+std::pair<double, double> largest_need(const Recursion<double>& r, const Lag& lag, double hold, double attained,
+                                       double angle) {
+  const Response response(r);
+  const auto need = [&](double at) { return needed_at(r, lag, hold, response.at(at)); };
+  std::vector<double> angles = angles_of_interest(angle > 0 ? angle : 1);
+  std::sort(angles.begin(), angles.end());
+  std::size_t best = 0;
+  double most = -1;
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    if (const double found = need(angles[i]); found > most) most = found, best = i;
+  double low = angles[best == 0 ? 0 : best - 1], high = angles[std::min(best + 1, angles.size() - 1)];
+  for (int i = 0; i < 60; ++i) {
+    const double third = (high - low) / 3;
+    (need(low + third) < need(high - third) ? low : high) += (need(low + third) < need(high - third) ? third : -third);
+  }
+  most = std::max(most, need((low + high) / 2));
+  return most > attained ? std::pair(most, (low + high) / 2) : std::pair(attained, angle);
+}
+
+class StorageSearch {
+ public:
+  StorageSearch(const checker::LoopForm& loop, const checker::Device& device, const SampledBound& bound)
+      : loop_(loop),
+        device_(device),
+        hold_(device.sample_period + device.jitter),
+        lag_(lag_of(hold_, device.amplifier_lag)) {
+    const Recursion<double> r = recursion<double>(loop, lag_);
+    const double jitter = hold_ / device.sample_period;
+    std::tie(supremum_, angle_) = largest_need(r, lag_, hold_, lag_.spread == 0 ? bound.attained * jitter : 0,
+                                               2 * std::numbers::pi * bound.frequency * device.sample_period);
+  }
+
+  double supremum() const { return supremum_; }
+
+  std::optional<StorageProof> at(double damping, bool in_doubles) const {
+    if (!(damping > 0)) return std::nullopt;
+    const std::vector<double> scale = scales(recursion<double>(loop_, lag_), lag_, hold_, damping, angle_);
+    const std::optional<checker::Storage> storage = in_doubles
+                                                        ? found_storage<double>(loop_, lag_, hold_, damping, scale)
+                                                        : found_storage<Real>(loop_, lag_, hold_, damping, scale);
+    if (!storage || !checker::proves(loop_, device_, *storage, damping)) return std::nullopt;
+    return StorageProof{damping, *storage, in_doubles};
+  }
+
+ private:
+  const checker::LoopForm& loop_;
+  const checker::Device& device_;
+  double hold_;  // the longest [s]
+  Lag lag_;      // over it
+  double supremum_ = 0, angle_ = 0;
+};
+
+// As near above the supremum as one of the steps allows.
+std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::size_t states) {
+  for (double slack = 4e-9; slack < 100; slack *= 10) {
+    const double damping = search.supremum() * (1 + slack);
+    for (const bool in_doubles : {true, false})
+      if (in_doubles || states <= most_states_in_digits)
+        if (std::optional<StorageProof> proof = search.at(damping, in_doubles)) return proof;
+  }
+  return std::nullopt;
+}
+
+// One P for holds of all lengths, behind an amplifier's lag: the least damping at which the P of the longest serves
+// all.
+std::optional<StorageProof> jittered_proof(const StorageSearch& search) {
+  std::optional<StorageProof> best;
+  double fails = 0, serves = 0;  // relative to the supremum, beyond it
+  for (serves = 0.01; serves < 100 && !best; serves *= 2) {
+    best = search.at(search.supremum() * (1 + serves), true);
+    if (!best) fails = serves;
+  }
+  for (int i = 0; i < 8 && best; ++i) {
+    const double middle = (fails + best->damping / search.supremum() - 1) / 2;
+    if (std::optional<StorageProof> proof = search.at(search.supremum() * (1 + middle), true)) best = proof;
+    else fails = middle;
+  }
+  return best;
+}
+
+}  // namespace
+
+checker::Device checked_device(const SampledLoop& loop) {
+  const velocity_description& v = loop.velocity;
+  checker::Device device{loop.sample_period,
+                         loop.jitter,
+                         loop.amplifier_lag,
+                         loop.tolerance,
+                         loop.largest_speed,
+                         loop.critical_speed,
+                         loop.residual_damping,
+                         loop.device_damping,
+                         v.cutoff,
+                         v.acceleration,
+                         loop.joint_encoder_step,
+                         loop.delay_samples,
+                         1,
+                         v.order,
+                         "difference of two samples",
+                         {1 / loop.sample_period}};
+  if (!loop.has_device) return device;
+  device.window = std::clamp(v.window, 1u, longest_window);
+  device.estimator = name_of(v.estimator);
+  device.estimator_coefficients = runtime_coefficients(v, loop.sample_period, loop.joint_encoder_step);
+  return device;
+}
+
+checker::Program checked_program(const MotorConstants& motor) {
+  checker::Program program;
+  program.force = {{"velocity", motor.velocity_gain},
+                   {"last", -Rational(motor.step_stiffness)},
+                   {"position", Rational(motor.static_stiffness) + Rational(motor.step_stiffness)}};
+  for (std::size_t i = 0; i < motor.modes.size(); ++i) {
+    const MotorMode& mode = motor.modes[i];
+    const std::string name = "mode" + std::to_string(i);
+    program.force[name] = 1;
+    program.states.push_back(name);
+    program.next[name] = {{name, exact_decay(motor, mode)},
+                          {"position", mode.position_drive},
+                          {"last", -Rational(mode.position_drive)},
+                          {"velocity", mode.velocity_drive}};
+  }
+  program.states.push_back("last");
+  program.next["last"] = {{"position", 1}};
+  const auto without_zeros = [](checker::Form& form) {
+    std::erase_if(form, [](const auto& term) { return term.second == 0; });
+  };
+  without_zeros(program.force);
+  for (auto& [state, form] : program.next) without_zeros(form);
+  return program;
+}
+
+std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
+                                          std::optional<double> stated) {
+  const std::optional<EstimatorFactors> factors =
+      motor.follows_estimate() ? estimator_factors(loop) : EstimatorFactors{};
+  if (!factors) return std::nullopt;
+  const checker::Device device = checked_device(loop);
+  const checker::LoopForm form = checker::loop_form(checked_program(motor), device);
+  const std::size_t n = form.states.size();
+  if (n > most_storage_states) return std::nullopt;
+  if (form.force.empty() && form.stiffness == 0) {
+    StorageProof idle;
+    for (std::size_t i = 0; i < n; ++i) idle.storage.emplace_back(i + 1, 0.0);
+    return idle;
+  }
+  const NeededDamping needed(motor, loop, *factors);
+  const StorageSearch search(form, device, sampled_bound(needed, loop.sample_period, most_terms / 10));
+  for (const bool in_doubles : {true, false})
+    if (stated && *stated > search.supremum() && (in_doubles || n <= most_states_in_digits))
+      if (std::optional<StorageProof> proof = search.at(*stated, in_doubles)) return proof;
+  return loop.amplifier_lag > 0 && loop.jitter > 0 ? jittered_proof(search) : punctual_proof(search, n);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,39 @@
+// A storage function of the sampled loop: a matrix P that proves the damping b enough for any motion, under jitter too
+// (theory, section 6b; the inequality stands in check/check.hpp).
+//
+// The search works in coordinates in which every state's largest excursion, weighed by what the damping leaves over at
+// that frequency, is one, and asks for M ⪰ diag(Q, 0) with Q = I/(4n): at every frequency that costs at most a quarter
+// of what is left over, so there is always a P, with much room where states are slow. P is minus the stabilising
+// solution of a Riccati equation, by doubling. What is found is rounded to doubles and then checked with integers:
+// nothing here has to be believed.
+#pragma once
+
+#include <optional>
+
+#include "certify/certificate.hpp"
+#include "check/check.hpp"
+
+namespace dashpot::compiler {
+
+// States, at most: beyond, a search takes seconds, and the bound over frequencies stands alone.
+inline constexpr std::size_t most_storage_states = 240;
+
+struct StorageProof {
+  double damping = 0;              // b, proved [N·s/m]
+  dashpot_check::Storage storage;  // P, by rows up to the diagonal
+  bool in_doubles = true;          // else the search needed 50 digits
+};
+
+// The loop as the checker takes it: with the coefficients that the runtime's estimator has.
+dashpot_check::Device checked_device(const SampledLoop& loop);
+
+// A motor as the checker would read it from a header.
+dashpot_check::Program checked_program(const MotorConstants& motor);
+
+// For `stated` where that is proved. Else not more than 1e-8 above the supremum over all frequencies, if doubles do and
+// samples are punctual, else as little above as is found; with jitter times T_max/T, and behind an amplifier's lag what
+// one P for all holds needs. Empty where nothing is proved.
+std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
+                                          std::optional<double> stated = std::nullopt);
+
+}  // namespace dashpot::compiler

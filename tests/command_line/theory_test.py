@@ -1,0 +1,54 @@
+"""The theorem behind `dashpot-check`, in Coq, and instances of it for laws: `compile --proof`."""
+import re
+import subprocess
+import unittest
+
+from dashpot_command import FIG_5, SOURCE, CommandTest
+
+THEORY = SOURCE / "compiler/certify/proof"
+LAWS = [[FIG_5], [SOURCE / "networks/paper/bridge.json"], [FIG_5, "--state-input", "velocity"]]
+# Of Coq's real numbers, and no others.
+AXIOMS = {"ClassicalDedekindReals.sig_forall_dec", "ClassicalDedekindReals.sig_not_dec",
+          "FunctionalExtensionality.functional_extensionality_dep"}
+HOLDS = """Require Import Hold.
+Print Assumptions lagging_hold.
+Print Assumptions least_dissipation_of_shorter_holds.
+"""
+
+
+class TheoryTest(CommandTest):
+    def coqc(self, name, text, accepted=True):
+        self.write(name, text)
+        done = subprocess.run(["coqc", "-R", ".", "Dashpot", name], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode == 0, accepted, done.stdout[-2000:] + done.stderr[-2000:])
+        return done.stdout
+
+    def assert_no_more_axioms(self, printed):
+        found = set(re.findall(r"^([A-Za-z_.]+)\s*(?::|$)", printed, re.M)) - {"Axioms"}
+        self.assertTrue(found)
+        self.assertLessEqual(found, AXIOMS)
+
+    # The theorem would not be proved, or rest on more than the reals; a law's instance would not be accepted, or one with
+    # a hundred-thousandth less damping would be.
+    def test_theory_and_instances(self):
+        for name in ("Forms.v", "Loop.v", "Hold.v"):
+            self.coqc(name, (THEORY / name).read_text())
+        self.assert_no_more_axioms(self.coqc("Holds.v", HOLDS))
+        for number, law in enumerate(LAWS):
+            with self.subTest(law=law):
+                self.dashpot("compile", *law, "--proof", "law.v")
+                text = (self.folder / "law.v").read_text()
+                self.assert_no_more_axioms(self.coqc(f"Law{number}.v", text))
+                if number > 0: continue
+                lowered = re.sub(r"beta := (\d+)", lambda beta: f"beta := {int(beta[1]) * 99999 // 100000}", text)
+                self.assertNotEqual(lowered, text)
+                self.coqc("Lowered.v", lowered, accepted=False)
+
+    # A law without a storage function would leave an empty proof behind.
+    def test_nothing_to_prove(self):
+        self.refused("compile", SOURCE / "networks/paper/visco_elasto_plastic.json", "--proof", "law.v", code="cannot-write-file")
+        self.assertEqual(self.files(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,124 @@
+// The storage functions that prove the sampled bound (theory, section 6b), by their known values.
+#include <gtest/gtest.h>
+
+#include "certify/storage_function.hpp"
+#include "motors.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double punctual_period = 0.001;  // [s]
+
+// Proved, and not more than 1e-8 above the supremum of which the printed digits are given.
+void expect_proved(const MotorConstants& motor, const SampledLoop& loop, double supremum, double digits = 1e-9) {
+  const std::optional<StorageProof> proof = storage_proof(motor, loop);
+  ASSERT_TRUE(proof);
+  EXPECT_NEAR(proof->damping / supremum, 1, 1e-8 + digits);
+  EXPECT_LE(proof->damping, bound_of(motor, loop).attained * (1 + 1e-8));
+  EXPECT_GE(proof->damping, bound_of(motor, loop).attained);
+}
+
+// A late spring would not be proved at (KT/2)(1 + 2n).
+TEST(StorageFunction, LateSpring) {
+  for (const unsigned delay : {0u, 1u, 2u, 7u}) {
+    SampledLoop loop = plain_loop(punctual_period);
+    loop.delay_samples = delay;
+    expect_proved(spring_motor(1000), loop, 0.5 * (1 + 2 * delay));
+  }
+}
+
+// Differences over longer windows would not be proved at the tabled values.
+TEST(StorageFunction, DamperThroughWindows) {
+  expect_proved(damper_motor(5), differencing_loop(punctual_period, 2), 2.8125);
+  expect_proved(damper_motor(5), differencing_loop(punctual_period, 3), 2.192608591, 3e-10);
+  expect_proved(damper_motor(5), differencing_loop(punctual_period, 5), 1.728768207, 3e-10);
+}
+
+// A Kelvin element in the motor, with delay, lag and filters, would not be proved at the tabled values.
+TEST(StorageFunction, KelvinOnDevices) {
+  MotorConstants motor = spring_motor(500);
+  motor.velocity_gain = 5;
+  SampledLoop loop = differencing_loop(punctual_period, 15);
+  loop.amplifier_lag = 0.0002;
+  expect_proved(motor, loop, 1.718727108);
+  loop.delay_samples = 1;
+  expect_proved(motor, loop, 2.575818494);
+  loop.amplifier_lag = 0;
+  loop.velocity.window = 5;
+  expect_proved(motor, loop, 3.352243202);
+
+  motor = spring_motor(2000);
+  motor.velocity_gain = 4;
+  loop = differencing_loop(1e-4, 1);
+  loop.velocity.estimator = estimator_kind::butterworth;
+  loop.velocity.order = 4;
+  loop.velocity.cutoff = 120;
+  loop.delay_samples = 1;
+  loop.amplifier_lag = 0.0002;
+  expect_proved(motor, loop, 4.030414829);
+}
+
+// A velocity-driven Maxwell element behind its brake would not be proved at the tabled values.
+TEST(StorageFunction, MaxwellDrivenByTheEstimate) {
+  for (const auto& [window, supremum] :
+       {std::pair(1u, 4.975000208), std::pair(5u, 4.877106299), std::pair(15u, 4.730302196)}) {
+    MotorConstants motor = damper_motor(-5);
+    add_maxwell(motor, 50, 10, punctual_period, false);
+    SampledLoop loop = differencing_loop(punctual_period, window);
+    loop.delay_samples = 1;
+    expect_proved(motor, loop, supremum);
+  }
+}
+
+// A spring behind a lag of a period would not be proved at the tabled value.
+TEST(StorageFunction, SpringBehindALag) {
+  SampledLoop loop = plain_loop(punctual_period);
+  loop.amplifier_lag = punctual_period;
+  expect_proved(spring_motor(1000), loop, 1.513540553);
+}
+
+// At the supremum itself there is one P alone, here of a damper behind the difference over two samples: what is found
+// just above it would lie elsewhere.
+TEST(StorageFunction, NearTheOnlyOne) {
+  const std::optional<StorageProof> proof = storage_proof(damper_motor(5), differencing_loop(punctual_period, 2));
+  ASSERT_TRUE(proof);
+  EXPECT_NEAR(proof->storage[0][0], 1562.5, 0.1);
+  EXPECT_NEAR(proof->storage[1][0], 625, 0.1);
+  EXPECT_NEAR(proof->storage[1][1], 1250, 0.1);
+}
+
+// A mode that hardly relaxes would be charged what the arcs of the frequency search leave open.
+TEST(StorageFunction, SlowMode) {
+  MotorConstants motor;
+  motor.modes = {{0.9999999999974019, 1 - 0.9999999999974019, 0, 565.281042 * 0.9999999999974019 * 1e-4, 0}};
+  motor.velocity_gain = 565.281042 * 1e-4;
+  SampledLoop loop = differencing_loop(1e-4, 1);
+  loop.delay_samples = 2;
+  const std::optional<StorageProof> proof = storage_proof(motor, loop);
+  ASSERT_TRUE(proof);
+  EXPECT_NEAR(proof->damping / 0.14131997, 1, 4e-8);
+}
+
+// Under jitter: without a lag exactly in proportion to the longest hold; behind one, between what is necessary and what
+// one P for all holds is known to need.
+TEST(StorageFunction, Jitter) {
+  SampledLoop late = plain_loop(punctual_period);
+  late.delay_samples = 1;
+  late.jitter = 0.2 * punctual_period;
+  EXPECT_NEAR(storage_proof(spring_motor(1000), late)->damping / 1.8, 1, 1e-8);
+
+  MotorConstants motor = spring_motor(500);
+  motor.velocity_gain = 5;
+  SampledLoop loop = differencing_loop(punctual_period, 15);
+  loop.amplifier_lag = 0.2 * punctual_period;
+  for (const auto& [jitter, least, most] : {std::tuple(0.05, 1.04502, 1.05), std::tuple(0.2, 1.18, 1.2)}) {
+    loop.jitter = jitter * punctual_period;
+    const std::optional<StorageProof> proof = storage_proof(motor, loop);
+    ASSERT_TRUE(proof);
+    EXPECT_GE(proof->damping, 1.718727108 * least);
+    EXPECT_LE(proof->damping, 1.718727108 * most);
+  }
+}
+
+}  // namespace
+}  // namespace dashpot::compiler

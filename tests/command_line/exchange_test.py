@@ -5,7 +5,7 @@ import unittest
 from dashpot_command import COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, CommandTest, network
 
 SERIES = network('{ "prony": "1.2 kN/m", "of": "instantaneous", "name": "liver", "terms": [ '
-                 '{ "weight": 0.4, "time": "0.1 s" }, { "weight": 0.25, "time": "3 s" } ] }', "liver")
+                 '{ "weight": 0.4, "time": "0.1 s" }, { "weight": 0.25, "time": "3 s" } ] }', "organ")
 FORMATS = {"abaqus": ["--stiffness", "1.2 kN/m"], "ansys": ["--stiffness", "1.2 kN/m"],
            "febio": ["--stiffness", "1.2 kN/m"], "ls-dyna": ["--modulus", "1 N/m"],
            "generic": ["--stiffness", "1.2 kN/m", "--of", "instantaneous"]}

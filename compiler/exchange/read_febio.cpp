@@ -12,13 +12,13 @@
 namespace dashpot::compiler {
 namespace {
 
-using Tree = boost::property_tree::ptree;
+using XmlTree = boost::property_tree::ptree;
 
 class FebioReader {
  public:
   FebioReader(const SourceFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
 
-  void search(const Tree& tree) {
+  void search(const XmlTree& tree) {
     for (const auto& [key, child] : tree) {
       const std::string type = lower(child.get("<xmlattr>.type", ""));
       if ((key == "material" || key == "solid") && type.find("viscoelastic") != std::string::npos) add(child);
@@ -29,7 +29,7 @@ class FebioReader {
   std::vector<MaterialSeries> found;
 
  private:
-  void add(const Tree& material) {
+  void add(const XmlTree& material) {
     const std::string name = material.get("<xmlattr>.name", material.get("<xmlattr>.id", ""));
     const Span place{&file_, 0, 0};
     PronySeries series{PronyOf::long_term, number(material, "g0").value_or(1), {}};
@@ -49,7 +49,7 @@ class FebioReader {
     return series;
   }
 
-  std::optional<double> number(const Tree& material, const std::string& key) {
+  std::optional<double> number(const XmlTree& material, const std::string& key) {
     const auto text = material.get_optional<std::string>(key);
     if (!text) return std::nullopt;
     const std::size_t begin = text->find_first_not_of(" \t\r\n");
@@ -72,7 +72,7 @@ class FebioReader {
 
 std::vector<MaterialSeries> read_febio(const SourceFile& file, Diagnostics& diagnostics) {
   std::istringstream text(file.text());
-  Tree tree;
+  XmlTree tree;
   try {
     boost::property_tree::read_xml(text, tree, boost::property_tree::xml_parser::no_comments);
   } catch (const boost::property_tree::xml_parser_error& error) {

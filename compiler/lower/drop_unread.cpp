@@ -7,7 +7,10 @@
 
 namespace dashpot::compiler {
 
-UpdateLaw without_unread_locals(UpdateLaw law) {
+namespace {
+
+// False where nothing was left to drop. What a dropped statement alone has read is unread after it.
+bool drop_once(UpdateLaw& law) {
   std::set<VariableId> read = {law.force, law.stored};
   if (law.brake_changes()) read.insert(law.brake);
   for (const std::vector<Statement>* program : programs(law))
@@ -18,10 +21,18 @@ UpdateLaw without_unread_locals(UpdateLaw law) {
   for (Coupling& coupling : law.couplings)
     for (VariableId& sign : coupling.sign)
       if (read.count(sign) == 0) sign = no_variable;
+  std::size_t dropped = 0;
   for (auto* program : {&law.output, &law.update, &law.energy})
-    std::erase_if(*program, [&](const Statement& statement) {
+    dropped += std::erase_if(*program, [&](const Statement& statement) {
       return law.variables[statement.target].role == Role::local && read.count(statement.target) == 0;
     });
+  return dropped > 0;
+}
+
+}  // namespace
+
+UpdateLaw without_unread_locals(UpdateLaw law) {
+  while (drop_once(law)) continue;
   check_law(law, "dropping what is unread");
   return law;
 }

@@ -17,6 +17,7 @@ constexpr double default_time = 1;      // τ of K τ^α D^α u [s]
 constexpr double default_error = 0.01;  // of a springpot over its band
 constexpr double least_error = 1e-9;    // beyond it the rounding of the constants counts
 constexpr double greatest_error = 0.5;
+constexpr double widest_band = 1e24;  // highest over lowest frequency: further apart no values may lie
 
 class LadderReader {
  public:
@@ -38,6 +39,10 @@ class LadderReader {
     SpringpotLadder unit = springpot_ladder(*exponent, turn * band->low, turn * band->high, *error);
     const double scale = *stiffness * std::pow(*time, *exponent);
     for (MaxwellBranch& branch : unit.branches) branch.stiffness *= scale;
+    if (!are_finite(unit.branches)) {
+      diagnostics_.report<DiagnosticCode::number_too_large>(leaf_.value->span, excerpt(leaf_.value->text));
+      return std::nullopt;
+    }
     const Springpot springpot{{}, *stiffness, *exponent, *time, *band, unit.error, unit.branches.size(), leaf_.span};
     return Ladder{{}, std::move(unit.branches), springpot};
   }
@@ -51,10 +56,23 @@ class LadderReader {
     if (!stiffness || !of || series.terms.size() != decl.terms.size()) return std::nullopt;
     series.of = *of;
     series.stiffness = *stiffness;
-    return is_passive(series) ? std::optional(ladder_of(series)) : (report_active(series), std::nullopt);
+    if (!is_passive(series)) {
+      report_active(series);
+      return std::nullopt;
+    }
+    Ladder ladder = ladder_of(series);
+    if (are_finite(ladder.branches) && std::isfinite(ladder.stiffness.value_or(0))) return ladder;
+    diagnostics_.report<DiagnosticCode::number_too_large>(leaf_.value->span, excerpt(leaf_.value->text));
+    return std::nullopt;
   }
 
  private:
+  static bool are_finite(const std::vector<MaxwellBranch>& branches) {
+    return std::all_of(branches.begin(), branches.end(), [](const MaxwellBranch& branch) {
+      return std::isfinite(branch.stiffness) && std::isfinite(branch.stiffness / branch.relaxation_rate);
+    });
+  }
+
   std::optional<double> read_constant(const ValueDecl& decl, std::string_view taker, const Dimension& due) {
     const auto value = table_.read(decl, {std::string(taker), due, motion_});
     if (!value) return std::nullopt;
@@ -103,7 +121,7 @@ class LadderReader {
   std::optional<Range> read_band(const std::optional<RangeDecl>& decl) {
     if (decl) return read_stated_band(*decl);
     for (const std::optional<Range>& band : {defaults_.valid_frequency, defaults_.device_band})
-      if (band && band->low > 0) return band;
+      if (band && band->low > 0 && band->high > band->low && band->high / band->low <= widest_band) return band;
     diagnostics_.report<DiagnosticCode::springpot_without_band>(leaf_.kind_span);
     diagnostics_.note<DiagnosticCode::state_springpot_band>({});
     return std::nullopt;
@@ -117,6 +135,12 @@ class LadderReader {
     const auto low = read_positive(*decl.low, "the lower end of a springpot's band", dimensions::frequency);
     const auto high = read_positive(decl.high, "the upper end of a springpot's band", dimensions::frequency);
     if (!low || !high) return std::nullopt;
+    if (*low<*high&& * high / *low> widest_band) {
+      diagnostics_.report<DiagnosticCode::device_limit>(decl.span, "band",
+                                                        excerpt(decl.low->text) + " to " + excerpt(decl.high.text),
+                                                        fmt::format("a factor of at most {}", widest_band));
+      return std::nullopt;
+    }
     if (*low < *high) return Range{*low, *high};
     diagnostics_.report<DiagnosticCode::empty_range>(decl.span, "the band of a springpot", excerpt(decl.low->text),
                                                      excerpt(decl.high.text));

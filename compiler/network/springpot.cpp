@@ -1,10 +1,9 @@
 #include "network/springpot.hpp"
 
-#include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <utility>
 
 namespace dashpot::compiler {
 namespace {
@@ -63,36 +62,55 @@ SpringpotGrid balanced(double exponent, double low, double high, double step, st
   return {(from + to) / 2, step, points};
 }
 
+struct Tails {
+  Tail below;
+  Tail above;
+  double error;  // with the ripple of what lies between them
+};
+
+Tails tails_of(double exponent, double low, double high, const SpringpotGrid& grid) {
+  const double scale = std::sin(pi * exponent) / pi * grid.step;
+  const double end = grid.first + static_cast<double>(grid.points) * grid.step;
+  const Tail below = tail_below(exponent, scale, grid.first - grid.step, grid.step, low);
+  const Tail above = tail_above(exponent, scale, end, grid.step, high);
+  return {below, above, ripple(exponent, grid.step) + below.error + above.error};
+}
+
 // With the step of least error.
-SpringpotLadder best_ladder(double exponent, double low, double high, std::size_t points) {
+SpringpotGrid best_grid(double exponent, double low, double high, std::size_t points) {
   const auto error = [&](double log_step) {
-    const SpringpotGrid grid = balanced(exponent, low, high, std::exp(log_step), points);
-    return std::log(springpot_ladder(exponent, low, high, grid).error);
+    return std::log(tails_of(exponent, low, high, balanced(exponent, low, high, std::exp(log_step), points)).error);
   };
   const double longest = std::log(high / low) + 10;
   const auto [log_step, least] = boost::math::tools::brent_find_minima(error, std::log(0.05), std::log(longest), 30);
-  return springpot_ladder(exponent, low, high, balanced(exponent, low, high, std::exp(log_step), points));
+  return balanced(exponent, low, high, std::exp(log_step), points);
 }
 
 }  // namespace
 
 SpringpotLadder springpot_ladder(double exponent, double low, double high, const SpringpotGrid& grid) {
+  const Tails tails = tails_of(exponent, low, high, grid);
   const double scale = std::sin(pi * exponent) / pi * grid.step;
-  const Tail below = tail_below(exponent, scale, grid.first - grid.step, grid.step, low);
-  const double end = grid.first + static_cast<double>(grid.points) * grid.step;
-  const Tail above = tail_above(exponent, scale, end, grid.step, high);
-  SpringpotLadder ladder{{below.lumped}, ripple(exponent, grid.step) + below.error + above.error};
+  SpringpotLadder ladder{{tails.below.lumped}, tails.error};
   for (std::size_t i = 0; i < grid.points; ++i) {
     const double x = grid.first + static_cast<double>(i) * grid.step;
     ladder.branches.push_back({scale * std::exp(exponent * x), std::exp(x)});
   }
-  ladder.branches.push_back(above.lumped);
+  ladder.branches.push_back(tails.above.lumped);
   return ladder;
 }
 
 SpringpotLadder springpot_ladder(double exponent, double low, double high, double error) {
-  for (std::size_t points = 0;; ++points)
-    if (SpringpotLadder ladder = best_ladder(exponent, low, high, points); ladder.error <= error) return ladder;
+  const auto suffices = [&](std::size_t points) {
+    return tails_of(exponent, low, high, best_grid(exponent, low, high, points)).error <= error;
+  };
+  std::size_t too_few = 0, enough = 0;
+  while (!suffices(enough)) too_few = std::exchange(enough, 2 * enough + 1);
+  while (enough > too_few + 1) {
+    const std::size_t middle = (too_few + enough) / 2;
+    (suffices(middle) ? enough : too_few) = middle;
+  }
+  return springpot_ladder(exponent, low, high, best_grid(exponent, low, high, enough));
 }
 
 }  // namespace dashpot::compiler

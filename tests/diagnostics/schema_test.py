@@ -38,7 +38,8 @@ BEYOND_THE_SCHEMAS = {
     "expression_with_exponential_of_length", "expression_with_logarithm_of_zero", "expression_with_open_bracket",
     "expression_with_root_of_negative", "expression_with_root_without_unit", "expression_with_stray_bracket",
     "expression_without_product_sign", "prony_time_of_zero", "prony_weights_above_one",
-    "springpot_band_at_zero", "springpot_band_reversed", "springpot_beyond_its_band", "springpot_error_too_small",
+    "springpot_band_at_zero", "springpot_band_reversed", "springpot_band_too_wide", "springpot_beyond_a_double",
+    "springpot_beyond_its_band", "springpot_error_too_small",
     "springpot_exponent_above_one", "springpot_exponent_of_damper", "springpot_exponent_of_spring", "springpot_of_zero",
     "springpot_time_of_zero", "springpot_tunable", "springpot_without_band",
     # values and units

@@ -70,7 +70,9 @@ TEST(SequenceTracker, ignores_one_wild_number) {
     sequence_tracker tracker;
     for (std::uint32_t i = 100; i < 200; ++i) {
       ASSERT_EQ(tracker.note(i), arrival::fresh) << "after " << wild;
-      if (i % 3 == 0) ASSERT_EQ(tracker.note(wild + i), arrival::late);
+      if (i % 3 == 0) {
+        ASSERT_EQ(tracker.note(wild + i), arrival::late);
+      }
     }
     EXPECT_EQ(tracker.statistics().lost, 0U);
   }

@@ -21,7 +21,8 @@ class monotonic_clock {
  public:
   static constexpr bool is_real = true;
 
-  explicit monotonic_clock(const machine_time& time = real_machine_time()) noexcept : time_(&time) {}
+  monotonic_clock() noexcept : monotonic_clock(real_machine_time()) {}
+  explicit monotonic_clock(const machine_time& time) noexcept : time_(&time) {}
 
   void start(double period) noexcept;  // [s]; the first release is one period from now
   wake_up wait() noexcept;             // sleeps until the next release; returns at once when that is past

@@ -5,6 +5,7 @@
 
 #include "decompose/slip_laws.hpp"
 #include "discretise/discretise.hpp"
+#include "lower/drop_unread.hpp"
 #include "linear/validity.hpp"
 #include "slip_choice.hpp"
 #include "source/render.hpp"
@@ -53,7 +54,8 @@ compiler::Compilation compiled(const compiler::Network& network, const compiler:
     compiler::choose_slip_law(
         result, choices,
         device ? compiler::PortDevice::of(*device, network, diagnostics).value() : compiler::PortDevice::ideal());
-  result.law = compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate);
+  result.law = compiler::without_unread_locals(
+      compiler::discretise(result.network, result.form, result.decomposition, choices, result.rate));
   return result;
 }
 

@@ -17,8 +17,8 @@
 // cost of update(): 1 additions, 1 multiplications, 1 guards against subnormals; 6 states
 // rounding: a mode's force is off by at most 5.6e-16 of its peak
 //
-// Written by dashpot 0.1.0 from a network with digest ac88426b23200b24. It belongs to whoever had it written. Compile
-// it with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest ac88426b23200b24. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -126,22 +126,22 @@ class visco_elasto_plastic {
   }
 
  private:
-  static constexpr scalar damping = 3.3;                              // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;          // below, a force is zero: no subnormal state
-  static constexpr scalar Y_trial_by_change = 1000.0;                 // for a change of position [N/m]
-  static constexpr scalar Y_yield = 0.5;                              // Y [N]
-  static constexpr scalar Y_force_by_excess = 0.5555555555555556;     // for what the slip does not hold [1]
-  static constexpr scalar slips_compensation = 0.7999991999992;       // β behind slips [N·s/m]
+  static constexpr scalar damping = 3.3;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar Y_trial_by_change = 1000.0;  // for a change of position [N/m]
+  static constexpr scalar Y_yield = 0.5;  // Y [N]
+  static constexpr scalar Y_force_by_excess = 0.5555555555555556;  // for what the slip does not hold [1]
+  static constexpr scalar slips_compensation = 0.7999991999992;  // β behind slips [N·s/m]
   static constexpr scalar Y_K_spring_by_excess = 0.5555555555555556;  // for what the slip does not hold [1]
-  static constexpr scalar K_compliance = 0.0005;                      // 1/(2 k) [m/N]
+  static constexpr scalar K_compliance = 0.0005;  // 1/(2 k) [m/N]
 
-  scalar K_spring_force_ = 0;           // force of the spring [N]
+  scalar K_spring_force_ = 0;  // force of the spring [N]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
-  scalar sampled_Y_trial_ = 0;          // the slip's force if it held, at this sample [N]
-  scalar sampled_Y_excess_ = 0;         // what the slip does not hold, at this sample [N]
-  scalar sampled_position_ = 0;         // port displacement u, at this sample [m]
-  scalar last_position_ = 0;            // u of the sample before [m]
-  bool sampled_ = false;                // a finite sample waits for update()
+  scalar sampled_Y_trial_ = 0;  // the slip's force if it held, at this sample [N]
+  scalar sampled_Y_excess_ = 0;  // what the slip does not hold, at this sample [N]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  bool sampled_ = false;  // a finite sample waits for update()
 };
 
 }  // namespace dashpot::generated

@@ -17,8 +17,8 @@
 // cost of update(): 11 additions, 11 multiplications, 3 guards against subnormals; 8 states
 // rounding: a mode's force is off by at most 1.6e-14 of its peak
 //
-// Written by dashpot 0.1.0 from a network with digest 67a28d78792a7f21. It belongs to whoever had it written. Compile
-// it with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest 67a28d78792a7f21. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -65,21 +65,18 @@ class visco_elasto_plastic_organ {
     const scalar position_change = position - last_position_;
     // t = stuck trial
     const scalar Y_trial = Y_trial_by_change * position_change +
-                           Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-                           Y_trial_by_K * K_spring_force_;
+        Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_trial_by_K * K_spring_force_;
     // s = clamp(t, ±Y)
     const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
     // r = t − s
     const scalar Y_excess = Y_trial - Y_slip;
     // f' = f − x Δu/h, x of the regime
-    const scalar Y_force =
-        Y_excess * Y_slip > 0
-            ? Y_force_by_change * position_change +
-                  Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-                  Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess
-            : Y_stuck_force_by_change * position_change +
-                  Y_stuck_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-                  Y_stuck_force_by_K * K_spring_force_;
+    const scalar Y_force = Y_excess * Y_slip > 0 ? Y_force_by_change * position_change +
+        Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess : Y_stuck_force_by_change * position_change +
+        Y_stuck_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_stuck_force_by_K * K_spring_force_;
     // m = f − b u̇
     const scalar force = Y_force - slips_compensation * velocity;
     sampled_ = false;
@@ -97,25 +94,23 @@ class visco_elasto_plastic_organ {
     if (!sampled_) return;
     sampled_ = false;
     // δ of the block
-    const scalar K3_B3_K4_B4_elongation =
-        Y_K3_B3_K4_B4_elongation_by_change * sampled_position_change_ -
-        Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+    const scalar K3_B3_K4_B4_elongation = Y_K3_B3_K4_B4_elongation_by_change *
+        sampled_position_change_ - Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ +
+        K3_B3_K4_B4_mode_force_) +
         Y_K3_B3_K4_B4_elongation_by_K * K_spring_force_ - Y_K3_B3_K4_B4_elongation_by_excess * sampled_Y_excess_;
     // F ← F + k δ
-    const scalar K3_B3_K4_B4_spring_force_next = dashpot::flush_below(
-        threshold,
-        K3_B3_K4_B4_spring_force_ +
-            (Y_K3_B3_K4_B4_spring_by_change * sampled_position_change_ -
-             Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-             Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * sampled_Y_excess_));
+    const scalar K3_B3_K4_B4_spring_force_next = dashpot::flush_below(threshold, K3_B3_K4_B4_spring_force_ +
+        (Y_K3_B3_K4_B4_spring_by_change * sampled_position_change_ - Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 *
+        (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * sampled_Y_excess_));
     // F ← F + k δ
-    const scalar K_spring_force_next =
-        dashpot::flush_below(threshold, sampled_Y_trial_ - Y_K_spring_by_excess * sampled_Y_excess_);
+    const scalar K_spring_force_next = dashpot::flush_below(threshold,
+        sampled_Y_trial_ - Y_K_spring_by_excess * sampled_Y_excess_);
     K3_B3_K4_B4_spring_force_ = K3_B3_K4_B4_spring_force_next;
     K_spring_force_ = K_spring_force_next;
     // F ← a (F + c Δu)
     K3_B3_K4_B4_mode_force_ = dashpot::relaxed(threshold, K3_B3_K4_B4_mode_decay, K3_B3_K4_B4_mode_force_,
-                                               K3_B3_K4_B4_mode_gain * K3_B3_K4_B4_elongation);
+        K3_B3_K4_B4_mode_gain * K3_B3_K4_B4_elongation);
     // u₋ = u
     last_position_ = sampled_position_;
   }
@@ -126,21 +121,18 @@ class visco_elasto_plastic_organ {
     const scalar position_change = position - last_position_;
     // t = stuck trial
     const scalar Y_trial = Y_trial_by_change * position_change +
-                           Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-                           Y_trial_by_K * K_spring_force_;
+        Y_trial_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_trial_by_K * K_spring_force_;
     // s = clamp(t, ±Y)
     const scalar Y_slip = dashpot::clamp_to(Y_yield, Y_trial);
     // r = t − s
     const scalar Y_excess = Y_trial - Y_slip;
     // f' = f − x Δu/h, x of the regime
-    const scalar Y_force =
-        Y_excess * Y_slip > 0
-            ? Y_force_by_change * position_change +
-                  Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-                  Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess
-            : Y_stuck_force_by_change * position_change +
-                  Y_stuck_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-                  Y_stuck_force_by_K * K_spring_force_;
+    const scalar Y_force = Y_excess * Y_slip > 0 ? Y_force_by_change * position_change +
+        Y_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_force_by_K * K_spring_force_ - Y_force_by_excess * Y_excess : Y_stuck_force_by_change * position_change +
+        Y_stuck_force_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_stuck_force_by_K * K_spring_force_;
     // m = f − b u̇
     const scalar force = Y_force - slips_compensation * velocity;
     if (!dashpot::all_finite(position, force)) {
@@ -148,23 +140,22 @@ class visco_elasto_plastic_organ {
       return {damping, 0};
     }
     // δ of the block
-    const scalar K3_B3_K4_B4_elongation =
-        Y_K3_B3_K4_B4_elongation_by_change * position_change -
-        Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+    const scalar K3_B3_K4_B4_elongation = Y_K3_B3_K4_B4_elongation_by_change *
+        position_change - Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ +
+        K3_B3_K4_B4_mode_force_) +
         Y_K3_B3_K4_B4_elongation_by_K * K_spring_force_ - Y_K3_B3_K4_B4_elongation_by_excess * Y_excess;
     // F ← F + k δ
-    const scalar K3_B3_K4_B4_spring_force_next = dashpot::flush_below(
-        threshold, K3_B3_K4_B4_spring_force_ +
-                       (Y_K3_B3_K4_B4_spring_by_change * position_change -
-                        Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 * (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
-                        Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * Y_excess));
+    const scalar K3_B3_K4_B4_spring_force_next = dashpot::flush_below(threshold, K3_B3_K4_B4_spring_force_ +
+        (Y_K3_B3_K4_B4_spring_by_change * position_change - Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 *
+        (K3_B3_K4_B4_spring_force_ + K3_B3_K4_B4_mode_force_) +
+        Y_K3_B3_K4_B4_spring_by_K * K_spring_force_ - Y_K3_B3_K4_B4_spring_by_excess * Y_excess));
     // F ← F + k δ
     const scalar K_spring_force_next = dashpot::flush_below(threshold, Y_trial - Y_K_spring_by_excess * Y_excess);
     K3_B3_K4_B4_spring_force_ = K3_B3_K4_B4_spring_force_next;
     K_spring_force_ = K_spring_force_next;
     // F ← a (F + c Δu)
     K3_B3_K4_B4_mode_force_ = dashpot::relaxed(threshold, K3_B3_K4_B4_mode_decay, K3_B3_K4_B4_mode_force_,
-                                               K3_B3_K4_B4_mode_gain * K3_B3_K4_B4_elongation);
+        K3_B3_K4_B4_mode_gain * K3_B3_K4_B4_elongation);
     // u₋ = u
     last_position_ = position;
     sampled_ = false;
@@ -177,11 +168,11 @@ class visco_elasto_plastic_organ {
   // In the springs after the last update() [J].
   scalar stored_energy() const noexcept {
     // F²/(2k)
-    const scalar K3_B3_K4_B4_spring_energy =
-        K3_B3_K4_B4_compliance * K3_B3_K4_B4_spring_force_ * K3_B3_K4_B4_spring_force_;
+    const scalar K3_B3_K4_B4_spring_energy = K3_B3_K4_B4_compliance * K3_B3_K4_B4_spring_force_ *
+        K3_B3_K4_B4_spring_force_;
     // F²/(2k)
-    const scalar K3_B3_K4_B4_mode_energy =
-        K3_B3_K4_B4_mode_energy_weight * K3_B3_K4_B4_mode_force_ * K3_B3_K4_B4_mode_force_;
+    const scalar K3_B3_K4_B4_mode_energy = K3_B3_K4_B4_mode_energy_weight * K3_B3_K4_B4_mode_force_ *
+        K3_B3_K4_B4_mode_force_;
     // F²/(2k)
     const scalar K_spring_energy = K_compliance * K_spring_force_ * K_spring_force_;
     // V = ½ k0 u² + Σ F_i²/(2 k_i)
@@ -190,46 +181,44 @@ class visco_elasto_plastic_organ {
   }
 
  private:
-  static constexpr scalar damping = 3.3;                                 // b, the brake's part
-  static constexpr scalar threshold = 6.223015277861142e-61;             // below, a force is zero: no subnormal state
-  static constexpr scalar Y_trial_by_change = 581.271352586278;          // for a change of position [N/m]
+  static constexpr scalar damping = 3.3;  // b, the brake's part
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar Y_trial_by_change = 581.271352586278;  // for a change of position [N/m]
   static constexpr scalar Y_trial_by_K3_B3_K4_B4 = 0.11963675640392056;  // for a force held there [1]
-  static constexpr scalar Y_trial_by_K = 0.8803632435960794;             // for a force held there [1]
-  static constexpr scalar Y_yield = 0.5;                                 // Y [N]
-  static constexpr scalar Y_force_by_change = 412.82811243035144;        // for a change of position [N/m]
+  static constexpr scalar Y_trial_by_K = 0.8803632435960794;  // for a force held there [1]
+  static constexpr scalar Y_yield = 0.5;  // Y [N]
+  static constexpr scalar Y_force_by_change = 412.82811243035144;  // for a change of position [N/m]
   static constexpr scalar Y_force_by_K3_B3_K4_B4 = 0.41872864741372195;  // for a force held there [1]
-  static constexpr scalar Y_force_by_K = 0.581271352586278;              // for a force held there [1]
-  static constexpr scalar Y_force_by_excess = 0.3459200591309781;        // for what the slip does not hold [1]
+  static constexpr scalar Y_force_by_K = 0.581271352586278;  // for a force held there [1]
+  static constexpr scalar Y_force_by_excess = 0.3459200591309781;  // for what the slip does not hold [1]
   static constexpr scalar Y_stuck_force_by_change = 412.82811243035144;  // for a change of position [N/m]
-  static constexpr scalar Y_stuck_force_by_K3_B3_K4_B4 = 0.41872864741372195;        // for a force held there [1]
-  static constexpr scalar Y_stuck_force_by_K = 0.581271352586278;                    // for a force held there [1]
-  static constexpr scalar slips_compensation = 1.6783766999983214;                   // β behind slips [N·s/m]
+  static constexpr scalar Y_stuck_force_by_K3_B3_K4_B4 = 0.41872864741372195;  // for a force held there [1]
+  static constexpr scalar Y_stuck_force_by_K = 0.581271352586278;  // for a force held there [1]
+  static constexpr scalar slips_compensation = 1.6783766999983214;  // β behind slips [N·s/m]
   static constexpr scalar Y_K3_B3_K4_B4_elongation_by_change = 0.41872864741372195;  // for a change of position [N/m]
-  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 =
-      0.00011963675640392057;                                                      // for a force held there [1]
+  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_K3_B3_K4_B4 = 0.00011963675640392057;  // for a force held there [1]
   static constexpr scalar Y_K3_B3_K4_B4_elongation_by_K = 0.00011963675640392057;  // for a force held there [1]
-  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_excess =
-      7.119696104985648e-05;                                                   // for what the slip does not hold [1]
+  static constexpr scalar Y_K3_B3_K4_B4_elongation_by_excess = 7.119696104985648e-05;  // for what the slip does not hold [1]
   static constexpr scalar Y_K3_B3_K4_B4_spring_by_change = 45.67948880876967;  // for a change of position [N/m]
   static constexpr scalar Y_K3_B3_K4_B4_spring_by_K3_B3_K4_B4 = 0.013051282516791335;  // for a force held there [1]
-  static constexpr scalar Y_K3_B3_K4_B4_spring_by_K = 0.013051282516791335;            // for a force held there [1]
+  static constexpr scalar Y_K3_B3_K4_B4_spring_by_K = 0.013051282516791335;  // for a force held there [1]
   static constexpr scalar Y_K3_B3_K4_B4_spring_by_excess = 0.007766941205438888;  // for what the slip does not hold [1]
-  static constexpr scalar Y_K_spring_by_excess = 0.5239124617556193;              // for what the slip does not hold [1]
-  static constexpr scalar K3_B3_K4_B4_mode_gain = 131.3514621404418;              // a c [N/m]
-  static constexpr scalar K3_B3_K4_B4_mode_decay = 0.9790683270857832;            // a = e^{−λh} [1]
-  static constexpr scalar K3_B3_K4_B4_compliance = 0.004583333333333333;          // 1/(2 k) [m/N]
+  static constexpr scalar Y_K_spring_by_excess = 0.5239124617556193;  // for what the slip does not hold [1]
+  static constexpr scalar K3_B3_K4_B4_mode_gain = 131.3514621404418;  // a c [N/m]
+  static constexpr scalar K3_B3_K4_B4_mode_decay = 0.9790683270857832;  // a = e^{−λh} [1]
+  static constexpr scalar K3_B3_K4_B4_compliance = 0.004583333333333333;  // 1/(2 k) [m/N]
   static constexpr scalar K3_B3_K4_B4_mode_energy_weight = 0.003847128473365685;  // 1/(2 k a²) [m/N]
-  static constexpr scalar K_compliance = 0.0005;                                  // 1/(2 k) [m/N]
+  static constexpr scalar K_compliance = 0.0005;  // 1/(2 k) [m/N]
 
   scalar K3_B3_K4_B4_spring_force_ = 0;  // force of the spring [N]
-  scalar K3_B3_K4_B4_mode_force_ = 0;    // force of the mode, decayed to the next sample [N]
-  scalar K_spring_force_ = 0;            // force of the spring [N]
-  scalar sampled_position_change_ = 0;   // Δu since the sample before, at this sample [m]
-  scalar sampled_Y_excess_ = 0;          // what the slip does not hold, at this sample [N]
-  scalar sampled_Y_trial_ = 0;           // the slip's force if it held, at this sample [N]
-  scalar sampled_position_ = 0;          // port displacement u, at this sample [m]
-  scalar last_position_ = 0;             // u of the sample before [m]
-  bool sampled_ = false;                 // a finite sample waits for update()
+  scalar K3_B3_K4_B4_mode_force_ = 0;  // force of the mode, decayed to the next sample [N]
+  scalar K_spring_force_ = 0;  // force of the spring [N]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar sampled_Y_excess_ = 0;  // what the slip does not hold, at this sample [N]
+  scalar sampled_Y_trial_ = 0;  // the slip's force if it held, at this sample [N]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  bool sampled_ = false;  // a finite sample waits for update()
 };
 
 }  // namespace dashpot::generated

@@ -59,11 +59,33 @@ class input {
 
 using board_application = application<any_hardware, dashpot::generated::stand_in_model>;
 
-template <class Message>
-void say(board_application& board, const Message& message, std::uint32_t sequence = 0) {
-  const encoded_frame frame = encode(message, sequence);
-  board.receive(frame.bytes, frame.size);
-}
+// The line to the board, with a decoder of its own beside it: bytes that look like the start of a long frame hold back
+// the frames behind them until they are found not to be one, so that a reset can be served long after it was sent.
+class line {
+ public:
+  explicit line(board_application& board) : board_(board) {}
+
+  void send(const std::uint8_t* bytes, std::size_t count) {
+    for_each_frame(decoder_, bytes, count, [this](const frame& heard) {
+      reset_heard = reset_heard || heard.type == message_type::reset;
+      command_heard = command_heard || heard.type == message_type::command;
+    });
+    board_.receive(bytes, count);
+  }
+
+  template <class Message>
+  void say(const Message& message, std::uint32_t sequence = 0) {
+    const encoded_frame frame = encode(message, sequence);
+    send(frame.bytes, frame.size);
+  }
+
+  bool reset_heard = false;
+  bool command_heard = false;
+
+ private:
+  board_application& board_;
+  frame_decoder decoder_;
+};
 
 configure_message configuration_of(input& what) {
   configure_message wish;
@@ -83,31 +105,28 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   input what(data, size);
   any_hardware hardware;
   board_application board(hardware, facts);
+  line to_board(board);
   std::uint32_t sequence = what.number<std::uint32_t>();
-  unsigned silent = 0;  // periods since the last new command
+  unsigned silent = 0;  // periods since the last command that the board heard
   while (!what.is_over()) {
     const bool ran = board.state().running();
-    bool reset_came = false;
+    to_board.reset_heard = to_board.command_heard = false;
     switch (what.byte() % 8) {
       case 0: {
         const std::uint8_t some = what.byte();
-        board.receive(&some, 1);
-        reset_came = true;  // may be the last byte of one
-        silent = 0;
+        to_board.send(&some, 1);
         break;
       }
-      case 1: say(board, configuration_of(what)); break;
+      case 1: to_board.say(configuration_of(what)); break;
       case 2: {
         sample_message state;
         board.state().describe(state);
-        say(board, reset_message{what.byte() % 4 != 0 ? state.stops : what.number<std::uint16_t>()});
-        reset_came = true;
+        to_board.say(reset_message{what.byte() % 4 != 0 ? state.stops : what.number<std::uint16_t>()});
         break;
       }
       case 3:
         sequence += what.byte() % 8 != 0 ? 1 : what.number<std::uint32_t>();
-        say(board, command_message{what.number<float>(), what.number<float>()}, sequence);
-        silent = 0;
+        to_board.say(command_message{what.number<float>(), what.number<float>()}, sequence);
         break;
       case 4: {
         const unsigned periods = what.byte() % 4 + 1;
@@ -124,13 +143,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       default:
         hardware.sends = what.byte() % 2 != 0;
-        say(board, ask_statistics_message());
+        to_board.say(ask_statistics_message());
         break;
     }
     const supervisor& state = board.state();
-    require(!state.running() || ran || reset_came);
+    require(!state.running() || ran || to_board.reset_heard);
     require(state.running() || hardware.driven.motor_torque == 0);
     require(hardware.driven.motor_torque == state.applied().motor_torque);
+    if (to_board.command_heard) silent = 0;
     const unsigned patience = state.configuration().watchdog_periods;
     if (patience != 0 && silent >= patience) require(hardware.driven.motor_torque == 0 || state.own_model());
   }

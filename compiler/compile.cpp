@@ -1,6 +1,12 @@
 #include "compile.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "certify/assumed_values.hpp"
+#include "certify/choice_text.hpp"
 #include "certify/settle.hpp"
+#include "certify/tunable_choice.hpp"
 #include "decompose/slip_laws.hpp"
 #include "discretise/element_names.hpp"
 #include "discretise/discretise.hpp"
@@ -17,13 +23,59 @@
 namespace dashpot::compiler {
 namespace {
 
+// With these the choice is compared in words.
+bool is_compared(const Candidate& candidate) {
+  return candidate.name == "paper" || candidate.name == "velocity-free" || candidate.name == "virtual";
+}
+
+// How `faithful` moves over what the device file assumes.
+std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const Choices& choices) {
+  const Candidate& choice = c.decomposition.choice();
+  ChoiceMoves moves{choice.damping, choice.damping, ""};
+  double furthest = 1e-6 * choice.damping;
+  const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
+  for (const VariedDevice& varied : devices) {
+    Diagnostics unheard;
+    const std::optional<PortDevice> port = PortDevice::of(varied.device, present, unheard);
+    if (!port) continue;
+    Candidate again = choice;
+    CandidateSettler(present, c.form, c.decomposition, choices, *port, c.rate).settle(again);
+    moves.least = std::min(moves.least, again.damping);
+    moves.most = std::max(moves.most, again.damping);
+    if (const double distance = std::abs(again.damping - choice.damping); distance > furthest)
+      furthest = distance, moves.by = varied.key;
+  }
+  return devices.empty() ? std::nullopt : std::optional(moves);
+}
+
 // Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law.
-void settle_choice(Compilation& c, const Choices& choices) {
-  if (c.port.is_ideal()) return;
-  CandidateSettler(c.network, c.form, c.decomposition, choices, c.port, c.rate)
-      .settle(c.decomposition.candidates[c.decomposition.chosen]);
-  c.decomposition.reason =
-      reason_for_input(c.decomposition.choice(), choices, c.port.is_ideal(), port_units(c.network.port_motion).damping);
+void settle_choice(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
+  if (device.is_ideal()) return;
+  const bool is_tunable = has_tunables(c.network), is_faithful = c.decomposition.choice().name == "faithful";
+  if (is_tunable && !is_faithful) return;
+  CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
+  std::vector<Candidate>& candidates = c.decomposition.candidates;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (i == c.decomposition.chosen || is_compared(candidates[i])) settler.settle(candidates[i]);
+  if (!is_faithful) {
+    const std::string unit = port_units(c.network.port_motion).damping;
+    c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, false, unit);
+    return;
+  }
+  if (choices.varies_assumed) c.decomposition.moves = moves_of(c, present, choices);
+  if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, *c.device, device, c.rate);
+  c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
+}
+
+// The error of the law as it is, with the damping that the certificate has added.
+void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
+  if (device.is_ideal()) return;
+  Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
+  CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
+  choice.largest_error = settler.largest_error(choice, c.certificate.added_damping);
+  c.decomposition.in_words =
+      choice_in_words(c.decomposition, port_units(c.network.port_motion), device.max_damping().value_or(0),
+                      to_double(zero_frequency_damping(c.form.linear)), to_double(c.form.linear.feedthrough_damping));
 }
 
 // What the chosen candidate needs is known when the law behind slips is.
@@ -70,7 +122,9 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
 
 std::optional<Compilation> compile(Network network, const Choices& asked, const std::optional<Device>& device,
                                    Diagnostics& diagnostics, StageTimes& times) {
-  Choices choices = asked;
+  const bool has_slips = std::any_of(network.elements.begin(), network.elements.end(),
+                                     [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
+  Choices choices = with_names(asked, device || has_slips);
   if (!settle_tunables(network, choices, diagnostics)) return std::nullopt;
   const Network present = at_default(network);
   if (!is_within_reach(present, diagnostics)) return std::nullopt;
@@ -93,8 +147,10 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
       decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
-  if (!is_tunable) settle_choice(result, choices);
-  if (!is_tunable && result.form.has_slips()) choose_slip_law(result, choices, result.port);
+  settle_choice(result, present, choices, result.port);
+  // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
+  const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
+  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, choices, result.port);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
@@ -115,14 +171,21 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   result.certificate =
       certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
   if (!result.port.is_ideal() && !is_tunable && result.form.has_slips()) tell_of_slips(result);
+  tell_what_is_felt(result, present, choices, result.port);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
 }
 
-void weigh_all_candidates(Compilation& c, const Choices& choices) {
+void weigh_all_candidates(Compilation& c, const Choices& asked) {
+  const Choices choices = with_names(asked, c.device || c.form.has_slips());
   CandidateSettler settler(c.network, c.form, c.decomposition, choices, c.port, c.rate);
-  for (std::size_t i = 0; i < c.decomposition.candidates.size(); ++i)
-    if (i != c.decomposition.chosen || c.port.is_ideal()) settler.settle(c.decomposition.candidates[i]);
+  for (std::size_t i = 0; i < c.decomposition.candidates.size(); ++i) {
+    Candidate& candidate = c.decomposition.candidates[i];
+    if (i != c.decomposition.chosen || c.port.is_ideal()) settler.settle(candidate);
+    CandidateSettler::ErrorOverBand errors = settler.error_over_band(candidate);
+    candidate.error_over_band = std::move(errors.errors);
+    if (!errors.frequencies.empty()) c.decomposition.error_frequencies = std::move(errors.frequencies);
+  }
 }
 
 }  // namespace dashpot::compiler

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <set>
+#include <vector>
 
+#include "certify/choice_text.hpp"
 #include "certify/settle.hpp"
 #include "compile.hpp"
 #include "network/port_units.hpp"
@@ -14,9 +16,10 @@ namespace dashpot::compiler {
 namespace {
 
 // The network on another device, or another one on the same: what is told to people has been tried.
-std::optional<Compilation> compiled(const Network& network, const Choices& choices, const Device& device) {
+std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
   Diagnostics unheard;
   StageTimes unseen;
+  choices.varies_assumed = false;  // nothing is told of it
   return compile(network, choices, device, unheard, unseen);
 }
 
@@ -156,6 +159,54 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
     diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
+}
+
+namespace {
+
+constexpr double noticeably = 0.9;  // of an error, what is worth another choice [1]
+
+struct OtherChoices {
+  Choices choices;
+  std::string options;  // as they are written on the command line
+};
+
+// From the smallest change of what was asked to the largest.
+std::vector<OtherChoices> other_choices(const Compilation& c, const Choices& asked) {
+  std::vector<OtherChoices> all;
+  OtherChoices other{asked, ""};
+  const auto change = [&](const char* option) {
+    other.options += (other.options.empty() ? "" : " ") + std::string(option);
+    all.push_back(other);
+  };
+  other.choices.decomposition = "faithful";
+  if (c.decomposition.choice().name != "faithful") change("--decomposition faithful");
+  if (asked.state_input && !c.law.tunable) {
+    other.choices.state_input.reset();
+    change("--state-input auto");
+  }
+  if (asked.scheme == Scheme::backward_euler && other.choices.state_input != StateInput::nodal) {
+    other.choices.scheme = Scheme::exact;
+    change("--scheme exact");
+  }
+  return all;
+}
+
+}  // namespace
+
+void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  const Candidate& choice = c.decomposition.choice();
+  if (!c.device || choice.largest_error <= choices.tolerance * (1 + 1e-9)) return;
+  for (const OtherChoices& other : other_choices(c, choices)) {
+    const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
+    if (!again || (c.certificate.certified && !again->certificate.certified)) continue;
+    const Candidate& better = again->decomposition.choice();
+    if (!(better.largest_error < noticeably * choice.largest_error)) continue;
+    diagnostics.report<DiagnosticCode::felt_error>(c.network.name_span, choice.name, in_percent(choice.largest_error),
+                                                   c.device->name, in_percent(choices.tolerance));
+    diagnostics.note<DiagnosticCode::errs_less>({}, other.options, in_percent(better.largest_error), better.damping,
+                                                port_units(c.network.port_motion).damping);
+    return;
+  }
 }
 
 void warn_of_driving_uncertified(const Compilation& c, Diagnostics& diagnostics) {

@@ -12,6 +12,10 @@ void warn_of_uncertified(const Compilation& compilation, Diagnostics& diagnostic
 // where a device lacks damping, with what brake, what share of the network or what rate would do.
 bool insist_on_certificate(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 
+// Warns where what is felt on the device errs by more than the tolerance and other choices have been tried that err
+// noticeably less, with the options that say so.
+void warn_of_felt_error(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
+
 // For those who drive it all the same: warns of a law that is not certified on its device.
 void warn_of_driving_uncertified(const Compilation& compilation, Diagnostics& diagnostics);
 

@@ -19,8 +19,9 @@ using namespace dashpot::compiler;
 using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
 
 const std::vector<std::string> decompositions = {
-    "most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "steady",
-    "ramped",           "gated",          "virtual"};
+    "faithful", "paper",  "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
+    "steady",   "ramped", "gated",          "virtual"};
+const std::string old_name_of_paper = "most-dissipative";
 
 struct CommandLine {
   Options options;
@@ -28,7 +29,8 @@ struct CommandLine {
   std::string scalar = "double";
   std::string state_input = "auto";
   std::string vector = "sse2";
-  std::string decomposition = "most-dissipative";
+  std::string decomposition;
+  std::string tolerance = "5 %";
   std::string diagnostics = "text";
   std::string target = "cpp";
 };
@@ -66,8 +68,25 @@ std::string check_seed(const std::string& text) {
                           std::numeric_limits<std::uint64_t>::max());
 }
 
+// "5%", "5 %" or 0.05.
+std::optional<double> share(std::string text) {
+  const bool is_percent = !text.empty() && text.back() == '%';
+  if (is_percent) text.pop_back();
+  while (is_percent && !text.empty() && text.back() == ' ') text.pop_back();
+  const std::optional<double> number = decimal(text);
+  return number && is_percent ? *number / 100 : number;
+}
+
+std::string check_tolerance(const std::string& text) {
+  const std::optional<double> tolerance = share(text);
+  const bool ok = tolerance && *tolerance > 0 && *tolerance <= 1;
+  return ok ? "" : "'" + text + "' is no tolerance; a share above 0 and up to 100 % is expected, as 5% or 0.05";
+}
+
 std::string check_decomposition(const std::string& text) {
-  if (std::find(decompositions.begin(), decompositions.end(), text) != decompositions.end()) return "";
+  if (text == old_name_of_paper ||
+      std::find(decompositions.begin(), decompositions.end(), text) != decompositions.end())
+    return "";
   const std::optional<double> damping = decimal(text);
   const bool ok = damping && *damping >= 0;
   return ok ? ""
@@ -86,9 +105,14 @@ void add_choices(CLI::App& command, CommandLine& line) {
   command.add_option("--state-input", line.state_input, "What drives the states")
       ->check(CLI::IsMember({"auto", "position", "velocity", "nodal"}))
       ->option_text("auto|position|velocity|nodal");
-  command.add_option("--decomposition", line.decomposition, "What the brake takes over")
+  command
+      .add_option("--decomposition", line.decomposition,
+                  "What the brake takes over, default faithful on a device and with slips, else paper")
       ->check(check_decomposition)
       ->option_text("NAME|DAMPING (" + CLI::detail::join(decompositions) + ", or a number in SI)");
+  command.add_option("--tolerance", line.tolerance, "What 'faithful' may let the felt force err by, default 5 %")
+      ->check(check_tolerance)
+      ->option_text("SHARE");
   command.add_option("--scalar", line.scalar, "Type of the emitted numbers, default double")
       ->check(CLI::IsMember({"double", "float"}))
       ->option_text("double|float");
@@ -325,9 +349,9 @@ void take_over_words(CommandLine& line) {
   if (line.state_input == "position") choices.state_input = StateInput::position;
   if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
   if (line.state_input == "nodal") choices.state_input = StateInput::nodal;
-  if (std::find(decompositions.begin(), decompositions.end(), line.decomposition) != decompositions.end())
-    choices.decomposition = line.decomposition;
-  else choices.decomposition = decimal(line.decomposition).value();
+  choices.tolerance = share(line.tolerance).value();
+  if (const std::optional<double> damping = decimal(line.decomposition)) choices.decomposition = *damping;
+  else choices.decomposition = line.decomposition;
 }
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {

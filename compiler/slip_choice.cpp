@@ -69,7 +69,7 @@ class SlipChooser {
       floor = run(plan(SlipLaw::steady, 0), trial);
       least = std::min(least, floor->merit.error());
     }
-    limit_ = allowed_error(default_tolerance, least);
+    limit_ = allowed_error(choices_.tolerance, least);
     if (floor) fit_steady(*floor, trial);
     return with_figures(best());
   }

@@ -5,9 +5,6 @@
 
 namespace dashpot::compiler {
 
-// What a law may err by in a run, of the largest force in it [1].
-inline constexpr double default_tolerance = 0.05;
-
 // In: a network with slips and what is chosen for what reaches ground without one. Sets the decomposition of what is
 // behind slips: by the law asked for, or, of all whose error in a run is at most max(tolerance, 1.05 times the least
 // reachable), of those certified with at most 1.05 times the least added damping among these, the one in which the

@@ -55,6 +55,11 @@ CandidateSettler::CandidateSettler(const Network& network, const NormalForm& for
       slips_(slip_motor(network, form, decomposition, choices, loop_)) {}
 
 void CandidateSettler::settle(Candidate& candidate) {
+  if (candidate.name == "faithful" && !device_.is_ideal()) settle_faithful(candidate);
+  else settle_named(candidate);
+}
+
+void CandidateSettler::settle_named(Candidate& candidate) {
   for (StateInputMerit& merit : candidate.state_inputs) weigh(candidate, merit);
   const auto current = std::find_if(candidate.state_inputs.begin(), candidate.state_inputs.end(),
                                     [&](const auto& merit) { return merit.state_input == candidate.state_input; });
@@ -66,6 +71,86 @@ void CandidateSettler::settle(Candidate& candidate) {
   }
   take(candidate, *best);
   if (!device_.is_ideal()) make_room(candidate);
+}
+
+void CandidateSettler::settle_faithful(Candidate& candidate) {
+  std::vector<SearchLine> lines;
+  for (const StateInputMerit& merit : candidate.state_inputs)
+    lines.push_back({merit.state_input, &felt(merit.state_input), [this, input = merit.state_input](double damping) {
+                       const PassivityBound found = bound(input, damping, search_terms);
+                       return found.proof == Proof::none ? std::nullopt : std::optional(found.needed);
+                     }});
+  const FaithfulFind found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
+  const FoundOption& chosen = found.options[found.choice.chosen];
+  place(candidate, chosen.option.damping);
+  candidate.faithful = found.choice;
+  for (StateInputMerit& merit : candidate.state_inputs) weigh(candidate, merit);
+  take(candidate, candidate.state_inputs[chosen.line]);
+}
+
+// What the brake gives, at the tool. Where a surface can be left, more than b∞ would have to be taken back by the motor
+// in the samples of a touch, and nothing is added: the brake is off while the tool is free.
+SearchReach CandidateSettler::reach() const {
+  const double feedthrough = to_double(form_.linear.feedthrough_damping);
+  SearchReach reach{feedthrough,
+                    loop_.max_damping,
+                    0,
+                    assured_share(loop_).convert_to<double>(),
+                    assured_damping(loop_, Rational(slips_ ? slips_->least_brake : 0)).convert_to<double>(),
+                    true};
+  if (slips_ && !network_.contact) reach.besides = slips_->largest_brake;
+  if (network_.contact) {
+    reach.most = std::min(reach.most, feedthrough);
+    reach.adds = false;
+  }
+  return reach;
+}
+
+void CandidateSettler::place(Candidate& candidate, double damping) {
+  candidate.damping = candidate.wanted_damping = damping;
+  candidate.velocity_gain = std::abs(to_double(form_.linear.feedthrough_damping) - damping);
+  if (const std::optional<double> noise = device_.velocity_noise())
+    candidate.motor_noise = candidate.velocity_gain * *noise;
+  for (StateInputMerit& merit : candidate.state_inputs) {
+    const LinearForm& form = merit.state_input == StateInput::nodal ? decomposition_.realisation : form_.linear;
+    merit.extra_damping_any_delay = extra_damping_any_delay(form, damping, merit.state_input, device_.tolerance());
+  }
+}
+
+// Relative to the network while all slips hold, where their regimes are listed.
+const FeltError& CandidateSettler::felt(StateInput input) {
+  std::unique_ptr<FeltError>& known = felt_[input];
+  if (known) return *known;
+  Decomposition single = decomposition_;
+  single.candidates[single.chosen].damping = 0;
+  single.candidates[single.chosen].state_input = input;
+  Network touched = network_;
+  touched.contact.reset();
+  const UpdateLaw law = discretise(touched, form_, single, choices_, rate_);
+  LinearForm whole = form_.linear;
+  for (const ComponentSplit* split : decomposition_.slips.all())
+    if (!split->regimes.regimes.empty()) whole = in_parallel(whole, split->regimes.regimes.front().form);
+  return *(known = std::make_unique<FeltError>(linear_motor_constants(law), form_.linear, whole, loop_, device_));
+}
+
+// What the emitted law adds: all that is lacking, or nothing.
+double CandidateSettler::added_in(const Candidate& candidate, const StateInputMerit& merit) const {
+  if (!merit.minimum_damping || network_.contact) return 0;
+  const double largest_brake = candidate.damping + (slips_ ? slips_->largest_brake : 0);
+  return largest_brake + *merit.minimum_damping <= loop_.max_damping ? *merit.minimum_damping : 0;
+}
+
+double CandidateSettler::largest_error(const Candidate& candidate, double added) {
+  return felt(candidate.state_input).largest(candidate.damping, added);
+}
+
+CandidateSettler::ErrorOverBand CandidateSettler::error_over_band(const Candidate& candidate) {
+  if (device_.is_ideal()) return {};
+  for (const StateInputMerit& merit : candidate.state_inputs)
+    if (merit.state_input == candidate.state_input)
+      return {felt(merit.state_input).frequencies(),
+              felt(merit.state_input).over_band(candidate.damping, added_in(candidate, merit))};
+  return {};
 }
 
 const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput input) {
@@ -95,6 +180,8 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
   merit.minimum_damping.reset();
   const double least_brake = candidate.damping + (slips_ ? slips_->least_brake : 0);
   if (needed.proof != Proof::none) merit.minimum_damping = missing_damping(needed, loop_, least_brake);
+  if (!device_.is_ideal())
+    merit.largest_error = felt(merit.state_input).largest(candidate.damping, added_in(candidate, merit));
 }
 
 void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) {
@@ -114,15 +201,10 @@ void CandidateSettler::make_room(Candidate& candidate) {
   if (!candidate.minimum_damping || candidate.certified == true || slips_) return;
   const std::optional<double> fitting = largest_fitting(candidate.state_input, candidate.damping);
   if (!fitting) return;
-  candidate.damping = *fitting;
-  candidate.velocity_gain = std::abs(to_double(form_.linear.feedthrough_damping) - candidate.damping);
-  if (const std::optional<double> noise = device_.velocity_noise())
-    candidate.motor_noise = candidate.velocity_gain * *noise;
+  const double wanted = candidate.wanted_damping;
+  place(candidate, *fitting);
+  candidate.wanted_damping = wanted;
   for (StateInputMerit& merit : candidate.state_inputs) {
-    const LinearForm& form = merit.state_input == StateInput::nodal ? decomposition_.realisation : form_.linear;
-    merit.largest_error = largest_error(form, candidate.damping, merit.state_input, device_);
-    merit.extra_damping_any_delay =
-        extra_damping_any_delay(form, candidate.damping, merit.state_input, device_.tolerance());
     weigh(candidate, merit);
     if (merit.state_input == candidate.state_input) take(candidate, merit);
   }

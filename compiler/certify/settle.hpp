@@ -3,8 +3,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 
 #include "certify/certificate.hpp"
+#include "certify/faithful_search.hpp"
 #include "linear/normal_form.hpp"
 
 namespace dashpot::compiler {
@@ -14,12 +16,29 @@ class CandidateSettler {
   CandidateSettler(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                    const Choices& choices, const PortDevice& device, double rate);
 
-  // Gives every state input its minimum damping. On a device, takes the one that needs least, then the one with the
-  // least error, then position. Where damping and minimum damping together are beyond the brake, lowers the damping,
-  // and leaves more to the motor, until they fit; where nothing fits, leaves it.
+  // Gives every state input its minimum damping and the error of what is felt. On a device, takes the one that needs
+  // least, then the one with the least error, then position. Where damping and minimum damping together are beyond the
+  // brake, lowers the damping, and leaves more to the motor, until they fit; where nothing fits, leaves it.
+  // `faithful` gets its damping and its state input by faithful_rule.hpp.
   void settle(Candidate& candidate);
 
+  // Of what is felt of a candidate that is settled, at each of the frequencies [Hz], [1]; empty without a device.
+  struct ErrorOverBand {
+    std::vector<double> frequencies, errors;
+  };
+  ErrorOverBand error_over_band(const Candidate& candidate);
+
+  // Gives a candidate another damping; what depends on the loop is left to settle().
+  void place(Candidate& candidate, double damping);
+  // Of what is felt of a candidate with so much added to its damping [N·s/m], over the band [1].
+  double largest_error(const Candidate& candidate, double added);
+
  private:
+  void settle_faithful(Candidate& candidate);
+  void settle_named(Candidate& candidate);
+  const FeltError& felt(StateInput input);
+  double added_in(const Candidate& candidate, const StateInputMerit& merit) const;
+  SearchReach reach() const;
   const std::optional<MotorConstants>& without_brake(StateInput input);
   PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);
   void weigh(Candidate& candidate, StateInputMerit& merit);
@@ -36,6 +55,7 @@ class CandidateSettler {
   SampledLoop loop_;
   std::optional<SlipMotor> slips_;
   std::map<StateInput, std::optional<MotorConstants>> motors_;
+  std::map<StateInput, std::unique_ptr<FeltError>> felt_;
 };
 
 }  // namespace dashpot::compiler

@@ -174,6 +174,23 @@ Json json_of(const Certificate& c) {
           {"unpaid_force", c.loop.encoder_step > 0 && c.quantisation_gain ? Json(unpaid_force(c)) : Json(nullptr)}};
 }
 
+// What `faithful` was chosen by; null for another choice, and without a device.
+Json json_of_choice(const Decomposition& d) {
+  const std::optional<FaithfulChoice>& choice = d.choice().faithful;
+  if (!choice) return nullptr;
+  const auto moves = [&](const ChoiceMoves& m) {
+    return Json(
+        {{"least_damping", m.least}, {"most_damping", m.most}, {"by", m.by.empty() ? Json(nullptr) : Json(m.by)}});
+  };
+  return {{"tolerance", d.tolerance},
+          {"allowed_error", choice->allowed_error},
+          {"least_error", choice->least_error},
+          {"least_added_damping", choice->least_added},
+          {"certified", choice->certified},
+          {"over_assumed", d.moves ? moves(*d.moves) : Json(nullptr)},
+          {"in_words", d.in_words}};
+}
+
 Json json_of(const Validity& valid) {
   const auto ends = [](const std::optional<Range>& range) {
     return range ? Json({range->low, range->high}) : Json(nullptr);
@@ -218,6 +235,7 @@ std::string explain_json(const Compilation& c) {
               {"certificate", json_of(c.certificate)},
               {"notes", notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)},
               {"chosen", choice.name},
+              {"choice", json_of_choice(c.decomposition)},
               {"state_input", name_of(choice.state_input)},
               {"reason", choice.reason + "; " + c.decomposition.reason}};
   if (c.law.tunable) all["tunables"] = json_of(*c.law.tunable);

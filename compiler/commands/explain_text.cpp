@@ -102,8 +102,9 @@ std::string explain_text(const Compilation& c) {
           to_text(c.decomposition, c.network);
   if (c.device)
     text +=
-        "error                 of the estimator, the loop's delay and the amplifier's lag; the hold's half period "
-        "comes on top\n";
+        "error                 of what is felt: hold, estimator, delay, amplifier lag, brake tolerance and added "
+        "damping "
+        "included\n";
   text += to_text(c.decomposition.slips, c.network);
   text += fmt::format(
       "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",

@@ -1,5 +1,6 @@
 #include "commands/commands.hpp"
 #include "compile.hpp"
+#include "insist.hpp"
 
 namespace dashpot::compiler {
 
@@ -8,7 +9,8 @@ ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& di
   if (device.status != ExitStatus::done) return device.status;
   for (const std::string& path : options.networks)
     if (const SourceFile* file = files.open(path, diagnostics))
-      compile(*file, options.choices, device.device, diagnostics);
+      if (const auto compilation = compile(*file, options.choices, device.device, diagnostics))
+        warn_of_felt_error(*compilation, options.choices, diagnostics);
   return diagnostics.has_errors() ? ExitStatus::input_refused : ExitStatus::done;
 }
 

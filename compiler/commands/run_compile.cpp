@@ -114,6 +114,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
         file ? compile(*file, options.choices, device.device, diagnostics, times) : std::nullopt;
     times.enter("emission");
     if (!compilation) continue;
+    warn_of_felt_error(*compilation, options.choices, diagnostics);
     if (options.print) {
       shown += stage_text(*compilation, *options.print);
     } else if (!options.uncertified && !insist_on_certificate(*compilation, options.choices, diagnostics)) {

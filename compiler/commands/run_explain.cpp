@@ -4,6 +4,7 @@
 #include "discretise/tunable_network.hpp"
 #include "exchange/network_text.hpp"
 #include "exchange/prony_format.hpp"
+#include "insist.hpp"
 
 namespace dashpot::compiler {
 
@@ -40,6 +41,7 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
     const std::optional<std::string> text = network_as(*options.as, *compilation, diagnostics);
     return text ? write_standard_output(*text, diagnostics) : ExitStatus::input_refused;
   }
+  warn_of_felt_error(*compilation, options.choices, diagnostics);
   weigh_all_candidates(*compilation, options.choices);
   return write_standard_output(options.json ? explain_json(*compilation) : explain_text(*compilation), diagnostics);
 }

@@ -2,6 +2,7 @@
 #include "commands/web_module.hpp"
 #include "compile.hpp"
 #include "emit/write_files.hpp"
+#include "insist.hpp"
 #include "report/report.hpp"
 
 namespace dashpot::compiler {
@@ -13,6 +14,7 @@ ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& d
   if (file == nullptr) return ExitStatus::input_refused;
   std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  warn_of_felt_error(*compilation, options.choices, diagnostics);
   weigh_all_candidates(*compilation, options.choices);
   const std::optional<std::string> page = report(*compilation, web_module(*compilation, diagnostics), diagnostics);
   if (!page || diagnostics.has_errors()) return ExitStatus::input_refused;

@@ -1,5 +1,6 @@
 #include "decompose/brake_rule.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "decompose/observer.hpp"
@@ -59,13 +60,30 @@ BrakeRule observed_rule(const Network& network, const Candidate& choice, double 
   return {brake_rule::observed, 0, std::move(dampers), {}, text};
 }
 
-BrakeRule uncapped_rule(const Network& network, const Candidate& choice, double reference_frequency) {
+// The damping that was found at the default values is held, but never above the network's viscosity if it is not there.
+BrakeRule faithful_rule(const Decomposition& decomposition) {
+  const Candidate& choice = decomposition.choice();
+  if (choice.velocity_gain == 0) return {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
+  const auto viscous = std::find_if(decomposition.candidates.begin(), decomposition.candidates.end(),
+                                    [](const Candidate& candidate) { return candidate.name == "zero-frequency"; });
+  const bool is_within = choice.damping <= viscous->wanted_damping;
+  return {
+      is_within ? brake_rule::within_viscosity : brake_rule::constant,
+      choice.damping,
+      {},
+      {},
+      is_within ? "its value at the defaults, never above the network's viscosity at low frequency" : "no parameter"};
+}
+
+BrakeRule uncapped_rule(const Network& network, const Decomposition& decomposition, double reference_frequency) {
+  const Candidate& choice = decomposition.choice();
+  if (choice.name == "faithful" && choice.faithful) return faithful_rule(decomposition);
   if (choice.name == "velocity-free") return {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
   if (choice.name == "zero-frequency")
     return {brake_rule::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
   if (choice.name == "quietest-passive")
     return {brake_rule::half_zero_frequency, 0, {}, {}, "half the network's viscosity at low frequency"};
-  if (choice.name == "most-dissipative")
+  if (choice.name == "paper" || choice.name == "faithful")
     return observed_rule(network, choice, reference_frequency, ObserverRule::most_dissipative);
   if (choice.name == "largest-observer")
     return observed_rule(network, choice, reference_frequency, ObserverRule::largest);
@@ -78,7 +96,7 @@ BrakeRule brake_rule_of(const Network& network, const Decomposition& decompositi
   Diagnostics already_reported;  // by decompose()
   const std::optional<PortDevice> port =
       device ? PortDevice::of(*device, network, already_reported) : std::optional(PortDevice::ideal());
-  BrakeRule rule = uncapped_rule(network, decomposition.choice(), port ? port->reference_frequency() : 0);
+  BrakeRule rule = uncapped_rule(network, decomposition, port ? port->reference_frequency() : 0);
   // Where a surface can be left, more would have to be compensated in the samples of a touch.
   if (network.contact && rule.rule != brake_rule::constant)
     rule = {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};

@@ -37,4 +37,15 @@ std::size_t bytes_of(VectorRegisters registers) {
   return 0;
 }
 
+Choices with_names(Choices choices, bool prefers_faithful) {
+  if (is_named(choices, "most-dissipative")) choices.decomposition = "paper";
+  if (is_named(choices, "")) choices.decomposition = prefers_faithful ? "faithful" : "paper";
+  return choices;
+}
+
+bool is_named(const Choices& choices, std::string_view name) {
+  const auto* const chosen = std::get_if<std::string>(&choices.decomposition);
+  return chosen != nullptr && *chosen == name;
+}
+
 }  // namespace dashpot::compiler

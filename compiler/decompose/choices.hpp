@@ -25,13 +25,22 @@ struct Choices {
   std::optional<double> rate;  // [Hz]; the device's, or 1000 Hz
   Scheme scheme = Scheme::exact;
   std::optional<StateInput> state_input;  // empty: auto
-  std::variant<std::string, double> decomposition =
-      "most-dissipative";  // a name of theory, section 4, or a damping [SI]
+  // A name of theory, section 4, or a damping [SI]; empty: `faithful` on a device and with slips, else `paper`.
+  std::variant<std::string, double> decomposition = "";
+  double tolerance = 0.05;     // of what is felt, that `faithful` may err by [1]
+  bool varies_assumed = true;  // whether `faithful` looks how it moves over what the device file assumes
   ScalarType scalar = ScalarType::float64;
   VectorRegisters registers = VectorRegisters::sse2;  // sixteen bytes: what every x86-64 and every AArch64 has
   bool guards_each_sample = false;  // against subnormals, also where they could take turns: many points share no turn
 };
 
 inline constexpr double default_rate = 1000;  // [Hz]
+
+// The choices with a decomposition that has its name: "most-dissipative" is the old one of "paper", and without any the
+// default is there, `faithful` where `prefers_faithful`.
+Choices with_names(Choices choices, bool prefers_faithful);
+
+// Whether the decomposition is called so.
+bool is_named(const Choices& choices, std::string_view name);
 
 }  // namespace dashpot::compiler

@@ -32,7 +32,8 @@ class Decomposer {
     const double half = to_double(zero_frequency_damping(form_) / 2);
     const bool needs_no_estimate = half <= feedthrough;
     std::vector<Split> list;
-    list.push_back(observed("most-dissipative", ObserverRule::most_dissipative));
+    if (lists_faithful()) list.push_back(faithful());
+    list.push_back(observed("paper", ObserverRule::most_dissipative));
     list.push_back({"zero-frequency", viscosity, "the network's own viscosity at low frequency", {}});
     list.push_back({"quietest-passive", std::max(half, feedthrough),
                     "half the viscosity at low frequency: the least that is passive under any delay",
@@ -88,6 +89,20 @@ class Decomposer {
     candidate.damping = candidate.wanted_damping = feedthrough;
     candidate.reason +=
         "; with the contact no more than the feedthrough damping, so that the motor compensates nothing";
+  }
+
+  bool lists_faithful() const { return !device_.is_ideal() || is_named(choices_, "faithful"); }
+
+  // On a device the damping is found where what is felt is known (certify/settle.hpp); until then it is b∞.
+  Split faithful() const {
+    if (device_.is_ideal()) {
+      Split split = observed("paper", ObserverRule::most_dissipative);
+      split.name = "faithful";
+      split.reason = "no device to be faithful on, so the paper's rule: " + split.reason;
+      return split;
+    }
+    const double feedthrough = to_double(form_.feedthrough_damping);
+    return {"faithful", feedthrough, "the most damping with which the tissue still feels like itself", {}};
   }
 
   bool has_slips() const {
@@ -175,13 +190,9 @@ void warn_about_choice(const Decomposition& all, const Network& network, const L
     diagnostics.report<DiagnosticCode::damping_capped>(network.name_span, chosen.name, chosen.wanted_damping,
                                                        chosen.damping);
   const double viscosity = to_double(zero_frequency_damping(form));
-  if (chosen.damping > viscosity * (1 + 1e-12))
+  // What `faithful` gives beyond it is told with the choice.
+  if (chosen.name != "faithful" && chosen.damping > viscosity * (1 + 1e-12))
     diagnostics.report<DiagnosticCode::injects_power>(network.name_span, chosen.name, chosen.damping, viscosity);
-  const auto is_virtual = [](const Candidate& candidate) { return candidate.name == "virtual"; };
-  const auto single_motor = std::find_if(all.candidates.begin(), all.candidates.end(), is_virtual);
-  if (chosen.largest_error > single_motor->largest_error * (1 + 1e-9))
-    diagnostics.report<DiagnosticCode::more_error_than_virtual>(
-        network.name_span, chosen.name, 100 * chosen.largest_error, 100 * single_motor->largest_error);
 }
 
 std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal,
@@ -206,8 +217,9 @@ bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics) {
   return true;
 }
 
-std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& choices,
+std::optional<Decomposition> decompose(const Network& network, const LinearForm& form, const Choices& asked,
                                        const Device* device, Diagnostics& diagnostics) {
+  const Choices choices = with_names(asked, false);
   std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
   if (!port || refuse_impossible_choices(network, choices, *port, diagnostics)) return std::nullopt;
   const Decomposer decomposer(network, form, choices, *port);
@@ -224,6 +236,7 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
     return std::nullopt;
   }
   result.encoder_step = port->encoder_step();
+  result.tolerance = choices.tolerance;
   result.reason = reason_for_input(result.choice(), choices, port->is_ideal(), port_units(network.port_motion).damping);
   warn_about_share(result.choice(), network, form, *port, diagnostics);
   return result;
@@ -244,6 +257,7 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
                         or_dash(c.minimum_damping), or_dash(c.motor_noise), 100 * c.largest_error,
                         c.capped() ? fmt::format("lowered from {:.8g}: ", c.wanted_damping) : "", c.reason);
   text += fmt::format("chosen             {}: {}\n", decomposition.choice().name, decomposition.reason);
+  if (!decomposition.in_words.empty()) text += decomposition.in_words + "\n";
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "decompose/choices.hpp"
+#include "decompose/faithful_rule.hpp"
 #include "decompose/slip_decomposition.hpp"
 #include "linear/linear_form.hpp"
 #include "network/device.hpp"
@@ -16,7 +17,7 @@ namespace dashpot::compiler {
 // One state input for a given damping, with what it costs on the device.
 struct StateInputMerit {
   StateInput state_input;
-  double largest_error;                           // max |Z_rendered − Z|/|Z| over the device's band [1]
+  double largest_error;  // max |Z_rendered − Z|/|Z| over the device's band; once settled, of what is felt [1]
   std::optional<double> extra_damping_any_delay;  // [N·s/m]; empty: not computed
   std::optional<double> minimum_damping = {};     // [N·s/m]; filled by certify/; empty: nothing is proved
   std::string proof = "";                         // what the minimum damping rests on, "hold" or "sampled"
@@ -24,7 +25,7 @@ struct StateInputMerit {
 };
 
 struct Candidate {
-  std::string name;
+  std::string name;       // as explain lists it
   double damping;         // b, what the brake is asked for [N·s/m] or [N·m·s/rad]
   double wanted_damping;  // before capping at what the brake can give
   StateInput state_input;
@@ -36,17 +37,29 @@ struct Candidate {
   std::optional<bool> certified;                  // the brake can give both; without a device, nothing is to be added
   std::vector<StateInputMerit> state_inputs;      // the pairs that were compared
   std::string reason;
+  std::optional<FaithfulChoice> faithful = {};  // of the candidate of this name, what it was chosen by
+  std::vector<double> error_over_band = {};     // of what is felt, at Decomposition::error_frequencies [1]
 
   bool capped() const { return damping < wanted_damping; }
+};
+
+// Where the chosen b lies while the values that the device file assumes are varied one by one.
+struct ChoiceMoves {
+  double least, most;  // [N·s/m]
+  std::string by;      // the key that moves it most; empty where none does
 };
 
 struct Decomposition {
   std::vector<Candidate> candidates;  // the named ones in the order of theory, section 4, then a given damping
   std::size_t chosen;
-  std::string reason;       // why the chosen state input
-  double encoder_step = 0;  // at the tool; 0 of an ideal device [m] or [rad]
-  SlipDecomposition slips;  // of what is behind slips
-  LinearForm realisation;   // the canonical form with the spring shares of the observer's realisation, for `nodal`
+  double tolerance = 0;                   // of `faithful` [1]
+  std::optional<ChoiceMoves> moves;       // of `faithful`; empty where nothing is assumed
+  std::vector<double> error_frequencies;  // [Hz]; empty until all candidates are weighed, and without a device
+  std::string in_words;                   // what was chosen on a device, and what that gains and costs; one sentence
+  std::string reason;                     // why the chosen state input
+  double encoder_step = 0;                // at the tool; 0 of an ideal device [m] or [rad]
+  SlipDecomposition slips;                // of what is behind slips
+  LinearForm realisation;  // the canonical form with the spring shares of the observer's realisation, for `nodal`
 
   const Candidate& choice() const { return candidates[chosen]; }
 };

@@ -6,12 +6,12 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double rounding = 1 + 1e-12;
+constexpr double none_yet = std::numeric_limits<double>::infinity();
+constexpr double rounding_of_rule = 1 + 1e-12;
 
 template <class Eligible>
 double least_error(const std::vector<EvaluatedOption>& options, Eligible eligible) {
-  double least = infinite;
+  double least = none_yet;
   for (const EvaluatedOption& option : options)
     if (eligible(option)) least = std::min(least, option.error);
   return least;
@@ -20,7 +20,7 @@ double least_error(const std::vector<EvaluatedOption>& options, Eligible eligibl
 bool is_any(const EvaluatedOption&) { return true; }
 bool is_certified(const EvaluatedOption& option) { return option.certified; }
 
-double noise_of(const EvaluatedOption& option) { return option.motor_noise.value_or(infinite); }
+double noise_of(const EvaluatedOption& option) { return option.motor_noise.value_or(none_yet); }
 
 bool is_preferred(const EvaluatedOption& one, const EvaluatedOption& other) {
   if (one.damping != other.damping) return one.damping > other.damping;
@@ -39,13 +39,13 @@ std::optional<std::size_t> preferred(const std::vector<EvaluatedOption>& options
 std::optional<FaithfulChoice> certified_choice(const std::vector<EvaluatedOption>& options, double least,
                                                double allowed) {
   const auto fits = [=](const EvaluatedOption& option) {
-    return option.certified && option.error <= allowed * rounding;
+    return option.certified && option.error <= allowed * rounding_of_rule;
   };
-  double least_added = infinite;
+  double least_added = none_yet;
   for (const EvaluatedOption& option : options)
     if (fits(option)) least_added = std::min(least_added, option.added.value_or(0));
   const auto chosen = preferred(options, [=](const EvaluatedOption& option) {
-    return fits(option) && option.added.value_or(0) <= leeway * least_added * rounding;
+    return fits(option) && option.added.value_or(0) <= leeway * least_added * rounding_of_rule;
   });
   if (!chosen) return std::nullopt;
   return FaithfulChoice{*chosen, least, allowed, least_added, true};
@@ -59,11 +59,11 @@ FaithfulChoice choose_faithful(const std::vector<EvaluatedOption>& options, doub
   const double least = least_error(options, is_any), allowed = allowed_error(tolerance, least);
   if (const auto choice = certified_choice(options, least, allowed)) return *choice;
   const double of_certified = least_error(options, is_certified);
-  if (of_certified < infinite)
+  if (of_certified < none_yet)
     if (const auto choice = certified_choice(options, of_certified, allowed_error(tolerance, of_certified)))
       return *choice;
   const auto chosen =
-      preferred(options, [=](const EvaluatedOption& option) { return option.error <= allowed * rounding; });
+      preferred(options, [=](const EvaluatedOption& option) { return option.error <= allowed * rounding_of_rule; });
   return {chosen.value_or(0), least, allowed, 0, false};
 }
 

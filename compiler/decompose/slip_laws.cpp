@@ -104,12 +104,13 @@ double ramp_of(unsigned memory, double share_of_coil) {
 
 }  // namespace
 
-std::optional<SlipLaw> slip_law_asked_for(const Choices& choices) {
+std::optional<SlipLaw> slip_law_asked_for(const Choices& asked) {
+  const Choices choices = with_names(asked, true);
   const auto* name = std::get_if<std::string>(&choices.decomposition);
   if (name == nullptr || *name == "virtual") return SlipLaw::by_motor;
   for (const SlipLaw law : laws_to_choose_from)
     if (name_of(law) == *name) return law;
-  const bool run_decides = *name == "most-dissipative" || *name == "faithful";
+  const bool run_decides = *name == "paper" || *name == "faithful";
   return run_decides ? std::nullopt : std::optional(SlipLaw::velocity_free);
 }
 
@@ -156,18 +157,19 @@ bool has_what_was_asked_for(const Network& network, const SlipDecomposition& sli
 
 }  // namespace
 
-std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& choices,
+std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& asked,
                                        const Device* device, Diagnostics& diagnostics) {
+  const Choices choices = with_names(asked, device != nullptr || form.has_slips());
   std::optional<Decomposition> result =
       decompose(linear_part(network, form), form.linear, choices, device, diagnostics);
   if (!result || !form.has_slips()) return result;
   const std::optional<PortDevice> port = device ? PortDevice::of(*device, network, diagnostics) : PortDevice::ideal();
   if (!port) return result;
-  const SlipLaw asked = slip_law_asked_for(choices).value_or(SlipLaw::velocity_free);
-  result->slips = decompose_slips(network, form, result->choice(), {asked, 1, port->largest_estimator_gain()}, *port);
+  const SlipLaw law = slip_law_asked_for(choices).value_or(SlipLaw::velocity_free);
+  result->slips = decompose_slips(network, form, result->choice(), {law, 1, port->largest_estimator_gain()}, *port);
   for (ComponentSplit& split : result->slips.components) say_asked_for(split);
   for (ComponentSplit& split : result->slips.networks) say_asked_for(split);
-  return has_what_was_asked_for(network, result->slips, asked, diagnostics) ? std::move(result) : std::nullopt;
+  return has_what_was_asked_for(network, result->slips, law, diagnostics) ? std::move(result) : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

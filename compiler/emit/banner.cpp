@@ -150,6 +150,7 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
       fmt::format("decomposition: {}, b = {} {}{}: {}", choice.name, choice.damping, unit, capped, choice.reason));
   for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) facts.push_back(brake_line(likes, unit));
   facts.push_back("states: " + c.decomposition.reason);
+  if (!c.decomposition.in_words.empty()) facts.push_back("choice: " + c.decomposition.in_words);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
   facts.push_back(fmt::format("any delay of the estimate: {:.6g} {} of extra damping keep an exact brake passive",
                               choice.extra_damping_any_delay.value_or(0), unit));

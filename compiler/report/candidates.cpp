@@ -9,6 +9,7 @@
 
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
+#include "report/plot.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -31,7 +32,7 @@ std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
       {"minimum damping", units.damping, [=](const Candidate& k) { return known(k.minimum_damping); }},
       {"extra damping under any delay", units.damping,
        [=](const Candidate& k) { return known(k.extra_damping_any_delay); }},
-      {"largest error in the band", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
+      {"largest error of what is felt", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
       {"damping asked of the brake", units.damping, [](const Candidate& k) { return k.damping; }}};
   const auto is_known = [&](const FigureOfMerit& figure) {
     return std::any_of(c.decomposition.candidates.begin(), c.decomposition.candidates.end(),
@@ -90,6 +91,39 @@ std::string candidates_json(const Compilation& c) {
                               json_literal(candidate.name), &candidate == &c.decomposition.choice(), values);
   }
   return "{\"figures\":[" + labels + "],\"candidates\":[" + candidates + "]}";
+}
+
+std::string felt_error_html(const Compilation& c) {
+  const Candidate& choice = c.decomposition.choice();
+  if (c.decomposition.error_frequencies.empty()) return "";
+  Plot plot{"Error of what is felt", {"frequency", "Hz"},    {"error", "%"},
+            AxisScale::logarithmic,  AxisScale::logarithmic, {}};
+  const auto add = [&](const Candidate& candidate, const std::string& name, Channel channel, bool dashed) {
+    Curve curve{name, channel, c.decomposition.error_frequencies, {}, dashed};
+    for (const double error : candidate.error_over_band) curve.y.push_back(100 * error);
+    plot.curves.push_back(std::move(curve));
+  };
+  add(choice, choice.name, Channel::total, false);
+  for (const Candidate& candidate : c.decomposition.candidates)
+    if (&candidate != &choice && (candidate.name == "paper" || candidate.name == "virtual"))
+      add(candidate, candidate.name, candidate.name == "paper" ? Channel::brake : Channel::motor, true);
+  plot.note = "Hold, estimator, delay, amplifier lag, brake tolerance and added damping included.";
+  return plot_figure(plot);
+}
+
+std::string felt_error_json(const Compilation& c) {
+  const auto list = [](const std::vector<double>& values, double factor) {
+    std::string text;
+    for (const double value : values) text += (text.empty() ? "" : ",") + fmt::format("{:.4g}", factor * value);
+    return "[" + text + "]";
+  };
+  if (c.decomposition.error_frequencies.empty()) return "";
+  std::string candidates;
+  for (const Candidate& candidate : c.decomposition.candidates)
+    candidates += fmt::format("{}{{\"name\":{},\"chosen\":{},\"errors\":{}}}", candidates.empty() ? "" : ",",
+                              json_literal(candidate.name), &candidate == &c.decomposition.choice(),
+                              list(candidate.error_over_band, 100));
+  return "{\"frequencies\":" + list(c.decomposition.error_frequencies, 1) + ",\"candidates\":[" + candidates + "]}";
 }
 
 }  // namespace dashpot::compiler

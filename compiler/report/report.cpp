@@ -49,8 +49,10 @@ std::vector<Fields> facts(const Compilation& c) {
   return list;
 }
 
+std::string in_words_html(const std::string& words) { return words.empty() ? "" : "<p>" + escaped(words) + ".</p>"; }
+
 void add_linear_parts(const Compilation& c, CodeModel& model) {
-  for (const char* list : {"canonical", "agreement", "candidates", "regimes"}) model.lists[list];
+  for (const char* list : {"canonical", "agreement", "candidates", "felt_error", "regimes"}) model.lists[list];
   if (!is_linear(c)) {
     model.lists["regimes"].push_back({{"regimes", regimes_html(c)}});
     return;
@@ -59,7 +61,10 @@ void add_linear_parts(const Compilation& c, CodeModel& model) {
   if (!c.network.contact) model.lists["agreement"].push_back({{"body", agreement_html(c)}});
   model.lists["candidates"].push_back({{"choice", escaped(c.decomposition.choice().name)},
                                        {"reason", escaped(c.decomposition.reason)},
+                                       {"in_words", in_words_html(c.decomposition.in_words)},
                                        {"table", candidates_table_html(c)}});
+  if (const std::string figure = felt_error_html(c); !figure.empty())
+    model.lists["felt_error"].push_back({{"figure", figure}});
 }
 
 void add_passivity(const Compilation& c, CodeModel& model) {
@@ -137,6 +142,8 @@ std::string live_json(const Compilation& c, const std::string& module) {
 std::string data_json(const Compilation& c, const std::optional<std::string>& module) {
   std::string json = "{\"name\":" + json_literal(c.network.name);
   if (is_linear(c)) json += ",\"pareto\":" + candidates_json(c);
+  if (const std::string errors = is_linear(c) ? felt_error_json(c) : ""; !errors.empty())
+    json += ",\"felt_error\":" + errors;
   if (module) json += ",\"live\":" + live_json(c, *module);
   return json + "}";
 }
@@ -153,8 +160,8 @@ void add_page(CodeModel& model, Diagnostics& diagnostics) {
   fields["uplot_style"] = built_in("uPlot.min.css", diagnostics);
   fields["uplot"] = built_in("uPlot.iife.min.js", diagnostics);
   fields["uplot_licence"] = escaped_lines(built_in("uPlot-LICENSE", diagnostics));
-  for (const char* part :
-       {"page.js", "pareto.js", "motion.js", "pad.js", "forces.js", "tunables.js", "felt.js", "live.js", "start.js"})
+  for (const char* part : {"page.js", "pareto.js", "felt_error.js", "motion.js", "pad.js", "forces.js", "tunables.js",
+                           "felt.js", "live.js", "start.js"})
     fields["script"] += built_in(part, diagnostics);
 }
 

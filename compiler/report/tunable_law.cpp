@@ -34,7 +34,7 @@ std::string command(const Compilation& c) {
                 : "s, S: what springs answer within a sample, and what they hold");
 }
 
-std::string joined(const std::vector<std::string>& names) {
+std::string joined_names(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return text;
@@ -52,7 +52,7 @@ std::string tunable_law_html(const Compilation& c) {
   html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake) + ".";
   if (!tables.mesh_elements.empty())
     html += " By backward Euler, since their relaxations mix with a parameter or at several slips: " +
-            escaped(joined(tables.mesh_elements)) + ".";
+            escaped(joined_names(tables.mesh_elements)) + ".";
   return html + fmt::format(
                     " Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
                     "{} state{}.</p>\n",

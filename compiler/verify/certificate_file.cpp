@@ -85,14 +85,15 @@ Json json_of(const EnergyLemma& lemma) {
 }
 
 Json json_of_choices(const Compilation& c, const Choices& choices) {
-  Json decomposition;
-  std::visit([&](const auto& value) { decomposition = value; }, choices.decomposition);
+  Json decomposition = c.decomposition.choice().name;
+  if (const double* given = std::get_if<double>(&choices.decomposition)) decomposition = *given;
   return {{"rate", c.rate},
           {"scheme", name_of(c.law.scheme)},
           {"scalar", name_of(c.law.scalar)},
           {"vector", name_of(choices.registers)},
           {"state_input", name_of(c.decomposition.choice().state_input)},
           {"state_input_asked", choices.state_input.has_value()},
+          {"tolerance", choices.tolerance},
           {"guards_each_sample", choices.guards_each_sample},
           {"decomposition", decomposition},
           {"damping", c.decomposition.choice().damping},

@@ -92,6 +92,7 @@ Choices choices_of(const Section& law) {
   choices.state_input = law.named("state_input", {StateInput::position, StateInput::velocity, StateInput::nodal});
   if (law.is_of("decomposition", Kind::number)) choices.decomposition = law.number("decomposition", 0, largest);
   else choices.decomposition = law.text("decomposition");
+  if (law.has("tolerance")) choices.tolerance = law.number("tolerance", 0, 1);
   return choices;
 }
 

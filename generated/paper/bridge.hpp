@@ -2,8 +2,7 @@
 //
 // source: beyond Gosline & Hayward 2009, who treat trees; values chosen here
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 6.171597633136095 N·s/m: no series-parallel tree, so the viscosity at low
-//   frequency
+// decomposition: paper, b = 6.171597633136095 N·s/m: no series-parallel tree, so the viscosity at low frequency
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 5.93552 N·s/m, most at 38.8226 Hz, at least

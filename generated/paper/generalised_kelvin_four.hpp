@@ -3,8 +3,7 @@
 // source: Gosline & Hayward 2009, section 5.1: any number of Kelvin elements; values chosen here, retardation
 //   times from 10 ms to 0.4 s
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 20 N·s/m: in series (K4 | B4) dissipates 87.42 % at low frequency and is
-//   observed
+// decomposition: paper, b = 20 N·s/m: in series (K4 | B4) dissipates 87.42 % at low frequency and is observed
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 17.0889 N·s/m, most at 23.5191 Hz, at least 20

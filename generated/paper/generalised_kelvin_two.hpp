@@ -2,8 +2,7 @@
 //
 // source: Gosline & Hayward 2009, Fig. 3 and (10)-(11); the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 6 N·s/m: in series (K2 | B2) dissipates 90.36 % at low frequency and is
-//   observed
+// decomposition: paper, b = 6 N·s/m: in series (K2 | B2) dissipates 90.36 % at low frequency and is observed
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 3.56881 N·s/m, most at 22.5854 Hz, at least 6

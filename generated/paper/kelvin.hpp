@@ -2,7 +2,7 @@
 //
 // source: Gosline & Hayward 2009, Fig. 2c and (9); the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 2 N·s/m: dampers at the tool in parallel add
+// decomposition: paper, b = 2 N·s/m: dampers at the tool in parallel add
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, any switching of the brake above its command: needs 0.05 N·s/m over the

@@ -2,7 +2,7 @@
 //
 // source: Gosline & Hayward 2009, Fig. 4b and (16)-(19); values of Fig. 6
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 5 N·s/m: in series B dissipates 100 % at low frequency and is observed
+// decomposition: paper, b = 5 N·s/m: in series B dissipates 100 % at low frequency and is observed
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, most at 18.8943 Hz, at least 5

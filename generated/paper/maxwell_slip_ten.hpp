@@ -2,7 +2,8 @@
 //
 // source: beyond Gosline & Hayward 2009, whose Fig. 10 has one; values chosen here
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 0 N·s/m: dampers at the tool in parallel add
+// decomposition: faithful, b = 0 N·s/m: no device to be faithful on, so the paper's rule: dampers at the tool in
+//   parallel add
 // behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck,
 //   0 sliding
 // states: position driven: on an ideal device nothing tells the inputs apart

@@ -2,7 +2,7 @@
 //
 // source: Gosline & Hayward 2009, section 5.1 and (9); stiffness and damping are chosen, not printed
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 5 N·s/m: dampers at the tool in parallel add
+// decomposition: paper, b = 5 N·s/m: dampers at the tool in parallel add
 // states: position driven by definition
 // contact: at 0 m; brake and motor 0 while the tool is free
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive

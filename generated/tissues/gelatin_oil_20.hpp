@@ -4,7 +4,7 @@
 //   a flat punch of radius a = 5 mm on an incompressible half-space: f = 8 G a u, so 0.04 m times modulus and
 //   viscosity
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 0.042 N·s/m: dampers at the tool in parallel add
+// decomposition: paper, b = 0.042 N·s/m: dampers at the tool in parallel add
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, any switching of the brake above its command: needs 0.022 N·s/m over the

@@ -4,9 +4,9 @@
 //   quasi-static slope 6.02 +- 1.54 N/mm. The slope is taken as the instantaneous stiffness and the rest of the
 //   weights, 0.15, as the equilibrium: both assumed. Already a force at a displacement: no conversion
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 1250.7152 N·s/m: in series B1 dissipates 100 % at low frequency and is
-//   observed; in series B2 dissipates 100 % at low frequency and is observed; in series B3 dissipates 100 % at low
-//   frequency and is observed
+// decomposition: paper, b = 1250.7152 N·s/m: in series B1 dissipates 100 % at low frequency and is observed; in
+//   series B2 dissipates 100 % at low frequency and is observed; in series B3 dissipates 100 % at low frequency
+//   and is observed
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 1224.62 N·s/m, most at 21.3386 Hz, at least

@@ -5,8 +5,7 @@
 //   = 5 mm on an incompressible half-space: f = 8 G a u, so 0.04 m times each modulus and viscosity
 // valid: frequency 25 to 62.5 Hz
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 0.576 N·s/m: in series B2 dissipates 100 % at low frequency and is
-//   observed
+// decomposition: paper, b = 0.576 N·s/m: in series B2 dissipates 100 % at low frequency and is observed
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 0.481064 N·s/m, most at 103.517 Hz, at least

@@ -7,8 +7,9 @@
 //   l u / ln(R/a), so 0.05375 m times each. The needle pushes and is not drawn out: the contact lets it go
 // valid: displacement 0 to 0.03 m, rate 0 to 0.02 m/s
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 5 N·s/m: in series B2 dissipates 100 % at low frequency and is observed;
-//   with the contact no more than the feedthrough damping, so that the motor compensates nothing
+// decomposition: faithful, b = 5 N·s/m: no device to be faithful on, so the paper's rule: in series B2 dissipates
+//   100 % at low frequency and is observed; with the contact no more than the feedthrough damping, so that the
+//   motor compensates nothing
 // behind friction: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck, 0 sliding
 // states: position driven by definition
 // contact: at 0 m; brake and motor 0 while the tool is free

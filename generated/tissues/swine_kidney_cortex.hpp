@@ -5,7 +5,7 @@
 //   viscosity
 // valid: frequency 50 to 500 Hz
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 0.0592 N·s/m: dampers at the tool in parallel add
+// decomposition: paper, b = 0.0592 N·s/m: dampers at the tool in parallel add
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, any switching of the brake above its command: needs 0.0362 N·s/m over the

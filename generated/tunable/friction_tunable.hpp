@@ -1,7 +1,8 @@
 // Presliding and Coulomb friction beside a viscous drag, all of which change while it runs
 //
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 12 N·s/m: dampers at the tool in parallel add
+// decomposition: faithful, b = 12 N·s/m: no device to be faithful on, so the paper's rule: dampers at the tool in
+//   parallel add
 // behind friction: velocity-free, parameters change while it runs; b is that of their default values; b = 0 N·s/m
 //   stuck, 0 sliding
 // states: position driven, so that a change of parameters injects no energy

@@ -1,7 +1,8 @@
 // A needle that sticks in two layers, which slide on each other: a ring of three slips, frictions and stiffness change while it runs
 //
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 3 N·s/m: dampers at the tool in parallel add
+// decomposition: faithful, b = 3 N·s/m: no device to be faithful on, so the paper's rule: dampers at the tool in
+//   parallel add
 // behind skin_grip, muscle_grip, fascia: velocity-free, parameters change while it runs; b is that of their
 //   default values
 // states: position driven, so that a change of parameters injects no energy

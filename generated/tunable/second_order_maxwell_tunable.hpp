@@ -2,8 +2,8 @@
 //
 // source: Gosline & Hayward 2009, Fig. 5; the ranges are ours
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 11 N·s/m: in series B1 dissipates 100 % at low frequency and is observed;
-//   in series damper_3 dissipates 100 % at low frequency and is observed
+// decomposition: paper, b = 11 N·s/m: in series B1 dissipates 100 % at low frequency and is observed; in series
+//   damper_3 dissipates 100 % at low frequency and is observed
 // states: position driven, so that a change of parameters injects no energy
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: not certified for any motion, any values within their ranges between changes, any switching of the

@@ -1,8 +1,7 @@
 // A Kelvin element in series with a spring: a tunable that mixes with its relaxation
 //
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 8 N·s/m: in series (spring_1 | B1) dissipates 100 % at low frequency and
-//   is observed
+// decomposition: paper, b = 8 N·s/m: in series (spring_1 | B1) dissipates 100 % at low frequency and is observed
 // states: position driven, so that a change of parameters injects no energy
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: not certified for any motion, any values within their ranges between changes, any switching of the

@@ -174,8 +174,7 @@ std::vector<Choice> all_choices() {
                                      "--scheme backward-euler --state-input velocity",
                                      "--scheme backward-euler --state-input nodal"};
   static const char* const decompositions[] = {
-      "most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
-      "virtual",          "0.375"};
+      "paper", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual", "0.375"};
   static const char* const registers[] = {"sse2", "avx512", "none", "avx2", "neon"};
   static const double rates[] = {1000, 100, 10000, 333.25, 5};
   std::vector<Choice> choices;

@@ -178,6 +178,13 @@ class Rate(SimulateTest):
         self.simulated("kelvin.json", table(ramp(10)), "--rate", "1000")
         self.simulated("kelvin.json", table(ramp(10, 10000)), "--device", PANTOGRAPH)
 
+    def test_says_that_it_is_the_law_alone(self):
+        """Fails if the forces of a law that is compiled for a device could be taken for what the device makes."""
+        self.write("motion.csv", table(ramp(10, 10000)))
+        on_device = ["simulate", "kelvin.json", "--input", "motion.csv", "--device", PANTOGRAPH]
+        self.assertIn("this is the law alone", self.dashpot(*on_device).stderr)
+        self.assertEqual(self.dashpot(*on_device[:-2]).stderr, "")
+
     def test_contradictions_are_wrong_command_lines(self):
         """Fails if a file is run through a law of another rate."""
         self.refuses(table(ramp(10)), "csv-rate-contradicts", "--rate", "2000", status=COMMAND_LINE_WRONG)

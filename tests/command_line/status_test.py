@@ -24,7 +24,7 @@ class Help(CommandTest):
             done = self.dashpot(command, "--help")
             self.assertEqual(done.stderr, "")
             for option in ["NETWORK", "--device", "--rate", "--scheme", "--state-input", "--decomposition", "--scalar",
-                           "--diagnostics", "most-dissipative", "backward-euler", "nodal", "float"]:
+                           "--tolerance", "--diagnostics", "faithful", "paper", "backward-euler", "nodal", "float"]:
                 self.assertIn(option, done.stdout, command)
 
     def test_the_whole_lists_its_commands(self):
@@ -184,7 +184,7 @@ class Diagnostics(CommandTest):
         sliding = json.loads(PANTOGRAPH.read_text())
         sliding["velocity"] = {"estimator": "super_twisting", "acceleration": "50 rad/s^2"}
         self.write("sliding.json", json.dumps(sliding))
-        for code, arguments in [("damping-capped", ["kelvin.json", "--device", single]),
+        for code, arguments in [("damping-capped", ["kelvin.json", "--device", single, "--decomposition", "paper"]),
                                 ("injects-power", ["kelvin.json", "--decomposition", "9"]),
                                 ("tunable-needs-position", ["tuned.json", "--state-input", "velocity"]),
                                 ("velocity-input-drifts", ["kelvin.json", "--device", "sliding.json", "--state-input", "velocity"]),

@@ -44,8 +44,8 @@ NetworkRecipe recipe_of(Family family, Random& random) {
 }
 
 Choices linear_choices(Scheme scheme, Random& random) {
-  static const char* const decompositions[] = {"most-dissipative", "zero-frequency",   "quietest-passive",
-                                               "velocity-free",    "largest-observer", "virtual"};
+  static const char* const decompositions[] = {"paper",         "zero-frequency",   "quietest-passive",
+                                               "velocity-free", "largest-observer", "virtual"};
   Choices choices;
   choices.scheme = scheme;
   choices.decomposition = one_of(decompositions, random);

@@ -33,7 +33,7 @@ class Tail {
 
 std::variant<std::string, double> decomposition_for(std::uint8_t choice) {
   static const char* const names[] = {
-      "most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "virtual",
+      "paper",            "zero-frequency", "quietest-passive", "velocity-free", "virtual",
       "largest-observer", "gated",          "steady",           "ramped",        "no such name"};
   constexpr std::size_t count = std::size(names);
   if (choice % 16 < count) return names[choice % 16];

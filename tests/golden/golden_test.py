@@ -19,6 +19,12 @@ SOURCE = TRANSCRIPTS.parents[2]
 STAGES = ["network", "linear", "decomposition", "law"]
 CERTIFICATE = "certificate.json"
 CLAIMS = ["law", "passivity", "energy"]
+# Networks whose choice on a device is looked at: of springs and dampers in every arrangement, bare dampers at the tool
+# and not, slips, a contact, tunables.
+FELT = [f"networks/{name}.json" for name in [
+    "paper/second_order_maxwell", "paper/kelvin", "paper/maxwell_damper_at_tool", "paper/generalised_kelvin_two", "paper/bridge",
+    "paper/visco_elasto_plastic", "paper/virtual_wall", "tissues/human_liver_normal", "tissues/heel_fat_pad",
+    "tunable/second_order_maxwell_tunable"]]
 PANTOGRAPH = "runtime/devices/pantograph_brake_2009.json"
 
 
@@ -36,6 +42,8 @@ def transcripts_wanted():
     wanted["with_a_device"] = [["explain", fig_5, "--device", PANTOGRAPH],
                                ["explain", "networks/paper/kelvin.json", "--device", PANTOGRAPH],
                                ["explain", "networks/paper/virtual_wall.json", "--device", PANTOGRAPH]]
+    for device in ["pantograph_brake_2009", "phantom_shorted_motor", "board_mps2"]:
+        wanted[f"on_{device}"] = [["explain", path, "--device", f"runtime/devices/{device}.json"] for path in FELT]
     wanted["choices"] = [
         ["compile", fig_5, "--print", "law", "--scheme", "backward-euler", "--state-input", "nodal"],
         ["compile", fig_5, "--print", "law", "--state-input", "velocity", "--decomposition", "zero-frequency"],

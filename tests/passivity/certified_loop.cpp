@@ -47,8 +47,8 @@ CompiledCase random_case(std::uint64_t seed) {
   recipe.smallest_value = 1e-1;
   recipe.largest_value = 1e3;
   one.source = std::make_unique<compiler::SourceFile>("random.json", json_text(random_network(seed, recipe)));
-  const char* names[] = {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "virtual"};
-  one.choices.decomposition = names[random.index(5)];
+  const char* names[] = {"faithful", "paper", "zero-frequency", "quietest-passive", "velocity-free", "virtual"};
+  one.choices.decomposition = names[random.index(6)];
   one.choices.scheme = random.chance(0.7) ? compiler::Scheme::exact : compiler::Scheme::backward_euler;
   compiler::Diagnostics diagnostics;
   one.compilation = compile(*one.source, one.choices, one.device, diagnostics);

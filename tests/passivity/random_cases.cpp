@@ -37,8 +37,8 @@ CompiledCase slip_case(std::uint64_t seed, bool lags, const char* law) {
   recipe.largest_value = 1e3;
   const std::string text = json_text(random_network(seed, recipe));
   one.source = std::make_unique<SourceFile>("random.json", touches ? with_contact(text) : text);
-  const char* laws[] = {"most-dissipative", "velocity-free", "gated", "steady", "ramped", "virtual"};
-  const char* const any = laws[random.index(6)];
+  const char* laws[] = {"faithful", "paper", "velocity-free", "gated", "steady", "ramped", "virtual"};
+  const char* const any = laws[random.index(7)];
   one.choices.decomposition = law != nullptr ? law : any;
   one.choices.scheme = random.chance(0.7) ? Scheme::exact : Scheme::backward_euler;
   compile_again(one);

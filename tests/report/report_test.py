@@ -235,6 +235,25 @@ class Pages(unittest.TestCase):
                 self.assert_simulates(network)
                 self.assert_quiet()
 
+    def click_through_felt_error(self):
+        """The chart of the error names every candidate, says its error where the pointer is, and hides and shows its curve."""
+        names = self.browser.run("return JSON.parse(document.getElementById('data').textContent).felt_error.candidates.map((c) => c.name)")
+        labels = "[...document.querySelectorAll('#felt-error .u-legend .u-series .u-label')]"
+        self.assertEqual(self.browser.run(f"return {labels}.map((label) => label.textContent)"), ["frequency", *names])
+        self.hover("#felt-error .u-over", "#felt-error .u-legend")
+        shown = ("const canvas = document.querySelector('#felt-error canvas');"
+                 "return [document.querySelectorAll('#felt-error .u-series.u-off').length, canvas.toDataURL()]")
+        off, before = self.browser.run(shown)
+        self.assertEqual(off, 0)
+        click = f"{labels}.find((label) => label.textContent === 'paper').dispatchEvent(new MouseEvent('click', {{ bubbles: true }}))"
+        redrawn = "return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
+        self.browser.run(f"{click}; {redrawn}")
+        off, without = self.browser.run(shown)
+        self.assertEqual(off, 1)
+        self.assertNotEqual(without, before)
+        self.browser.run(f"{click}; {redrawn}")
+        self.assertEqual(self.browser.run(shown), [0, before])
+
     def test_choices(self):
         """Fails if the page's law is not the one that was chosen, or its numbers are not those of its scalar type."""
         choices = {"--scheme": "backward-euler", "--decomposition": "zero-frequency", "--state-input": "velocity"}
@@ -246,6 +265,7 @@ class Pages(unittest.TestCase):
         self.assert_simulates(FIG_5, "--scalar", "float", scalar="float")
         self.open(FIG_5, "--device", PANTOGRAPH)
         self.click_through()
+        self.click_through_felt_error()
         self.assert_simulates(FIG_5, "--device", PANTOGRAPH, rate=10000)
         self.assert_quiet()
 

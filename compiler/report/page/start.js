@@ -1,3 +1,4 @@
 set_up_redrawing();
 if (data.pareto) set_up_pareto(data.pareto.figures, data.pareto.candidates);
+if (data.felt_error) set_up_felt_error(data.felt_error);
 if (data.live) set_up_live(data.live);

@@ -1,10 +1,10 @@
 // More branches than straight-line code is written for
 //
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 6.629 N·s/m: in series damper_2 dissipates 100 % at low frequency and is
-//   observed; in series damper_4 dissipates 100 % at low frequency and is observed; in series damper_6 dissipates
-//   100 % at low frequency and is observed; in series damper_8 dissipates 100 % at low frequency and is observed;
-//   and 16 more series connections likewise
+// decomposition: paper, b = 6.629 N·s/m: in series damper_2 dissipates 100 % at low frequency and is observed; in
+//   series damper_4 dissipates 100 % at low frequency and is observed; in series damper_6 dissipates 100 % at low
+//   frequency and is observed; in series damper_8 dissipates 100 % at low frequency and is observed; and 16 more
+//   series connections likewise
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 6.24683 N·s/m, most at 40.8013 Hz, at least

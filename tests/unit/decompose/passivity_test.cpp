@@ -121,7 +121,7 @@ std::string complaint_about_negative_damping(const Network& network) {
     return "quietest-passive is not passive";
   if (all["velocity-free"].velocity_gain != 0) return "velocity-free takes a velocity";
   if (all["zero-frequency"].damping != viscosity) return "zero-frequency is not the viscosity";
-  if (all["largest-observer"].damping < all["most-dissipative"].damping) return "largest-observer is not the largest";
+  if (all["largest-observer"].damping < all["paper"].damping) return "largest-observer is not the largest";
   return "";
 }
 

@@ -179,7 +179,7 @@ std::string complaint_about_forces(const Compiled& compiled, const std::vector<S
 std::string complaint_about(const Network& network, const Choices& choices) {
   const std::string text = json_text(network);
   for (const char* name :
-       {"most-dissipative", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual"}) {
+       {"paper", "zero-frequency", "quietest-passive", "velocity-free", "largest-observer", "virtual"}) {
     Choices named = choices;
     named.decomposition = name;
     const std::string complaint =

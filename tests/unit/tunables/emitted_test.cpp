@@ -70,8 +70,8 @@ std::string evaluated(const compiler::UpdateLaw& law, const std::vector<Sample>&
   return bytes;
 }
 
-const char* const decompositions[] = {"most-dissipative", "zero-frequency",   "quietest-passive",
-                                      "velocity-free",    "largest-observer", "virtual"};
+const char* const decompositions[] = {"paper",         "zero-frequency",   "quietest-passive",
+                                      "velocity-free", "largest-observer", "virtual"};
 
 TunableLaw law_of(std::uint64_t seed) {
   compiler::Choices choices;

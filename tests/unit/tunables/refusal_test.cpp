@@ -84,8 +84,8 @@ TEST(TunableBrake, follows_the_parameters) {
     run.set(values);
     return run.step(0, 0).damping;
   };
-  EXPECT_EQ(damping("most-dissipative", {5, 3}), 13);
-  EXPECT_EQ(damping("most-dissipative", {50, 3}), 58);
+  EXPECT_EQ(damping("paper", {5, 3}), 13);
+  EXPECT_EQ(damping("paper", {50, 3}), 58);
   EXPECT_EQ(damping("velocity-free", {50, 3}), 2);
   EXPECT_EQ(damping("virtual", {50, 3}), 0);
   // Z(0) of the second branch: 6 (3/(K + 3))², as the spring takes the rest of the motion.

@@ -1,0 +1,99 @@
+#include "certify/choice_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "certify/assumed_values.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double next_to_nothing = 0.01;  // of what the brake can give
+constexpr double same = 1e-6;             // relative: one damping
+
+bool is_same(double x, double y) { return std::abs(x - y) <= same * std::max(std::abs(x), std::abs(y)); }
+
+const Candidate* named(const Decomposition& decomposition, const char* name) {
+  for (const Candidate& candidate : decomposition.candidates)
+    if (candidate.name == name) return &candidate;
+  return nullptr;
+}
+
+std::string allowance(const FaithfulChoice& choice, double tolerance) {
+  if (choice.allowed_error <= tolerance * (1 + 1e-9)) return fmt::format("{} % are allowed", in_percent(tolerance));
+  return fmt::format("{} % are allowed, because no damping brings less than {} %", in_percent(choice.allowed_error),
+                     in_percent(choice.least_error));
+}
+
+// What is gained and what it costs.
+std::string against_paper(const Candidate& choice, const Candidate& paper, const PortUnits& units) {
+  if (is_same(choice.damping, paper.damping) && choice.state_input == paper.state_input)
+    return "the paper's rule gives the same";
+  std::string text = fmt::format("the paper's rule, b = {:.4g} {}, errs by {} %", paper.damping, units.damping,
+                                 in_percent(paper.largest_error));
+  if (choice.minimum_damping && paper.minimum_damping)
+    text += fmt::format(", needs {:.3g} in place of {:.3g} {} added for passivity", *paper.minimum_damping,
+                        *choice.minimum_damping, units.damping);
+  if (choice.motor_noise && paper.motor_noise)
+    text += fmt::format(", and has {:.3g} in place of {:.3g} {} of motor noise", *paper.motor_noise,
+                        *choice.motor_noise, units.force);
+  const double difference = paper.damping - choice.damping;
+  if (!is_same(choice.damping, paper.damping))
+    text += fmt::format("; its brake makes {:.3g} {} {}", std::abs(difference), units.damping,
+                        difference > 0 ? "more of the force, which here the motor makes" : "less of the force");
+  return text;
+}
+
+// Why hardly anything is left to the brake; empty where it has something to do.
+std::string idle_brake(const Candidate& choice, const PortUnits& units, double reach, double viscosity,
+                       double feedthrough) {
+  if (reach == 0) return "the device has no brake";
+  if (choice.damping >= next_to_nothing * reach) return "";
+  if (viscosity < next_to_nothing * reach)
+    return fmt::format("the brake has nothing to do, because the whole network damps by no more than {:.3g} {}",
+                       viscosity, units.damping);
+  return fmt::format(
+      "the brake has nothing to do, because at once the network damps by only {:.3g} {}: the rest is behind springs, "
+      "and what a brake gives too much the motor takes off too late",
+      feedthrough, units.damping);
+}
+
+}  // namespace
+
+std::string in_percent(double share) {
+  const double percent = 100 * share;
+  return percent >= 100 && percent < 1e9 ? fmt::format("{:.0f}", percent) : fmt::format("{:.3g}", percent);
+}
+
+std::string reason_for_faithful(const Candidate& chosen, const Choices& choices) {
+  if (choices.state_input) return fmt::format("{} driven as asked", name_of(chosen.state_input));
+  if (chosen.state_inputs.size() == 1) return fmt::format("{} driven by definition", name_of(chosen.state_input));
+  return fmt::format("{} driven: of all pairs of damping and state input the one to be taken",
+                     name_of(chosen.state_input));
+}
+
+std::string choice_in_words(const Decomposition& decomposition, const PortUnits& units, double reach,
+                            double zero_frequency_damping, double feedthrough_damping) {
+  const Candidate& choice = decomposition.choice();
+  if (!choice.faithful) return "";
+  std::string text = fmt::format(
+      "'faithful' gives {:.4g} of the brake's {:.4g} {}, and what is felt errs by up to {} % in "
+      "the band ({})",
+      choice.damping, reach, units.damping, in_percent(choice.largest_error),
+      allowance(*choice.faithful, decomposition.tolerance));
+  if (!choice.faithful->certified) text += ", with nothing certified";
+  if (const Candidate* paper = named(decomposition, "paper")) text += "; " + against_paper(choice, *paper, units);
+  if (decomposition.moves)
+    text += fmt::format("; over ±{:.0f} % of each value that the device file assumes it is {:.4g} to {:.4g} {}{}",
+                        100 * assumed_spread, decomposition.moves->least, decomposition.moves->most, units.damping,
+                        decomposition.moves->by.empty() ? "" : ", mostly by " + decomposition.moves->by);
+  if (zero_frequency_damping > 0 && choice.damping > zero_frequency_damping * (1 + same))
+    text += fmt::format("; that is {:.3g} % more than the network damps in steady motion, which the motor pushes back",
+                        100 * (choice.damping / zero_frequency_damping - 1));
+  const std::string idle = idle_brake(choice, units, reach, zero_frequency_damping, feedthrough_damping);
+  return idle.empty() ? text : text + "; " + idle;
+}
+
+}  // namespace dashpot::compiler

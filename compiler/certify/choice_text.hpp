@@ -1,0 +1,23 @@
+// What was chosen on a device, in words.
+#pragma once
+
+#include <string>
+
+#include "decompose/decomposition.hpp"
+#include "network/port_units.hpp"
+
+namespace dashpot::compiler {
+
+// One sentence on `faithful`: its b, what it gains and costs against the paper's rule, how it moves over the device's
+// assumed values, and where the brake has nothing to do, why. Empty for another choice, and without a device. `reach`:
+// of the brake [N·s/m]; `zero_frequency_damping`: Z_d(0) [N·s/m].
+std::string choice_in_words(const Decomposition& decomposition, const PortUnits& units, double reach,
+                            double zero_frequency_damping, double feedthrough_damping);
+
+// Which state input `faithful` came with.
+std::string reason_for_faithful(const Candidate& chosen, const Choices& choices);
+
+// A share in per cent, without an exponent: "1346", "5.65".
+std::string in_percent(double share);
+
+}  // namespace dashpot::compiler

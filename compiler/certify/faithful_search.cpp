@@ -1,0 +1,405 @@
+#include "certify/faithful_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+constexpr int halvings = 50;
+constexpr int roughly = 30;              // halvings of what need not be exact
+constexpr std::size_t most_places = 48;  // of one convex function
+constexpr double fine = 1e-4;            // how well x is known before b is searched for, relative
+
+struct Ends {
+  double low, high;
+  double at(double share) const { return low + share * (high - low); }
+};
+
+// The least of a convex function, by golden section; left as soon as a value is at most `enough`.
+template <class Function>
+double least_place(Function f, Ends span, double enough, int steps = halvings) {
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  double low = span.low, high = span.high;
+  double left = high - golden * (high - low), right = low + golden * (high - low);
+  double at_left = f(left), at_right = f(right);
+  for (int i = 0; i < steps && at_left > enough && at_right > enough; ++i) {
+    if (at_left < at_right) {
+      high = right, right = left, at_right = at_left;
+      left = high - golden * (high - low), at_left = f(left);
+    } else {
+      low = left, left = right, at_left = at_right;
+      right = low + golden * (high - low), at_right = f(right);
+    }
+  }
+  double best = at_left < at_right ? left : right, value = std::min(at_left, at_right);
+  for (const double end : {span.low, span.high})
+    if (value > enough)
+      if (const double there = f(end); there < value) best = end, value = there;
+  return best;
+}
+
+// The last place towards `fails` where the claim is true, which is true at `holds`.
+template <class Claim>
+double boundary(Claim claim, double holds, double fails, int steps = halvings) {
+  for (int i = 0; i < steps; ++i) {
+    const double middle = (holds + fails) / 2;
+    if (middle == holds || middle == fails) break;
+    (claim(middle) ? holds : fails) = middle;
+  }
+  return holds;
+}
+
+// Where a convex function is at most `level`; empty where it is above it everywhere.
+template <class Function>
+std::optional<Ends> sublevel(Function f, Ends span, double level, int steps = halvings) {
+  const auto is_below = [&](double x) { return f(x) <= level; };
+  const bool low = is_below(span.low), high = is_below(span.high);
+  if (low && high) return span;
+  double inside = low ? span.low : span.high;
+  if (!low && !high) {
+    inside = least_place(f, span, level, steps);
+    if (!is_below(inside)) return std::nullopt;
+  }
+  return Ends{low ? span.low : boundary(is_below, inside, span.low, steps),
+              high ? span.high : boundary(is_below, inside, span.high, steps)};
+}
+
+// One state input with all that is asked of it at one b.
+class InputLine {
+ public:
+  InputLine(const SearchLine& line, const SearchReach& reach, std::optional<double> noise)
+      : line_(line), reach_(reach), noise_(noise) {}
+
+  // needed less assured; infinite where nothing is proved.
+  double lack(double damping) {
+    if (const auto known = lacks_.find(damping); known != lacks_.end()) return known->second;
+    const std::optional<double> needed = line_.needed(damping);
+    const double lack = needed ? *needed - reach_.assured_share * damping - reach_.assured_besides : unbounded;
+    return lacks_[damping] = lack;
+  }
+  double added_for(double lack) const {
+    if (lack <= 0) return 0;
+    return reach_.assured_share > 0 && reach_.adds ? lack / reach_.assured_share : unbounded;
+  }
+  double added(double damping) { return added_for(lack(damping)); }
+
+  // By how much b and what is added are beyond the brake: convex as long as something is proved, and never infinite.
+  double excess(double damping) {
+    const double room = reach_.adds ? reach_.most - reach_.besides - damping : 0;
+    return lack(damping) - reach_.assured_share * std::max(room, 0.0);
+  }
+  bool fits(double damping) { return excess(damping) <= 0; }
+
+  double felt(double damping, double added) const { return line_.felt->largest(damping, added); }
+  double error(double damping) { return felt(damping, fits(damping) ? added(damping) : 0); }
+
+  EvaluatedOption option(double damping) {
+    const double gain = std::abs(reach_.feedthrough - damping);
+    const double lacking = lack(damping);
+    return {damping, error(damping), lacking < unbounded ? std::optional(added_for(lacking)) : std::nullopt,
+            fits(damping), noise_ ? std::optional(gain * *noise_) : std::nullopt};
+  }
+
+ private:
+  const SearchLine& line_;
+  const SearchReach& reach_;
+  std::optional<double> noise_;
+  std::map<double, double> lacks_;
+};
+
+// The dampings of a line, certified, whose x is followed by its chords.
+class CertifiedPart {
+ public:
+  CertifiedPart(InputLine& line, Ends span) : line_(line) {
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) add(span.at(share));
+  }
+
+  // Until chords and their prolongations agree: x to a small share of itself, or of what changes the error at all.
+  void refine(double allowed) {
+    while (places_.size() < most_places) {
+      std::size_t worst = 0;
+      double worst_gap = 1;
+      for (std::size_t i = 0; i + 1 < places_.size(); ++i)
+        if (const double gap = gap_of(i, allowed); gap > worst_gap) worst = i + 1, worst_gap = gap;
+      if (worst == 0) return;
+      const double middle = (places_[worst - 1].damping + places_[worst].damping) / 2;
+      if (middle <= places_[worst - 1].damping || middle >= places_[worst].damping) return;
+      add(middle);
+    }
+  }
+
+  // Where the error is at most `allowed`, chord by chord.
+  std::vector<Ends> within(double allowed) const {
+    std::vector<Ends> spans;
+    for (const Chord& chord : chords())
+      if (const auto share = sublevel([&](double s) { return error(chord, s); }, {0, 1}, allowed))
+        join(spans, {chord.dampings.at(share->low), chord.dampings.at(share->high)});
+    return spans;
+  }
+
+  // Of the least error.
+  double most_faithful() const {
+    double best = places_.front().damping, least = unbounded;
+    for (const Chord& chord : chords()) {
+      const double share = least_place([&](double s) { return error(chord, s); }, {0, 1}, 0);
+      if (const double here = error(chord, share); here < least) least = here, best = chord.dampings.at(share);
+    }
+    return best;
+  }
+
+ private:
+  struct Place {
+    double damping, lack;
+  };
+  struct Chord {
+    Ends dampings, added;
+  };
+
+  void add(double damping) {
+    const Place place{damping, line_.lack(damping)};
+    const auto after = std::lower_bound(places_.begin(), places_.end(), damping,
+                                        [](const Place& p, double value) { return p.damping < value; });
+    if (after == places_.end() || after->damping != damping) places_.insert(after, place);
+  }
+
+  static void join(std::vector<Ends>& spans, const Ends& span) {
+    if (!spans.empty() && span.low <= spans.back().high * (1 + 1e-12)) spans.back().high = span.high;
+    else spans.push_back(span);
+  }
+
+  double slope(std::size_t i) const {
+    return (places_[i + 1].lack - places_[i].lack) / (places_[i + 1].damping - places_[i].damping);
+  }
+
+  // How far below its chord the lack may lie between two places, in units of what may be overlooked.
+  double gap_of(std::size_t i, double allowed) const {
+    const Place &low = places_[i], &high = places_[i + 1];
+    const double width = high.damping - low.damping;
+    if (low.lack <= 0 && high.lack <= 0) return 0;  // x is 0 on all of it
+    if (width <= 1e-9 * high.damping) return 0;
+    const double before = i > 0 ? slope(i - 1) : -unbounded, here = slope(i),
+                 after = i + 2 < places_.size() ? slope(i + 1) : unbounded;
+    // The prolonged neighbours meet at share s of the width, (here − before) s = (after − here)(1 − s).
+    const double rise = here - before, fall = after - here;
+    double depth = 0;
+    if (std::isfinite(rise) && std::isfinite(fall)) depth = rise + fall > 0 ? width * rise * fall / (rise + fall) : 0;
+    else if (std::isfinite(rise)) depth = width * rise;
+    else if (std::isfinite(fall)) depth = width * fall;
+    const double small = line_.added_for(std::max({low.lack, high.lack, 0.0})) * fine;
+    const double unnoticed = fine * allowed / std::max(line_.felt(0, 1) + line_.felt(0, 0), 1e-300);
+    return line_.added_for(std::max(depth, 0.0)) / std::max({small, unnoticed, 1e-300});
+  }
+
+  // Between neighbouring places, parted where the lack begins.
+  std::vector<Chord> chords() const {
+    std::vector<Chord> all;
+    for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+      const Place &low = places_[i], &high = places_[i + 1];
+      const Ends ends{line_.added_for(low.lack), line_.added_for(high.lack)};
+      const bool parts = (low.lack < 0) != (high.lack < 0) && low.lack != 0 && high.lack != 0;
+      const double share = parts ? low.lack / (low.lack - high.lack) : 1;
+      const double middle = low.damping + share * (high.damping - low.damping);
+      if (!parts || !(middle > low.damping && middle < high.damping)) {
+        all.push_back({{low.damping, high.damping}, ends});
+        continue;
+      }
+      all.push_back({{low.damping, middle}, {ends.low, 0}});
+      all.push_back({{middle, high.damping}, {0, ends.high}});
+    }
+    return all;
+  }
+
+  double error(const Chord& chord, double share) const {
+    return line_.felt(chord.dampings.at(share), chord.added.at(share));
+  }
+
+  InputLine& line_;
+  std::vector<Place> places_;
+};
+
+class FaithfulSearch {
+ public:
+  FaithfulSearch(const std::vector<SearchLine>& lines, const SearchReach& reach, double tolerance,
+                 std::optional<double> noise)
+      : reach_(reach), tolerance_(tolerance), most_(std::max(reach.most - reach.besides, 0.0)) {
+    for (const SearchLine& line : lines) lines_.emplace_back(line, reach, noise);
+  }
+
+  FaithfulFind find() {
+    for (std::size_t i = 0; i < lines_.size(); ++i) look_at(i);
+    look_for_least_error();
+    look_until_settled(false);
+    FaithfulChoice choice = chosen();
+    if (!choice.certified && !certified_.empty()) {
+      look_until_settled(true);
+      choice = chosen();
+    }
+    return {std::move(options_), choice};
+  }
+
+ private:
+  struct Stretch {
+    std::size_t line;
+    CertifiedPart certified;
+  };
+  struct Rest {
+    std::size_t line;
+    Ends span;
+  };
+
+  void keep(std::size_t line, double damping) { options_.push_back({line, lines_[line].option(damping)}); }
+
+  FaithfulChoice chosen() const {
+    std::vector<EvaluatedOption> all;
+    for (const FoundOption& found : options_) all.push_back(found.option);
+    return choose_faithful(all, tolerance_);
+  }
+
+  double least_error(bool certified_only) const {
+    double least = unbounded;
+    for (const FoundOption& found : options_)
+      if (found.option.certified || !certified_only) least = std::min(least, found.option.error);
+    return least;
+  }
+
+  // The ends and b∞, and on both sides of b∞ what can be certified and what cannot.
+  void look_at(std::size_t i) {
+    const double middle = reach_.feedthrough;
+    keep(i, 0);
+    if (most_ > 0) keep(i, most_);
+    if (middle > 0 && middle < most_) keep(i, middle);
+    constexpr double beside = 1e-9;
+    if (middle <= 0 || middle >= most_) return part(i, {middle <= 0 ? most_ * 1e-12 : 0, most_});
+    part(i, {0, middle * (1 - beside)});
+    part(i, {middle * (1 + beside), most_});
+  }
+
+  void part(std::size_t i, Ends span) {
+    if (!(span.high > span.low)) return;
+    InputLine& line = lines_[i];
+    const bool is_proved = line.lack(span.high) < unbounded;
+    const auto excess = [&](double b) { return line.excess(b); };
+    const std::optional<Ends> fitting = is_proved ? sublevel(excess, span, 0) : std::nullopt;
+    if (!fitting) return rests_.push_back({i, span});
+    if (fitting->low > span.low) rests_.push_back({i, {span.low, fitting->low}});
+    if (fitting->high < span.high) rests_.push_back({i, {fitting->high, span.high}});
+    if (const std::optional<Ends> near = worth_looking(line, *fitting)) certified_.push_back({i, {line, *near}});
+  }
+
+  // Where any x at all would be within the error that is allowed at most. The convex function's least is looked for
+  // over x, then over b.
+  std::optional<Ends> worth_looking(InputLine& line, Ends span) const {
+    const double reached = least_error(true);
+    if (reached == unbounded) return span;  // nothing that is certified is known yet
+    const double allowed = allowed_error(tolerance_, reached) * leeway;
+    const double most_added = std::max(line.added(span.low), line.added(span.high));  // of a convex function
+    const auto least_felt = [&](double b) {
+      if (most_added == 0) return line.felt(b, 0);
+      return line.felt(b, least_place([&](double x) { return line.felt(b, x); }, {0, most_added}, allowed, roughly));
+    };
+    return sublevel(least_felt, span, allowed, roughly);
+  }
+
+  void look_for_least_error() {
+    for (const Rest& rest : rests_) {
+      const auto error = [&](double b) { return lines_[rest.line].felt(b, 0); };
+      keep(rest.line, least_place(error, rest.span, 0));
+    }
+    const double allowed = allowed_error(tolerance_, least_error(false));
+    for (Stretch& stretch : certified_) {
+      stretch.certified.refine(allowed);
+      keep(stretch.line, stretch.certified.most_faithful());
+    }
+  }
+
+  // What is found on the way may have a little less error, or less added, than all before: the bounds are then drawn
+  // in, and the ends with them.
+  void look_until_settled(bool certified_only) {
+    constexpr int most_rounds = 8;
+    for (int round = 0; round < most_rounds; ++round) {
+      const double allowed = allowed_error(tolerance_, least_error(certified_only));
+      const double added = look_for_most_damping(allowed);
+      if (allowed_error(tolerance_, least_error(certified_only)) == allowed && least_added(allowed) == added) return;
+    }
+  }
+
+  // Returns the least added damping that it went by.
+  double look_for_most_damping(double allowed) {
+    for (const Rest& rest : rests_) {
+      const auto error = [&](double b) { return lines_[rest.line].felt(b, 0); };
+      if (const auto span = sublevel(error, rest.span, allowed)) keep(rest.line, span->high);
+    }
+    for (Stretch& stretch : certified_) look_for_least_added(stretch, allowed);
+    const double least = least_added(allowed);
+    if (least < unbounded)
+      for (Stretch& stretch : certified_) look_for_end(stretch, allowed, leeway * least);
+    return least;
+  }
+
+  double least_added(double allowed) const {
+    double least = unbounded;
+    for (const FoundOption& found : options_)
+      if (found.option.certified && found.option.error <= allowed)
+        least = std::min(least, found.option.added.value_or(0));
+    return least;
+  }
+
+  void look_for_least_added(Stretch& stretch, double allowed) {
+    InputLine& line = lines_[stretch.line];
+    for (const Ends& span : stretch.certified.within(allowed)) {
+      const auto lack = [&](double b) { return line.lack(b); };
+      keep(stretch.line, least_place(lack, span, 0, 30));
+    }
+  }
+
+  // The largest b of each span with x small enough, then as far as what it stands for, not its chord, allows.
+  void look_for_end(Stretch& stretch, double allowed, double most_added) {
+    InputLine& line = lines_[stretch.line];
+    const auto is_allowed = [&](double b) {
+      return line.fits(b) && line.added(b) <= most_added && line.error(b) <= allowed;
+    };
+    for (const Ends& span : stretch.certified.within(allowed)) {
+      double inside = least_place([&](double b) { return line.lack(b); }, span, 0, 30);
+      if (line.added(inside) > most_added) continue;
+      const double end = line.added(span.high) <= most_added
+                             ? span.high
+                             : boundary([&](double b) { return line.added(b) <= most_added; }, inside, span.high, 40);
+      keep(stretch.line, settled_end(is_allowed, end, std::min(most_, span.high + (span.high - span.low))));
+    }
+  }
+
+  // The end of what is allowed, near `guess`.
+  template <class Claim>
+  static double settled_end(Claim is_allowed, double guess, double most) {
+    double step = 1e-9 * guess;
+    if (is_allowed(guess)) {
+      double outside = std::min(guess + step, most);
+      while (outside < most && is_allowed(outside)) guess = outside, step *= 4, outside = std::min(guess + step, most);
+      if (is_allowed(outside)) return outside;
+      return boundary(is_allowed, guess, outside, 40);
+    }
+    double inside = guess;
+    for (; step < guess && !is_allowed(inside); step *= 4) inside = guess - step;
+    return is_allowed(inside) ? boundary(is_allowed, inside, guess, 40) : guess;
+  }
+
+  const SearchReach& reach_;
+  double tolerance_, most_;
+  std::vector<InputLine> lines_;
+  std::vector<Stretch> certified_;
+  std::vector<Rest> rests_;
+  std::vector<FoundOption> options_;
+};
+
+}  // namespace
+
+FaithfulFind find_faithful(const std::vector<SearchLine>& lines, const SearchReach& reach, double tolerance,
+                           std::optional<double> noise) {
+  return FaithfulSearch(lines, reach, tolerance, noise).find();
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,90 @@
+#include "certify/tunable_choice.hpp"
+
+#include <algorithm>
+
+#include "certify/settle.hpp"
+#include "discretise/discretise.hpp"
+#include "discretise/tunable_network.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+class BoxChoice {
+ public:
+  BoxChoice(const Network& network, const NormalForm& form, const Decomposition& decomposition, const Choices& choices,
+            const Device& device, const PortDevice& port, double rate)
+      : network_(network),
+        present_(at_default(network)),
+        form_(form),
+        decomposition_(decomposition),
+        choices_(choices),
+        device_(device),
+        port_(port),
+        rate_(rate),
+        settler_(present_, form, decomposition_, choices, port, rate) {}
+
+  struct Weighed {
+    Candidate candidate;
+    EvaluatedOption option;
+  };
+
+  // Empty where no such law can be written.
+  std::optional<Weighed> weighed(const Candidate& faithful, double damping) {
+    Weighed result{faithful, {}};
+    settler_.place(result.candidate, damping);
+    Decomposition tried = decomposition_;
+    tried.candidates[tried.chosen] = result.candidate;
+    Diagnostics unheard;
+    std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, &device_, unheard);
+    if (!law) return std::nullopt;
+    const SampledLoop loop = sampled_loop(port_, 1 / rate_);
+    const Certificate certificate = certify(*law, loop, slip_motor(network_, form_, tried, choices_, loop));
+    Candidate& candidate = result.candidate;
+    candidate.extra_damping_any_delay = candidate.state_inputs.front().extra_damping_any_delay;
+    candidate.largest_error = settler_.largest_error(candidate, certificate.added_damping);
+    candidate.certified = certificate.certified;
+    candidate.minimum_damping.reset();
+    if (certificate.bound.proof != Proof::none) candidate.minimum_damping = certificate.minimum_damping;
+    result.option = {damping, candidate.largest_error, candidate.minimum_damping, certificate.certified,
+                     candidate.motor_noise};
+    return result;
+  }
+
+ private:
+  const Network& network_;
+  Network present_;
+  const NormalForm& form_;
+  const Decomposition& decomposition_;
+  const Choices& choices_;
+  const Device& device_;
+  const PortDevice& port_;
+  double rate_;
+  CandidateSettler settler_;
+};
+
+}  // namespace
+
+void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
+                     const Choices& choices, const Device& device, const PortDevice& port, double rate) {
+  Candidate& faithful = decomposition.candidates[decomposition.chosen];
+  const double feedthrough = to_double(form.linear.feedthrough_damping);
+  const double reach = port.max_damping().value_or(feedthrough);
+  std::vector<Candidate> candidates;
+  std::vector<EvaluatedOption> options;
+  {
+    BoxChoice box(network, form, decomposition, choices, device, port, rate);
+    for (const double damping : {faithful.damping, std::min(feedthrough, reach)}) {
+      if (!candidates.empty() && damping == candidates.front().damping) continue;
+      const auto weighed = box.weighed(faithful, damping);
+      if (!weighed) continue;
+      candidates.push_back(weighed->candidate);
+      options.push_back(weighed->option);
+    }
+  }
+  if (options.empty()) return;
+  const FaithfulChoice choice = choose_faithful(options, choices.tolerance);
+  faithful = candidates[choice.chosen];
+  faithful.faithful = choice;
+}
+
+}  // namespace dashpot::compiler

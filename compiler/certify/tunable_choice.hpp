@@ -1,0 +1,16 @@
+// `faithful` for a network whose parameters change while it runs.
+#pragma once
+
+#include "certify/certificate.hpp"
+#include "linear/normal_form.hpp"
+
+namespace dashpot::compiler {
+
+// In: a decomposition whose candidate `faithful` is settled at the default values. That damping, held while the
+// parameters change, is weighed against b∞, which follows them and needs no estimate: both by what is felt at the
+// default values and by what the certificate over the whole range of the parameters asks for. Ensures: the candidate
+// has the one that faithful_rule.hpp takes. Lists nothing for a brake that cannot give b∞.
+void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
+                     const Choices& choices, const Device& device, const PortDevice& port, double rate);
+
+}  // namespace dashpot::compiler

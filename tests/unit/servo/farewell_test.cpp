@@ -32,12 +32,13 @@ struct run_of {
   std::string log;
 };
 
-run_of run(telling_device& device, double duration = 0.05) {
+run_of run(telling_device& device, double duration = 0.05, double farewell = servo_options().farewell) {
   scripted_model model;
   scripted_estimator estimator;
   log_text log;
   servo_options options;
   options.duration = duration;
+  options.farewell = farewell;
   options.outputs.log = log.file();
   run_of result;
   result.summary = servo_loop(model, device, estimator, options, scripted_clock{}).run();
@@ -65,6 +66,19 @@ TEST(Farewell, WithoutAConfirmationIsToldSo) {
   EXPECT_FALSE(summary.left_safe);
   EXPECT_NE(to_text(summary).find("safe command sent, NOT confirmed by the device"), std::string::npos);
   EXPECT_EQ(device.written().size(), 50u + 501) << "half a second long";
+}
+
+// Broken, a slow link could not be given more time, or a wait that is no number would be for ever.
+TEST(Farewell, WaitsAsLongAsItIsTold) {
+  telling_device slow(scripted_description());
+  slow.deaf_for = 900;
+  EXPECT_TRUE(run(slow, 0.05, 1).summary.safe_confirmed);
+  for (const double none : {0.0, -1.0, std::nan("")}) {
+    telling_device silent(scripted_description());
+    silent.silent_from = 51;
+    EXPECT_FALSE(run(silent, 0.05, none).summary.left_safe);
+    EXPECT_EQ(silent.written().size(), 50u + 1);
+  }
 }
 
 // Broken, a device that never tells anything would be called confirmed.

@@ -61,10 +61,10 @@ class servo_cycle {
   }
 
   // Gives the device the safe command, again every period while it does not take it, as often as deadlines may be
-  // missed; a device that tells what it applies is asked until it confirms. Never for longer than `longest_farewell`.
-  void leave_device_safe() noexcept {
-    const double farewell = longest_farewell / loop_.sample_period;
-    const unsigned longest = farewell < 1e6 ? static_cast<unsigned>(farewell) : 1'000'000;  // [periods]
+  // missed; a device that tells what it applies is asked until it confirms. Never for longer than `farewell` [s].
+  void leave_device_safe(double farewell) noexcept {
+    const double periods = farewell > 0 ? farewell / loop_.sample_period : 0;
+    const unsigned longest = periods < 1e6 ? static_cast<unsigned>(periods) : 1'000'000;
     unsigned taken = 0;
     for (unsigned attempt = 0; attempt <= longest && !summary_.safe_confirmed; ++attempt) {
       if (attempt > 0) clock_.wait();
@@ -87,8 +87,6 @@ class servo_cycle {
   }
 
  private:
-  static constexpr double longest_farewell = 0.5;  // [s]
-
   device_status write(const actuation& command) noexcept {
     const device_status taken = device_.write(command);
     path_.note_write(command, taken == device_status::ok);

@@ -87,7 +87,7 @@ class servo_loop {
     for (wake_up woken = clock_.wait(); woken.period < periods && !control_.stop_requested(); woken = clock_.wait()) {
       cycle.serve(woken);
     }
-    cycle.leave_device_safe();
+    cycle.leave_device_safe(options_.farewell);
     if constexpr (Clock::is_real) control_.leave_device();
   }
 

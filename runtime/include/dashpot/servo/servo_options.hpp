@@ -15,6 +15,7 @@ struct servo_options {
   bool require_certified = false;  // refuse a model compiled for the ideal device
   bool start_running = true;       // false: idle until control().start()
   double duration = 0;             // [s]; 0: until control().stop()
+  double farewell = 0.5;           // at the end, the longest wait for the device to confirm the safe command [s]
   command_options command;
   realtime_wishes realtime;  // ignored in simulated time
   telemetry_outputs outputs;

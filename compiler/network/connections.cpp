@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <string_view>
 
 #include "network/effect.hpp"
 #include "network/law.hpp"
@@ -83,8 +84,23 @@ NodeIndex loose_end(const Element& element, const std::vector<std::size_t>& coun
   return element.b != tool && element.b != ground && count[element.b] == 1 ? element.b : ground;
 }
 
+// What others call the two ends; empty for any other name.
+std::string_view other_name_of_end(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const std::string_view grounded : {"gnd", "grnd", "0", "earth", "base", "frame", "wall", "fixed", "world"})
+    if (name == grounded) return "ground";
+  for (const std::string_view moved : {"port", "tip", "hand", "handle", "probe", "stylus", "user"})
+    if (name == moved) return "tool";
+  return "";
+}
+
 void warn_about_loose_end(const Network& network, const Element& element, NodeIndex end, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::dangling_node>(element.span, network.nodes[end], element.name);
+  if (const std::string_view meant = other_name_of_end(network.nodes[end]); !meant.empty()) {
+    diagnostics.note<DiagnosticCode::end_is_called>({}, meant);
+    return;
+  }
   std::vector<std::string> others = network.nodes;
   others.erase(others.begin() + static_cast<std::ptrdiff_t>(end));
   if (const auto nearest = nearest_name(network.nodes[end], others))

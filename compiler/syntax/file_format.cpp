@@ -31,7 +31,10 @@ bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics)
   const ObjectReader reader(root, is_network ? "the network file" : "the device file", diagnostics);
   if (is_other_kind(kind, reader, diagnostics)) return false;
   const JsonMember* format = reader.require(is_network ? network_key : device_key);
-  if (format == nullptr) return true;
+  if (format == nullptr) {
+    diagnostics.note<DiagnosticCode::write_format_key>({}, is_network ? network_key : device_key);
+    return true;
+  }
   if (format->value.kind != JsonValue::Kind::number)
     report_wrong_type(format->key, format->value, "the number 1", diagnostics);
   else if (format->value.text != "1")

@@ -106,6 +106,7 @@ LeafDecl parse_leaf(const JsonValue& value, const JsonMember& kind, Diagnostics&
 bool is_object(const JsonValue& value, Diagnostics& diagnostics) {
   if (value.kind == Kind::object) return true;
   report_wrong_type("element", value, "an object such as { \"spring\": \"5 N/m\" }", diagnostics);
+  if (value.kind == Kind::array) diagnostics.note<DiagnosticCode::join_the_elements>({});
   return false;
 }
 

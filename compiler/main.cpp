@@ -2,15 +2,18 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <limits>
+#include <map>
 #include <sstream>
 
 #include "commands/commands.hpp"
 #include "network/rate_limits.hpp"
+#include "source/nearest_name.hpp"
 
 namespace {
 
@@ -43,12 +46,26 @@ std::optional<double> decimal(const std::string& text) {
   return is_number ? std::optional(value) : std::nullopt;
 }
 
+// "1kHz", "0.5 MHz" and "200 Hz" in hertz; anything else as it is.
+std::string in_hertz(const std::string& text) {
+  constexpr std::string_view unit = "Hz";
+  if (!text.ends_with(unit)) return text;
+  std::string number = text.substr(0, text.size() - unit.size());
+  double factor = 1;
+  if (number.ends_with('k')) factor = 1e3;
+  if (number.ends_with('M')) factor = 1e6;
+  if (factor != 1) number.pop_back();
+  while (number.ends_with(' ')) number.pop_back();
+  const std::optional<double> value = decimal(number);
+  return value ? fmt::format("{}", factor * *value) : text;
+}
+
 std::string check_rate(const std::string& text) {
   const std::optional<double> rate = decimal(text);
   const bool ok = rate && *rate >= lowest_rate && *rate <= highest_rate;
   return ok ? ""
-            : fmt::format("'{}' is no rate; a number of hertz from {:g} to {:g} is expected", text, lowest_rate,
-                          highest_rate);
+            : fmt::format("'{}' is no rate; a number of hertz from {:g} to {:g} is expected, as 1000 or 1kHz", text,
+                          lowest_rate, highest_rate);
 }
 
 constexpr double longest_run = 1e9;  // [s]
@@ -98,6 +115,7 @@ void add_choices(CLI::App& command, CommandLine& line) {
   Choices& choices = line.options.choices;
   command.add_option("--device", line.options.device, "Device file; without one an ideal device at --rate");
   command.add_option("--rate", choices.rate, "Rate of the servo loop [Hz], default 1000 or the device's")
+      ->transform(in_hertz)
       ->check(check_rate);
   command.add_option("--scheme", line.scheme, "How states are advanced, default exact")
       ->check(CLI::IsMember({"exact", "backward-euler"}))
@@ -221,8 +239,8 @@ void describe_exchange(CLI::App& app, CommandLine& line) {
 
 void describe(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
-  CLI::App* check = add_command(app, line, "check", "Report errors and warnings only");
-  add_networks(*check, line, true);
+  CLI::App* check = add_command(app, line, "check", "Report errors and warnings of networks, devices and motions");
+  check->add_option("FILE", options.networks, "Network or device files, or motions (.csv)")->required()->expected(-1);
   add_choices(*check, line);
 
   CLI::App* explain =
@@ -230,6 +248,7 @@ void describe(CLI::App& app, CommandLine& line) {
   add_networks(*explain, line, false);
   add_choices(*explain, line);
   explain->add_flag("--json", options.json, "As JSON, SI units");
+  explain->add_flag("--legend", options.legend, "Say what the columns mean");
   explain->add_option("--as", options.as, "Print the same network in another form instead, as a network file")
       ->check(CLI::IsMember({"kelvin", "maxwell", "prony"}))
       ->option_text("kelvin|maxwell|prony");
@@ -354,11 +373,31 @@ void take_over_words(CommandLine& line) {
   else choices.decomposition = line.decomposition;
 }
 
+const std::map<std::string, Command> commands = {
+    {"check", run_check},   {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate},
+    {"report", run_report}, {"device", run_device},   {"run", run_run},         {"verify", run_verify},
+    {"fit", run_fit},       {"import", run_import},   {"export", run_export}};
+
+// `help COMMAND` asks what `COMMAND --help` asks.
+std::vector<std::string> with_help_as_option(std::vector<std::string> arguments) {
+  if (arguments.empty() || arguments[0] != "help") return arguments;
+  arguments.erase(arguments.begin());
+  if (arguments.size() > 1) arguments.resize(1);
+  arguments.push_back("--help");
+  return arguments;
+}
+
+// Of what stands where a command should; empty where it is one, or an option.
+std::string complaint_about_command(const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0].starts_with('-') || commands.contains(arguments[0])) return "";
+  std::vector<std::string> names;
+  for (const auto& [name, command] : commands) names.push_back(name);
+  const std::optional<std::string> nearest = nearest_name(arguments[0], names);
+  return "there is no command '" + arguments[0] + "'" +
+         (nearest ? "; '" + *nearest + "' is the nearest" : "; commands are " + CLI::detail::join(names)) + "\n";
+}
+
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
-  static const std::map<std::string, Command> commands = {
-      {"check", run_check},   {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate},
-      {"report", run_report}, {"device", run_device},   {"run", run_run},         {"verify", run_verify},
-      {"fit", run_fit},       {"import", run_import},   {"export", run_export}};
   SourceFiles files;
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;
@@ -392,8 +431,14 @@ int main(int argc, char** argv) {
   CommandLine line;
   line.options.fit.arguments.assign(argv + 1, argv + argc);
   describe(app, line);
+  std::vector<std::string> arguments = with_help_as_option(line.options.fit.arguments);
+  if (const std::string complaint = complaint_about_command(arguments); !complaint.empty()) {
+    std::cerr << complaint << "Run with --help for more information.\n";
+    return static_cast<int>(ExitStatus::command_line_wrong);
+  }
   try {
-    app.parse(argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as the parser takes them
+    app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     return static_cast<int>(answer(app, error));
   }

@@ -51,6 +51,7 @@ struct Options {
   std::string header;                      // verify
   EmissionOptions emission;
   bool uncertified = false;           // compile: also what lacks damping on its device
+  bool legend = false;                // explain: what the columns mean
   bool allow_uncertified = false;     // verify: also what is sound and not certified
   bool json = false;                  // explain, run --motion
   std::optional<double> duration;     // run [s]; without end where empty

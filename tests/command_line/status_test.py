@@ -23,7 +23,7 @@ class Help(CommandTest):
         for command in COMMANDS:
             done = self.dashpot(command, "--help")
             self.assertEqual(done.stderr, "")
-            for option in ["NETWORK", "--device", "--rate", "--scheme", "--state-input", "--decomposition", "--scalar",
+            for option in ["FILE" if command == "check" else "NETWORK", "--device", "--rate", "--scheme", "--state-input", "--decomposition", "--scalar",
                            "--tolerance", "--diagnostics", "faithful", "paper", "backward-euler", "nodal", "float"]:
                 self.assertIn(option, done.stdout, command)
 
@@ -39,9 +39,31 @@ class Help(CommandTest):
         for option in ["-o,--output", "--target", "--with-test", "--print", "--depfile", "--templates"]:
             self.assertIn(option, text)
 
+    def test_help_is_a_command_too(self):
+        """Fails if what other programs answer to `help` is refused here."""
+        self.assertEqual(self.dashpot("help", "compile").stdout, self.dashpot("compile", "--help").stdout)
+        self.assertEqual(self.dashpot("help").stdout, self.dashpot("--help").stdout)
+
+    def test_rates_have_units(self):
+        """Fails if a rate with its unit is refused, or read as another one."""
+        plain = self.dashpot("explain", FIG_5, "--rate", "2000").stdout
+        for rate in ["2kHz", "2 kHz", "2000Hz", "0.002 MHz"]:
+            self.assertEqual(self.dashpot("explain", FIG_5, "--rate", rate).stdout, plain)
+
     def test_version(self):
         """Fails if the program does not say what it is."""
         self.assertRegex(self.dashpot("--version").stdout, r"^dashpot \d+\.\d+\.\d+\n$")
+
+
+class Check(CommandTest):
+    def test_takes_devices_and_motions_too(self):
+        """Fails if a device file or a motion cannot be checked on its own, or is said to be fine where it is not."""
+        self.write("motion.csv", "time,position\n0,0\n0.001,0.1\n0.002,0.2\n")
+        self.write("late.csv", "time,position\n0,0\n0.001,0.1\n0.0005,0.2\n")
+        self.write("broken_device.json", '{ "dashpot_device": 1, "name": "none" }')
+        self.assertEqual(self.dashpot("check", FIG_5, PANTOGRAPH, "motion.csv").stderr, "")
+        self.refused("check", FIG_5, "late.csv")
+        self.refused("check", "broken_device.json", code="missing-key")
 
 
 class WrongCommandLine(CommandTest):
@@ -53,7 +75,10 @@ class WrongCommandLine(CommandTest):
     def test_of_the_command(self):
         """Fails if a missing or unknown command or option counts as refused input, or passes."""
         self.wrong()
-        self.wrong("complie", FIG_5)
+        self.wrong("complie", FIG_5, mentions="'compile' is the nearest")
+        self.wrong("draw", FIG_5, mentions="commands are check, compile")
+        self.wrong("help", "complie", mentions="'compile' is the nearest")
+        self.wrong("explain", FIG_5, "--rate", "1 kilo", mentions="as 1000 or 1kHz")
         self.wrong("compile")
         self.wrong("compile", FIG_5, "--fast-math", mentions="--fast-math")
         self.wrong("explain", FIG_5, FIG_5)

@@ -30,33 +30,34 @@ std::string allowance(const FaithfulChoice& choice, double tolerance) {
 // What is gained and what it costs.
 std::string against_paper(const Candidate& choice, const Candidate& paper, const PortUnits& units) {
   if (is_same(choice.damping, paper.damping) && choice.state_input == paper.state_input)
-    return "the paper's rule gives the same";
-  std::string text = fmt::format("the paper's rule, b = {:.4g} {}, errs by {} %", paper.damping, units.damping,
+    return "The paper's rule chooses the same.";
+  std::string text = fmt::format("With the paper's rule, b = {:.4g} {}, it errs by {} %", paper.damping, units.damping,
                                  in_percent(paper.largest_error));
-  if (choice.minimum_damping && paper.minimum_damping)
-    text += fmt::format(", needs {:.3g} in place of {:.3g} {} added for passivity", *paper.minimum_damping,
-                        *choice.minimum_damping, units.damping);
-  if (choice.motor_noise && paper.motor_noise)
-    text += fmt::format(", and has {:.3g} in place of {:.3g} {} of motor noise", *paper.motor_noise,
-                        *choice.motor_noise, units.force);
+  if (choice.minimum_damping && paper.minimum_damping &&
+      std::max(*choice.minimum_damping, *paper.minimum_damping) > 0)
+    text += fmt::format(", {:.3g} {} have to be added for passivity where here it is {:.3g}", *paper.minimum_damping,
+                        units.damping, *choice.minimum_damping);
+  if (choice.motor_noise && paper.motor_noise && std::max(*choice.motor_noise, *paper.motor_noise) > 0)
+    text += fmt::format(", and the motor's noise is {:.3g} {} where here it is {:.3g}", *paper.motor_noise, units.force,
+                        *choice.motor_noise);
   const double difference = paper.damping - choice.damping;
   if (!is_same(choice.damping, paper.damping))
     text += fmt::format("; its brake makes {:.3g} {} {}", std::abs(difference), units.damping,
-                        difference > 0 ? "more of the force, which here the motor makes" : "less of the force");
-  return text;
+                        difference > 0 ? "of damping that the motor makes here" : "less");
+  return text + ".";
 }
 
 // Why hardly anything is left to the brake; empty where it has something to do.
 std::string idle_brake(const Candidate& choice, const PortUnits& units, double reach, double viscosity,
                        double feedthrough) {
-  if (reach == 0) return "the device has no brake";
+  if (reach == 0) return "The device has no brake.";
   if (choice.damping >= next_to_nothing * reach) return "";
   if (viscosity < next_to_nothing * reach)
-    return fmt::format("the brake has nothing to do, because the whole network damps by no more than {:.3g} {}",
+    return fmt::format("The brake has next to nothing to do, because the whole network damps by no more than {:.3g} {}.",
                        viscosity, units.damping);
   return fmt::format(
-      "the brake has nothing to do, because at once the network damps by only {:.3g} {}: the rest is behind springs, "
-      "and what a brake gives too much the motor takes off too late",
+      "The brake has next to nothing to do: of the network's damping only {:.3g} {} act at once, the rest is behind "
+      "springs; a brake acts at once, and what it makes too much the motor takes back a sample too late.",
       feedthrough, units.damping);
 }
 
@@ -79,21 +80,20 @@ std::string choice_in_words(const Decomposition& decomposition, const PortUnits&
   const Candidate& choice = decomposition.choice();
   if (!choice.faithful) return "";
   std::string text = fmt::format(
-      "'faithful' gives {:.4g} of the brake's {:.4g} {}, and what is felt errs by up to {} % in "
-      "the band ({})",
+      "'faithful' takes b = {:.4g} of the brake's {:.4g} {}, and the felt force errs by up to {} % in the band ({}){}.",
       choice.damping, reach, units.damping, in_percent(choice.largest_error),
-      allowance(*choice.faithful, decomposition.tolerance));
-  if (!choice.faithful->certified) text += ", with nothing certified";
-  if (const Candidate* paper = named(decomposition, "paper")) text += "; " + against_paper(choice, *paper, units);
+      allowance(*choice.faithful, decomposition.tolerance),
+      choice.faithful->certified ? "" : "; nothing that errs so little is certified");
+  if (const Candidate* paper = named(decomposition, "paper")) text += " " + against_paper(choice, *paper, units);
   if (decomposition.moves)
-    text += fmt::format("; over ±{:.0f} % of each value that the device file assumes it is {:.4g} to {:.4g} {}{}",
+    text += fmt::format(" If each value that the device file assumes is off by up to {:.0f} %, b is {:.4g} to {:.4g} {}{}.",
                         100 * assumed_spread, decomposition.moves->least, decomposition.moves->most, units.damping,
-                        decomposition.moves->by.empty() ? "" : ", mostly by " + decomposition.moves->by);
+                        decomposition.moves->by.empty() ? "" : ", mostly because of " + decomposition.moves->by);
   if (zero_frequency_damping > 0 && choice.damping > zero_frequency_damping * (1 + same))
-    text += fmt::format("; that is {:.3g} % more than the network damps in steady motion, which the motor pushes back",
+    text += fmt::format(" That is {:.3g} % more than the network damps in steady motion; the motor pushes it back.",
                         100 * (choice.damping / zero_frequency_damping - 1));
   const std::string idle = idle_brake(choice, units, reach, zero_frequency_damping, feedthrough_damping);
-  return idle.empty() ? text : text + "; " + idle;
+  return idle.empty() ? text : text + " " + idle;
 }
 
 }  // namespace dashpot::compiler

@@ -7,7 +7,8 @@
 
 namespace dashpot::compiler {
 
-std::string explain_text(const Compilation& compilation);
+// No line is wider than 100 columns, but where a single word is.
+std::string explain_text(const Compilation& compilation, bool with_legend);
 std::string explain_json(const Compilation& compilation);
 
 // Of what joins tool and ground without slips, and of what is behind slips in each of their regimes [1/s].

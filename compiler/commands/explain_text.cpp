@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "certify/notes.hpp"
 #include "commands/explain.hpp"
 #include "decompose/slip_laws.hpp"
 #include "network/port_units.hpp"
 #include "law/cost.hpp"
+#include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
 
@@ -86,9 +88,23 @@ std::string tunable_text(const TunableTables& tables) {
              cost.output, cost.update, cost.set, cost.states);
 }
 
+// What follows a label begins in the same column on every line.
+std::string fitted(const std::string& text) {
+  constexpr std::size_t widest = 100, label = 22;
+  std::string all;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_labelled = line.size() > label && line.compare(label - 2, 2, "  ") == 0 && line[label] != ' ';
+    const std::size_t indented = std::min(line.find_first_not_of(' '), line.size());
+    for (const std::string& one : wrapped_text(line, widest, is_labelled ? label : indented + 4))
+      all += one + "\n";
+  }
+  return all;
+}
+
 }  // namespace
 
-std::string explain_text(const Compilation& c) {
+std::string explain_text(const Compilation& c, bool with_legend) {
   const Candidate& choice = c.decomposition.choice();
   const PortUnits units = port_units(c.network.port_motion);
   std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
@@ -100,18 +116,14 @@ std::string explain_text(const Compilation& c) {
                       units.damping);
   text += pace_text(c) + valid_text(c.network.valid, units) + kelvin_text(c, units) + "\n" +
           to_text(c.decomposition, c.network);
-  if (c.device)
-    text +=
-        "error                 of what is felt: hold, estimator, delay, amplifier lag, brake tolerance and added "
-        "damping "
-        "included\n";
+  if (with_legend) text += "\n" + legend(c.device.has_value()) + "\n";
   text += to_text(c.decomposition.slips, c.network);
   text += fmt::format(
       "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",
       choice.extra_damping_any_delay.value_or(0), units.damping);
   if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";
   text += to_text(c.certificate, c.network.port_motion) + notes_text(c);
-  return text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c));
+  return fitted(text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c)));
 }
 
 }  // namespace dashpot::compiler

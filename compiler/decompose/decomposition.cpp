@@ -242,23 +242,63 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
   return result;
 }
 
+namespace {
+
+bool is_same(const Candidate& one, const Candidate& other) {
+  return one.damping == other.damping && one.state_input == other.state_input;
+}
+
+std::string candidate_row(const Candidate& c) {
+  const auto number = [](double value) { return fmt::format("{:.5g}", value); };
+  const auto or_dash = [&](const std::optional<double>& value) { return value ? number(*value) : "-"; };
+  return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", c.name, number(c.damping),
+                     name_of(c.state_input), number(c.velocity_gain), number(c.extra_damping_any_delay.value_or(0)),
+                     or_dash(c.minimum_damping), or_dash(c.motor_noise), fmt::format("{:.4g}", 100 * c.largest_error));
+}
+
+std::string reason_line(const Candidate& c) {
+  return fmt::format("  {:<20}{}{}\n", c.name,
+                     c.capped() ? fmt::format("lowered from {:.5g}: ", c.wanted_damping) : "", c.reason);
+}
+
+}  // namespace
+
 std::string to_text(const Decomposition& decomposition, const Network& network) {
   const PortUnits units = port_units(network.port_motion);
-  const auto or_dash = [](const std::optional<double>& value) { return value ? fmt::format("{:.6g}", *value) : "-"; };
   const auto heading = [](const auto&... cells) {
-    return fmt::format("{:<18}{:>14}  {:<9}{:>14}{:>16}{:>17}{:>12}{:>12}{}\n", cells...);
+    return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", cells...);
   };
-  std::string text = heading("candidate", "b", "states", "velocity gain", "any-delay extra", "minimum damping", "noise",
-                             "error", "  reason");
-  text += heading("", units.damping, "", units.damping, units.damping, units.damping, units.force, "%", "");
-  for (const Candidate& c : decomposition.candidates)
-    text += fmt::format("{:<18}{:>14.8g}  {:<9}{:>14.6g}{:>16.6g}{:>17}{:>12}{:>12.4g}  {}{}\n", c.name, c.damping,
-                        name_of(c.state_input), c.velocity_gain, c.extra_damping_any_delay.value_or(0),
-                        or_dash(c.minimum_damping), or_dash(c.motor_noise), 100 * c.largest_error,
-                        c.capped() ? fmt::format("lowered from {:.8g}: ", c.wanted_damping) : "", c.reason);
-  text += fmt::format("chosen             {}: {}\n", decomposition.choice().name, decomposition.reason);
-  if (!decomposition.in_words.empty()) text += decomposition.in_words + "\n";
+  std::string text = heading("candidate", "b", "states", "velocity", "any-delay", "minimum", "noise", "error") +
+                     heading("", "", "driven by", "gain", "extra", "damping", "", "") +
+                     heading("", units.damping, "", units.damping, units.damping, units.damping, units.force, "%");
+  std::string reasons, equals;
+  for (const Candidate& c : decomposition.candidates) {
+    const auto first = std::find_if(decomposition.candidates.begin(), decomposition.candidates.end(),
+                                    [&](const Candidate& other) { return is_same(other, c); });
+    reasons += reason_line(c);
+    if (&*first == &c) text += candidate_row(c);
+    else equals += fmt::format("{}{} as {}", equals.empty() ? "" : ", ", c.name, first->name);
+  }
+  if (!equals.empty()) text += fmt::format("the same              {}\n", equals);
+  text += "reasons\n" + reasons;
+  text += fmt::format("chosen                {}: {}\n", decomposition.choice().name, decomposition.reason);
+  if (!decomposition.in_words.empty()) text += "in words              " + decomposition.in_words + "\n";
   return text;
+}
+
+std::string legend(bool has_device) {
+  std::string text =
+      "b                 the damping that the brake is told to make\n"
+      "states driven by  what moves the springs behind dampers in the motor's law: the measured position, or the\n"
+      "                  velocity estimate, or both as the network's nodes have it (nodal)\n"
+      "velocity gain     how much of the velocity estimate the motor makes into force; 0: it needs no estimate\n"
+      "any-delay extra   the damping to add so that the law is passive, with an exact brake, however late the\n"
+      "                  velocity estimate is\n"
+      "minimum damping   what must be added to b so that the law is certified; -: nothing is proved\n"
+      "noise             the rms force of the motor that comes from the encoder's steps alone; -: not known\n";
+  return text + (has_device ? "error             the largest error of the felt force in the device's band: hold, "
+                              "estimator, delay, amplifier\n                  lag, brake tolerance and added damping included\n"
+                            : "error             of the felt force; 0 on an ideal device\n");
 }
 
 std::string contact_text(const Decomposition& decomposition, const Network& network) {

@@ -55,7 +55,7 @@ struct Decomposition {
   double tolerance = 0;                   // of `faithful` [1]
   std::optional<ChoiceMoves> moves;       // of `faithful`; empty where nothing is assumed
   std::vector<double> error_frequencies;  // [Hz]; empty until all candidates are weighed, and without a device
-  std::string in_words;                   // what was chosen on a device, and what that gains and costs; one sentence
+  std::string in_words;                   // what was chosen on a device, and what that gains and costs; whole sentences
   std::string reason;                     // why the chosen state input
   double encoder_step = 0;                // at the tool; 0 of an ideal device [m] or [rad]
   SlipDecomposition slips;                // of what is behind slips
@@ -82,6 +82,9 @@ std::string reason_for_input(const Candidate& chosen, const Choices& choices, bo
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);
 
 std::string to_text(const Decomposition& decomposition, const Network& network);
+
+// What the columns of the candidates mean, a line or two each.
+std::string legend(bool has_device);
 
 // What a contact does to the command; empty without one.
 std::string contact_text(const Decomposition& decomposition, const Network& network);

@@ -8,6 +8,7 @@
 
 #include "decompose/slip_laws.hpp"
 #include "law/cost.hpp"
+#include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -51,22 +52,6 @@ std::string string_text(const std::string& text) {
     else result += c;
   }
   return result;
-}
-
-// At spaces; a word longer than a line keeps a line to itself.
-std::vector<std::string> split_lines(std::string text, std::size_t width) {
-  std::vector<std::string> lines;
-  while (text.size() > width) {
-    const std::size_t word = std::min(text.find_first_not_of(' '), text.size());
-    std::size_t space = text.rfind(' ', width);
-    if (space == text.npos || space < word) space = text.find(' ', word);
-    const std::size_t next = text.find_first_not_of(' ', space);
-    if (space == text.npos || next == text.npos) break;
-    lines.push_back(text.substr(0, space));
-    text = "  " + text.substr(next);
-  }
-  lines.push_back(text);
-  return lines;
 }
 
 std::string brake_line(const SlipLikes& likes, const std::string& unit) {
@@ -166,7 +151,7 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
                                 form_text(c.law.mode_form), c.law.relative_error_bound));
   std::vector<std::string> lines;
   for (const std::string& fact : facts)
-    for (const std::string& line : split_lines(fact, 112)) lines.push_back(comment_text(line));
+    for (const std::string& line : wrapped_text(fact, 112, 2)) lines.push_back(comment_text(line));
   return lines;
 }
 

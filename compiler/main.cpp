@@ -394,7 +394,7 @@ std::string complaint_about_command(const std::vector<std::string>& arguments) {
   for (const auto& [name, command] : commands) names.push_back(name);
   const std::optional<std::string> nearest = nearest_name(arguments[0], names);
   return "there is no command '" + arguments[0] + "'" +
-         (nearest ? "; '" + *nearest + "' is the nearest" : "; commands are " + CLI::detail::join(names)) + "\n";
+         (nearest ? "; '" + *nearest + "' is the nearest" : "; commands are " + CLI::detail::join(names, ", ")) + "\n";
 }
 
 ExitStatus run(const CLI::App& app, const CommandLine& line) {

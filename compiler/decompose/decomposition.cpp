@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "decompose/observer.hpp"
 #include "decompose/spectrum.hpp"
@@ -287,18 +288,23 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
 }
 
 std::string legend(bool has_device) {
-  std::string text =
-      "b                 the damping that the brake is told to make\n"
-      "states driven by  what moves the springs behind dampers in the motor's law: the measured position, or the\n"
-      "                  velocity estimate, or both as the network's nodes have it (nodal)\n"
-      "velocity gain     how much of the velocity estimate the motor makes into force; 0: it needs no estimate\n"
-      "any-delay extra   the damping to add so that the law is passive, with an exact brake, however late the\n"
-      "                  velocity estimate is\n"
-      "minimum damping   what must be added to b so that the law is certified; -: nothing is proved\n"
-      "noise             the rms force of the motor that comes from the encoder's steps alone; -: not known\n";
-  return text + (has_device ? "error             the largest error of the felt force in the device's band: hold, "
-                              "estimator, delay, amplifier\n                  lag, brake tolerance and added damping included\n"
-                            : "error             of the felt force; 0 on an ideal device\n");
+  const std::string error = has_device ? "the largest error of the felt force in the device's band: hold, estimator, delay, "
+                                         "amplifier lag, brake tolerance and added damping included"
+                                       : "of the felt force; 0 on an ideal device";
+  const std::pair<const char*, std::string> columns[] = {
+      {"b", "the damping that the brake is told to make"},
+      {"states driven by",
+       "what moves the motor's states: the measured position, the velocity estimate, or both as the network's nodes "
+       "have it (nodal)"},
+      {"velocity gain", "how much force the motor makes of the velocity estimate; 0: it needs none"},
+      {"any-delay extra",
+       "the damping to add so that the law is passive with an exact brake, however late the estimate is"},
+      {"minimum damping", "what must be added to b so that the law is certified; -: nothing is proved"},
+      {"noise", "the rms force of the motor that comes from the encoder's steps alone; -: not known"},
+      {"error", error}};
+  std::string text;
+  for (const auto& [column, meaning] : columns) text += fmt::format("{:<22}{}\n", column, meaning);
+  return text;
 }
 
 std::string contact_text(const Decomposition& decomposition, const Network& network) {

@@ -204,7 +204,7 @@ class Text(CommandTest):
         self.write("maxwell.json", MAXWELL)
         text = self.dashpot("explain", "maxwell.json").stdout
         for name in NAMES:
-            self.assertRegex(text, rf"(?m)^{name} ")
+            self.assertRegex(text, rf"(?m)^ *{name} ")
         self.assertRegex(text, r"(?m)^chosen +paper")
         self.assertRegex(text, r"(?m)^paper +5 ")
 

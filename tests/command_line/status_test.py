@@ -87,7 +87,7 @@ class WrongCommandLine(CommandTest):
 
     def test_of_a_choice(self):
         """Fails if a value that no network can make sense of is accepted or rounded to one that it can."""
-        for rate in ["0", "-1000", "fast", "nan", "inf", "1e10", "1e-7", "", "1000Hz", "0x10"]:
+        for rate in ["0", "-1000", "fast", "nan", "inf", "1e10", "1e-7", "", "1000 rpm", "0x10"]:
             self.wrong("check", FIG_5, "--rate", rate)
         for damping in ["most", "-1", "nan", "inf", "1e999", "5 N s/m", "", "0x1p3"]:
             self.wrong("check", FIG_5, "--decomposition", damping)

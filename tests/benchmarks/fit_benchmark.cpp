@@ -46,7 +46,7 @@ void adhesive_with_slips(benchmark::State& state) {
 void master_curve_of_31_terms(benchmark::State& state) {
   FitChoices choices;
   choices.reduction.modes = 31;
-  fit_of(state, recordings({"pyvisco/time_user_master.csv"}, {"", "column:area=1m^2,length=1m", true, true}), choices);
+  fit_of(state, recordings({"polymer/time_user_master.csv"}, {"", "column:area=1m^2,length=1m", true, true}), choices);
 }
 
 BENCHMARK(titin_muscle)->Unit(benchmark::kMillisecond);

@@ -156,7 +156,7 @@ std::vector<double> reference_times() {
 }
 
 std::vector<Recording> master_curve() {
-  return recordings({"pyvisco/time_user_master.csv"}, {"", "column:area=1m^2,length=1m", true, true});
+  return recordings({"polymer/time_user_master.csv"}, {"", "column:area=1m^2,length=1m", true, true});
 }
 
 // Fails if a spectrum over 31 decades is worse conditioned than the solver bears.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,11 @@
 
 namespace dashpot::compiler::fitting {
 
-inline std::string recording_path(const std::string& name) { return std::string(DASHPOT_FIT_RECORDINGS) + "/" + name; }
+// Those of the networks in networks/tissues/measured/, and beside them those that only tests fit to.
+inline std::string recording_path(const std::string& name) {
+  const std::filesystem::path measured = std::filesystem::path(DASHPOT_MEASURED) / name;
+  return (exists(measured) ? measured : std::filesystem::path(DASHPOT_FIT_RECORDINGS) / name).string();
+}
 
 // With the words of --columns and --geometry.
 struct Spoken {
@@ -39,13 +44,14 @@ inline std::vector<Recording> recordings(const std::vector<std::string>& names, 
 
 // Of the specimen itself: 1 mm² and 1 mm make kPa to mN and strain to mm.
 inline std::vector<Recording> titin() {
-  return recordings(
-      {"titin/AvgRelaxed_0.1s.csv", "titin/AvgRelaxed_1s.csv", "titin/AvgRelaxed_10s.csv", "titin/AvgRelaxed_100s.csv"},
-      {"time=Time:s,strain=L-0.95,stress=F:kPa", "column:area=1mm^2,length=1mm"});
+  return recordings({"skeletal_muscle/AvgRelaxed_0.1s.csv", "skeletal_muscle/AvgRelaxed_1s.csv",
+                     "skeletal_muscle/AvgRelaxed_10s.csv", "skeletal_muscle/AvgRelaxed_100s.csv"},
+                    {"time=Time:s,strain=L-0.95,stress=F:kPa", "column:area=1mm^2,length=1mm"});
 }
 
 inline std::vector<Recording> adhesive() {
-  return recordings({"oca/shear_relaxation_1.csv", "oca/shear_relaxation_2.csv", "oca/shear_relaxation_5.csv"});
+  return recordings({"soft_adhesive/shear_relaxation_1.csv", "soft_adhesive/shear_relaxation_2.csv",
+                     "soft_adhesive/shear_relaxation_5.csv"});
 }
 
 }  // namespace dashpot::compiler::fitting

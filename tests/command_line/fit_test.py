@@ -1,0 +1,178 @@
+"""dashpot fit: what it reads, writes, tells and refuses, and that what it writes is what runs."""
+import csv
+import json
+import math
+import os
+import subprocess
+import unittest
+
+from dashpot_command import COMMAND_LINE_WRONG, INPUT_REFUSED, SOURCE, CommandTest
+
+RECORDINGS = SOURCE / "networks/tissues/measured"
+ADHESIVE = [RECORDINGS / f"soft_adhesive/shear_relaxation_{rate}.csv" for rate in (1, 2, 5)]
+TITIN = [RECORDINGS / f"skeletal_muscle/AvgRelaxed_{ramp}s.csv" for ramp in ("0.1", "1", "10", "100")]
+MUSCLE = ["--columns", "time=Time:s,strain=L-0.95,stress=F:kPa,deviation=SD:kPa",
+          "--geometry", "column:area=1mm^2,length=10mm"]
+
+
+def recording(rows=400, period=0.005, header="time [s],position [mm],force [N]"):
+    """A Zener body, 100 N/m beside 150 N/m with 0.3 s, under two sines, by its exact recursion."""
+    lines, q, last, decay = [header], 0.0, 0.0, math.exp(-period / 0.3)
+    share = (1 - decay) * 0.3 / period
+    for i in range(rows):
+        t = i * period
+        u = 2e-3 * math.sin(2 * t) + 5e-4 * math.sin(17 * t)
+        q = decay * q + share * (u - last)
+        last = u
+        lines.append(f"{t:.3f},{1e3 * u!r},{100 * u + 150 * q!r}")
+    return "\n".join(lines) + "\n"
+
+
+class Fit(CommandTest):
+    def fit(self, *arguments, **more):
+        return self.dashpot("fit", *arguments, **more)
+
+    def told(self, *arguments):
+        return json.loads(self.fit(*arguments, "--json").stdout)
+
+    def test_writes_what_runs(self):
+        """Fails if the file does not simulate to the answer that was told, or its emitted code to other bits."""
+        self.write("zener.csv", recording())
+        told = self.told("zener.csv", "-o", "zener.json")
+        self.assertEqual([element["name"] for element in told["elements"]], ["K0", "K1", "B1"])
+        for element, value in zip(told["elements"], (100, 150, 45)):
+            self.assertAlmostEqual(element["value"] / value, 1, places=4)
+        self.dashpot("check", "zener.json")
+        rows = list(csv.DictReader(recording(header="time,position,force").splitlines()))
+        self.write("motion.csv", "time,position\n" + "".join(f"{r['time']},{float(r['position']) / 1e3!r}\n" for r in rows))
+        self.dashpot("simulate", "zener.json", "--input", "motion.csv", "-o", "forces.csv")
+        forces = [float(r["force"]) for r in csv.DictReader((self.folder / "forces.csv").read_text().splitlines())]
+        left = [a - float(r["force"]) for a, r in zip(forces, rows)]
+        rms = math.sqrt(sum(x * x for x in left) / len(left))
+        peak = max(map(abs, forces))
+        self.assertLess(abs(rms - told["rms"]), 1e-9 * peak)
+        self.dashpot("compile", "zener.json", "--rate", "200", "-o", ".")
+        self.write("main.cpp", """#include <cstdio>
+#include "zener.hpp"
+int main() {
+  dashpot::generated::zener tissue;
+  double t, u, last = 0;
+  bool first = true;
+  std::scanf("%*[^\\n]");
+  while (std::scanf("%lf,%lf", &t, &u) == 2) {
+    const double v = first ? 0 : (u - last) * 200;
+    first = false;
+    last = u;
+    const auto c = tissue.step(u, v);
+    std::printf("%.17g\\n", c.damping * v + c.force);
+  }
+}
+""")
+        subprocess.run([os.environ.get("CXX", "c++"), "-std=c++17", "-O1", "-ffp-contract=off", f"-I{SOURCE}/runtime/include", "main.cpp",
+                        "-o", "main"], cwd=self.folder, check=True)
+        with (self.folder / "motion.csv").open() as motion:
+            printed = subprocess.run(["./main"], cwd=self.folder, stdin=motion, capture_output=True, text=True, check=True)
+        self.assertEqual([float(line) for line in printed.stdout.split()], forces)
+
+    def test_tells_its_own_record(self):
+        """Fails if the file does not say what it was fitted to, and how well."""
+        self.write("zener.csv", recording())
+        self.fit("zener.csv", "-o", "zener.json")
+        file = json.loads((self.folder / "zener.json").read_text())
+        self.assertIn("zener.csv", file["source"])
+        self.assertEqual(file["fit"]["recordings"][0]["rows"], 400)
+        self.assertRegex(file["fit"]["recordings"][0]["digest"], "^[0-9a-f]{16}$")
+        self.assertEqual(set(file["valid"]), {"rate", "displacement", "frequency"})
+        again = (self.folder / "zener.json").read_bytes()
+        self.fit("zener.csv", "-o", "zener.json")
+        self.assertEqual((self.folder / "zener.json").read_bytes(), again)
+
+    def test_asks_with_the_answer(self):
+        """Fails if a question does not come with a command line that answers it."""
+        self.write("bare.csv", recording(header="t,x,f"))
+        done = self.dashpot("fit", "bare.csv", "-o", "bare.json", status=INPUT_REFUSED)
+        self.assertIn("[recording-unit-missing]", done.stderr)
+        self.assertIn("dashpot fit bare.csv -o bare.json --columns time=t:s,position=x:mm,force=f:N", done.stderr)
+        self.assertEqual(self.files(), ["bare.csv"])
+        self.fit("bare.csv", "-o", "bare.json", "--columns", "time=t:s,position=x:mm,force=f:N")
+        done = self.dashpot("fit", TITIN[0], "--columns", "time=Time:s,strain=L-0.95,stress=F:kPa", status=INPUT_REFUSED)
+        self.assertIn("[recording-without-geometry]", done.stderr)
+
+    def test_several_files(self):
+        """Fails if slips, gains, a file held out or a page are not there in the end."""
+        told = self.told(*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file", "-o", "adhesive.json",
+                         "--report", "adhesive.html")
+        self.assertLess(told["rms"], 0.045)
+        self.assertEqual(len(told["files"]), 3)
+        self.assertTrue(all(file["left_out_rms"] for file in told["files"]))
+        page = (self.folder / "adhesive.html").read_text()
+        for part in ("Data and model", "What is left", "Spectrum", "by the number of parameters", "cannot tell"):
+            self.assertIn(part, page)
+        self.assertNotIn("http", page.replace("http-equiv", ""))
+        self.dashpot("compile", "adhesive.json", "-o", ".")
+        held = self.told(*ADHESIVE[:2], "--hold-out", ADHESIVE[2])
+        self.assertEqual(len(held["held_out"]), 1)
+        self.assertGreater(held["held_out"][0]["rms"], held["rms"])
+
+    def test_says_what_cannot_be_known(self):
+        """Fails if a fit hides that its floor is above the noise, or that no file goes back."""
+        done = self.fit(*ADHESIVE, "--slips", "2", "--modes", "2")
+        self.assertIn("[fit-no-intervals]", done.stderr)
+        self.assertIn("[fit-slips-or-softening]", done.stderr)
+        self.assertIn("[fit-assumed-start]", done.stderr)
+        self.assertIn("[fit-floor-above-noise]", self.fit(*ADHESIVE).stderr)
+        self.assertIn("no linear network leaves less", done.stdout)
+        ramp = "time [s],position [mm],force [N]\n" + "".join(f"{i},{i / 10},{i / 10 + (i % 3) / 100}\n" for i in range(200))
+        self.write("ramp.csv", ramp)
+        done = self.fit("ramp.csv")
+        self.assertIn("[fit-loading-only]", done.stderr)
+        self.assertIn("[fit-one-rate]", done.stderr)
+
+    def test_material(self):
+        """Fails if the geometry is not what turns stress and strain into force and displacement."""
+        one = self.told(*TITIN, *MUSCLE)
+        double = [word.replace("1mm^2", "2mm^2") for word in MUSCLE]
+        two = self.told(*TITIN, *double)
+        self.assertAlmostEqual(two["rms"] / one["rms"], 2, places=3)
+        self.fit(*TITIN, *MUSCLE, "-o", "muscle.json")
+        self.assertIn("a column, f = E A u/L", (self.folder / "muscle.json").read_text())
+        self.fit(RECORDINGS / "brain/brain_relax_amedieu2004.csv", "--relaxation", "--columns", "time=t:s,modulus=relax_normalised",
+                 "--scale", "1kPa", "--geometry", "punch:radius=5mm", "--modes", "2", "-o", "brain.json")
+        self.dashpot("check", "brain.json")
+
+    def test_refuses(self):
+        """Fails if a choice that makes no sense, or is not there yet, passes."""
+        self.write("zener.csv", recording())
+        for words, code in (
+                (["--shape", "power"], "fit-waits-for-shapes"), (["--elastic"], "fit-waits-for-shapes"),
+                (["--columns", "thyme=t:s"], "columns-malformed"), (["--columns", "time"], "columns-malformed"),
+                (["--geometry", "cube:edge=1mm"], "geometry-malformed"), (["--geometry", "punch:radius=1s"], "geometry-malformed"),
+                (["--geometry", "needle:radius=2mm,length=1mm,outer=1mm"], "geometry-malformed"),
+                (["--scale", "much"], "fit-wrong-quantity"), (["--tolerance", "1mm"], "fit-wrong-quantity"),
+                (["--tolerance", "0"], "fit-wrong-quantity"), (["--contact", "2N"], "fit-wrong-quantity"),
+                (["--force-delay", "2mm"], "fit-wrong-quantity"), (["--slips", "many"], "fit-wrong-quantity"),
+                (["--relaxation", "--creep"], "fit-choices-contradict"), (["--gain-per-file"], "fit-choices-contradict"),
+                (["--slips", "auto", "--control", "force"], "fit-choices-contradict"),
+                (["--springpots", "auto", "--control", "force"], "fit-choices-contradict")):
+            done = self.dashpot("fit", "zener.csv", *words, status=COMMAND_LINE_WRONG)
+            self.assertIn(f"[{code}]", done.stderr, words)
+        self.dashpot("fit", status=COMMAND_LINE_WRONG)
+        self.dashpot("fit", "zener.csv", "--weight", "some", status=COMMAND_LINE_WRONG)
+        self.dashpot("fit", "zener.csv", "-o", "zener.csv", status=COMMAND_LINE_WRONG)
+        self.assertIn("[cannot-read-file]", self.dashpot("fit", "none.csv", status=INPUT_REFUSED).stderr)
+        self.assertIn("[recordings-differ]", self.dashpot(
+            "fit", "zener.csv", self.write("s.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n"),
+            status=INPUT_REFUSED).stderr)
+
+    def test_larger_than_other_files(self):
+        """Fails if a recording above the 16 MiB of other files is refused."""
+        rows = recording(400).splitlines()
+        wide = rows[0] + "".join(f",c{i} [V]" for i in range(400)) + "\n" + "\n".join(row + ",0.123456789" * 400 for row in rows[1:]) + "\n"
+        text = wide + "".join(f"{2 + i / 200:.3f},0,0" + ",0.123456789" * 400 + "\n" for i in range(3500))
+        self.assertGreater(len(text), 16 << 20)
+        self.write("wide.csv", text)
+        self.fit("wide.csv")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -7,6 +7,8 @@
 
 #include "fit/criterion.hpp"
 #include "fit/floor.hpp"
+#include "fit/non_negative.hpp"
+#include "fit/projection.hpp"
 #include "fit/reduction.hpp"
 #include "recordings.hpp"
 
@@ -75,8 +77,10 @@ TEST(KnownValues, AdhesiveWithSlipsOnAGrid) {
   EXPECT_NEAR(rms(problem, stops), 0.0636, convex * 0.0636);
   EXPECT_NEAR(r_squared(problem, stops), 0.99649, 0.0001);
   const Model gains = solve_weights_and_gains(problem, terms);
-  EXPECT_LE(rms(problem, gains), 1.025 * 0.0417) << "by turns with the gains, which is not convex";
-  EXPECT_NEAR(gains.gains[1] / gains.gains[0], 1.024 / 0.987, 0.005);
+  EXPECT_LE(rms(problem, gains), free_shapes * 0.0417);
+  EXPECT_NEAR(gains.gains[0], 0.987, 0.002);
+  EXPECT_NEAR(gains.gains[1], 1.024, 0.002);
+  EXPECT_NEAR(gains.gains[2], 0.989, 0.002);
   for (const double d : even_grid({problem.largest_reach() / 100, problem.largest_reach()}, 7))
     for (const double time : even_grid({0.5, 500}, 4.4)) terms.push_back({TermKind::sliding, time, d, 0, 0});
   const Model sliding = solve_weights(problem, terms, {});
@@ -139,14 +143,26 @@ TEST(KnownValues, SpringpotBesideMaxwell) {
   }
 }
 
-// Fails if spectra are fitted worse without springpots than is known.
+// Fails if spectra are fitted worse without springpots than is known: a spring and three Maxwell elements have seven
+// parameters and leave 4.871 %. On the way there the damper goes first, then the criterion gives up the spring as well,
+// one parameter fewer for 1.05 % more.
 TEST(KnownValues, SpectrumWithoutSpringpot) {
   const std::vector<Recording> files = teaching_spectrum();
   const Problem problem(files, Form::stiffness, Weighting::relative, every_row);
   ReductionChoices choices;
   choices.modes = 3;
   const Reduction reduction = reduce(problem, choices);
-  EXPECT_LE(best_rms(problem, reduction, 7), 1.011 * 0.04871);
+  Model with_spring = reduction.path[reduction.chosen].model;
+  EXPECT_EQ(parameters(with_spring), 8u);
+  std::erase_if(with_spring.terms, [](const Term& term) { return term.kind == TermKind::damper; });
+  with_spring.weights = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(with_spring.terms.size()));
+  with_spring = refined(problem, with_spring, false, {});
+  EXPECT_EQ(parameters(with_spring), 7u);
+  EXPECT_LE(rms(problem, with_spring), 1.001 * 0.04871);
+  EXPECT_EQ(parameters(reduction.model), 6u);
+  EXPECT_LE(rms(problem, reduction.model), 0.0493);
+  EXPECT_LT(criterion(problem, reduction.model, reduction.effective_samples, false),
+            criterion(problem, with_spring, reduction.effective_samples, false));
 }
 
 std::vector<double> reference_times() {
@@ -182,6 +198,46 @@ TEST(KnownValues, MasterCurveOverFrequency) {
   const Floor floor = linear_floor(problem, {}, false);
   EXPECT_TRUE(floor.is_certified());
   EXPECT_GT(rms(problem, floor.model), 0.049 * (1 - convex));
+}
+
+std::vector<Recording> phantom(const std::string& name) { return recordings({"silicone_phantom/" + name + ".csv"}); }
+
+// Yeoh's rubber, σ = 2 (λ⁻² − λ)(C₁ + 2 C₂ I + 3 C₃ I²), I = λ² + 2/λ − 3, λ = 1 − u/H: linear in three constants.
+double rms_of_yeoh(const Recording& recording) {
+  constexpr double height = 0.030, area = 1.9634954e-3;  // [m], [m²]
+  const Eigen::Index rows = static_cast<Eigen::Index>(recording.time.size());
+  Eigen::MatrixXd columns(rows, 3);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double stretch = 1 - recording.position[static_cast<std::size_t>(i)] / height;
+    const double strain = stretch * stretch + 2 / stretch - 3;
+    const double first = 2 * area * (1 / (stretch * stretch) - stretch);
+    columns.row(i) << first, 2 * first * strain, 3 * first * strain * strain;
+  }
+  const Eigen::VectorXd force = Eigen::Map<const Eigen::VectorXd>(recording.force.data(), rows);
+  return std::sqrt(solve_non_negative(columns, force, {false, false, false}).residual_sum / static_cast<double>(rows));
+}
+
+// Fails if metadata, signs or units of a testing machine's table are misread, or the rows that ship are not a fair
+// share of those that were measured: every fourth of them moves the rms by 0.4 % at most.
+TEST(KnownValues, PhantomsByThreeConstants) {
+  const std::pair<const char*, double> known[] = {
+      {"EF10_0T_A1", 1.326}, {"EF10_0T_B1", 1.158}, {"EF10_50T_A1", 0.385}, {"EF10_100T_A1", 0.171}};
+  for (const auto& [name, value] : known) {
+    const std::vector<Recording> files = phantom(name);
+    EXPECT_NEAR(rms_of_yeoh(files[0]), value, convex * value) << name;
+  }
+}
+
+// Fails if a curve that stiffens passes for linear, or a tenth of its height, where it is straight, does not.
+TEST(KnownValues, PhantomIsLinearWhereItIsPressedLittle) {
+  const std::vector<Recording> whole = phantom("EF10_100T_A1"), part = phantom("EF10_100T_A1_to_3mm");
+  const Problem stiffening(whole, Form::stiffness, Weighting::uniform, every_row);
+  EXPECT_LT(r_squared(stiffening, linear_floor(stiffening, {}, false).model), 0.6);
+  const Problem straight(part, Form::stiffness, Weighting::uniform, every_row);
+  const Model spring = reduce(straight, {}).model;
+  ASSERT_EQ(spring.terms.size(), 1u);
+  EXPECT_NEAR(spring.weights[0], 468.6, 0.1);
+  EXPECT_GT(r_squared(straight, spring), 0.999);
 }
 
 // Fails if as many parameters as rows are taken for knowledge.

@@ -163,6 +163,9 @@ void describe_fit(CLI::App& app, CommandLine& line) {
       ->option_text("FILE.html");
   command->add_flag("--json", fit.json, "As JSON, SI units");
   command->add_option("--name", fit.name, "Of the network, default that of its file")->option_text("NAME");
+  command->add_option("--title", fit.title, "Of the network, default how many recordings")->option_text("TEXT");
+  command->add_option("--source", fit.source, "Where the recordings are from, for the network's source")
+      ->option_text("TEXT");
   command->add_option("--columns", fit.columns, "Which column is what: ROLE=[-]NAME[+NUMBER][:UNIT],…")
       ->option_text("time=T:s,position=X:mm,force=F:N");
   command->add_flag("--no-header", fit.no_header, "Columns have no names: --columns takes their numbers");
@@ -196,8 +199,9 @@ void describe_fit(CLI::App& app, CommandLine& line) {
   command->add_option("--hold-out", fit.hold_out, "Recordings that are predicted and not fitted")
       ->expected(-1)
       ->option_text("RECORDING…");
-  command->add_option("--shape", fit.shape, "Static curve; not there yet")->option_text("auto");
-  command->add_flag("--elastic", fit.elastic, "A static curve alone; not there yet");
+  // Refused by name until networks have static curves; not offered.
+  command->add_option("--shape", fit.shape)->group("");
+  command->add_flag("--elastic", fit.elastic)->group("");
 }
 
 const std::map<std::string, PronyFormat> prony_formats = {{"abaqus", PronyFormat::abaqus},

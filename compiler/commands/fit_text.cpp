@@ -137,6 +137,10 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
         diagnostics.note<DiagnosticCode::fit_step_remedy>({});
         break;
       case Kind::ill_conditioned: diagnostics.report<DiagnosticCode::fit_ill_conditioned>({}, n[0]); break;
+      case Kind::beyond_reach:
+        diagnostics.report<DiagnosticCode::fit_beyond_reach>({}, found.name, found.other, n[0]);
+        diagnostics.note<DiagnosticCode::fit_reach_remedy>({});
+        break;
       case Kind::no_intervals:
         diagnostics.report<DiagnosticCode::fit_no_intervals>({}, n[0], count(n[1]));
         diagnostics.note<DiagnosticCode::fit_spread_instead>({});

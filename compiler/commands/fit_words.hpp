@@ -11,7 +11,8 @@ struct FitWords {
   std::vector<std::string> recordings;
   std::vector<std::string> hold_out;
   std::vector<std::string> arguments;  // as they were typed, behind "dashpot"
-  std::optional<std::string> columns, geometry, scale, tolerance, contact, force_delay, shape, report, name;
+  std::optional<std::string> columns, geometry, scale, tolerance, contact, force_delay, shape, report, name, title,
+      source;
   std::string weight = "auto";       // auto | uniform | relative | deviation
   std::string start = "auto";        // auto | rest | zero | moving
   std::string slips = "none";        // none | auto | viscous | a number

@@ -36,7 +36,10 @@ class ProgressLine {
 // As a shell takes it.
 std::string spelt(const std::string& word) {
   const bool is_plain = !word.empty() && word.find_first_of(" ()[]{}'\"$&;|<>*?\\!#~") == std::string::npos;
-  return is_plain ? word : "'" + word + "'";
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
 }
 
 // The command line; without an option and its value where those are named.
@@ -268,6 +271,7 @@ class FitCommand {
     choices_.port_motion = is_rotation_ ? motion::rotation : motion::translation;
     choices_.name = words_.name ? *words_.name : options_.output ? name_of_file(*options_.output) : "fitted";
     choices_.command = command_line(words_);
+    choices_.title = words_.title.value_or("");
     choices_.source = source();
     if (words_.tare)
       for (std::size_t file = 0; file < recordings_.size(); ++file)
@@ -275,7 +279,7 @@ class FitCommand {
   }
 
   std::string source() const {
-    std::string text = "Fitted by dashpot fit to ";
+    std::string text = (words_.source ? *words_.source + ". " : "") + "Fitted by dashpot fit to ";
     for (const Recording& recording : recordings_)
       text +=
           (&recording == &recordings_.front() ? "" : ", ") + std::filesystem::path(recording.name).filename().string();

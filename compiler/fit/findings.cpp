@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linear/reach.hpp"
+
 namespace dashpot::compiler::fitting {
 namespace {
 
@@ -67,6 +69,8 @@ class Findings {
     look_at_starts();
     look_at_floor();
     look_at_times();
+    look_at_reach(ElementKind::spring);
+    look_at_reach(ElementKind::damper);
     if (is_motion()) look_at_travel();
     look_at_intervals();
     look_at_left_out();
@@ -124,6 +128,18 @@ class Findings {
       if (term.time < problem_.shortest_step())
         add(Finding::Kind::faster_than_step, name_of(j), {term.time, problem_.shortest_step()});
     }
+  }
+
+  void look_at_reach(ElementKind kind) {
+    const FittedElement* least = nullptr;
+    const FittedElement* most = nullptr;
+    for (const FittedElement& element : fit_.elements) {
+      if (element.kind != kind) continue;
+      if (least == nullptr || element.value < least->value) least = &element;
+      if (most == nullptr || element.value > most->value) most = &element;
+    }
+    if (least != nullptr && most->value / widest_spread > least->value)
+      add(Finding::Kind::beyond_reach, least->name, {widest_spread}, most->name);
   }
 
   void look_at_travel() {

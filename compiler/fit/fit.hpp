@@ -15,6 +15,7 @@ namespace dashpot::compiler::fitting {
 struct FitChoices {
   std::string name = "fitted";  // of the network
   std::string command;          // the command line, for the file's own record
+  std::string title;            // of the network; empty: how many recordings it was fitted to
   std::string source;           // where the recordings are from, and how they were converted
   motion port_motion = motion::translation;
   Form form = Form::stiffness;
@@ -52,6 +53,7 @@ struct Finding {
     slower_than_record,   // name [time, duration]
     faster_than_step,     // name [time, step]
     ill_conditioned,      // [condition]
+    beyond_reach,         // name, other: elements too far apart to be compiled [factor]
     no_intervals,         // [effective samples, parameters]
     slips_or_softening,
     loading_only,

@@ -128,7 +128,9 @@ std::string bare_network_text(const Fit& fit) {
 std::string network_text(const Fit& fit, const Problem& problem) {
   const std::size_t count = fit.files.size();
   std::string text = fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n", fit.network_name);
-  text += fmt::format("  \"title\": \"Fitted to {} recording{}\",\n", count, count == 1 ? "" : "s");
+  text += fmt::format("  \"title\": {},\n", quoted(fit.choices.title.empty() ? fmt::format("Fitted to {} recording{}",
+                                                                                           count, count == 1 ? "" : "s")
+                                                                             : fit.choices.title));
   text += fmt::format("  \"source\": {},\n", quoted(fit.choices.source));
   text +=
       fmt::format("  \"motion\": \"{}\",\n", fit.choices.port_motion == motion::rotation ? "rotation" : "translation");

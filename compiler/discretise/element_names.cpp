@@ -18,6 +18,7 @@ bool is_called(const Named& named, const std::string& name) {
 // Tables and states of a law with tunables.
 constexpr std::string_view tunable_members[] = {"tunables",
                                                 "terms",
+                                                "shares",
                                                 "numbers",
                                                 "springs",
                                                 "parts",

@@ -119,10 +119,18 @@ int TunableBlocks::number(const Network& network, const std::vector<std::size_t>
   Real sum = base;
   const int first = static_cast<int>(tables_.terms.size());
   for (std::size_t i : elements)
-    if (is_tunable(network, i)) tables_.terms.push_back(tunable_of_parameter_[*network.elements[i].parameter]);
+    if (is_tunable(network, i)) add_term(network.elements[i]);
     else sum += value_of(network.elements[i].law);
   tables_.numbers.push_back({rounded(sum, choices_.scalar), first, static_cast<int>(tables_.terms.size()) - first});
   return static_cast<int>(tables_.numbers.size()) - 1;
+}
+
+// Where every share is 1 there is no list of them.
+void TunableBlocks::add_term(const Element& element) {
+  if (element.share != 1) tables_.shares.resize(tables_.terms.size(), 1);
+  tables_.terms.push_back(tunable_of_parameter_[*element.parameter]);
+  if (element.share != 1 || !tables_.shares.empty())
+    tables_.shares.push_back(rounded(Real(element.share), choices_.scalar));
 }
 
 int TunableBlocks::add_spring(int stiffness, std::string name) {

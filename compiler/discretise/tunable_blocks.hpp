@@ -22,6 +22,7 @@ class TunableBlocks {
 
  private:
   int constant(const Real& value) { return number({}, {}, value); }
+  void add_term(const Element& element);
   int add_spring(int stiffness, std::string name);
   void add_direct(const Network& network, const std::vector<std::size_t>& elements, const LinearForm& fixed,
                   bool is_loose);

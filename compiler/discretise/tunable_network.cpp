@@ -34,7 +34,7 @@ ElementKind kind_of_law(const Law& law) {
 Network at_largest(Network network) {
   for (Element& element : network.elements)
     if (const Parameter* tunable = tunable_of(network, element))
-      element.law = make_law(kind_of_law(element.law), tunable->max);
+      element.law = make_law(kind_of_law(element.law), element.share * tunable->max);
   return network;
 }
 

@@ -100,6 +100,7 @@ class TunablePrinter {
                          t.name, t.unit);
     });
     row(lines, "terms", tables_.terms);
+    list(lines, "scalar", "shares", tables_.shares, [this](double share, std::size_t) { return number(share) + ","; });
     list(lines, "dashpot::tunable_number<scalar>", "numbers", tables_.numbers,
          [this](const tunable_number<double>& n, std::size_t) {
            return fmt::format("{{{}, {}, {}}},", number(n.base), n.first, n.count);
@@ -161,12 +162,14 @@ class TunablePrinter {
                                 number(h.slip_rule.coil_share), number(h.slip_rule.assured_share)));
     lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count,
                                 h.block_count, h.slip_count, h.coupling_count, h.graph_count));
-    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {}}};",
+    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {}{}",
                                 name_or_none("terms", tables_.terms), name_or_none("springs", tables_.springs),
                                 name_or_none("parts", tables_.parts), name_or_none("edges", tables_.edges),
                                 name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
                                 name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes),
-                                tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties"));
+                                tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties",
+                                tables_.shares.empty() ? "};" : ","));
+    if (!tables_.shares.empty()) lines.push_back("    shares};");
   }
 
   template <class Entry>

@@ -78,8 +78,11 @@ std::string program_text(const UpdateLaw& law, const char* title, const std::vec
 std::string number_text(const TunableTables& tables, int index) {
   const tunable_number<double>& number = tables.numbers[static_cast<std::size_t>(index)];
   std::string text = fmt::format("{}", number.base);
-  for (int i = number.first; i < number.first + number.count; ++i)
-    text += " + " + tables.tunables[static_cast<std::size_t>(tables.terms[static_cast<std::size_t>(i)])].name;
+  for (int i = number.first; i < number.first + number.count; ++i) {
+    if (!tables.shares.empty()) text += fmt::format(" + {} *", tables.shares[static_cast<std::size_t>(i)]);
+    text += (tables.shares.empty() ? " + " : " ") +
+            tables.tunables[static_cast<std::size_t>(tables.terms[static_cast<std::size_t>(i)])].name;
+  }
   return text;
 }
 

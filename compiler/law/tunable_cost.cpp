@@ -59,7 +59,8 @@ std::size_t slips(const TunableTables& tables) {
 std::size_t tuning(const TunableTables& tables) {
   std::size_t operations = 14 + 4 * tables.nodes.size();
   // A number is asked for up to six times: by the brake, by three eliminations, by the viscosity, by the step.
-  for (const tunable_number<double>& number : tables.numbers) operations += 6 * size_of(number.count);
+  const std::size_t per_term = tables.shares.empty() ? 6 : 12;
+  for (const tunable_number<double>& number : tables.numbers) operations += per_term * size_of(number.count);
   for (const tunable_part<double>& part : tables.parts) {
     const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
     operations += 14;

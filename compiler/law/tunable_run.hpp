@@ -17,6 +17,7 @@ class TunableRun {
         numbers_(converted<tunable_number<Scalar>>(tables.numbers, number_of)),
         parts_(converted<tunable_part<Scalar>>(tables.parts, part_of)),
         nodes_(converted<slip_node<Scalar>>(tables.nodes, node_of)),
+        shares_(converted<Scalar>(tables.shares, scalar)),
         tables_(tables_of(tables)),
         law_(tables_),
         added_damping_(scalar(tables.added_damping)) {}
@@ -111,13 +112,15 @@ class TunableRun {
             nodes_.data(),
             t.graphs.data(),
             t.links.data(),
-            t.ties.data()};
+            t.ties.data(),
+            shares_.empty() ? nullptr : shares_.data()};
   }
 
   std::vector<tunable_range<Scalar>> ranges_;
   std::vector<tunable_number<Scalar>> numbers_;
   std::vector<tunable_part<Scalar>> parts_;
   std::vector<slip_node<Scalar>> nodes_;
+  std::vector<Scalar> shares_;
   tunable_tables<Scalar> tables_;
   tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks,
               most_tunable_slip_parts, most_tunable_slips, most_tunable_corners, most_tunable_ends>

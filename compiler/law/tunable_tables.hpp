@@ -21,6 +21,7 @@ struct TunableTables {
   tunable_tables<double> head = {};  // without its arrays, which are those below
   std::vector<Tunable> tunables;
   std::vector<int> terms;
+  std::vector<double> shares;  // of each term; empty where all are 1
   std::vector<tunable_number<double>> numbers;
   std::vector<int> springs;
   std::vector<std::string> spring_names;  // for remarks

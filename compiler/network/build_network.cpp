@@ -156,13 +156,24 @@ class NetworkBuilder {
       const NodeIndex inner = inner_node();
       add_part(new_name(fmt::format("{}_spring_{}", name, i + 1), placed), Spring{branch.stiffness}, placed.a, inner,
                placed);
-      add_part(new_name(fmt::format("{}_damper_{}", name, i + 1), placed),
-               Damper{branch.stiffness / branch.relaxation_rate}, inner, placed.b, placed);
+      follow(ladder->parameter, ElementKind::spring, branch.stiffness);
+      const double damping = branch.stiffness / branch.relaxation_rate;
+      add_part(new_name(fmt::format("{}_damper_{}", name, i + 1), placed), Damper{damping}, inner, placed.b, placed);
+      follow(ladder->parameter, ElementKind::damper, damping);
     }
   }
 
   void add_part(std::string name, Law law, NodeIndex a, NodeIndex b, const PlacedLeaf& placed) {
     network_.elements.push_back({std::move(name), law, a, b, placed.leaf->span, {}});
+  }
+
+  // The last element's value becomes so many times a tunable, if there is one.
+  void follow(const std::optional<std::size_t>& tunable, ElementKind kind, double share) {
+    if (!tunable) return;
+    Element& element = network_.elements.back();
+    element.parameter = tunable;
+    element.share = share;
+    element.law = make_law(kind, share * table_[*tunable].value);
   }
 
   std::string new_name(const std::string& wanted, const PlacedLeaf& placed) {

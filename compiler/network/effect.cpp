@@ -109,7 +109,7 @@ std::vector<bool> may_carry_force(const Network& network) {
   std::vector<bool> may_carry;
   for (const Element& element : network.elements) {
     const Parameter* parameter = element.parameter ? &network.parameters[*element.parameter] : nullptr;
-    const bool may_grow = parameter != nullptr && parameter->tunable && parameter->max > 0;
+    const bool may_grow = parameter != nullptr && parameter->tunable && parameter->max > 0 && element.share > 0;
     may_carry.push_back(value_of(element.law) > 0 || may_grow);
   }
   return may_carry;

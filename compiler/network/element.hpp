@@ -34,9 +34,10 @@ struct Element {
   NodeIndex a;  // the end nearer the tool in a tree
   NodeIndex b;
   Span span;                             // of the leaf in the file
-  std::optional<std::size_t> parameter;  // index into Network::parameters where the value is one
+  std::optional<std::size_t> parameter;  // index into Network::parameters where the value follows one
   std::string calculation = {};          // the expression that gave the value, as written; empty for a plain one
   bool has_effect = true;                // false: no force can pass through it, whatever the motion
+  double share = 1;                      // the value is so many times the parameter's; not 1 in a springpot's ladder
 };
 
 }  // namespace dashpot::compiler

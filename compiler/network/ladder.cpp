@@ -27,24 +27,27 @@ class LadderReader {
 
   std::optional<Ladder> read_springpot() {
     const SpringpotDecl& decl = *leaf_.springpot;
-    const auto stiffness = read_stiffness(leaf_.value, "a springpot");
+    const auto stiffness = read_springpot_stiffness();
     const auto exponent = read_exponent(decl.exponent);
     const auto time = decl.time ? read_positive(*decl.time, "the time of a springpot", dimensions::time)
                                 : std::optional(default_time);
     const auto band = read_band(decl.band);
     const auto error = decl.error ? read_error(*decl.error) : std::optional(default_error);
     if (!stiffness || !exponent || !time || !band || !error) return std::nullopt;
-    if (*stiffness == 0) return Ladder{0, {}, {}};
+    const std::optional<std::size_t> tunable = is_tunable(*stiffness) ? stiffness->parameter : std::nullopt;
+    const double most = tunable ? table_[*tunable].max : stiffness->value;
+    if (most == 0) return Ladder{0, {}, {}};
     constexpr double turn = 2 * std::numbers::pi;
     SpringpotLadder unit = springpot_ladder(*exponent, turn * band->low, turn * band->high, *error);
-    const double scale = *stiffness * std::pow(*time, *exponent);
+    const double scale = (tunable ? 1 : stiffness->value) * std::pow(*time, *exponent);
     for (MaxwellBranch& branch : unit.branches) branch.stiffness *= scale;
-    if (!are_finite(unit.branches)) {
+    if (!are_finite(unit.branches, tunable ? most : 1)) {
       diagnostics_.report<DiagnosticCode::number_too_large>(leaf_.value->span, excerpt(leaf_.value->text));
       return std::nullopt;
     }
-    const Springpot springpot{{}, *stiffness, *exponent, *time, *band, unit.error, unit.branches.size(), leaf_.span};
-    return Ladder{{}, std::move(unit.branches), springpot};
+    const Springpot springpot{{},         stiffness->value,     *exponent, *time, *band,
+                              unit.error, unit.branches.size(), leaf_.span};
+    return Ladder{{}, std::move(unit.branches), springpot, tunable};
   }
 
   std::optional<Ladder> read_prony() {
@@ -61,16 +64,35 @@ class LadderReader {
       return std::nullopt;
     }
     Ladder ladder = ladder_of(series);
-    if (are_finite(ladder.branches) && std::isfinite(ladder.stiffness.value_or(0))) return ladder;
+    if (are_finite(ladder.branches, 1) && std::isfinite(ladder.stiffness.value_or(0))) return ladder;
     diagnostics_.report<DiagnosticCode::number_too_large>(leaf_.value->span, excerpt(leaf_.value->text));
     return std::nullopt;
   }
 
  private:
-  static bool are_finite(const std::vector<MaxwellBranch>& branches) {
-    return std::all_of(branches.begin(), branches.end(), [](const MaxwellBranch& branch) {
-      return std::isfinite(branch.stiffness) && std::isfinite(branch.stiffness / branch.relaxation_rate);
+  static bool are_finite(const std::vector<MaxwellBranch>& branches, double scale) {
+    return std::all_of(branches.begin(), branches.end(), [&](const MaxwellBranch& branch) {
+      return std::isfinite(scale * branch.stiffness) &&
+             std::isfinite(scale * branch.stiffness / branch.relaxation_rate);
     });
+  }
+
+  bool is_tunable(const ReadValue& value) const { return value.parameter && table_[*value.parameter].tunable; }
+
+  std::optional<ReadValue> read_springpot_stiffness() {
+    if (!leaf_.value) return std::nullopt;
+    const auto value = table_.read(*leaf_.value, {"a springpot", stiffness_dimension(), motion_});
+    if (!value) return std::nullopt;
+    const double least = is_tunable(*value) ? table_[*value->parameter].min : value->value;
+    if (least >= 0) return value;
+    report_negative_stiffness(*leaf_.value, "a springpot", least);
+    if (value->parameter) diagnostics_.note<DiagnosticCode::given_here>(table_.place_of_least(*value->parameter));
+    return std::nullopt;
+  }
+
+  void report_negative_stiffness(const ValueDecl& decl, std::string_view taker, double value) {
+    diagnostics_.report<DiagnosticCode::negative_value>(decl.span, fmt::format("the stiffness of {}", taker),
+                                                        fmt::format("{} {}", value, unit_of(stiffness_dimension())));
   }
 
   std::optional<double> read_constant(const ValueDecl& decl, std::string_view taker, const Dimension& due) {
@@ -89,8 +111,7 @@ class LadderReader {
     if (!decl) return std::nullopt;
     const auto value = read_constant(*decl, taker, stiffness_dimension());
     if (!value || *value >= 0) return value;
-    diagnostics_.report<DiagnosticCode::negative_value>(decl->span, fmt::format("the stiffness of {}", taker),
-                                                        fmt::format("{} {}", *value, unit_of(stiffness_dimension())));
+    report_negative_stiffness(*decl, taker, *value);
     return std::nullopt;
   }
 

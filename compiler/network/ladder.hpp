@@ -11,9 +11,10 @@
 namespace dashpot::compiler {
 
 struct Ladder {
-  std::optional<double> stiffness;      // of a spring beside the branches [N/m] or [N·m/rad]
-  std::vector<MaxwellBranch> branches;  // none with a stiffness of 0
-  std::optional<Springpot> springpot;   // without its name
+  std::optional<double> stiffness;                      // of a spring beside the branches [N/m] or [N·m/rad]
+  std::vector<MaxwellBranch> branches;                  // none with a stiffness of 0
+  std::optional<Springpot> springpot;                   // without its name
+  std::optional<std::size_t> parameter = std::nullopt;  // tunable: the branches are then for a stiffness of 1
 };
 
 // What is due where springpots do not state it.
@@ -22,8 +23,9 @@ struct LadderDefaults {
   std::optional<Range> device_band;      // [Hz]
 };
 
-// In: a leaf that is a springpot or a Prony series. Refuses, with the place: values out of range, a tunable, a band
-// that nothing states; a Prony series that creates energy, with the nearest one that does not.
+// In: a leaf that is a springpot or a Prony series. Refuses, with the place: values out of range, a tunable but for a
+// springpot's stiffness, a band that nothing states; a Prony series that creates energy, with the nearest one that does
+// not.
 std::optional<Ladder> read_ladder(const LeafDecl& leaf, ParameterTable& table, motion port_motion,
                                   const LadderDefaults& defaults, Diagnostics& diagnostics);
 

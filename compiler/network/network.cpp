@@ -12,7 +12,9 @@ namespace {
 std::string value_text(const Network& network, const Element& element) {
   const std::string value = fmt::format("{} {}", value_of(element.law), unit_of(element.law, network.port_motion));
   const std::string& name = element.parameter ? network.parameters[*element.parameter].name : element.calculation;
-  return name.empty() ? value : fmt::format("{} = {}", name, value);
+  if (name.empty()) return value;
+  return element.share == 1 ? fmt::format("{} = {}", name, value)
+                            : fmt::format("{} * {} = {}", element.share, name, value);
 }
 
 void append_header(std::string& out, const Network& network) {

@@ -227,7 +227,8 @@ class Box {
     const tunable_number<double>& number = tables_.numbers[std::size_t(tables_.head.observed)];
     ReferenceSum sum{number.base, std::vector<Reference>(tunables_.parameters.size(), 0)};
     for (int i = number.first; i < number.first + number.count; ++i)
-      sum.factors[std::size_t(tables_.terms[std::size_t(i)])] += 1;
+      sum.factors[std::size_t(tables_.terms[std::size_t(i)])] +=
+          tables_.shares.empty() ? Reference(1) : Reference(tables_.shares[std::size_t(i)]);
     return sum;
   }
 

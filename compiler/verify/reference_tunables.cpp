@@ -29,7 +29,7 @@ class Blocks {
     ReferenceSum sum;
     if (!is_tunable(e)) return {value_in_100_digits(e), {}};
     sum.factors.assign(std::size_t(place_[*e.parameter]) + 1, 0);
-    sum.factors.back() = 1;
+    sum.factors.back() = e.share;
     return sum;
   }
 
@@ -252,7 +252,7 @@ class GraphBuilder {
 Network at_largest(Network network) {
   for (Element& e : network.elements) {
     if (!e.parameter || !network.parameters[*e.parameter].tunable) continue;
-    const double most = network.parameters[*e.parameter].max;
+    const double most = e.share * network.parameters[*e.parameter].max;
     if (Spring* spring = std::get_if<Spring>(&e.law)) spring->stiffness = most;
     if (Damper* damper = std::get_if<Damper>(&e.law)) damper->damping = most;
     if (Slip* slip = std::get_if<Slip>(&e.law)) slip->yield_force = most;
@@ -315,6 +315,8 @@ Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& net
     pool["tunables"].insert(pool["tunables"].end(), {parameter->value, parameter->min, parameter->max});
     pool[literals_in_code].push_back(parameter->value);
   }
+  for (const Element& e : network.elements)
+    if (e.parameter && network.parameters[*e.parameter].tunable) pool["shares"].push_back(e.share);
   add_block(tunables.linear, pool);
   for (const std::vector<ReferenceBlock>& component : tunables.blocks)
     for (const ReferenceBlock& block : component) add_block(block, pool);

@@ -13,7 +13,7 @@ struct tunable_range {
   Scalar max;
 };
 
-// base + Σ of the tunables terms[first] … terms[first + count − 1]
+// base + Σ of the tunables terms[first] … terms[first + count − 1], each times its share
 template <class Scalar>
 struct tunable_number {
   Scalar base;
@@ -155,6 +155,7 @@ struct tunable_tables {
   const tunable_graph* graphs;
   const tunable_ends* links;  // one a slip
   const tunable_ends* ties;
+  const Scalar* shares = nullptr;  // one a term; none where all are 1
 };
 
 }  // namespace dashpot

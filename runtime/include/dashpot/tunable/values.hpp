@@ -39,7 +39,8 @@ class tunable_values {
   constexpr Scalar number(const tables& t, int index) const noexcept {
     const tunable_number<Scalar>& n = t.numbers[index];
     Scalar sum = n.base;
-    for (int i = n.first; i < n.first + n.count; ++i) sum += values_[t.terms[i]];
+    for (int i = n.first; i < n.first + n.count; ++i)
+      sum += t.shares == nullptr ? values_[t.terms[i]] : t.shares[i] * values_[t.terms[i]];
     return sum;
   }
 

@@ -1,0 +1,182 @@
+// Tissue that relaxes as a power of time: a springpot whose stiffness changes while it runs, beside a spring
+//
+// scheme: exact at 1000 Hz, double
+// decomposition: paper, b = 1625.577561857746 N·s/m: in series muscle_damper_1 dissipates 100 % at low frequency
+//   and is observed; in series muscle_damper_2 dissipates 100 % at low frequency and is observed; in series
+//   muscle_damper_3 dissipates 100 % at low frequency and is observed; in series muscle_damper_4 dissipates 100 %
+//   at low frequency and is observed; and 1 more series connections likewise
+// states: position driven, so that a change of parameters injects no energy
+// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// passivity: not certified for any motion, any values within their ranges between changes, any switching of the
+//   brake above its least command: needs 1.78601 N·s/m over the longest hold of 0.001 s, at least 0 N·s/m is
+//   there, 1.78601 N·s/m more is missing in the brake's command
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
+//   1.3e-14 of the sum of the force's terms
+// device: ideal: exact brake, exact velocity, no delay
+// tunable: K (0 to 400 N/m)
+//   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
+//   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
+// cost of output(): at most 6 additions, multiplications and divisions
+// cost of update(): at most 114 additions and multiplications; 6 states
+// cost of set(): at most 2608 additions, multiplications and divisions
+//
+// Written by dashpot 0.1.0 from a network with digest 74fe1d35ca1e6469. It belongs to whoever had it written. Compile it
+// with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+#include <dashpot/tunable_law.hpp>
+
+namespace dashpot::generated {
+
+class springpot_tunable {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {
+    scalar K = 120.0;  // 0 to 400 [N/m]
+  };
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_change_ = 0;
+    sampled_position_ = last_position_;
+    law_.reset(tables, last_position_);
+    last_damping_ = law_.damping_at_rest(tables);
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋, b, and m = f − b u̇
+    const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);
+    const scalar force = sample.force;
+    sampled_ = false;
+    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
+    sampled_ = true;
+    sampled_position_change_ = sample.change;
+    sampled_position_ = sample.position;
+    last_damping_ = sample.damping;
+    return {sample.damping, force};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    law_.update(tables, sampled_position_change_, sampled_position_);
+    // u₋ = u
+    last_position_ = sampled_position_;
+  }
+
+  // Both at once, where nothing else has to happen in between.
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
+  // no number and is as it was.
+  unsigned set(const parameters& wanted) noexcept {
+    update();
+    const scalar values[] = {wanted.K};
+    return law_.set(tables, values);
+  }
+
+  // In the springs, and set free by changes of parameters, after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V + T: in the springs, and what changes of parameters have set free
+    const scalar stored = law_.stored_energy(tables);
+    return stored;
+  }
+
+ private:
+  static constexpr dashpot::tunable_range<scalar> tunables[1] = {
+      {120.0, 0.0, 400.0},  // K [N/m]
+  };
+  static constexpr int terms[15] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  static constexpr scalar shares[15] = {
+      0.5529489387983896,
+      12.628169563370793,
+      0.4443552938125914,
+      0.6863981165441095,
+      0.8014436491467305,
+      0.1733444489849207,
+      1.4454917758412602,
+      0.043776778038339514,
+      4.501420953574023,
+      0.014790775209721498,
+      12.628169563370793,
+      0.6863981165441095,
+      0.1733444489849207,
+      0.043776778038339514,
+      0.014790775209721498,
+  };
+  static constexpr dashpot::tunable_number<scalar> numbers[12] = {
+      {40.0, 0, 0},
+      {0.0, 0, 1},
+      {0.0, 1, 1},
+      {0.0, 2, 1},
+      {0.0, 3, 1},
+      {0.0, 4, 1},
+      {0.0, 5, 1},
+      {0.0, 6, 1},
+      {0.0, 7, 1},
+      {0.0, 8, 1},
+      {0.0, 9, 1},
+      {0.0, 10, 5},
+  };
+  static constexpr int springs[6] = {
+      0,  // rest
+      1,  // muscle_spring_1_muscle_damper_1
+      3,  // muscle_spring_2_muscle_damper_2
+      5,  // muscle_spring_3_muscle_damper_3
+      7,  // muscle_spring_4_muscle_damper_4
+      9,  // muscle_spring_5_muscle_damper_5
+  };
+  static constexpr dashpot::tunable_part<scalar> parts[6] = {
+      {dashpot::tunable_kind::spring, 0, -1, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 1, 2, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 2, 4, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 3, 6, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 4, 8, 0, 0, 0, 0, false, 0.0, 0.0},
+      {dashpot::tunable_kind::relaxation, 5, 10, 0, 0, 0, 0, false, 0.0, 0.0},
+  };
+  static constexpr dashpot::tunable_block blocks[1] = {
+      {0, 6},
+  };
+  static constexpr dashpot::tunable_tables<scalar> tables = {
+      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
+      dashpot::brake_rule::observed, 0.0, 11, 1.7976931348623157e+308, 0,
+      {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
+      1, 6, 6, 1, 0, 0, 0,
+      tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+      shares};
+
+  scalar last_position_ = 0;  // u of the sample before
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
+  scalar sampled_position_ = 0;  // port displacement u, at this sample
+  dashpot::tunable_law<scalar, 1, 6, 1, 1, 1, 0, 1, 0> law_{tables};
+  scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

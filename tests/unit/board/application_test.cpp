@@ -168,6 +168,26 @@ TEST(ModelRunner, estimates_the_velocity_as_described) {
   }
 }
 
+// Of an estimator that times the encoder's edges: a clock that is cut short, or wraps within the run, would make a speed
+// of what is none.
+TEST(ModelRunner, times_edges_by_the_whole_clock_and_over_its_wrap) {
+  velocity_description timed;
+  timed.estimator = estimator_kind::inverse_time;
+  const auto speeds = [&](std::uint64_t begin) {
+    model_runner<generated::stand_in_model> runner(1e-5, timed, 1);
+    std::vector<float> all;
+    for (std::uint32_t k = 0; k < 100; ++k) {
+      const std::uint64_t now = begin + k * 1'000'000U;
+      all.push_back(runner.step({static_cast<std::int32_t>(k / 3 * 2), now, now - k % 3 * 1'000'000U - 40'000U}).speed);
+    }
+    return all;
+  };
+  const std::vector<float> young = speeds(1'000'000'000U);
+  EXPECT_NEAR(young.back(), 2e-5 / 3e-3, 1e-4);
+  EXPECT_EQ(speeds(0U - 50 * std::uint64_t{1'000'000}), young);
+  EXPECT_EQ(speeds((std::uint64_t{1} << 32) - 50'500'000U), young);
+}
+
 struct certified_for_a_filter {
   struct certified_for {
     static constexpr bool any_device = false;

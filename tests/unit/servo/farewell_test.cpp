@@ -70,9 +70,11 @@ TEST(Farewell, WithoutAConfirmationIsToldSo) {
 
 // Broken, a slow link could not be given more time, or a wait that is no number would be for ever.
 TEST(Farewell, WaitsAsLongAsItIsTold) {
-  telling_device slow(scripted_description());
-  slow.deaf_for = 900;
-  EXPECT_TRUE(run(slow, 0.05, 1).summary.safe_confirmed);
+  for (const double farewell : {0.5, 1.0}) {
+    telling_device slow(scripted_description());
+    slow.deaf_for = 900;
+    EXPECT_EQ(run(slow, 1, farewell).summary.safe_confirmed, farewell == 1);
+  }
   for (const double none : {0.0, -1.0, std::nan("")}) {
     telling_device silent(scripted_description());
     silent.silent_from = 51;

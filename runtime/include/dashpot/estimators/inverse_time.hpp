@@ -32,8 +32,8 @@ class inverse_time {
   Scalar update(Scalar position, std::uint64_t edge_time_ns, std::uint64_t timestamp_ns) noexcept {
     const std::uint64_t newest_edge_ns = newest_edge(position, edge_time_ns, timestamp_ns);
     if (!started_) start(position, newest_edge_ns);
-    else if (newest_edge_ns > edge_time_ns_) cross(position, newest_edge_ns);
-    else if (timestamp_ns > edge_time_ns_)
+    else if (is_after(newest_edge_ns, edge_time_ns_)) cross(position, newest_edge_ns);
+    else if (is_after(timestamp_ns, edge_time_ns_))
       velocity_ = clamp_magnitude(velocity_, step_ / seconds(timestamp_ns - edge_time_ns_));
     return velocity_;
   }
@@ -46,6 +46,11 @@ class inverse_time {
   constexpr double delay() const noexcept { return sample_period_; }
 
  private:
+  // Also where the clock has wrapped around in between.
+  static bool is_after(std::uint64_t time_ns, std::uint64_t other_ns) noexcept {
+    return static_cast<std::int64_t>(time_ns - other_ns) > 0;
+  }
+
   static Scalar seconds(std::uint64_t nanoseconds) noexcept {
     return static_cast<Scalar>(nanoseconds) * static_cast<Scalar>(1e-9);
   }

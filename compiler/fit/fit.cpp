@@ -81,9 +81,6 @@ class Fitter {
     const bool is_thinned = static_cast<std::size_t>(whole_.rows()) > rows_searched * recordings_.size();
     if (is_thinned) thinned_.emplace(recordings_, fit_.choices.form, fit_.choices.weighting, rows_searched);
     const Problem& problem = searched();
-    tell("bounding every linear network from below");
-    fit_.floor = linear_floor(problem, fit_.choices.reduction.beside, gains_are_free());
-    fit_.floor_rms = rms_of(fit_.floor.model.residual_sum, problem);
     fit_.noise = noise_of(whole_);
     Reduction reduction = reduce(problem, fit_.choices.reduction, [this](std::size_t left) {
       tell(fmt::format("{} relaxations, slips and springpots left", left));
@@ -96,7 +93,39 @@ class Fitter {
     if (is_thinned) fit_.model = tidied(refined(whole_, fit_.model, gains_are_free(), {3, 1e-5}));
     fit_.parameters = parameter_count(fit_.model, gains_are_free());
     fit_.criterion = criterion(whole_, fit_.model, fit_.effective_samples, gains_are_free());
-    if (is_thinned) fit_.floor.model.residual_sum = residual(whole_, fit_.floor.model).squaredNorm();
+    find_floor();
+  }
+
+  void find_floor() {
+    tell("bounding every linear network from below");
+    const std::vector<Term>& beside = fit_.choices.reduction.beside;
+    const auto least = std::min_element(fit_.path.begin(), fit_.path.end(),
+                                        [](const PathEntry& a, const PathEntry& b) { return a.rms < b.rms; });
+    std::vector<Term> known = branches_of(least->model);
+    const std::vector<Term> chosen = branches_of(fit_.model);
+    known.insert(known.end(), chosen.begin(), chosen.end());
+    fit_.floor = linear_floor(searched(), beside, gains_are_free(), 8, known);
+    // By weights of fewer rows: the chosen network, refined on all of them, may leave less. And in rounding, which is
+    // where least squares over many columns ends, so may any network on the way.
+    if (thinned_) fit_.floor.model.residual_sum = residual(whole_, fit_.floor.model).squaredNorm();
+    else
+      for (const PathEntry& entry : fit_.path) lower_floor_to(entry.model);
+    lower_floor_to(fit_.model);
+    fit_.floor_rms = rms_of(fit_.floor.model.residual_sum, whole_);
+  }
+
+  static std::vector<Term> branches_of(const Model& model) {
+    std::vector<Term> branches;
+    for (const Term& term : model.terms)
+      if (term.kind == TermKind::maxwell || term.kind == TermKind::initial) branches.push_back(term);
+    return branches;
+  }
+
+  void lower_floor_to(const Model& model) {
+    const std::size_t plain =
+        model.count(TermKind::spring) + model.count(TermKind::damper) + model.count(TermKind::offset);
+    const bool is_linear = plain + branches_of(model).size() == model.terms.size();
+    if (is_linear && model.residual_sum < fit_.floor.model.residual_sum) fit_.floor.model = model;
   }
 
   void measure_uncertainty() {

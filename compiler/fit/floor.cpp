@@ -123,11 +123,13 @@ Model solve_weights_and_gains(const Problem& problem, std::vector<Term> terms) {
   return {std::move(terms), solution.weights, std::move(gains), solution.residual_sum};
 }
 
-Floor linear_floor(const Problem& problem, const std::vector<Term>& beside, bool gains_are_free, double per_decade) {
+Floor linear_floor(const Problem& problem, const std::vector<Term>& beside, bool gains_are_free, double per_decade,
+                   const std::vector<Term>& known) {
   const TimeRange range = resolved_times(problem);
   std::vector<Term> terms = plain_terms(problem);
   terms.insert(terms.end(), beside.begin(), beside.end());
   for (const double time : even_grid(range, per_decade)) terms.push_back({TermKind::maxwell, time, 0, 0, 0});
+  terms.insert(terms.end(), known.begin(), known.end());
   const std::vector<double> finer = even_grid(range, 10 * per_decade);
   Floor floor;
   // A column that is missed is added: a few rounds do, since neighbours on the grid are nearly alike.

@@ -33,7 +33,10 @@ struct Floor {
   double largest_cosine = 0;
   bool is_certified() const { return largest_cosine <= 1e-3; }
 };
-Floor linear_floor(const Problem& problem, const std::vector<Term>& beside, bool gains_are_free, double per_decade = 8);
+// Where noise is far below the force, a cosine that small is still a residual that a time between the grid's could
+// lower: `known` are branches of networks that were refined, and the floor is then below each of those.
+Floor linear_floor(const Problem& problem, const std::vector<Term>& beside, bool gains_are_free, double per_decade = 8,
+                   const std::vector<Term>& known = {});
 
 // Spring and damper where the recordings can have them.
 std::vector<Term> plain_terms(const Problem& problem);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -64,7 +65,8 @@ std::string recordings_text(const Fit& fit, const Problem& problem) {
   for (const FileScore& file : fit.files) {
     text +=
         fmt::format("      {{ \"file\": {}, \"digest\": \"{}\", \"rows\": {}, \"rms\": \"{}\", \"r_squared\": {:.6g}",
-                    quoted(file.name), file.digest, file.rows, error_text(file.rms, fit, problem), file.r_squared);
+                    quoted(std::filesystem::path(file.name).filename().string()), file.digest, file.rows,
+                    error_text(file.rms, fit, problem), file.r_squared);
     if (file.gain != 1) text += fmt::format(", \"gain\": {:.5g}", file.gain);
     if (file.offset != 0)
       text += fmt::format(", \"offset\": \"{}\"", quantity_text(file.offset, measured_unit(fit, problem), 4));

@@ -100,6 +100,20 @@ TEST(WrittenFile, IsWhatSimulateRuns) {
     }
 }
 
+// Fails if a linear network is said to be impossible and is found all the same: with noise far below the force, a floor
+// on a grid of times alone is above networks whose times are free.
+TEST(WrittenFile, IsNotBelowTheFloor) {
+  std::vector<std::vector<Recording>> sets = {titin(), adhesive()};
+  for (const Model& network : sample_networks()) sets.push_back({answering(network, 1e-5)});
+  for (const std::vector<Recording>& files : sets) {
+    const auto result = fitted(files);
+    ASSERT_TRUE(result);
+    for (const PathEntry& entry : result->path)
+      EXPECT_GE(entry.rms, result->floor_rms * (1 - 1e-9)) << entry.parameters;
+    EXPECT_GE(result->rms, result->floor_rms * (1 - 1e-9));
+  }
+}
+
 // Fails if a number in the file does not read back as the one that was told.
 TEST(WrittenFile, HoldsWhatItTells) {
   const std::vector<Recording> files{answering(sample_networks()[2], 0.01)};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "commands/fit_output.hpp"
 #include "emit/template_text.hpp"
@@ -15,6 +16,9 @@ namespace dashpot::compiler {
 namespace {
 
 using namespace fitting;
+
+// Of a path: figures are narrow, and folders belong to the command.
+std::string file_name(const FileScore& score) { return std::filesystem::path(score.name).filename().string(); }
 
 constexpr std::size_t most_points = 1500;  // of a curve: a page stays small, whatever the recording
 
@@ -47,10 +51,9 @@ class FitPage {
         units_(port_units(fit.choices.port_motion)) {}
 
   std::string body() const {
-    std::string text =
-        "<header>\n<p class=\"kind\">dashpot fit · " + escaped(fit_.network_name) + "</p>\n<h1>" +
-        escaped(fmt::format("Fitted to {} recording{}", fit_.files.size(), fit_.files.size() == 1 ? "" : "s")) +
-        "</h1>\n<p class=\"source\">" + escaped(fit_.choices.source) + "</p>\n" + facts() + "</header>\n<main>\n";
+    std::string text = "<header>\n<p class=\"kind\">dashpot fit · " + escaped(fit_.network_name) + "</p>\n<h1>" +
+                       escaped(title()) + "</h1>\n<p class=\"source\">" + escaped(fit_.choices.source) + "</p>\n" +
+                       facts() + "</header>\n<main>\n";
     text += section("Data and model", data_figures(recordings_, fit_.files));
     text += section("What is left", left_figures());
     text += section("Elements", elements_table() + "<div class=\"figures\">\n" + plot_figure(spectrum()) + "</div>\n");
@@ -64,6 +67,11 @@ class FitPage {
  private:
   static std::string section(const std::string& title, const std::string& body) {
     return "<section>\n<h2>" + title + "</h2>\n" + body + "</section>\n";
+  }
+
+  std::string title() const {
+    if (!fit_.choices.title.empty()) return fit_.choices.title;
+    return fmt::format("Fitted to {} recording{}", fit_.files.size(), fit_.files.size() == 1 ? "" : "s");
   }
 
   std::string error(double rms) const { return error_text(rms, fit_, problem_); }
@@ -100,7 +108,7 @@ class FitPage {
     const std::size_t rows = recording.time.size();
     const std::vector<double> answer(score.answer.begin(), score.answer.begin() + static_cast<std::ptrdiff_t>(rows));
     const bool is_wide = recording.kind != RecordingKind::motion;
-    Plot plot{score.name,
+    Plot plot{file_name(score),
               time_title(),
               answer_title(),
               is_wide ? AxisScale::logarithmic : AxisScale::linear,
@@ -151,9 +159,10 @@ class FitPage {
     static constexpr Channel channels[] = {Channel::motor, Channel::brake, Channel::closed_form, Channel::total};
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       const std::vector<double> left = left_of(recordings_[i], fit_.files[i]);
-      over_time.curves.push_back(curve(fit_.files[i].name, channels[i % 4], recordings_[i].time, left, true));
+      over_time.curves.push_back(curve(file_name(fit_.files[i]), channels[i % 4], recordings_[i].time, left, true));
       if (!recordings_[i].position.empty())
-        over_position.curves.push_back(curve(fit_.files[i].name, channels[i % 4], recordings_[i].position, left, true));
+        over_position.curves.push_back(
+            curve(file_name(fit_.files[i]), channels[i % 4], recordings_[i].position, left, true));
     }
     return "<div class=\"figures\">\n" + plot_figure(over_time) + plot_figure(over_position) + "</div>\n";
   }
@@ -166,7 +175,14 @@ class FitPage {
               AxisScale::logarithmic,
               AxisScale::logarithmic,
               {}};
-    Curve dots{"fitted, with 95 % interval", Channel::total, {}, {}, false, true};
+    Curve dots{has(&FittedElement::interval) ? "fitted, with 95 % interval"
+               : has(&FittedElement::spread) ? "fitted, with bootstrap"
+                                             : "fitted",
+               Channel::total,
+               {},
+               {},
+               false,
+               true};
     std::vector<Curve> bars;
     Curve left_out{"a file left out", Channel::motor, {}, {}, false, true};
     for (const FittedElement& element : fit_.elements) {
@@ -233,7 +249,14 @@ class FitPage {
                                                  : units_.force;
   }
 
-  std::string cell(const std::optional<fitting::Interval>& interval, const FittedElement& element) const {
+  bool has(std::optional<fitting::Interval> FittedElement::*which) const {
+    return std::any_of(fit_.elements.begin(), fit_.elements.end(),
+                       [&](const FittedElement& element) { return (element.*which).has_value(); });
+  }
+
+  std::string cell(std::optional<fitting::Interval> FittedElement::*which, const FittedElement& element) const {
+    if (!has(which)) return "";
+    const std::optional<fitting::Interval>& interval = element.*which;
     if (!interval) return "<td></td>";
     return "<td>" +
            escaped(quantity_text(interval->low, unit_of(element), 4) + " … " +
@@ -242,13 +265,16 @@ class FitPage {
   }
 
   std::string elements_table() const {
-    std::string text =
-        "<div class=\"wide\"><table><thead><tr><th>element</th><th>value</th><th>95 "
-        "%</th><th>bootstrap</th><th>leaving a file out</th></tr></thead><tbody>\n";
+    const auto head = [&](std::optional<fitting::Interval> FittedElement::*which, const char* title) {
+      return has(which) ? fmt::format("<th>{}</th>", title) : std::string();
+    };
+    std::string text = "<div class=\"wide\"><table><thead><tr><th>element</th><th>value</th>" +
+                       head(&FittedElement::interval, "95 %") + head(&FittedElement::spread, "bootstrap") +
+                       head(&FittedElement::left_out, "leaving a file out") + "</tr></thead><tbody>\n";
     for (const FittedElement& element : fit_.elements)
       text += "<tr><th>" + element.name + "</th><td>" + escaped(element.text) + "</td>" +
-              cell(element.interval, element) + cell(element.spread, element) + cell(element.left_out, element) +
-              "</tr>\n";
+              cell(&FittedElement::interval, element) + cell(&FittedElement::spread, element) +
+              cell(&FittedElement::left_out, element) + "</tr>\n";
     return text + "</tbody></table></div>\n";
   }
 
@@ -283,9 +309,9 @@ std::string fit_page(const Fit& fit, const std::vector<Recording>& recordings, c
          "'unsafe-inline'\">\n"
          "<link rel=\"icon\" href=\"data:,\">\n<title>" +
          escaped(fit.network_name) + "</title>\n<style>\n" + (style ? std::string(style->text()) : "") +
-         "</style>\n</head>\n<body>\n" + FitPage(fit, recordings, held_out).body() +
-         "<footer>\n<p>Written by dashpot " DASHPOT_VERSION ": <code>" + escaped(fit.choices.command) +
-         "</code></p>\n</footer>\n</body>\n</html>\n";
+         "\n.wide td { white-space: nowrap; }" + "</style>\n</head>\n<body>\n" +
+         FitPage(fit, recordings, held_out).body() + "<footer>\n<p>Written by dashpot " DASHPOT_VERSION ": <code>" +
+         escaped(fit.choices.command) + "</code></p>\n</footer>\n</body>\n</html>\n";
 }
 
 }  // namespace dashpot::compiler

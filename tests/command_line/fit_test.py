@@ -3,10 +3,11 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import unittest
 
-from dashpot_command import COMMAND_LINE_WRONG, INPUT_REFUSED, SOURCE, CommandTest
+from dashpot_command import COMMAND_LINE_WRONG, DASHPOT, INPUT_REFUSED, SOURCE, CommandTest
 
 RECORDINGS = SOURCE / "networks/tissues/measured"
 ADHESIVE = [RECORDINGS / f"soft_adhesive/shear_relaxation_{rate}.csv" for rate in (1, 2, 5)]
@@ -15,17 +16,27 @@ MUSCLE = ["--columns", "time=Time:s,strain=L-0.95,stress=F:kPa,deviation=SD:kPa"
           "--geometry", "column:area=1mm^2,length=10mm"]
 
 
-def recording(rows=400, period=0.005, header="time [s],position [mm],force [N]"):
-    """A Zener body, 100 N/m beside 150 N/m with 0.3 s, under two sines, by its exact recursion."""
-    lines, q, last, decay = [header], 0.0, 0.0, math.exp(-period / 0.3)
+def sines(t):
+    return 2e-3 * math.sin(2 * t) + 5e-4 * math.sin(17 * t)
+
+
+def triangles(t):
+    """Slow and fast by turns, and never still."""
+    phase = t % 2 if t % 8 < 4 else 4 * t % 2
+    return 1e-3 * (phase if phase < 1 else 2 - phase)
+
+
+def recording(rows=400, period=0.005, header="time [s],position [mm],force [N]", motion=sines, first=0, late=0):
+    """A Zener body, 100 N/m beside 150 N/m with 0.3 s, by its exact recursion; its force `late` by so many rows."""
+    table, q, last, decay = [], 0.0, 0.0, math.exp(-period / 0.3)
     share = (1 - decay) * 0.3 / period
     for i in range(rows):
-        t = i * period
-        u = 2e-3 * math.sin(2 * t) + 5e-4 * math.sin(17 * t)
+        u = motion(i * period)
         q = decay * q + share * (u - last)
         last = u
-        lines.append(f"{t:.3f},{1e3 * u!r},{100 * u + 150 * q!r}")
-    return "\n".join(lines) + "\n"
+        table.append((i * period, 1e3 * u, 100 * u + 150 * q))
+    lines = [f"{table[i][0]:.3f},{table[i][1]!r},{table[max(0, i - late)][2]!r}" for i in range(first, rows)]
+    return "\n".join([header, *lines]) + "\n"
 
 
 class Fit(CommandTest):
@@ -109,6 +120,11 @@ int main() {
         for part in ("Data and model", "What is left", "Spectrum", "by the number of parameters", "cannot tell"):
             self.assertIn(part, page)
         self.assertNotIn("http", page.replace("http-equiv", ""))
+        # Folders belong to the command: titles of figures are as narrow as those.
+        for part, is_there in ((">shear_relaxation_1.csv<", True), ("fitted, with bootstrap", True), ("<th>95 %</th>", False)):
+            self.assertEqual(part in page, is_there, part)
+        files = [recording["file"] for recording in json.loads((self.folder / "adhesive.json").read_text())["fit"]["recordings"]]
+        self.assertEqual(files, [path.name for path in ADHESIVE])
         self.dashpot("compile", "adhesive.json", "-o", ".")
         held = self.told(*ADHESIVE[:2], "--hold-out", ADHESIVE[2])
         self.assertEqual(len(held["held_out"]), 1)
@@ -127,6 +143,54 @@ int main() {
         done = self.fit("ramp.csv")
         self.assertIn("[fit-loading-only]", done.stderr)
         self.assertIn("[fit-one-rate]", done.stderr)
+
+    def test_every_message_has_a_recording(self):
+        """Fails if a message of a fit is provoked by nothing, or a recording no longer provokes its own."""
+        self.write("zener.csv", recording())
+        self.write("moving.csv", recording(first=100))
+        self.write("late.csv", recording(late=8))
+        self.write("triangles.csv", recording(rows=1600, period=0.01, motion=triangles))
+        self.write("ramp.csv", "time [s],position [mm],force [N]\n" + "".join(f"{i},{i},{i + i % 3}\n" for i in range(200)))
+        self.write("slow.csv", "time [s],modulus [N/m]\n" + "".join(
+            f"{0.1 * 1.2 ** i!r},{100 + 50 * math.exp(-0.1 * 1.2 ** i / 5000)!r}\n" for i in range(38)))
+        # A force at twice the frequency of the motion: no spring, damper or slip makes it.
+        self.write("nothing.csv", "time [s],position [mm],force [N]\n" + "".join(
+            f"{i / 100},{math.sin(i * math.pi / 50):.9g},{math.cos(i * math.pi / 25) - 1:.9g}\n" for i in range(401)))
+        self.write("sliding.json", """{ "dashpot": 1, "name": "sliding", "network": { "parallel": [
+            { "spring": "100 N/m" },
+            { "series": [ { "spring": "400 N/m" }, { "parallel": [ { "slip": "0.3 N" }, { "damper": "20 N s/m" } ] } ] } ] } }""")
+        self.write("motion.csv", "time,position\n" + "".join(f"{i / 200},{sines(i / 200)!r}\n" for i in range(1200)))
+        self.dashpot("simulate", "sliding.json", "--input", "motion.csv", "-o", "sliding.csv")
+        polymer = [RECORDINGS / "polymer/time_user_master.csv", "--relaxation", "--weight", "relative", "--modes", "38",
+                   "--geometry", "column:area=1mm^2,length=1mm"]
+        brain = [RECORDINGS / "brain/brain_relax_amedieu2004.csv", "--relaxation", "--modes", "2",
+                 "--columns", "time=t:s,modulus=relax_normalised:N/m"]
+        provoked = {"fit-waits-for-shapes", "fit-wrong-quantity", "fit-choices-contradict"}  # see test_refuses
+        for words, told in (
+                (["nothing.csv"], {"fit-nothing-resists"}),
+                (["zener.csv", "--modes", "9"], {"fit-size-not-met"}),
+                (["zener.csv", "zener.csv", "--tare"], {"fit-offsets-absorb"}),
+                (["moving.csv"], {"fit-in-motion"}),
+                (["late.csv"], {"fit-late-force"}),
+                (["triangles.csv"], {"fit-no-hold"}),
+                (["ramp.csv"], {"fit-loading-only", "fit-one-rate"}),
+                (["slow.csv", "--relaxation"], {"fit-slower-than-record"}),
+                (["sliding.csv", "--columns", "time=time:s,position=position:m,force=force:N", "--slips", "viscous"],
+                 {"fit-not-exact-in-simulate"}),
+                (polymer, {"fit-beyond-reach", "fit-ill-conditioned"}),
+                (brain, {"fit-faster-than-step", "fit-few-rows"}),
+                (ADHESIVE, {"fit-floor-above-noise", "fit-assumed-start"}),
+                ([*ADHESIVE, "--slips", "2", "--modes", "2", "--gain-per-file"],
+                 {"fit-slips-or-softening", "fit-no-intervals", "fit-unstable-left-out", "fit-gains-fitted"})):
+            with self.subTest(words[0]):
+                done = self.fit(*words, status=INPUT_REFUSED if words == ["nothing.csv"] else 0)
+                said = set(re.findall(r"\[(fit-[a-z-]+)\]$", done.stderr, re.MULTILINE))
+                self.assertLessEqual(told, said)
+                provoked |= said
+        every = re.findall(r"DASHPOT_DIAGNOSTIC\(\s*(fit_\w+),\s*(?:error|warning)",
+                           (SOURCE / "compiler/source/diagnostics.def").read_text())
+        # No recording is known that six more columns do not certify.
+        self.assertEqual({name.replace("_", "-") for name in every} - provoked, {"fit-floor-not-certified"})
 
     def test_material(self):
         """Fails if the geometry is not what turns stress and strain into force and displacement."""
@@ -163,6 +227,27 @@ int main() {
         self.assertIn("[recordings-differ]", self.dashpot(
             "fit", "zener.csv", self.write("s.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n"),
             status=INPUT_REFUSED).stderr)
+
+    def test_a_line_without_end(self):
+        """Fails if a line is read for as long as it lasts."""
+        self.write("endless.csv", "time [s],position [mm],force [N]\n" + "1" * (3 << 20))
+        done = self.dashpot("fit", "endless.csv", status=INPUT_REFUSED)
+        self.assertIn("line 2 of 'endless.csv' is longer than 1 MiB", done.stderr)
+        self.assertIn("[recording-line-too-long]", done.stderr)
+
+    @unittest.skipUnless(os.environ.get("DASHPOT_LONG") == "1", "360 MB are written and read; with DASHPOT_LONG=1")
+    def test_memory(self):
+        """Fails if a million rows of forty columns take more than 1 GB: those that are not needed are not kept."""
+        others = ",0.123456" * 37
+        header, *rows = recording(1_000_000, 0.001).splitlines()
+        with (self.folder / "large.csv").open("w") as file:
+            file.write(header + "".join(f",c{i} [V]" for i in range(37)) + "\n")
+            file.writelines(f"{row}{others}\n" for row in rows)
+        with subprocess.Popen([DASHPOT, "fit", "large.csv"], cwd=self.folder, stdout=subprocess.DEVNULL) as run:
+            _, status, used = os.wait4(run.pid, 0)
+            run.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(run.returncode, 0)
+        self.assertLess(used.ru_maxrss, 1_000_000)  # [kB]
 
     def test_larger_than_other_files(self):
         """Fails if a recording above the 16 MiB of other files is refused."""

@@ -96,7 +96,12 @@ std::vector<Model> leave_one_out(const Problem& problem, const Model& model, boo
 
 std::vector<Model> block_bootstrap(const Problem& problem, const Model& model, double effective, bool gains_are_free,
                                    int draws) {
-  const VectorXd left = residual(problem, model), fitted = problem.target() - left;
+  VectorXd left = residual(problem, model);
+  const VectorXd fitted = problem.target() - left;
+  // Around zero in each file: what a model leaves on average would move every draw the same way.
+  for (const Block& block : problem.blocks())
+    if (block.count > 0)
+      left.segment(block.begin, block.count).array() -= left.segment(block.begin, block.count).mean();
   const Index length = std::max<Index>(1, static_cast<Index>(std::ceil(problem.weighed_rows() / effective)));
   std::mt19937_64 random(1);
   std::vector<Model> models;

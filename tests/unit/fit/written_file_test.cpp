@@ -139,6 +139,23 @@ TEST(WrittenFile, HoldsWhatItTells) {
   }
 }
 
+// Fails if the bootstrap is about another network than the one that was fitted: what that one leaves on average in a
+// file must not be drawn.
+TEST(WrittenFile, IsWithinItsBootstrap) {
+  FitChoices choices;
+  choices.reduction.slips = SlipChoice::stops;
+  choices.reduction.modes = 2;
+  choices.reduction.stops = 2;
+  const auto result = fitted(adhesive(), choices);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->elements.size(), 9u);
+  for (const FittedElement& element : result->elements) {
+    ASSERT_TRUE(element.spread) << element.name;
+    EXPECT_LT(element.spread->low, element.value) << element.name;
+    EXPECT_GT(element.spread->high, element.value) << element.name;
+  }
+}
+
 // Fails if a recorded set of several files, with a springpot, or over frequency, makes a file that does not compile.
 TEST(WrittenFile, OfPublishedRecordingsCompiles) {
   struct Case {

@@ -24,21 +24,19 @@ constexpr double longest_time = 1e6;                        // of lags and laten
 
 // The dimensions of the joint's own coordinate.
 struct JointDimensions {
-  Dimension position, velocity, acceleration, force, damping, inertia, force_constant, damping_per_current_squared;
+  Dimension position, velocity, acceleration, force, force_rate, damping, inertia, force_constant,
+      damping_per_current_squared;
 };
 
 constexpr JointDimensions translation_dimensions = {
-    dimensions::length,  dimensions::velocity, dimensions::acceleration,   dimensions::force,
-    dimensions::damping, dimensions::mass,     dimensions::force_constant, dimensions::damping_per_current_squared};
+    dimensions::length, dimensions::velocity,       dimensions::acceleration,
+    dimensions::force,  dimensions::force_rate,     dimensions::damping,
+    dimensions::mass,   dimensions::force_constant, dimensions::damping_per_current_squared};
 
-constexpr JointDimensions rotation_dimensions = {dimensions::angle,
-                                                 dimensions::angular_velocity,
-                                                 dimensions::angular_acceleration,
-                                                 dimensions::torque,
-                                                 dimensions::rotational_damping,
-                                                 dimensions::inertia,
-                                                 dimensions::torque_constant,
-                                                 dimensions::rotational_damping_per_current_squared};
+constexpr JointDimensions rotation_dimensions = {
+    dimensions::angle,   dimensions::angular_velocity, dimensions::angular_acceleration,
+    dimensions::torque,  dimensions::torque_rate,      dimensions::rotational_damping,
+    dimensions::inertia, dimensions::torque_constant,  dimensions::rotational_damping_per_current_squared};
 
 struct EstimatorKeys {
   estimator_kind kind;
@@ -232,11 +230,12 @@ class DeviceBuilder {
   void read_motor() {
     SectionReader reader = section("motor");
     motor_description& motor = device_.description.motor;
-    reader.refuse_other_keys({"torque_constant", "max_torque", "amplifier_lag", "saturation_allowed"});
+    reader.refuse_other_keys({"torque_constant", "max_torque", "amplifier_lag", "slew", "saturation_allowed"});
     reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
     reader.read("max_torque", due_.force, Bound::above_zero, motor.max_torque);
     reader.read("amplifier_lag", dimensions::time, Bound::zero_or_more, motor.amplifier_lag);
     reader.is_within("amplifier_lag", motor.amplifier_lag, 0, longest_time, "s");
+    reader.read("slew", due_.force_rate, Bound::above_zero, motor.slew);
     reader.read("saturation_allowed", dimensions::time, Bound::above_zero, motor.saturation_allowed);
   }
 

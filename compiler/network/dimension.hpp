@@ -33,6 +33,8 @@ inline constexpr Dimension acceleration{0, 1, -2};
 inline constexpr Dimension angular_acceleration{0, 0, -2, 0, 1};
 inline constexpr Dimension force{1, 1, -2};
 inline constexpr Dimension torque{1, 2, -2};
+inline constexpr Dimension force_rate{1, 1, -3};
+inline constexpr Dimension torque_rate{1, 2, -3};
 inline constexpr Dimension stiffness{1, 0, -2};
 inline constexpr Dimension rotational_stiffness{1, 2, -2, 0, -1};
 inline constexpr Dimension damping{1, 0, -1};

@@ -61,6 +61,7 @@ struct motor_description {
   double torque_constant = 0;     // [N·m/A] or [N/A]; 0: not stated
   double max_torque = 0;          // [N·m] or [N]; 0: unlimited
   double amplifier_lag = 0;       // first order [s]
+  double slew = 0;                // of the torque or force [N·m/s] or [N/s]; 0: unlimited
   double saturation_allowed = 0;  // longest uninterrupted saturation [s]; 0: unlimited
 };
 

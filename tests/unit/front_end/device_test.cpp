@@ -22,7 +22,7 @@ TEST(Device, IsReadIntoSi) {
     "encoder": { "counts_per_turn": 65536, "quantiser": "round", "range": ["-0.8 rad", "0.7 rad"],
                  "max_speed": "30 rad/s" },
     "velocity": { "estimator": "butterworth", "order": 4, "cutoff": "120 Hz" },
-    "motor": { "torque_constant": "43 mN m/A", "max_torque": "0.1 N m", "amplifier_lag": "0.2 ms",
+    "motor": { "torque_constant": "43 mN m/A", "max_torque": "0.1 N m", "amplifier_lag": "0.2 ms", "slew": "30 mN m/ms",
                "saturation_allowed": "0.2 s" },
     "brake": { "kind": "eddy_current", "max_damping": "7 mN m s/rad",
                "damping_per_current_squared": "6 mN m s/(rad A^2)", "residual_damping": "0.1 mN m s/rad",
@@ -55,6 +55,7 @@ TEST(Device, IsReadIntoSi) {
   EXPECT_EQ(d.velocity.cutoff, 120);
   EXPECT_EQ(d.motor.torque_constant, 0.043);
   EXPECT_EQ(d.motor.max_torque, 0.1);
+  EXPECT_DOUBLE_EQ(d.motor.slew, 30);
   EXPECT_EQ(d.motor.amplifier_lag, 0.0002);
   EXPECT_EQ(d.motor.saturation_allowed, 0.2);
   EXPECT_EQ(d.brake.kind, brake_kind::eddy_current);

@@ -23,6 +23,22 @@ TEST(Drives, AmplifierLagIsFirstOrder) {
   EXPECT_NEAR(device.truth().motor_torque, -0.1 + (turned + 0.1) * std::exp(-0.002 / 0.0007), rounding);
 }
 
+// The motor's force would jump where the amplifier can only slew, or the lag would not take over near the end.
+TEST(Drives, TheMotorSlewsStraightAndThenSettles) {
+  device_description description = plain_device();
+  description.motor.slew = 50;
+  simulated_device straight(description);
+  run(straight, 4, {0.3, 0});
+  EXPECT_NEAR(straight.truth().motor_torque, 50 * 0.003, rounding);
+  run(straight, 2, {-0.1, 0});
+  EXPECT_NEAR(straight.truth().motor_torque, 50 * 0.003 - 50 * 0.002, rounding);
+  description.motor.amplifier_lag = 0.002;
+  simulated_device lagging(description);
+  run(lagging, 7, {0.3, 0});
+  // Straight until the lag alone is slower, which is 0.1 before the end.
+  EXPECT_NEAR(lagging.truth().motor_torque, 0.3 - 0.1 * std::exp(-(0.006 - 0.2 / 50) / 0.002), 10 * rounding);
+}
+
 // The lag would act on the damping instead of on the current, whose square it is.
 TEST(Drives, CoilLagActsOnTheCurrent) {
   device_description description = plain_device();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "discretise/rounding.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -37,12 +38,23 @@ void read_bank(const UpdateLaw& law, std::size_t bank, MotorConstants& motor) {
   motor.error_bound = law.relative_error_bound;
 }
 
+bool is_of_motor_reach(const UpdateLaw& law, const Statement& statement) {
+  bool found = false;
+  each_expression(law, statement.value, [&](const Expression& e) {
+    found |= e.operation == Operation::constant && law.coefficients[e.coefficient].role == ConstantRole::motor_reach;
+  });
+  return found || (law.sheds() && statement.target == law.force);
+}
+
 bool has_slips(const UpdateLaw& law) {
-  const auto chooses = [](const Expression& e) {
-    return e.operation == Operation::clamp || e.operation == Operation::where;
-  };
-  return law.brake_changes() || !law.couplings.empty() || !law.networks.empty() || law.surface_at ||
-         std::any_of(law.expressions.begin(), law.expressions.end(), chooses);
+  if (law.brake_changes() || !law.couplings.empty() || !law.networks.empty() || law.surface_at) return true;
+  bool chooses = false;  // beside the limits of a motor
+  for (const Statement& statement : law.output)
+    if (!is_of_motor_reach(law, statement))
+      each_expression(law, statement.value, [&](const Expression& e) {
+        chooses |= e.operation == Operation::clamp || e.operation == Operation::where;
+      });
+  return chooses;
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ class C99Printer {
     Lines lines = lines_of(law_.output);
     const bool changes = law_.brake_changes();
     const std::string force = name(law_.force, 0);
-    lines.push_back(fmt::format("self->sampled = dashpot_all_finite{}(position, velocity, {});", suffix_, force));
+    lines.push_back(
+        fmt::format("self->sampled = dashpot_all_finite{}(position, velocity, {});", suffix_, name(law_.checked(), 0)));
     lines.push_back("if (self->sampled != 0) {");
     append_all(lines, lines_of(law_.keep), "  ");
     append_all(lines, command(changes ? name(law_.brake, 0) : "damping", force), "  ");

@@ -34,6 +34,12 @@ class CppPrinter {
     program.parameters = {"struct parameters {};"};
     program.set = {"// No parameter of this network can be set while it runs.",
                    "unsigned set(const parameters&) noexcept { return 0; }"};
+    if (law_.sheds())
+      for (const char* line : {"",
+                               "// The share of all forces in the network that the last output() kept, for the motor "
+                               "to be able to follow.",
+                               "scalar kept_share() const noexcept { return sampled_share_; }"})
+        program.set.push_back(line);
     program.reset = reset();
     program.constants = constants();
     program.states = states();
@@ -72,7 +78,7 @@ class CppPrinter {
 
   // What is kept of a sample that is no number is what was there before.
   void check_by_masks(CppProgram& program) const {
-    program.check = {"sampled_ = dashpot::all_finite(position, velocity, force);",
+    program.check = {fmt::format("sampled_ = dashpot::all_finite(position, velocity, {});", name_of(law_.checked())),
                      "const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);"};
     program.command = fmt::format("{{{}, dashpot::branch_free::chosen(sampled, force, scalar(0))}}",
                                   law_.brake_changes() ? name_of(law_.last_brake) : "damping");

@@ -58,6 +58,7 @@ CodeModel batch_model(const Compilation& c) {
   CodeModel model;
   describe_file(c, model.fields);
   describe_outputs(c.law, model);
+  model.fields["checked"] = c.law.variables[c.law.checked()].name;
   model.fields["states"] = std::to_string(batch.states);
   model.fields["reads"] = std::to_string(batch.states + 2);
   model.fields["writes"] = std::to_string(batch.states + (c.law.brake_changes() ? 2 : 1));
@@ -99,7 +100,7 @@ CodeModel test_model(const Compilation& c) {
   model.lists["modes"];
   // Forces of slips have no closed form along a ramp.
   model.lists["closed_forms"];
-  if (!c.form.has_slips())
+  if (!c.form.has_slips() && !c.law.sheds())
     model.lists["closed_forms"].push_back(
         {{"decays", c.law.scheme == Scheme::exact ? "rate * period" : "std::log1p(rate * period)"}});
   return model;

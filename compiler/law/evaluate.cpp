@@ -68,7 +68,7 @@ command<Scalar> Evaluation<Scalar>::output(Scalar position, Scalar velocity) {
   at(law_.velocity)[0] = velocity;
   run(law_.output);
   const Scalar force = at(law_.force)[0];
-  sampled_ = all_finite(position, velocity, force);
+  sampled_ = all_finite(position, velocity, at(law_.checked())[0]);
   if (!sampled_) return {damping(law_.last_brake), Scalar(0)};
   run(law_.keep);
   return {damping(law_.brake), force};
@@ -193,6 +193,7 @@ Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
     case Operation::add: return operand(0) + operand(1);
     case Operation::subtract: return operand(0) - operand(1);
     case Operation::multiply: return operand(0) * operand(1);
+    case Operation::divide: return operand(0) / operand(1);
     case Operation::flush: return flushed(operand(0));
     case Operation::clamp: return clamp_to(operand(1), operand(0));
     case Operation::where: return operand(0) > 0 ? operand(1) : operand(2);

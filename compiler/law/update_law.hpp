@@ -75,6 +75,7 @@ enum class ConstantRole : std::uint8_t {
   recovery_compliance,    // −1/g of a surface
   place,                  // of a surface or a step of the encoder
   steady_damping,         // b of what no slip changes
+  motor_reach,            // what the motor can make, and shares of it
   brake_choice,           // how the brake is commanded: shares, samples, thresholds, what is chosen and not computed
   zero,                   // nothing
 };
@@ -207,6 +208,8 @@ struct UpdateLaw {
   std::optional<double>
       surface_at;    // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
   VariableId force;  // m_k, the motor's command [N]
+  VariableId wanted = no_variable;  // m_k before the motor's limits, where the law knows them (lower/shed.hpp) [N]
+  VariableId share = no_variable;   // then the state that remembers which share of all forces has been kept [1]
   VariableId brake =
       no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
@@ -216,6 +219,8 @@ struct UpdateLaw {
   std::size_t padded(std::size_t size) const {
     return (size + lanes - 1) / lanes * lanes;
   }  // of a rolled vector: whole rounds of its loop
+  bool sheds() const { return wanted != no_variable; }
+  VariableId checked() const { return sheds() ? wanted : force; }  // not finite where the sample is to be refused
   bool brake_changes() const { return brake != no_variable; }
 };
 

@@ -23,6 +23,7 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
     case Operation::multiply: return shows(law, e.operands[0], input) || shows(law, e.operands[1], input);
     case Operation::relax: return shows(law, e.operands[2], input);
     case Operation::constant:
+    case Operation::divide:
     case Operation::flush:
     case Operation::clamp:
     case Operation::where:
@@ -40,20 +41,20 @@ std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law) {
   std::map<VariableId, VariableId> carried;
   for (const Statement& statement : law.keep) {
     const Expression& e = law.expressions[statement.value];
-    const bool stays = statement.target == law.last_brake || reads(law, law.output, statement.target) ||
-                       reads(law, law.energy, statement.target);
+    const bool stays = statement.target == law.last_brake || statement.target == law.share ||
+                       reads(law, law.output, statement.target) || reads(law, law.energy, statement.target);
     if (e.operation == Operation::read && !stays) carried[statement.target] = e.variable;
   }
   return carried;
 }
 
 std::vector<VariableId> checked_numbers(const UpdateLaw& law) {
-  const Statement& last =
-      *std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.force; });
+  const Statement& last = *std::find_if(law.output.begin(), law.output.end(),
+                                        [&](const Statement& s) { return s.target == law.checked(); });
   std::vector<VariableId> numbers;
   for (VariableId input : {law.position, law.velocity})
     if (!shows(law, last.value, input)) numbers.push_back(input);
-  numbers.push_back(law.force);
+  numbers.push_back(law.checked());
   return numbers;
 }
 

@@ -56,6 +56,8 @@ class Writer {
       case Operation::add: return sum(e.operands[0], grouped(e.operands[1], 2));
       case Operation::subtract: return grouped(e.operands[0], 1) + "<mo>−</mo>" + grouped(e.operands[1], 2);
       case Operation::multiply: return product(grouped(e.operands[0], 2), grouped(e.operands[1], 3));
+      case Operation::divide:
+        return "<mfrac><mrow>" + written(e.operands[0]) + "</mrow><mrow>" + written(e.operands[1]) + "</mrow></mfrac>";
       case Operation::flush: return written(e.operands[0]);
       case Operation::clamp:
         return "<mi>clamp</mi>" +

@@ -89,6 +89,7 @@ class vector {
   friend vector operator+(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ + b.value_); }
   friend vector operator-(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ - b.value_); }
   friend vector operator*(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ * b.value_); }
+  friend vector operator/(vector a, vector b) noexcept { return vector(packed_tag(), a.value_ / b.value_); }
 
   // `yes` where `condition` is above zero, else `no`.
   static vector where(vector condition, vector yes, vector no) noexcept {

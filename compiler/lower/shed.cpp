@@ -1,0 +1,222 @@
+#include "lower/shed.hpp"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include "discretise/law_writer.hpp"
+#include "law/check_law.hpp"
+#include "law/walk.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+class Shedding {
+ public:
+  Shedding(UpdateLaw law, const MotorReach& reach, motion port_motion)
+      : law_(std::move(law)), writer_(law_, port_motion), reach_(reach) {}
+
+  UpdateLaw result() {
+    loosen_static_spring();
+    write_command();
+    keep_spring();
+    shrink_states();
+    check_law(law_, "shedding");
+    return std::move(law_);
+  }
+
+ private:
+  ExpressionId zero() {
+    return writer_.constant("none_kept", "1", "the share of a force that is let go of", 0, ConstantRole::motor_reach);
+  }
+  ExpressionId one() {
+    return writer_.constant("all_kept", "1", "the share where no limit binds", 1, ConstantRole::motor_reach);
+  }
+  ExpressionId limit() {
+    return writer_.constant("motor_limit", writer_.force(), "what the motor can give", Real(reach_.limit),
+                            ConstantRole::motor_reach);
+  }
+  ExpressionId step() {
+    return writer_.constant("motor_step", writer_.force(), "what the motor can change by in a period",
+                            Real(reach_.step), ConstantRole::motor_reach);
+  }
+  ExpressionId divide(ExpressionId above, ExpressionId below) {
+    return law_.expressions.add({Operation::divide, {above, below}});
+  }
+
+  bool is_static_product(const Expression& e) const {
+    if (e.operation != Operation::multiply) return false;
+    const Expression& factor = law_.expressions[e.operands[0]];
+    return factor.operation == Operation::constant &&
+           law_.coefficients[factor.coefficient].role == ConstantRole::static_stiffness;
+  }
+
+  bool has_static_spring() const {
+    bool found = false;
+    for (const Statement& statement : law_.output)
+      each_expression(law_, statement.value, [&](const Expression& e) { found |= is_static_product(e); });
+    return found;
+  }
+
+  // k0 x becomes k0 (x − r), and the surface of before is read where it has come back to.
+  ExpressionId loosened(ExpressionId id) {
+    const Expression e = law_.expressions[id];
+    if (e.operation == Operation::read && e.variable == surface_) return writer_.read(surface_before_);
+    Expression changed = e;
+    for (std::size_t i = 0; i < facts_of(e.operation).operands; ++i) changed.operands[i] = loosened(e.operands[i]);
+    if (is_static_product(e)) changed.operands[1] = writer_.subtract(changed.operands[1], writer_.read(shift_now_));
+    return changed.operands == e.operands ? id : law_.expressions.add(changed);
+  }
+
+  void loosen_static_spring() {
+    if (!has_static_spring()) return;
+    shift_ = writer_.scalar("rest_shift", writer_.length(), "r, where the static spring is at rest", Role::state);
+    shift_now_ = writer_.scalar("rest_shift_now", writer_.length(), "r", Role::local);
+    std::vector<Statement> opening;
+    if (law_.surface_at) surface_ = law_.rest_position;
+    const auto first = std::find_if(law_.output.begin(), law_.output.end(),
+                                    [&](const Statement& s) { return surface_ == no_variable || reads_surface(s); });
+    const auto place = first - law_.output.begin();
+    surface_ == no_variable ? open_port(opening) : open_contact(opening, *first);
+    for (Statement& statement : law_.output) statement.value = loosened(statement.value);
+    law_.output.insert(law_.output.begin() + place, opening.begin(), opening.end());
+    for (Statement& statement : law_.energy) statement.value = loosened_energy(statement.value);
+  }
+
+  bool reads_surface(const Statement& statement) const {
+    bool found = false;
+    each_read(law_, statement.value, [&](VariableId read) { found |= read == surface_; });
+    return found;
+  }
+
+  // The middle one of 0, r and u.
+  void open_port(std::vector<Statement>& opening) {
+    const auto shift = [&] { return writer_.read(shift_); };
+    const auto tool = [&] { return writer_.read(law_.position); };
+    const ExpressionId least = writer_.where(writer_.subtract(shift(), tool()), tool(), shift());
+    const ExpressionId most = writer_.where(writer_.subtract(shift(), tool()), shift(), tool());
+    writer_.assign(opening, shift_now_,
+                   writer_.where(shift(), writer_.where(tool(), least, none()), writer_.where(tool(), none(), most)),
+                   "r: the middle one of 0, r and u");
+  }
+
+  // `first`: the approach, u − s₋.
+  void open_contact(std::vector<Statement>& opening, const Statement& first) {
+    const VariableId free =
+        writer_.scalar("free_gap", writer_.length(), "between tool and surface before", Role::local);
+    const VariableId returned =
+        writer_.scalar("returned", writer_.length(), "by the surface behind a tool that has left", Role::local);
+    surface_before_ = writer_.scalar("surface_before", writer_.length(), "s₋", Role::local);
+    const auto shift = [&] { return writer_.read(shift_); };
+    const auto gap = [&] { return writer_.read(free); };
+    writer_.assign(opening, free, writer_.subtract(none(), first.value), "s₋ − u");
+    const ExpressionId least = writer_.where(writer_.subtract(shift(), gap()), gap(), shift());
+    writer_.assign(opening, returned, writer_.where(gap(), least, none()), "");
+    writer_.assign(opening, surface_before_, writer_.subtract(writer_.read(surface_), writer_.read(returned)), "");
+    writer_.assign(opening, shift_now_, writer_.subtract(shift(), writer_.read(returned)), "");
+  }
+
+  ExpressionId none() {
+    return writer_.constant("no_shift", writer_.length(), "of a spring at rest", 0, ConstantRole::motor_reach);
+  }
+
+  ExpressionId loosened_energy(ExpressionId id) {
+    const Expression e = law_.expressions[id];
+    if (e.operation == Operation::read && e.variable == law_.rest_position)
+      return writer_.subtract(id, writer_.read(shift_));
+    Expression changed = e;
+    for (std::size_t i = 0; i < facts_of(e.operation).operands; ++i)
+      changed.operands[i] = loosened_energy(e.operands[i]);
+    return changed.operands == e.operands ? id : law_.expressions.add(changed);
+  }
+
+  void write_command() {
+    const auto told = std::find_if(law_.output.begin(), law_.output.end(),
+                                   [&](const Statement& s) { return s.target == law_.force; });
+    law_.wanted = writer_.scalar("wanted", writer_.force(), "motor's part m, were there no limit", Role::local);
+    told->target = law_.wanted;
+    reach_.step > 0 ? write_within_step() : write_within_limit();
+    share_ = writer_.scalar("share", "1", "s, of all forces, that is kept", Role::local);
+    const ExpressionId wanted = writer_.read(law_.wanted), force = writer_.read(law_.force);
+    ExpressionId kept = divide(force, wanted);
+    if (reach_.step > 0) kept = writer_.where(writer_.multiply(force, wanted), kept, zero());
+    const ExpressionId beyond = writer_.multiply(writer_.subtract(wanted, force), wanted);
+    writer_.assign(law_.output, share_, writer_.where(beyond, kept, one()), "s = m/wanted where that is beyond m");
+    law_.share = writer_.kept(share_);
+  }
+
+  void write_within_limit() {
+    writer_.assign(law_.output, law_.force, writer_.clamp(writer_.read(law_.wanted), limit()),
+                   "m within the motor's limit");
+  }
+
+  void write_within_step() {
+    const VariableId last = writer_.scalar("last_command", writer_.force(),
+                                           "m of the sample before, within the motor's limits", Role::state);
+    const VariableId top = writer_.scalar("most", writer_.force(), "that the motor can reach", Role::local);
+    const VariableId bottom = writer_.scalar("least", writer_.force(), "that the motor can reach", Role::local);
+    const auto within = [&](ExpressionId value) { return reach_.limit > 0 ? writer_.clamp(value, limit()) : value; };
+    writer_.assign(law_.output, top, within(writer_.add(writer_.read(last), step())), "m₋ ± ρh");
+    writer_.assign(law_.output, bottom, within(writer_.subtract(writer_.read(last), step())), "");
+    const auto read = [&](VariableId variable) { return writer_.read(variable); };
+    const ExpressionId above =
+        writer_.where(writer_.subtract(read(bottom), read(law_.wanted)), read(bottom), read(law_.wanted));
+    writer_.assign(law_.output, law_.force,
+                   writer_.where(writer_.subtract(read(law_.wanted), read(top)), read(top), above),
+                   "m within the motor's limits");
+    writer_.assign(law_.update, last, read(writer_.kept(law_.force)), "m₋ = m");
+    unscaled_.insert(last);
+  }
+
+  // r ← r + (1 − s) (x − r), x the tool or the surface
+  void keep_spring() {
+    if (shift_ == no_variable) return;
+    const VariableId at = law_.surface_at ? surface_now() : law_.position;
+    const VariableId next = writer_.scalar("next_rest_shift", writer_.length(), "r", Role::local);
+    const ExpressionId spread = writer_.subtract(writer_.read(at), writer_.read(shift_now_));
+    const ExpressionId let_go = writer_.subtract(one(), writer_.read(share_));
+    writer_.assign(law_.output, next, writer_.add(writer_.read(shift_now_), writer_.multiply(let_go, spread)),
+                   "r ← u − s (u − r)");
+    writer_.assign(law_.update, shift_, writer_.read(writer_.kept(next)), "");
+  }
+
+  VariableId surface_now() const {
+    for (const Variable& variable : law_.variables)
+      if (variable.name == "surface_now") return law_.variables.id_of(variable);
+    throw std::logic_error("shedding: a contact without a surface");
+  }
+
+  // Every force is made once in an update, of what it was before and of the sample, and some are sums of others.
+  void shrink_states() {
+    std::set<VariableId> shrunk;
+    for (Statement& statement : law_.update) {
+      const Variable& target = law_.variables[statement.target];
+      if (target.role != Role::state || target.unit != writer_.force() || unscaled_.count(statement.target) > 0)
+        continue;
+      bool is_sum = false, is_own = false;
+      each_read(law_, statement,
+                [&](VariableId read) { (shrunk.count(read) > 0 ? is_sum : is_own) |= is_force(read); });
+      if (is_sum && is_own) throw std::logic_error("shedding: a sum of forces before and after");
+      if (!is_sum) statement.value = writer_.multiply(statement.value, writer_.read(law_.share));
+      shrunk.insert(statement.target);
+    }
+  }
+
+  bool is_force(VariableId id) const { return law_.variables[id].unit == writer_.force(); }
+
+  UpdateLaw law_;
+  LawWriter writer_;
+  MotorReach reach_;
+  VariableId share_ = no_variable;
+  VariableId shift_ = no_variable, shift_now_ = no_variable;
+  VariableId surface_ = no_variable, surface_before_ = no_variable;
+  std::set<VariableId> unscaled_;
+};
+
+}  // namespace
+
+UpdateLaw with_shedding(UpdateLaw law, const MotorReach& reach, motion port_motion) {
+  return Shedding(std::move(law), reach, port_motion).result();
+}
+
+}  // namespace dashpot::compiler

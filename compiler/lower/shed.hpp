@@ -1,0 +1,27 @@
+// A law that never asks its motor for more than it can make (theory, section 10): where the command would be beyond the
+// motor's limit, or further from the last one than the motor can go in a period, all forces in the network are
+// multiplied by one share in [0, 1], so that what is stored falls and the command is within. With
+//     m = within(wanted, ±limit, m₋ ± step),      s = m/wanted where wanted is beyond m, else 1,
+//     F_i ← s F_i,      r ← u − s (u − r)
+// where r is where the static spring is at rest. A spring that has been shed comes back to rest at 0 as soon as the
+// tool lets it: no further from the tool than it is, r ← the middle one of 0, r and u; behind a contact, surface and r
+// follow a tool that has left. Neither takes any energy. A command that ought to fall faster than the motor can is held
+// back and the states are not touched: the shortfall.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// What the motor can make; 0: unlimited.
+struct MotorReach {
+  double limit = 0;  // of its force [N]
+  double step = 0;   // of its change from one sample to the next [N]
+};
+
+// In: a law without tunables. Its states stay what they were, to the last bit, as long as nothing is shed.
+UpdateLaw with_shedding(UpdateLaw law, const MotorReach& reach, motion port_motion);
+
+}  // namespace dashpot::compiler

@@ -24,6 +24,7 @@ class LoadedModel {
   }
   void update() noexcept { table_->update(object_); }
   double stored_energy() const noexcept { return table_->stored_energy(object_); }
+  double kept_share() const noexcept { return table_->kept_share(object_); }
 
  private:
   const model_table* table_;

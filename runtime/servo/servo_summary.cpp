@@ -44,6 +44,12 @@ std::string losses(const servo_summary& summary) {
   return text;
 }
 
+std::string shedding(const servo_summary& summary) {
+  if (summary.shed == 0) return "";
+  return print("shed      %llu commands were beyond the motor, the least share of all forces kept %.4g\n",
+               static_cast<unsigned long long>(summary.shed), summary.least_share);
+}
+
 // A command that has left need not have arrived.
 const char* ending(const servo_summary& summary) {
   if (summary.safe_confirmed) return "device left safe";
@@ -59,7 +65,7 @@ std::string to_text(const servo_summary& summary) {
   return print("periods   %llu served, %llu missed, %llu woken beyond the stated jitter, %llu held, %llu clipped\n",
                count(summary.periods), count(summary.missed_deadlines), count(summary.beyond_jitter),
                count(summary.held), count(summary.clipped)) +
-         durations("wake-up", summary.lateness) + durations("response", summary.response) +
+         shedding(summary) + durations("wake-up", summary.lateness) + durations("response", summary.response) +
          durations("busy", summary.busy) + faults(summary.faults) +
          print("energy    %.6g J taken from the tool, never below %.6g J\n", summary.energy, summary.lowest_energy) +
          losses(summary) + print("ended     %s, %s\n", name_of(summary.state), ending(summary));

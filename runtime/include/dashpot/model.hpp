@@ -14,6 +14,9 @@
 //     dashpot::command<scalar> output(scalar position, scalar velocity) noexcept;
 //     void update() noexcept;                                            // after the command has left
 //     scalar stored_energy() const noexcept;                             // [J]
+// and may have
+//     scalar kept_share() const noexcept;                                // of all forces, by the last output()
+// where it sheds what the motor cannot make: 1 where it did not.
 // A model whose facts are known only at run time (loaded from a library) has `model_facts facts() const noexcept` in
 // place of sample_period, port_motion and certified_for.
 #pragma once
@@ -61,6 +64,8 @@ using output = std::enable_if_t<noexcept(
 template <class M>
 using update = std::enable_if_t<noexcept(std::declval<M&>().update())>;
 template <class M>
+using kept_share = std::enable_if_t<noexcept(double(std::declval<const M&>().kept_share()))>;
+template <class M>
 using stored_energy = std::enable_if_t<noexcept(double(std::declval<const M&>().stored_energy()))>;
 
 }  // namespace model_claim
@@ -84,6 +89,13 @@ constexpr bool check_model() {
   static_assert(is_detected<model_claim::stored_energy, Model>,
                 "the model needs 'scalar stored_energy() const noexcept' [J]");
   return true;
+}
+
+// Of all forces in the network, what the last output() kept so that the motor can follow; 1 of a model that never sheds.
+template <class Model>
+double kept_share_of([[maybe_unused]] const Model& model) noexcept {
+  if constexpr (is_detected<model_claim::kept_share, Model>) return static_cast<double>(model.kept_share());
+  else return 1;
 }
 
 // What `model` was made for, from its own facts() where it has one, else from its static members.

@@ -7,7 +7,7 @@
 namespace dashpot {
 
 // Version of the table's own shape; a host refuses another.
-inline constexpr unsigned model_table_version = 1;
+inline constexpr unsigned model_table_version = 2;
 
 struct model_table {
   unsigned version;
@@ -19,6 +19,7 @@ struct model_table {
   command<double> (*output)(void* model, double position, double velocity) noexcept;
   void (*update)(void* model) noexcept;
   double (*stored_energy)(const void* model) noexcept;
+  double (*kept_share)(const void* model) noexcept;
 };
 
 namespace detail {
@@ -54,7 +55,8 @@ model_table table_of() noexcept {
       [](void* model) noexcept { static_cast<Model*>(model)->update(); },
       [](const void* model) noexcept {
         return static_cast<double>(static_cast<const Model*>(model)->stored_energy());
-      }};
+      },
+      [](const void* model) noexcept { return kept_share_of(*static_cast<const Model*>(model)); }};
 }
 
 }  // namespace dashpot

@@ -31,12 +31,17 @@ class scripted_model : public generated::second_order_maxwell {
     second_order_maxwell::reset(position);
   }
 
+  // What is left of all forces with each output; nothing is shed where this is not told.
+  void on_share(std::function<double(std::size_t)> share) { share_ = std::move(share); }
+  double kept_share() const noexcept { return share_ && outputs_ > 0 ? share_(outputs_ - 1) : 1; }
+
   std::size_t outputs() const noexcept { return outputs_; }
   std::size_t updates() const noexcept { return updates_; }
   std::size_t resets() const noexcept { return resets_; }
 
  private:
   disturbance disturb_;
+  std::function<double(std::size_t)> share_;
   std::size_t outputs_ = 0;
   std::size_t updates_ = 0;
   std::size_t resets_ = 0;

@@ -155,6 +155,24 @@ TEST_F(ServoLoop, CountsClippedCommands) {
   EXPECT_EQ(run(40).clipped, 6u);
 }
 
+// Broken, nobody would know that the law let go of what the motor cannot make, and how much of it.
+TEST_F(ServoLoop, CountsWhatTheModelSheds) {
+  model.on_share([](std::size_t output) { return output >= 10 && output < 15 ? 0.5 : output == 20 ? 0.25 : 1.0; });
+  const servo_summary summary = run(40);
+  EXPECT_EQ(summary.shed, 6u);
+  EXPECT_EQ(summary.least_share, 0.25);
+  EXPECT_EQ(summary.clipped, 0u);
+  EXPECT_NE(to_text(summary).find("shed      6 commands were beyond the motor, the least share of all forces kept 0.25"),
+            std::string::npos);
+  EXPECT_EQ(to_text(run(40)).find("shed"), std::string::npos);  // from its 41st output on
+}
+
+// Broken, a motor at its limit for as long as somebody presses would not count as saturated where the law sheds.
+TEST_F(ServoLoop, SheddingForTooLongIsASaturation) {
+  model.on_share([](std::size_t) { return 0.5; });
+  EXPECT_EQ(run(40).faults.of(fault::motor_saturated), 1u);
+}
+
 // Broken, a log that a full disk cut short would look complete.
 TEST_F(ServoLoop, TellsThatTheTableIsIncomplete) {
   options.outputs.csv = std::fopen("/dev/full", "w");

@@ -5,6 +5,7 @@
 #include <dashpot/actuator.hpp>
 #include <dashpot/command.hpp>
 #include <dashpot/device.hpp>
+#include <dashpot/model.hpp>
 #include <dashpot/servo/energy_account.hpp>
 #include <dashpot/servo/safety_monitor.hpp>
 #include <dashpot/servo/velocity_feed.hpp>
@@ -81,6 +82,8 @@ class command_path {
   bool is_clipped() const noexcept {                        // by our limits or by the device's own
     return output_.motor_saturated() || output_.damping_clipped != 0 || motor_falls_short_ || brake_falls_short_;
   }
+  // Of all forces in the network, what the model has kept for the motor to be able to follow: 1 where it shed nothing.
+  double kept_share() const noexcept { return kept_share_; }
   double position() const noexcept { return position_; }              // as given to the model [m] or [rad]
   double velocity() const noexcept { return velocity_; }              // [m/s] or [rad/s]
   const command<double>& wanted() const noexcept { return wanted_; }  // by the model
@@ -103,7 +106,8 @@ class command_path {
     if (const fault_report found = monitor_.check_command(wanted_.damping, wanted_.force)) return found;
     sent_ = energy_.control(wanted_, position_, velocity_, hold_time());
     output_ = actuator_.drive(sent_, velocity_);
-    const bool saturated = output_.motor_saturated() || motor_falls_short_;
+    kept_share_ = kept_share_of(model_);
+    const bool saturated = output_.motor_saturated() || motor_falls_short_ || kept_share_ < 1;
     if (const fault_report found = monitor_.check_saturation(saturated)) return found;
     demand_ = output_.demand();
     answered_ = true;
@@ -175,6 +179,7 @@ class command_path {
   actuator_output<double> output_;
   double position_ = 0;  // [m] or [rad]
   double velocity_ = 0;  // [m/s] or [rad/s]
+  double kept_share_ = 1;
   bool at_rest_ = false;
   bool answered_ = false;
   bool has_left_ = false;           // the newest command

@@ -160,8 +160,14 @@ class servo_cycle {
   void account_answer() noexcept {
     if (!path_.has_answered()) ++summary_.held;
     if (path_.has_answered() && path_.is_clipped()) ++summary_.clipped;
+    if (path_.has_answered() && path_.kept_share() < 1) account_shed(path_.kept_share());
     summary_.energy = path_.energy();
     if (summary_.energy < summary_.lowest_energy) summary_.lowest_energy = summary_.energy;
+  }
+
+  void account_shed(double share) noexcept {
+    ++summary_.shed;
+    if (share < summary_.least_share) summary_.least_share = share;
   }
 
   telemetry_record record_of(const wake_up& woken, std::int64_t left, bool running) const noexcept {

@@ -22,6 +22,8 @@ struct servo_summary {
   std::uint64_t beyond_jitter = 0;          // wake-ups later than the device's stated jitter
   std::uint64_t held = 0;                   // periods without a fresh sample while running
   std::uint64_t clipped = 0;                // commands beyond what motor or brake can give
+  std::uint64_t shed = 0;                   // commands for which the model let go of forces that the motor cannot make
+  double least_share = 1;                   // of all forces that it then kept
   fault_counts faults;
   fault_report last_fault;
   histogram lateness;        // of the wake-ups [ns]

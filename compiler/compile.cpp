@@ -10,12 +10,14 @@
 #include "decompose/slip_laws.hpp"
 #include "discretise/element_names.hpp"
 #include "discretise/discretise.hpp"
+#include "discretise/rounding.hpp"
 #include "discretise/tunable_network.hpp"
 #include "law/representable.hpp"
 #include "linear/reach.hpp"
 #include "linear/validity.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/roll.hpp"
+#include "lower/shed.hpp"
 #include "network/port_units.hpp"
 #include "slip_choice.hpp"
 #include "syntax/parse_network.hpp"
@@ -84,6 +86,12 @@ void tell_of_slips(Compilation& c) {
   const bool is_proved = c.certificate.bound.proof != Proof::none;
   choice.minimum_damping = is_proved ? std::optional(c.certificate.minimum_damping) : std::nullopt;
   choice.certified = is_proved ? std::optional(c.certificate.certified) : std::nullopt;
+}
+
+// Of the scalar's numbers those below, so that the device clips nothing of what rounding has left.
+MotorReach reach_of(const SampledLoop& loop, ScalarType scalar) {
+  const double below = 1 - 8 * unit_roundoff(scalar);
+  return {loop.max_force * below, largest_change(loop) * below};
 }
 
 // False, with a diagnostic, where states follow an estimate beside tunable parameters: only if they follow the position
@@ -170,6 +178,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   const SampledLoop loop = sampled_loop(result.port, 1 / result.rate);
   result.certificate =
       certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
+  if (result.certificate.limits.rule == LimitRule::sheds)
+    result.law = with_shedding(std::move(result.law), reach_of(loop, choices.scalar), result.network.port_motion);
   if (!result.port.is_ideal() && !is_tunable && result.form.has_slips()) tell_of_slips(result);
   tell_what_is_felt(result, present, choices, result.port);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;

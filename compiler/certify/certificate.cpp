@@ -67,11 +67,29 @@ PassivityBound hold_statement(const MotorConstants& motor, const SampledLoop& lo
   return within_range(bound);
 }
 
-constexpr double hardly_less = 1 - 1e-8;  // for which no statement is given up that is checked in rational numbers
-
 std::string not_proved_for(const SampledLoop& loop) {
   return fmt::format("nothing is proved for the estimator {} in the motor", name_of(loop.velocity.estimator));
 }
+
+// A slew that is enough costs as an amplifier's lag does; one that is not is a force that nobody asked for.
+PassivityBound with_slew(PassivityBound bound, const MotorConstants& motor, const SampledLoop& loop) {
+  if (loop.motor_slew == 0 || bound.proof == Proof::none || motor.is_idle()) return bound;
+  if (loop.amplifier_lag > 0) return not_proved("the amplifier lags, and its slew is limited");
+  const std::optional<double> used = slew_needed(motor, loop);
+  if (!used)
+    return not_proved(
+        "how fast the motor's force has to change is not bounded: it follows the velocity estimate, or the encoder's "
+        "range and largest speed are not stated");
+  if (*used > loop.motor_slew)
+    return not_proved(fmt::format("the motor's force may have to change by {:.6g} a second, and slews by {:.6g}", *used,
+                                  loop.motor_slew));
+  const std::optional<double> besides = damping_for_slew(motor, *used, loop);
+  if (!besides) return not_proved(not_proved_for(loop));
+  bound.needed = (bound.needed + *besides) * (1 + 1e-15);
+  return within_range(bound);
+}
+
+constexpr double hardly_less = 1 - 1e-8;  // for which no statement is given up that is checked in rational numbers
 
 double nearest(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? value : static_cast<double>(static_cast<float>(value));
@@ -87,9 +105,8 @@ double sum_above(double x, double y, ScalarType scalar) {
   return static_cast<double>(nearest);
 }
 
-}  // namespace
-
-PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms) {
+// Of a motor that gives at once what it is asked for.
+PassivityBound prompt_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms) {
   PassivityBound bound;
   if (!motor) {
     bound.reason = "the law is not one linear law";
@@ -117,6 +134,13 @@ PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const
   return sampled_statement(position_driven, loop, {}, besides, terms);
 }
 
+}  // namespace
+
+PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms) {
+  const PassivityBound bound = prompt_bound(motor, loop, terms);
+  return motor ? with_slew(bound, *motor, loop) : bound;
+}
+
 // Least bounds add up, and of two statements the weaker is left.
 PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop) {
   PassivityBound bound;
@@ -125,6 +149,7 @@ PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& sl
   bound.any_regime = true;
   if (bound.proof == Proof::none) return bound;
   const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
+  if (loop.motor_slew > 0) return not_proved("the motor's slew is limited, and its force behind slips jumps");
   if (slips.lets_go_by_estimate && is_late)
     return not_proved("the contact lets go by a velocity estimate, and the loop is late");
   const bool is_punctual = loop.amplifier_lag > 0;  // what is proved with a lag is proved for punctual samples
@@ -198,6 +223,7 @@ double rounding_of_step(const UpdateLaw& law) {
 // What is lacking at the worst place of the box, as a need against the least brake.
 PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   if (!box.hindrance.empty()) return not_proved(box.hindrance);
+  if (loop.motor_slew > 0) return not_proved("the motor's slew is limited, and parameters change");
   PassivityBound bound;
   bound.needed = box.lacking + box.largest_brake;
   if (!std::isfinite(bound.needed)) return within_range(bound);
@@ -295,6 +321,7 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
   else if (slips && !law.tunable)
     result.quantisation_gain = quantisation_gain(linear_motor_constants(law), *slips, loop);
   if (!motor) result.energy.rounding_share = rounding_of_step(law);
+  result.limits = motor_limits(law, slips, loop, result.bound.needed, assured);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;
 }

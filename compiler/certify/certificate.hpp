@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "certify/energy_lemma.hpp"
+#include "certify/motor_limits.hpp"
 #include "certify/sampled_bound.hpp"
 #include "certify/slip_motor.hpp"
 
@@ -41,6 +42,7 @@ struct Certificate {
   double added_damping = 0;    // what has been added [N·s/m]
   bool certified = false;      // assured ≥ needed, compared exactly
   EnergyLemma energy;
+  MotorLimits limits;  // of the motor, beside what is above, which speaks of one that gives what it is asked for
   double quantisation_stiffness = 0;        // 2 f_c/Δ [N/m]; 0 where the encoder's step or the friction is not stated
   std::optional<double> quantisation_gain;  // K, which friction pays for up to 2 f_c/Δ [N/m]; empty: not bounded
 };

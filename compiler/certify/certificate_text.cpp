@@ -97,6 +97,7 @@ std::string to_text(const Certificate& c, motion port_motion) {
   const PortUnits units = port_units(port_motion);
   std::string text;
   for (const std::string& line : passivity_lines(c, units.damping)) text += line + "\n";
+  for (const std::string& line : to_lines(c.limits, c.loop, units)) text += line + "\n";
   return c.loop.encoder_step > 0 ? text + quantisation_text(c, units) : text;
 }
 

@@ -1,5 +1,7 @@
 #include "certify/sampled_loop.hpp"
 
+#include <algorithm>
+
 namespace dashpot::compiler {
 namespace {
 
@@ -30,6 +32,12 @@ SampledLoop sampled_loop(const PortDevice& device, double sample_period) {
   loop.device_damping = joint.mechanics.damping * device.damping_scale();
   loop.coulomb_friction = joint.mechanics.coulomb_friction / device.position_scale();
   loop.encoder_step = joint.encoder.step * device.position_scale();
+  loop.max_force = joint.motor.max_torque / device.position_scale();
+  loop.motor_slew = joint.motor.slew / device.position_scale();
+  loop.tool_speed = joint.encoder.max_speed * device.position_scale();
+  if (joint.encoder.range_low != joint.encoder.range_high)
+    loop.travel =
+        (std::max(joint.encoder.range_high, 0.0) - std::min(joint.encoder.range_low, 0.0)) * device.position_scale();
   loop.velocity = joint.velocity;
   loop.joint_encoder_step = joint.encoder.step;
   return loop;

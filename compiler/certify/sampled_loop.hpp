@@ -22,6 +22,10 @@ struct SampledLoop {
   double device_damping = 0;      // the mechanics' own [N·s/m]
   double coulomb_friction = 0;    // [N]
   double encoder_step = 0;        // Δ [m]
+  double max_force = 0;           // of the motor [N]; 0: unlimited
+  double motor_slew = 0;          // of its force [N/s]; 0: unlimited
+  double tool_speed = 0;          // the largest, at the tool [m/s]; 0: not stated
+  double travel = 0;              // between the ends of the encoder's range, 0 among them [m]; 0: not stated
   velocity_description velocity;  // in the joint's coordinate
   double joint_encoder_step = 0;  // what the estimator is built with [m] or [rad]
 

@@ -152,6 +152,11 @@ Json json_of(const PortUnits& units) {
           {"extra_damping_any_delay", units.damping},
           {"quantisation_gain", units.stiffness},
           {"unpaid_force", units.force},
+          {"max_force", units.force},
+          {"largest_force", units.force},
+          {"largest_discontinuity", units.force},
+          {"slew", units.force + "/s"},
+          {"slew_needed", units.force + "/s"},
           {"hysteresis", units.position},
           {"at", units.position},
           {"displacement", units.position},
@@ -172,6 +177,19 @@ Json json_of(const Certificate& c) {
           {"quantisation_stiffness", c.quantisation_stiffness > 0 ? Json(c.quantisation_stiffness) : Json(nullptr)},
           {"quantisation_gain", or_null(c.quantisation_gain)},
           {"unpaid_force", c.loop.encoder_step > 0 && c.quantisation_gain ? Json(unpaid_force(c)) : Json(nullptr)}};
+}
+
+// null: unlimited, or not bounded beforehand.
+Json json_of(const MotorLimits& limits, const SampledLoop& loop) {
+  return {{"max_force", loop.max_force > 0 ? Json(loop.max_force) : Json(nullptr)},
+          {"slew", loop.motor_slew > 0 ? Json(loop.motor_slew) : Json(nullptr)},
+          {"rule", name_of(limits.rule)},
+          {"covered", limits.is_covered},
+          {"needed_damping", limits.needed > 0 ? Json(limits.needed) : Json(nullptr)},
+          {"reason", limits.reason},
+          {"largest_force", or_null(limits.largest_force)},
+          {"slew_needed", or_null(limits.slew_needed)},
+          {"largest_discontinuity", or_null(limits.largest_discontinuity)}};
 }
 
 // What `faithful` was chosen by; null for another choice, and without a device.
@@ -233,6 +251,7 @@ std::string explain_json(const Compilation& c) {
               {"regimes", regimes_of(c)},
               {"slip_laws", slip_laws_of(c)},
               {"certificate", json_of(c.certificate)},
+              {"motor_limits", c.device ? json_of(c.certificate.limits, c.certificate.loop) : Json(nullptr)},
               {"notes", notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)},
               {"chosen", choice.name},
               {"choice", json_of_choice(c.decomposition)},

@@ -140,6 +140,10 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
   facts.push_back(fmt::format("any delay of the estimate: {:.6g} {} of extra damping keep an exact brake passive",
                               choice.extra_damping_any_delay.value_or(0), unit));
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
+  if (c.law.sheds())
+    for (const std::string& line :
+         to_lines(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion)))
+      facts.push_back(line);
   facts.push_back(
       fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
   if (c.law.tunable) describe_tunables(*c.law.tunable, unit, facts);

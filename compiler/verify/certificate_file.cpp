@@ -73,6 +73,20 @@ Json json_of(const Certificate& c) {
           {"quantisation_gain", c.quantisation_gain ? Json(*c.quantisation_gain) : Json(nullptr)}};
 }
 
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json json_of(const MotorLimits& limits, const SampledLoop& loop) {
+  return {{"max_force", loop.max_force},
+          {"slew", loop.motor_slew},
+          {"rule", name_of(limits.rule)},
+          {"covered", limits.is_covered},
+          {"needed_damping", limits.needed},
+          {"reason", limits.reason},
+          {"largest_force", or_null(limits.largest_force)},
+          {"slew_needed", or_null(limits.slew_needed)},
+          {"largest_discontinuity", or_null(limits.largest_discontinuity)}};
+}
+
 Json json_of(const EnergyLemma& lemma) {
   return {{"applies", lemma.applies},
           {"holds", lemma.holds},
@@ -126,6 +140,7 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
                     {"loop", json_of(c.certificate.loop)},
                     {"passivity", json_of(c.certificate)},
                     {"energy", json_of(c.certificate.energy)},
+                    {"motor_limits", json_of(c.certificate.limits, c.certificate.loop)},
                     {"network_file", network_text},
                     {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
   return all.dump(2) + "\n";

@@ -198,6 +198,87 @@ class Json(CommandTest):
             self.assertLessEqual(set(candidate) - set(regime), {"state_inputs"})
 
 
+class MotorLimits(CommandTest):
+    """A wall of 1 kN/m at 1 kHz, at most 50 mm from where it is at rest, pressed at 0.5 m/s at most."""
+
+    def explained(self, network="wall.json", choice="velocity-free", **motor):
+        self.write("wall.json", '{ "dashpot": 1, "name": "wall", "network": { "spring": "1 kN/m" } }')
+        self.write("slip.json", '{ "dashpot": 1, "name": "slip", "network": { "series": [{ "spring": "1 kN/m" }, { "slip": "9 N" }] } }')
+        device = {"dashpot_device": 1, "name": "slewing", "motion": "translation", "loop": {"rate": "1 kHz"},
+                  "encoder": {"resolution": "1 um", "range": ["-10 mm", "40 mm"], "max_speed": "0.5 m/s"},
+                  "velocity": {"estimator": "backward_difference", "window": 4}, "motor": motor,
+                  "brake": {"kind": "eddy_current", "max_damping": "20 N s/m"}, "mechanics": {"damping": "0.5 N s/m", "inertia": "50 g"}}
+        self.write("slewing.json", json.dumps(device))
+        arguments = [network, "--device", "slewing.json", "--decomposition", choice]
+        self.text = self.dashpot("explain", *arguments).stdout
+        return json.loads(self.dashpot("explain", *arguments, "--json").stdout)
+
+    def test_a_limit_that_never_binds(self):
+        """Fails if what the motor can make anyway is said to be cut, or the largest force is not k R."""
+        limits = self.explained(max_torque="51 N")["motor_limits"]
+        self.assertAlmostEqual(limits["largest_force"], 50, delta=1e-9)
+        self.assertAlmostEqual(limits["slew_needed"], 500, delta=1e-8)
+        self.assertEqual((limits["rule"], limits["covered"], limits["needed_damping"]), ("none", True, None))
+        self.assertIn("largest force: the law asks for up to 50 N within the encoder's range, the motor gives 51 N\n", self.text)
+        self.assertNotIn("at the limit", self.text)
+
+    def test_a_motor_that_clips(self):
+        """Fails if a limit costs a wall more damping than K T/2, which it needs anyway."""
+        found = self.explained(max_torque="8 N")
+        limits = found["motor_limits"]
+        self.assertEqual((limits["rule"], limits["covered"]), ("clamps", True))
+        self.assertAlmostEqual(limits["needed_damping"], 0.5, delta=1e-9)
+        self.assertLess(found["certificate"]["added_damping"], 1e-15)  # K T rounded up
+        self.assertIn("at the limit: the motor clips, and no energy comes of it with the 0.5 N s/m", self.text)
+
+    def test_a_slew_that_is_enough_costs_damping(self):
+        """Fails if a slewing motor is taken for one that follows at once: K T/2 and K T √(σ/3ρ)."""
+        found = self.explained(max_torque="8 N", slew="2 kN/s")
+        needed = 0.5 + 1000e-3 * (500 / 6000) ** 0.5
+        self.assertAlmostEqual(found["certificate"]["needed_damping"], needed, delta=1e-9)
+        self.assertTrue(found["certificate"]["certified"])
+        self.assertEqual((found["motor_limits"]["rule"], found["motor_limits"]["covered"]), ("clamps", True))
+        self.assertIn("slew: 500 N/s follow any motion within range and speed, the motor has 2000 N/s\n", self.text)
+
+    def test_a_discontinuity_is_covered_by_spare_damping(self):
+        """Fails if the largest force that may vanish is not that of the spare damping: F0 (1 + 3/2N + ...) = 6 rho x/K."""
+        found = self.explained(choice="virtual", slew="2 kN/s")
+        self.assertEqual(found["motor_limits"]["largest_discontinuity"], 0)
+        device = json.loads((self.folder / "slewing.json").read_text())
+        device["mechanics"]["damping"] = "2.7886751345948 N s/m"
+        self.write("damped.json", json.dumps(device))
+        damped = json.loads(self.dashpot("explain", "wall.json", "--device", "damped.json", "--decomposition", "virtual", "--json").stdout)
+        force = damped["motor_limits"]["largest_discontinuity"]
+        steps = force / 2
+        self.assertAlmostEqual(force * (1 + 1.5 / steps + (0.5 + 3 ** 0.5 / 36) / steps ** 2), 24, delta=1e-6)
+
+    def test_a_slew_that_is_too_little(self):
+        """Fails if a law is certified on a motor that cannot follow it, or does not shed there."""
+        found = self.explained(slew="499 N/s")
+        self.assertEqual((found["motor_limits"]["rule"], found["motor_limits"]["covered"]), ("sheds", False))
+        self.assertFalse(found["certificate"]["certified"])
+        self.assertIn("may have to change by 500 a second, and slews by 499", found["certificate"]["reason"])
+
+    def test_slips_shed(self):
+        """Fails if a network with slips clips where its motor gives less than they hold, or its header does not tell."""
+        limits = self.explained("slip.json", max_torque="8 N")["motor_limits"]
+        self.assertEqual((limits["rule"], limits["covered"]), ("sheds", True))
+        self.dashpot("compile", "slip.json", "--device", "slewing.json", "--decomposition", "velocity-free", "--certificate", "slip_certificate.json")
+        header = (self.folder / "slip.hpp").read_text()
+        self.assertIn("scalar kept_share() const noexcept", header)
+        self.assertIn("// at the limit: the law sheds", header)
+        self.dashpot("verify", "slip_certificate.json", "slip.hpp")
+
+    def test_a_header_says_nothing_of_a_limit_that_cannot_bind(self):
+        """Fails if a law is changed by a limit that it never reaches."""
+        headers = []
+        for motor in [{"max_torque": "51 N"}, {}]:
+            self.explained(**motor)
+            self.dashpot("compile", "wall.json", "--device", "slewing.json", "--decomposition", "velocity-free")
+            headers.append(re.sub(r'device_digest = "[0-9a-f]*"', "", (self.folder / "wall.hpp").read_text()))
+        self.assertEqual(*headers)
+
+
 class Text(CommandTest):
     def test_names_every_candidate_and_the_choice(self):
         """Fails if the text for people leaves out a candidate, its damping or the reason."""

@@ -1,0 +1,211 @@
+#include "certify/motor_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "certify/estimator_factors.hpp"
+#include "certify/hold_bound.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// √3/36, of B₃(x) = x³ − 3/2 x² + ½ x over 0 … 1: what a last step that is no whole one adds.
+constexpr double largest_bernoulli = 0.04811252243246881;
+
+constexpr double margin = 1 + 1e-12;  // beyond what rounding does to these few sums
+
+// β and what the estimate adds to it, γ|g|/h [N/m].
+struct Gains {
+  double position = 0;
+  double estimate = 0;
+  double dampers = 0;  // that cross the cut and are not the brake's [N·s/m]
+  std::string hindrance;
+
+  double all() const { return (position + estimate) * margin; }
+};
+
+double position_stiffness(MotorConstants motor) {
+  motor.velocity_gain = 0;
+  return hold_stiffness(motor).convert_to<double>() * margin;
+}
+
+void add_estimate(double damping, const SampledLoop& loop, Gains& gains) {
+  if (damping == 0) return;
+  const std::optional<double> gain = estimate_gain(loop);
+  if (!gain) gains.hindrance = "nothing is known of the gain of its velocity estimator";
+  else gains.estimate += damping * *gain / loop.sample_period;
+}
+
+Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
+  Gains gains;
+  if (linear.estimate_drives_modes()) gains.hindrance = "the velocity estimate drives the states";
+  const bool is_beside = !slips || !slips->behind_contact;
+  if (is_beside && gains.hindrance.empty()) {
+    gains.position = position_stiffness(linear);
+    add_estimate(std::abs(linear.velocity_gain), loop, gains);
+  }
+  if (!slips) return gains;
+  gains.position += slips->stiffness;
+  gains.dampers = slips->damping;
+  const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
+  // What a ramp takes back its own excess pays for, as long as it acts on the same hold.
+  add_estimate(slips->compensation + (is_late ? slips->held_compensation : 0), loop, gains);
+  if (is_late && !slips->springs_alone) gains.hindrance = "dampers are behind the slips, and the loop is late";
+  if (is_late && slips->lets_go_by_estimate)
+    gains.hindrance = "the contact lets go by an estimate, and the loop is late";
+  return gains;
+}
+
+// L of the contract [s].
+double time_of_lag(const SampledLoop& loop) {
+  const double lag = loop.amplifier_lag;
+  if (!(lag > 0)) return 0;
+  const double kept = -std::expm1(-(loop.sample_period - loop.jitter) / lag);  // 1 − q
+  const double lost = -std::expm1(-2 * loop.longest_hold() / lag);             // 1 − q_T²
+  return 2 * std::sqrt(loop.longest_hold() * lag * lost / 2) / kept * margin;
+}
+
+// F_i = c_i (u − q_i), q_i an average of where the tool has been: within the travel R no more than c_i R.
+std::optional<double> largest_force(const Gains& gains, const MotorConstants& linear,
+                                    const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
+  if (!(loop.travel > 0) || gains.estimate > 0 || !gains.hindrance.empty() || gains.dampers > 0) return std::nullopt;
+  double stiffness = slips ? 2 * slips->stiffness : 0;
+  if (!slips || !slips->behind_contact) stiffness += linear.static_stiffness + linear.step_stiffness;
+  return stiffness * loop.travel * margin;
+}
+
+// Of the spring that holds before anything gives way.
+double stiffness_of(const MotorConstants& linear, const std::optional<SlipMotor>& slips) {
+  const double beside = slips && slips->behind_contact ? 0 : linear.static_stiffness + linear.step_stiffness;
+  return beside + (slips ? 2 * slips->stiffness : 0);
+}
+
+bool is_enough(const std::optional<double>& wanted, double given) { return given == 0 || (wanted && *wanted <= given); }
+
+// Whether the hold certificate asks for the same, which is known to the last bit: up to a slack between the two of
+// which nothing else that is proved of a law can be (certificate.cpp).
+constexpr double as_good_as_one = 1 - 1e-9;
+
+bool is_same_statement(const Gains& gains, const MotorConstants& linear, const std::optional<SlipMotor>& slips,
+                       const SampledLoop& loop) {
+  const bool is_prompt = loop.delay_samples == 0 && linear.velocity_gain == 0;
+  return loop.amplifier_lag == 0 && (gains.estimate == 0 || (slips && is_prompt));
+}
+
+std::string too_little(double needed, double assured) {
+  return fmt::format("it needs {:.6g} of damping in all, and {:.6g} is there", needed, assured);
+}
+
+}  // namespace
+
+std::string_view name_of(LimitRule rule) {
+  switch (rule) {
+    case LimitRule::none: return "none";
+    case LimitRule::clamps: return "clamps";
+    case LimitRule::sheds: return "sheds";
+  }
+  return "";
+}
+
+double largest_change(const SampledLoop& loop) {
+  return loop.motor_slew * std::max(loop.sample_period - loop.jitter, 0.0);
+}
+
+std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop& loop) {
+  const double shortest = loop.sample_period - loop.jitter;
+  if (!(loop.travel > 0) || !(loop.tool_speed > 0) || !(shortest > 0) || motor.follows_estimate()) return std::nullopt;
+  double change = (motor.static_stiffness + motor.step_stiffness) * loop.tool_speed * loop.longest_hold();
+  for (const MotorMode& mode : motor.modes)
+    change += (mode.decay > 0 ? mode.position_drive / mode.decay : mode.position_drive) * loop.travel * mode.loss;
+  return change / shortest * margin;
+}
+
+std::optional<double> damping_for_slew(const MotorConstants& motor, double used, const SampledLoop& loop) {
+  const Gains gains = gains_of(motor, std::nullopt, loop);
+  if (!gains.hindrance.empty()) return std::nullopt;
+  return 2 * gains.all() * loop.longest_hold() * std::sqrt(used / (3 * loop.motor_slew)) * margin;
+}
+
+double covered_discontinuity(double slew, double spare_damping, double stiffness, double sample_period) {
+  if (!(slew > 0 && spare_damping > 0 && stiffness > 0)) return 0;
+  // F0² − (6 ρ x/K − 3/2 ρT) F0 + (½ + B) (ρT)² ≤ 0
+  const double step = slew * sample_period, sum = 6 * slew * spare_damping / stiffness - 1.5 * step;
+  const double discriminant = sum * sum - 4 * (0.5 + largest_bernoulli) * step * step;
+  const double force = sum > 0 && discriminant >= 0 ? (sum + std::sqrt(discriminant)) / 2 : 0;
+  return force >= step ? force : 0;
+}
+
+MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& slips, const SampledLoop& loop,
+                         double needed, const Rational& assured) {
+  MotorLimits limits;
+  if (!loop.has_device) return limits;
+  const bool is_limited = loop.max_force > 0 || loop.motor_slew > 0;
+  if (law.tunable) {
+    if (!is_limited) return limits;
+    limits.rule = LimitRule::clamps;
+    limits.is_covered = false;
+    limits.reason = "its parameters change while it runs";
+    return limits;
+  }
+  const MotorConstants linear = linear_motor_constants(law);
+  const Gains gains = gains_of(linear, slips, loop);
+  limits.largest_force = largest_force(gains, linear, slips, loop);
+  if (!slips) limits.slew_needed = slew_needed(linear, loop);
+  if (loop.motor_slew > 0)
+    limits.largest_discontinuity = covered_discontinuity(loop.motor_slew, assured.convert_to<double>() - needed,
+                                                         stiffness_of(linear, slips), loop.sample_period);
+  const bool slew_is_enough = is_enough(limits.slew_needed, loop.motor_slew);
+  if (is_enough(limits.largest_force, loop.max_force) && slew_is_enough) return limits;
+  limits.rule = slips || linear.follows_estimate() || !slew_is_enough ? LimitRule::sheds : LimitRule::clamps;
+  limits.reason = gains.hindrance;
+  if (!slew_is_enough) limits.reason = "its force may have to fall faster than the motor's slew";
+  if (loop.motor_slew > 0 && loop.amplifier_lag > 0) limits.reason = "the amplifier lags, and its slew is limited";
+  if (limits.reason.empty()) {
+    const double slew_time =
+        loop.motor_slew > 0 ? 2 * loop.longest_hold() * std::sqrt(*limits.slew_needed / (3 * loop.motor_slew)) : 0;
+    const double late = (1 + 2.0 * loop.delay_samples) * loop.longest_hold() + time_of_lag(loop) + slew_time;
+    limits.needed = gains.all() * late + gains.dampers * loop.longest_hold() / loop.sample_period * margin;
+    if (is_same_statement(gains, linear, slips, loop) && needed >= limits.needed * as_good_as_one)
+      limits.needed = needed;
+    // Behind a contact the brake leaves a free tool alone, which touches late.
+    const bool is_alone = slips && slips->behind_contact && (loop.delay_samples > 0 || loop.amplifier_lag > 0);
+    const Rational there = is_alone ? assured_damping(loop, 0) : assured;
+    if (!std::isfinite(limits.needed) || Rational(limits.needed) > there)
+      limits.reason = too_little(limits.needed, there.convert_to<double>());
+  }
+  limits.is_covered = limits.reason.empty();
+  return limits;
+}
+
+std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& loop, const PortUnits& units) {
+  std::vector<std::string> lines;
+  if (!loop.has_device) return lines;
+  const std::string rate = units.force + "/s";
+  std::string asked = limits.largest_force ? fmt::format("asks for up to {:.6g} {} within the encoder's range",
+                                                         *limits.largest_force, units.force)
+                                           : std::string("asks for a force that is not bounded beforehand");
+  if (loop.max_force > 0) asked += fmt::format(", the motor gives {:.6g} {}", loop.max_force, units.force);
+  if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: the law " + asked);
+  if (limits.slew_needed || loop.motor_slew > 0)
+    lines.push_back("slew: " +
+                    (limits.slew_needed
+                         ? fmt::format("{:.6g} {} follow any motion within range and speed", *limits.slew_needed, rate)
+                         : std::string("what would follow any motion is not known beforehand")) +
+                    (loop.motor_slew > 0 ? fmt::format(", the motor has {:.6g} {}", loop.motor_slew, rate) : ""));
+  if (limits.largest_discontinuity)
+    lines.push_back(fmt::format(
+        "discontinuity: up to {:.6g} {} may vanish at once: what the slew costs is less than the springs let go",
+        *limits.largest_discontinuity, units.force));
+  if (limits.rule == LimitRule::none) return lines;
+  const char* does = limits.rule == LimitRule::sheds ? "the law sheds, all its forces by one share" : "the motor clips";
+  lines.push_back(
+      limits.is_covered
+          ? fmt::format("at the limit: {}, and no energy comes of it with the {:.6g} {} that it needs", does,
+                        limits.needed, units.damping)
+          : fmt::format("at the limit: {}; that no energy comes of it is not proved: {}", does, limits.reason));
+  return lines;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,70 @@
+// What the motor's limit and slew do to what is proved (theory, section 10).
+//
+// Clamp: a linear law that position drives, without an estimate of the velocity, may hold φ(m) in place of m for any
+// fixed nondecreasing φ of slope at most 1 with φ(0) = 0; β stays. (1/H of force per increment is a Zames-Falb
+// multiplier, since H is completely monotone.)
+//
+// Shed: any other law multiplies all its forces by one s in [0, 1], so that its command is within the limit. Its
+// storage falls to s²V, and the next step starts from a state like any other. Its part c of position then changes by
+//     |Δc| ≤ |D| + |w| + |w₋|,        D what it would have changed by,   w = g v̂ what the estimate adds,
+// for s brings c no further back than to the limit, within which it was before. So ‖Δc‖ ≤ 2 β ‖Δu‖ + 2 ‖w‖, as without
+// a limit but for w, and ‖w‖ ≤ |g| γ ‖Δu‖/h whatever s does to it. With β′ = β + |g| γ/h, n samples of delay, an
+// amplifier's lag τ and a slew ρ of which the law uses σ at most, a physical damping of
+//     β′ ((1 + 2n) T + L + S)
+//     L = 2 √(T τ (1 − q²_T)/2)/(1 − q),   q = e^{−(h − j)/τ},   q_T = e^{−T/τ},      S = 2 T √(σ/3ρ)
+// is enough for any motion, sample by sample. L and S are shortfalls: where the motor is off by e(t) while x of the
+// damping is not needed for anything else, it costs at most ∫e²/4x dt.
+//
+// A force F0 that ought to vanish at once and falls by ρT a period costs no more than the F0²/2K that a spring K no
+// longer holds where F0 (1 + 3/2N + (½ + B)/N²) ≤ 6 ρ x/K, N = F0/ρT ≥ 1, with B = √3/36 for a last step that is not a
+// whole one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certify/sampled_loop.hpp"
+#include "certify/slip_motor.hpp"
+#include "network/port_units.hpp"
+
+namespace dashpot::compiler {
+
+enum class LimitRule {
+  none,    // no limit is stated, or it never binds
+  clamps,  // the motor clips, the states do not know
+  sheds,   // the law shrinks its states
+};
+
+std::string_view name_of(LimitRule rule);  // "none", "clamps", "sheds"
+
+struct MotorLimits {
+  LimitRule rule = LimitRule::none;
+  bool is_covered = true;               // with the damping that is there, whatever the motor clips or the law sheds
+  double needed = 0;                    // for that, all in all [N·s/m]; 0 where none is, or where nothing is known
+  std::string reason;                   // why it is not covered; empty where it is
+  std::optional<double> largest_force;  // asked for within the encoder's range [N]; empty: not bounded
+  std::optional<double> slew_needed;    // to follow at any speed that is stated [N/s]; empty: not bounded
+  std::optional<double> largest_discontinuity;  // of the force that the slew covers [N]; empty where no slew is stated
+};
+
+// Of a law before anything is shed. `slips` as in the certificate; `needed` and `assured` the certificate's [N·s/m].
+MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& slips, const SampledLoop& loop,
+                         double needed, const Rational& assured);
+
+// (k0 + Σ c_i) v T/(h − j) + Σ |F_i| (1 − a_i)/(h − j), not below it, of a linear law; empty where it is not bounded.
+std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop& loop);
+
+// 2 β′ T √(σ/3ρ): what a slew costs that is enough, σ of ρ being used; empty where the estimator's gain is not known.
+std::optional<double> damping_for_slew(const MotorConstants& motor, double used, const SampledLoop& loop);
+
+// The largest such F0; 0 where there is none.
+double covered_discontinuity(double slew, double spare_damping, double stiffness, double sample_period);
+
+// What one period may change the motor's force by, ρ (h − j) [N]; 0: unlimited.
+double largest_change(const SampledLoop& loop);
+
+std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& loop, const PortUnits& units);
+
+}  // namespace dashpot::compiler

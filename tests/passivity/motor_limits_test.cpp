@@ -1,0 +1,281 @@
+// What is said of the motor's limit and slew, against motions that take as much energy as they can: from sample to
+// sample the tool may go anywhere, often to where it takes most, and the brake takes what a constant damping takes at a
+// constant speed over a hold.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <deque>
+
+#include "certify/motor_limits.hpp"
+#include "law/evaluate.hpp"
+#include "lower/shed.hpp"
+#include "random_cases.hpp"
+#include "support/random_network.hpp"
+#include "support/repetitions.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using namespace dashpot::compiler;
+
+int runs() { return static_cast<int>(repetitions(200, 10'000)); }
+
+// A motor that gives little of what is asked for, behind a lag or not.
+void limit(CompiledCase& one, Random& random) {
+  device_description& d = one.device.description;
+  d.motor.amplifier_lag = random.chance(0.7) ? 0 : random.log_uniform(0.05, 2) * d.loop.sample_period;
+  d.motor.max_torque = random.log_uniform(1e-3, 1e1);
+  Diagnostics diagnostics;
+  one.compilation = compile(*one.source, one.choices, one.device, diagnostics);
+}
+
+CompiledCase linear_case(std::uint64_t seed, const char* decomposition) {
+  CompiledCase one;
+  Random random(seed);
+  one.device = random_device(random);
+  NetworkRecipe recipe;
+  recipe.most_nodes = 6;
+  recipe.smallest_value = 1e-1;
+  recipe.largest_value = 1e3;
+  one.source = std::make_unique<SourceFile>("random.json", json_text(random_network(seed, recipe)));
+  one.choices.decomposition = decomposition;
+  one.choices.state_input = StateInput::position;
+  one.choices.scheme = random.chance(0.7) ? Scheme::exact : Scheme::backward_euler;
+  limit(one, random);
+  return one;
+}
+
+// Least energy that has gone in, over the largest exchanged in a period, while a hold takes `damping` [N·s/m].
+struct Balance {
+  double least = 0;
+  int limited = 0;  // samples at which the limit was felt
+};
+
+Balance balance_of(const CompiledCase& one, double damping, Random random, int samples) {
+  const device_description& d = one.device.description;
+  const UpdateLaw& update = one.compilation->law;
+  Evaluation<double> law(update);
+  law.reset(0);
+  any_estimator<double> estimator(d.velocity, d.loop.sample_period, 1e-9);
+  estimator.reset(0);
+  std::deque<double> late(d.loop.delay_samples, 0);
+  const double lag = d.motor.amplifier_lag, limit = one.compilation->certificate.loop.max_force;
+  double energy = 0, least = 0, largest = 0, position = 0, pace = 1e-3, made = 0;
+  Balance balance;
+  for (int k = 0; k < samples; ++k) {
+    device_sample sample{};
+    sample.position = position;
+    late.push_back(law.step(position, estimator.update(sample)).force);
+    const double wanted = late.front();
+    late.pop_front();
+    const double told = std::clamp(wanted, -limit, limit);
+    balance.limited += told != wanted || (update.sheds() && law.value_of(update.share) < 1) ? 1 : 0;
+    const double hold = d.loop.sample_period + (lag == 0 && random.chance(0.5) ? d.loop.jitter : 0);
+    const double kept = lag > 0 ? std::exp(-hold / lag) : 0, mean = lag > 0 ? lag / hold * (1 - kept) : 0;
+    const double force = told + (made - told) * mean;  // over a hold at a constant speed
+    made = told + (made - told) * kept;
+    if (random.chance(0.05)) pace = random.log_uniform(1e-6, 1e2);
+    const double change = random.chance(0.5)
+                              ? (damping > 0 ? -force * hold / (2 * damping) * random.uniform(0.5, 1.5) : 0)
+                          : random.chance(0.2) ? 0
+                                               : pace * random.uniform(-1, 1);
+    const double work = force * change + damping / hold * change * change;
+    energy += work;
+    least = std::min(least, energy);
+    largest = std::max(largest, std::abs(work));
+    position += change;
+  }
+  balance.least = largest > 0 ? least / largest : 0;
+  return balance;
+}
+
+const MotorLimits& limits_of(const CompiledCase& one) { return one.compilation->certificate.limits; }
+
+// A spring pressed beyond what the motor gives would give out energy, or ask for more damping than one that never is.
+TEST(MotorLimits, ClippedLinearLawsGiveOutNoEnergy) {
+  int covered = 0, late = 0, lagging = 0, limited = 0;
+  for (std::uint64_t seed = 1; covered < runs(); ++seed) {
+    SCOPED_TRACE(seed);
+    const CompiledCase one = linear_case(seed, "velocity-free");
+    if (!one.compilation || limits_of(one).rule != LimitRule::clamps || limits_of(one).needed == 0) continue;
+    ++covered;
+    late += one.device.description.loop.delay_samples > 0 ? 1 : 0;
+    lagging += one.device.description.motor.amplifier_lag > 0 ? 1 : 0;
+    EXPECT_FALSE(one.compilation->law.sheds());
+    const Balance balance = balance_of(one, limits_of(one).needed, Random(seed), 1000);
+    limited += balance.limited > 0 ? 1 : 0;
+    EXPECT_GE(balance.least, -1e-9);
+  }
+  EXPECT_GT(late, covered / 20);
+  EXPECT_GT(lagging, covered / 20);
+  EXPECT_GT(limited, covered / 2);
+}
+
+// The statement would not depend on what is proved: the same far below the damping that it asks for gives out energy.
+TEST(MotorLimits, ClippedLinearLawsNeedTheirDamping) {
+  int tried = 0, gained = 0;
+  for (std::uint64_t seed = 1; tried < runs() / 4; ++seed) {
+    const CompiledCase one = linear_case(seed, "velocity-free");
+    if (!one.compilation || limits_of(one).rule != LimitRule::clamps || !(limits_of(one).needed > 0)) continue;
+    if (one.device.description.loop.delay_samples > 0 || one.device.description.motor.amplifier_lag > 0) continue;
+    ++tried;
+    gained += balance_of(one, 0.3 * limits_of(one).needed, Random(seed), 1000).least < -1e-6 ? 1 : 0;
+  }
+  EXPECT_GT(gained, tried / 2);
+}
+
+// A law that follows an estimate of the velocity would give out energy where it sheds.
+TEST(MotorLimits, SheddingLawsWithAnEstimateGiveOutNoEnergy) {
+  int covered = 0, late = 0, limited = 0;
+  for (std::uint64_t seed = 1; covered < runs(); ++seed) {
+    SCOPED_TRACE(seed);
+    const CompiledCase one = linear_case(seed, seed % 2 == 0 ? "virtual" : "paper");
+    if (!one.compilation || limits_of(one).rule != LimitRule::sheds || !(limits_of(one).needed > 0)) continue;
+    ++covered;
+    EXPECT_TRUE(one.compilation->law.sheds());
+    late += one.device.description.loop.delay_samples > 0 ? 1 : 0;
+    const Balance balance = balance_of(one, limits_of(one).needed, Random(seed), 1000);
+    limited += balance.limited > 0 ? 1 : 0;
+    EXPECT_GE(balance.least, -1e-9);
+  }
+  EXPECT_GT(late, covered / 20);
+  EXPECT_GT(limited, covered / 2);
+}
+
+// A slip that yields, or a contact, beyond what the motor gives would give out energy.
+TEST(MotorLimits, SheddingSlipsAndContactsGiveOutNoEnergy) {
+  int covered = 0, touching = 0, late = 0, limited = 0;
+  for (std::uint64_t seed = 1; covered < runs(); ++seed) {
+    SCOPED_TRACE(seed);
+    CompiledCase one = slip_case(seed);
+    if (!one.compilation) continue;
+    Random random(seed);
+    limit(one, random);
+    if (!one.compilation || limits_of(one).rule != LimitRule::sheds || !(limits_of(one).needed > 0)) continue;
+    if (one.compilation->law.brake_changes() && !one.compilation->network.contact) continue;  // the brake's own excess
+    ++covered;
+    touching += one.compilation->network.contact ? 1 : 0;
+    late += one.device.description.loop.delay_samples > 0 ? 1 : 0;
+    const Balance balance = balance_of(one, limits_of(one).needed, Random(seed), 1000);
+    limited += balance.limited > 0 ? 1 : 0;
+    EXPECT_GE(balance.least, -1e-9);
+  }
+  EXPECT_GT(touching, covered / 20);
+  EXPECT_GT(late, covered / 20);
+  EXPECT_GT(limited, covered / 2);
+}
+
+// Shedding would be free: the same far below the damping that it asks for gives out energy, where slips do not take it
+// up.
+TEST(MotorLimits, SheddingSlipsNeedTheirDamping) {
+  int tried = 0, gained = 0;
+  for (std::uint64_t seed = 1; tried < runs() / 4; ++seed) {
+    CompiledCase one = slip_case(seed);
+    if (!one.compilation) continue;
+    Random random(seed);
+    limit(one, random);
+    if (!one.compilation || limits_of(one).rule != LimitRule::sheds || !(limits_of(one).needed > 0)) continue;
+    if (one.compilation->law.brake_changes() || one.device.description.motor.amplifier_lag > 0) continue;
+    ++tried;
+    gained += balance_of(one, 0.2 * limits_of(one).needed, Random(seed), 1000).least < -1e-9 ? 1 : 0;
+  }
+  EXPECT_GT(gained, tried / 10) << gained << " of " << tried;
+}
+
+// A wall on a motor of limited slew, by a law that sheds or by one that does not know: pressed fast, held, and slowly
+// let go of. The motor goes to what it is told as fast as it can. Out: the energy that has gone in [J].
+double pressed_and_let_go(bool sheds, double speed, double damping) {
+  const SourceFile source("wall.json", R"({ "dashpot": 1, "name": "wall", "network": { "spring": "1 kN/m" } })");
+  Diagnostics diagnostics;
+  Choices choices;
+  choices.decomposition = std::string("velocity-free");
+  std::optional<Compilation> wall = compile(source, choices, std::nullopt, diagnostics);
+  const double period = 1e-3, slew = 2000;
+  UpdateLaw update = wall->law;
+  if (sheds) update = with_shedding(std::move(update), {0, slew * period}, motion::translation);
+  Evaluation<double> law(update);
+  law.reset(0);
+  double energy = 0, position = 0, made = 0;
+  const auto move_by = [&](double change) {
+    const double told = law.step(position, 0).force,
+                 reached = std::clamp(told, made - slew * period, made + slew * period);
+    const double ramp = std::abs(told - made) / slew, share = std::min(ramp / period, 1.0);
+    energy += (reached * (1 - share) + (made + reached) / 2 * share) * change + damping / period * change * change;
+    made = reached;
+    position += change;
+  };
+  for (int k = 0; k < 4; ++k) move_by(speed * period);
+  for (int k = 0; k < 100; ++k) move_by(0);
+  for (int k = 0; k < 400; ++k) move_by(-position / (400 - k));
+  return energy;
+}
+
+// What the motor cannot follow would be given back: a spring that is pressed while the motor is late takes nothing, and
+// gives all of ½ K u² back.
+TEST(MotorLimits, SlewGivesNothingBackThatItDidNotTake) {
+  EXPECT_LT(pressed_and_let_go(false, 10, 1e-3), -0.5);
+  EXPECT_GE(pressed_and_let_go(true, 10, 1e-3), 0);
+}
+
+// Commands of a law that sheds would be beyond what the motor can follow, or a law would be changed where it can.
+TEST(MotorLimits, CommandsStayWithinLimitAndSlew) {
+  int shed = 0;
+  for (std::uint64_t seed = 1; seed <= std::uint64_t(runs()); ++seed) {
+    SCOPED_TRACE(seed);
+    CompiledCase one = seed % 2 == 0 ? slip_case(seed) : linear_case(seed, "virtual");
+    if (!one.compilation || one.compilation->law.sheds()) continue;
+    Random random(seed);
+    const UpdateLaw& plain = one.compilation->law;
+    if (plain.tunable) continue;
+    const MotorReach reach = {random.log_uniform(1e-3, 1), random.chance(0.5) ? random.log_uniform(1e-4, 1) : 0};
+    const UpdateLaw wide = with_shedding(plain, {1e300, reach.step > 0 ? 1e300 : 0}, motion::translation);
+    const UpdateLaw narrow = with_shedding(plain, reach, motion::translation);
+    Evaluation<double> alone(plain), free(wide), held(narrow);
+    for (Evaluation<double>* law : {&alone, &free, &held}) law->reset(0);
+    double position = 0, last = 0;
+    for (int k = 0; k < 300; ++k) {
+      const double velocity = random.uniform(-1, 1);
+      const command<double> expected = alone.step(position, velocity), same = free.step(position, velocity);
+      ASSERT_EQ(expected.force, same.force) << k;
+      ASSERT_EQ(alone.stored_energy(), free.stored_energy()) << k;
+      const double force = held.step(position, velocity).force;
+      ASSERT_LE(std::abs(force), reach.limit);
+      if (reach.step > 0) {
+        ASSERT_LE(std::abs(force - last), reach.step * (1 + 1e-12));
+      }
+      shed += held.value_of(narrow.share) < 1 ? 1 : 0;
+      last = force;
+      position += random.log_uniform(1e-6, 1e-1) * random.uniform(-1, 1);
+    }
+  }
+  EXPECT_GT(shed, runs());
+}
+
+// A puncture would cost more than the spring held, or the largest that is told would not be the largest: the motor
+// falls by ρT a period and the tool takes from every hold what it can, e²T/4x.
+TEST(MotorLimits, PuncturesWithinTheSlewCostNoMoreThanTheyRelease) {
+  int tried = 0;
+  for (std::uint64_t seed = 1; seed <= std::uint64_t(runs()); ++seed) {
+    Random random(seed);
+    const double stiffness = random.log_uniform(10, 1e4), slew = random.log_uniform(10, 1e5),
+                 spare = random.log_uniform(0.1, 100), period = random.log_uniform(1e-5, 1e-3);
+    const double most = covered_discontinuity(slew, spare, stiffness, period);
+    if (most < slew * period) continue;
+    ++tried;
+    const auto cost_over_release = [&](double force) {
+      double cost = 0;
+      for (double left = force; left > 0; left -= slew * period) cost += left * left * period / (4 * spare);
+      return cost / (force * force / (2 * stiffness));
+    };
+    EXPECT_LE(cost_over_release(most * (1 - 1e-9)), 1 + 1e-9) << seed;
+    EXPECT_GT(cost_over_release(most * 1.5), 1) << seed;
+  }
+  EXPECT_GT(tried, runs() / 10);
+  // 1000 N/m, 2000 N/s, x = 2: 24 N for an analogue slew, which short periods come near.
+  EXPECT_NEAR(covered_discontinuity(2000, 2, 1000, 1e-6), 24, 0.01);
+}
+
+}  // namespace
+}  // namespace dashpot::testing

@@ -14,10 +14,10 @@
 
 namespace dashpot::paper {
 
-std::vector<Section> all_experiments() {
-  return {show(measure_fig3()),  show(measure_fig5()),  show(measure_fig6()),  show(measure_fig7()),
-          show(measure_fig8()),  show(measure_fig9()),  show(measure_fig11()), show(measure_fig12()),
-          show(measure_fig13()), show(measure_pareto())};
+std::vector<Section> all_experiments(bool thinned) {
+  return {show(measure_fig3()),         show(measure_fig5()),  show(measure_fig6()),  show(measure_fig7()),
+          show(measure_fig8()),         show(measure_fig9()),  show(measure_fig11()), show(measure_fig12()),
+          show(measure_fig13(thinned)), show(measure_pareto())};
 }
 
 Table table_of_choices() {

@@ -5,7 +5,8 @@
 
 namespace dashpot::paper {
 
-std::vector<Section> all_experiments();
+// `thinned`: sweeps over unprinted values at their ends only, for tests of the page's form.
+std::vector<Section> all_experiments(bool thinned = false);
 
 // What chosen.json holds, for the page.
 Table table_of_choices();

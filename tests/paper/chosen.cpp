@@ -27,26 +27,38 @@ const ordered_json& choices() {
   return file;
 }
 
+std::string text_of(const ordered_json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_array()) return fmt::format("{}", value.get<double>());
+  std::string text;
+  for (const ordered_json& item : value) text += (text.empty() ? "" : ", ") + text_of(item);
+  return text;
+}
+
 // "section.key" of the rig's own file, as written there.
 std::string device_value(const std::string& key) {
   static const ordered_json file = read(device_path("pantograph_brake_2009"));
   const std::size_t dot = key.find('.');
-  return file.at(key.substr(0, dot)).at(key.substr(dot + 1)).get<std::string>();
+  return text_of(file.at(key.substr(0, dot)).at(key.substr(dot + 1)));
 }
 
 std::string value_text(const ordered_json& choice) {
   if (choice.contains("device")) return device_value(choice.at("device"));
   const std::string unit = choice.at("unit");
-  return fmt::format("{}{}{}", choice.at("value").get<double>(), unit == "1" ? "" : " ", unit == "1" ? "" : unit);
+  return text_of(choice.at("value")) + (unit == "1" ? "" : " " + unit);
+}
+
+const ordered_json& choice(std::string_view name) {
+  const auto found = choices().find(std::string(name));
+  if (found == choices().end()) throw std::out_of_range("chosen.json has no " + std::string(name));
+  return found->at("value");
 }
 
 }  // namespace
 
-double chosen(std::string_view name) {
-  const auto found = choices().find(std::string(name));
-  if (found == choices().end()) throw std::out_of_range("chosen.json has no " + std::string(name));
-  return found->at("value").get<double>();
-}
+double chosen(std::string_view name) { return choice(name).get<double>(); }
+
+std::vector<double> chosen_list(std::string_view name) { return choice(name).get<std::vector<double>>(); }
 
 std::vector<Choice> all_choices() {
   std::vector<Choice> all;

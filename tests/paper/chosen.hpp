@@ -20,6 +20,7 @@ struct Choice {
 
 // The value of that name, in the unit that chosen.json states. Throws where there is none.
 double chosen(std::string_view name);
+std::vector<double> chosen_list(std::string_view name);
 
 // All of them in the order of the file; those of the plant with the values of the device file that they refer to.
 std::vector<Choice> all_choices();
@@ -35,6 +36,10 @@ device_description ideal_plant(double sample_period);
 // The rig without jitter, quantisation, delay, lag and friction of the drives: the same mechanics under a true
 // velocity.
 device_description ideal_rig();
+
+// The two choices of dashpot for the rig: its default, and the rule of the paper (5.1).
+inline constexpr const char* by_faithful_choice = "dashpot, faithful";
+inline constexpr const char* by_papers_rule = "dashpot, the paper’s rule";
 
 // A stiff grasp, the hand of the experiments.
 simulated::hand grip();

@@ -7,8 +7,9 @@
 namespace dashpot::paper {
 
 template <class Value>
-Curve curve_of(const std::string& name, const Style& style, const Trace& trace, Value value) {
-  Curve curve{name, style, {}, {}};
+Curve curve_of(const std::string& name, const Style& style, const Trace& trace, Value value,
+               Maker maker = Maker::emitted) {
+  Curve curve{name, style, {}, {}, maker};
   for (const Sample& sample : trace) {
     curve.x.push_back(sample.time);
     curve.y.push_back(value(sample));
@@ -18,8 +19,8 @@ Curve curve_of(const std::string& name, const Style& style, const Trace& trace, 
 
 // `values` beside the times of the trace.
 inline Curve curve_of(const std::string& name, const Style& style, const Trace& trace,
-                      const std::vector<double>& values) {
-  Curve curve{name, style, {}, values};
+                      const std::vector<double>& values, Maker maker = Maker::emitted) {
+  Curve curve{name, style, {}, values, maker};
   for (const Sample& sample : trace) curve.x.push_back(sample.time);
   return curve;
 }

@@ -39,7 +39,7 @@ Compiled compiled(const std::string& network, const compiler::Choices& choices,
 }
 
 LawMaker law_of(const Compiled& compilation) {
-  return [compilation] { return std::make_unique<EvaluatedLaw>(compilation); };
+  return {Maker::evaluated, [compilation] { return std::make_unique<EvaluatedLaw>(compilation); }};
 }
 
 std::string kelvin_element(double stiffness, double damping) {

@@ -17,9 +17,13 @@ struct Fig11 {
     double spike = 0;           // largest error within 15 ms after a reversal, mean of the reversals [N]
     double jump = 0;  // of the motor's command within one sample, largest of a stroke, mean of the strokes [N]
     int toggles = 0;  // changes of the brake's command
+    Maker maker = Maker::emitted;
+    double jump_delay = 0;  // of those jumps after their reversal, mean [s]
   };
   std::vector<double> reversals;  // of the first part [s]
-  std::vector<Part> parts;        // (21) by the motor alone, by both, without the brake; dashpot's own
+  // (21) by the motor alone, by both, without the brake; what dashpot makes of the network by the paper's rule, and by
+  // its default.
+  std::vector<Part> parts;
 };
 
 Fig11 measure_fig11();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
 #include "chosen.hpp"
 
 namespace {
@@ -38,6 +39,37 @@ TEST(Fig11, errs_by_what_the_page_says) {
   EXPECT_NEAR(fig11().parts[0].rms_error, 4.7e-3, 0.3e-3);
   EXPECT_NEAR(fig11().parts[1].rms_error, 1.8e-3, 0.3e-3);
   EXPECT_NEAR(fig11().parts[2].rms_error, 0.159, 0.005);
+}
+
+// Fails if dashpot's default is further from the network than the law of the paper's rule, or than a tenth of what
+// (21) by the motor alone and by both leave between them.
+TEST(Fig11, errs_less_faithfully_than_by_the_papers_rule) {
+  EXPECT_LT(fig11().parts[4].rms_error, fig11().parts[3].rms_error / 2);
+  EXPECT_NEAR(fig11().parts[4].rms_error, fig11().parts[1].rms_error, 0.3e-3);
+}
+
+// Fails if the 20 mN cannot be seen: a residual is drawn over no more than some of them.
+TEST(Fig11, draws_residuals_in_millinewtons) {
+  int residuals = 0;
+  for (const Panel& panel : show(fig11()).figures.at(0).panels)
+    if (panel.y_label == "force [mN]") {
+      ++residuals;
+      EXPECT_LE(panel.y_range->high - panel.y_range->low, 60) << panel.title;
+    }
+  EXPECT_EQ(residuals, 2);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Fig11, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(fig11()), "the brake eliminates: that comes out"));
+  EXPECT_TRUE(says(show(fig11()), "considerably” comes out"));
+  Fig11 other = fig11();
+  other.parts[1].jump = other.parts[0].jump;
+  EXPECT_TRUE(says(show(other), "the brake eliminates: that does not come out"));
+  other.parts[1].rms_error = other.parts[0].rms_error;
+  EXPECT_TRUE(says(show(other), "considerably” does not come out"));
+  other.parts[3].rms_error = 0;
+  EXPECT_TRUE(says(show(other), "dashpot, the paper’s rule is nearest to the network"));
 }
 
 }  // namespace

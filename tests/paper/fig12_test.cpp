@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
+
 namespace {
 
 using namespace dashpot::paper;
@@ -28,6 +30,32 @@ TEST(Fig12, errs_by_what_the_page_says) {
 TEST(Fig12, has_the_same_order_in_truth) {
   EXPECT_GT(fig12().parts[0].felt_returned, fig12().parts[0].ideal_returned);
   EXPECT_LT(fig12().parts[1].felt_returned, fig12().parts[1].ideal_returned);
+}
+
+// Fails if the order depends on how (20) is read.
+TEST(Fig12, has_the_same_order_by_both_readings_of_20) {
+  for (const auto reading : {&Readings::increment, &Readings::sum}) {
+    EXPECT_GT((fig12().parts[0].readings.*reading).depth, (fig12().parts[0].ideal_readings.*reading).depth);
+    EXPECT_LT((fig12().parts[1].readings.*reading).depth, (fig12().parts[1].ideal_readings.*reading).depth);
+  }
+}
+
+// Fails if dashpot's default is not nearer to the element than every law of the paper.
+TEST(Fig12, is_nearest_to_the_element_faithfully) {
+  for (const std::size_t other : {0U, 1U, 2U})
+    EXPECT_LT(fig12().parts[3].rms_error, fig12().parts[other].rms_error / 5) << fig12().parts[other].name;
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Fig12, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(fig12()), "The paper’s order comes out"));
+  EXPECT_TRUE(says(show(fig12()), "the default is nearer to the element"));
+  Fig12 other = fig12();
+  std::swap(other.parts[0].readings, other.parts[1].readings);
+  EXPECT_TRUE(says(show(other), "The paper’s order does not come out"));
+  EXPECT_TRUE(says(show(other), "Read so, the paper’s order does not come out"));
+  other.parts[3].rms_error = 1;
+  EXPECT_TRUE(says(show(other), "the default is no nearer to the element"));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
 #include <algorithm>
 
 namespace {
@@ -63,6 +64,17 @@ TEST(Fig3, errs_least_by_the_smaller_damping_more_often_than_by_any_rule) {
 // Fails if with a brake that is short the smaller damping ever needs more than the larger.
 TEST(Fig3, needs_least_by_the_smaller_damping_with_a_short_brake) {
   EXPECT_EQ(fig3().polls[2].less_missing_when_short, fig3().polls[2].pairs);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Fig3, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(fig3()), "the paper’s rule does not come out"));
+  EXPECT_TRUE(says(show(fig3()), "every observer is passive under any delay"));
+  Fig3 other = fig3();
+  other.polls[1].less_error = other.polls[1].pairs;
+  EXPECT_TRUE(says(show(other), "the paper’s rule comes out"));
+  other.cases[0].observers[0].missing[3] = 1;
+  EXPECT_FALSE(says(show(other), "every observer is passive under any delay"));
 }
 
 }  // namespace

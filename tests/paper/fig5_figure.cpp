@@ -7,9 +7,9 @@ namespace {
 
 using Samples = std::vector<ResponseSample>;
 
-Curve curve(const std::string& name, const Style& style, const Samples& samples,
-            double (*value)(const ResponseSample&)) {
-  Curve result{name, style, {}, {}};
+Curve curve(const std::string& name, const Style& style, const Samples& samples, double (*value)(const ResponseSample&),
+            Maker maker = Maker::emitted) {
+  Curve result{name, style, {}, {}, maker};
   for (const ResponseSample& sample : samples) {
     result.x.push_back(sample.time);
     result.y.push_back(value(sample));
@@ -41,7 +41,7 @@ Figure figure(const Samples& exact, const Samples& euler, double damping) {
     return Panel{title,
                  "time [s]",
                  label,
-                 {curve("closed form (6)", ideal, line, value), curve("emitted, exact", emitted, exact, value),
+                 {curve("(6)", ideal, line, value, Maker::closed_form), curve("emitted, exact", emitted, exact, value),
                   curve("emitted, backward Euler", emitted_euler, euler, value)}};
   };
   return {"Fig. 5: 2nd-order Maxwell solid, ramp and hold in steps of 200 ms",
@@ -51,7 +51,10 @@ Figure figure(const Samples& exact, const Samples& euler, double damping) {
                        relative_error(exact), 100 * relative_error(euler))},
           {panel("Total force", "force [N]", force),
            panel("Brake: b·u̇", "force [N]", brake),
-           {"Displacement applied", "time [s]", "displacement [mm]", {curve("", plain, line, millimetres)}},
+           {"Displacement applied",
+            "time [s]",
+            "displacement [mm]",
+            {curve("", plain, line, millimetres, Maker::closed_form)}},
            panel("Motor: m", "force [N]", motor)}};
 }
 

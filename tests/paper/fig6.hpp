@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "energy.hpp"
 #include "experiment.hpp"
 #include "page.hpp"
 
@@ -14,13 +15,15 @@ struct Fig6 {
     Realisation realisation;
     std::string scheme, state_input;
     Trace trace;
-    std::vector<double> energy;  // (20) with the true velocity [J]
+    std::vector<double> energy;  // (20), summed, with the true velocity [J]
+    Readings readings;           // of (20) after the reversal at 1 s
     double relative_error;       // rms over 0–4 s relative to the ideal's rms [1]
     double returned;             // energy after the reversal at 1 s [J]
     double minimum_damping;      // the least extra damping for which the sampled loop is passive [N·s/m]
   };
   std::vector<double> time, force, velocity, energy;  // ideal [s], [N], [m/s], [J]
   double returned = 0;                                // ideal [J]
+  Readings readings;                                  // ideal
   std::vector<Candidate>
       candidates;          // scheme by scheme: single velocity, dual velocity, dual position, single position
   double unreachable = 0;  // for how long after the reversal force and velocity are opposed: no damper makes that [s]

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
 #include "evaluated_law.hpp"
 
 namespace {
@@ -77,6 +78,39 @@ TEST(Fig6, needs_what_the_certificate_says) {
 TEST(Fig6, shows_where_no_damper_makes_the_force) {
   EXPECT_GT(fig6().unreachable, 0.05);
   EXPECT_GT(fig6_force(1.0 + fig6().unreachable / 2), 0);
+}
+
+// Fails if a reading of (20), as printed or summed, no longer has the order that the paper describes.
+TEST(Fig6, has_the_papers_order_by_both_readings_of_20) {
+  for (const auto reading : {&Readings::increment, &Readings::sum}) {
+    const Fall &truth = fig6().readings.*reading, &single = fig6().candidates[0].readings.*reading,
+               &dual = fig6().candidates[1].readings.*reading;
+    EXPECT_TRUE(single.exceeds(truth));
+    EXPECT_TRUE(single.exceeds(dual));
+    EXPECT_LT(dual.depth, truth.depth);
+  }
+}
+
+// Fails if the increment of (20) is not what flows in a sample: after the reversal f is still 1.43 N and falls by about
+// 14 N/s while u̇ goes down by π m/s², so that f u̇ Δt is least, −0.11 mJ, some 50 ms later.
+TEST(Fig6, reads_20_as_printed_a_sample_at_a_time) {
+  EXPECT_NEAR(fig6().readings.increment.depth, 0.110e-3, 0.002e-3);
+  EXPECT_NEAR(fig6().readings.sum.depth, fig6().returned, 1e-12);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Fig6, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(fig6()), "the order that the paper shows comes out"));
+  EXPECT_FALSE(says(show(fig6()), "does not come out for"));
+  Fig6 other = fig6();
+  std::swap(other.candidates[0].returned, other.candidates[1].returned);
+  EXPECT_TRUE(says(show(other), "the order that the paper shows does not come out"));
+  other = fig6();
+  other.candidates[0].readings.increment.depth = 0;
+  EXPECT_TRUE(says(show(other), "the paper’s claim does not come out for the single motor"));
+  other = fig6();
+  other.candidates[1].readings.sum.depth = 1;
+  EXPECT_TRUE(says(show(other), "does not come out for the dual channel"));
 }
 
 }  // namespace

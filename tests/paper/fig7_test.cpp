@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
+
 namespace {
 
 using namespace dashpot::paper;
@@ -33,6 +35,23 @@ TEST(Fig7, shows_what_every_estimator_gains_over_the_raw_difference) {
 TEST(Fig7, pays_for_smoothness_with_delay) {
   EXPECT_LT(fig7().estimates[1].noise, fig7().estimates[2].noise);
   EXPECT_GT(fig7().estimates[1].delay, fig7().estimates[2].delay + 1e-3);
+}
+
+// Fails if the strip of 7a does not show single switches: 10 ms of it hold a hundred samples.
+TEST(Fig7, shows_ten_milliseconds_of_the_raw_difference) {
+  const Panel& raw = show(fig7()).figures.at(0).panels.at(0);
+  ASSERT_TRUE(raw.x_range.has_value());
+  EXPECT_NEAR(raw.x_range->high - raw.x_range->low, 10e-3, 1e-12);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Fig7, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(fig7()), "crosses zero about 5 ms late. That does not come out"));
+  Fig7 other = fig7();
+  other.crossing_delay = 5e-3;
+  EXPECT_TRUE(says(show(other), "crosses zero about 5 ms late. That comes out"));
+  other.quantum = 0.5;
+  EXPECT_TRUE(says(show(other), "the paper prints 0.95, which does not come out"));
 }
 
 }  // namespace

@@ -23,9 +23,15 @@ struct Fig8 {
     Trace trace;
     Release withdrawn;  // by the hand
     Release let_go;
+    Maker maker = Maker::emitted;
   };
-  std::vector<Part> parts;  // single and dual with the wall of the literature, single and dual with the contact, and
-                            // that without the coil’s lag
+  // Single and dual with the wall of the literature, single and dual with the contact, and that without the coil’s lag;
+  // then wall and contact on the same arm without delay, quantisation and lags.
+  std::vector<Part> parts;
+  double recovery_difference = 0;  // of single and dual with the wall of the literature, largest after letting go [m]
+
+  const Part& ideal_wall() const { return parts[5]; }
+  const Part& ideal_contact() const { return parts[6]; }
 };
 
 Fig8 measure_fig8();

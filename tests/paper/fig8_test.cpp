@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
+
 namespace {
 
 using namespace dashpot::paper;
@@ -54,6 +56,26 @@ TEST(Fig8, pulls_one_encoder_step_a_release_without_the_coils_lag) {
 TEST(Fig8, recovers_alike_when_let_go) {
   const Trace &single = fig8().parts[0].trace, &dual = fig8().parts[1].trace;
   for (std::size_t k = 18000; k < single.size(); ++k) ASSERT_NEAR(single[k].position, dual[k].position, 1e-3) << k;
+}
+
+// Fails if the ideal wall does not pull on the way out: (9) itself does, by nearly B u̇, without any delay.
+TEST(Fig8, pulls_by_the_wall_itself_on_an_ideal_device) {
+  const double single = fig8().parts[0].withdrawn.impulse;
+  EXPECT_NEAR(fig8().ideal_wall().withdrawn.impulse, single, 0.05 * single);
+  EXPECT_LT(fig8().ideal_contact().withdrawn.impulse, 1e-6);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Fig8, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(fig8()), "is that of (9) itself"));
+  EXPECT_TRUE(says(show(fig8()), "Felt it does not come out"));
+  Fig8 other = fig8();
+  other.parts[5].withdrawn.impulse = 0;
+  EXPECT_TRUE(says(show(other), "is an artifact of the delay"));
+  other.parts[1].withdrawn.impulse = 0;
+  EXPECT_TRUE(says(show(other), "Felt it comes out"));
+  other.recovery_difference = 1;
+  EXPECT_TRUE(says(show(other), "look similar” does not come out"));
 }
 
 }  // namespace

@@ -7,16 +7,17 @@
 #include <laws.hpp>
 
 #include "chosen.hpp"
+#include "claims.hpp"
 #include "curves.hpp"
 
 namespace dashpot::paper {
 namespace {
 
-constexpr double settling = 0.05;  // after the stop: ten times the delay of the estimate and of the coil [s]
-constexpr double approach = 0.02;  // free, before the object [m]
+double settling() { return chosen("fig9.settling"); }
 
 // The hand intends to go on to twice the obstacle's depth, and so presses against it.
 Experiment into_the_obstacle(const device_description& plant) {
+  const double approach = chosen("fig9.approach");
   const double speed = chosen("fig9.speed"), obstacle = chosen("fig9.obstacle"), way = approach + 2 * obstacle;
   Experiment experiment{plant, {}, (approach + obstacle) / speed + chosen("fig9.hold"), {}};
   experiment.motion.user = grip();
@@ -39,12 +40,12 @@ std::size_t sample_at(const Trace& trace, double time) {
 }
 
 Fig9::Part part_of(const Experiment& experiment, const Realisation& realisation, const Style& style) {
-  Fig9::Part part{realisation.name, style, run(experiment, realisation), 0, 0, 0, 0, 0};
+  Fig9::Part part{realisation.name, style, run(experiment, realisation), 0, 0, 0, 0, 0, realisation.law.maker};
   const double stop = instant_at(part.trace, chosen("fig9.obstacle") * (1 - 1e-6));
   const Sample& before = part.trace[sample_at(part.trace, stop - 2 * experiment.plant.loop.sample_period)];
   part.before_stop = before.commanded.force;
   part.speed = before.velocity;
-  part.after_stop = part.trace[sample_at(part.trace, stop + settling)].commanded.force;
+  part.after_stop = part.trace[sample_at(part.trace, stop + settling())].commanded.force;
   return part;
 }
 
@@ -57,7 +58,7 @@ double peak_of(const Trace& trace) {
 // Of two motors' commands from `settling` after the stop to the end, relative to the peak of the first.
 double difference_after(const Trace& first, const Trace& second, double stop) {
   double largest = 0;
-  for (std::size_t k = sample_at(first, stop + settling); k < first.size(); ++k)
+  for (std::size_t k = sample_at(first, stop + settling()); k < first.size(); ++k)
     largest = std::max(largest, std::abs(first[k].commanded.force - second[k].commanded.force));
   return largest / peak_of(first);
 }
@@ -65,7 +66,7 @@ double difference_after(const Trace& first, const Trace& second, double stop) {
 void compare_what_is_felt(const Fig9& fig9, Fig9::Part& part) {
   const Trace& truth = fig9.parts[0].trace;
   const double peak = peak_of(truth), period = rig().description.loop.sample_period;
-  for (std::size_t k = sample_at(truth, fig9.touch); truth[k].time < fig9.stop + settling; ++k) {
+  for (std::size_t k = sample_at(truth, fig9.touch); truth[k].time < fig9.stop + settling(); ++k) {
     const double error = std::abs(part.trace[k].felt() - truth[k].felt());
     part.felt_error = std::max(part.felt_error, error);
     if (error > peak / 5) part.felt_error_time += period;
@@ -75,7 +76,8 @@ void compare_what_is_felt(const Fig9& fig9, Fig9::Part& part) {
 Figure figure_of(const Fig9& fig9) {
   const auto all = [&](auto value) {
     std::vector<Curve> curves;
-    for (const Fig9::Part& part : fig9.parts) curves.push_back(curve_of(part.name, part.style, part.trace, value));
+    for (const Fig9::Part& part : fig9.parts)
+      curves.push_back(curve_of(part.name, part.style, part.trace, value, part.maker));
     return curves;
   };
   const auto position = [](const Sample& s) { return s.position * 1e3; };
@@ -89,6 +91,33 @@ Figure figure_of(const Fig9& fig9) {
            {"Motor’s command, contact to stop", "time [s]", "force [N]", all(motor), around},
            {"Position", "time [s]", "position [mm]", all(position), whole},
            {"Felt force, contact to stop", "time [s]", "force [N]", all(felt), around}}};
+}
+
+std::vector<std::string> words_of(const Fig9& fig9) {
+  const Fig9::Part &single = fig9.parts[1], &dual = fig9.parts[2];
+  const double jump = dual.after_stop - dual.before_stop, other_jump = single.after_stop - single.before_stop;
+  const bool is_alike = fig9.relaxation_difference<0.05, is_felt = dual.felt_error> fig9.peak / 5;
+  const bool takes_back = dual.before_stop < 0 && single.before_stop > 0;
+  return {fmt::format(
+              "“An almost identical relaxation” {}: single motor and dual channel differ by at most {:.2f} % of the "
+              "peak, dual channel and ideal by {:.2f} %. Their states are driven by the estimate, which enters the "
+              "object with what it remembers of free motion and leaves it 3.5 ms late.",
+              outcome(is_alike), 100 * fig9.relaxation_difference, 100 * fig9.relaxation_error),
+          fmt::format(
+              "During compression the single motor’s command has the shape of Fig. 5’s total force, the dual "
+              "channel’s that of the motor’s part, below zero: that {} ({:+.3f} and {:+.3f} N just before the "
+              "obstacle). When it stops the arm, the brake’s part ends at once and the dual channel’s command jumps "
+              "by {:+.3f} N, the single motor’s by {:+.3f} N.",
+              outcome(takes_back), single.before_stop, dual.before_stop, jump, other_jump),
+          fmt::format(
+              "The paper says that these transients are not felt, because the brake acts at the same time. That {}: "
+              "felt is a force that is off by up to {:.2f} N, by more than a fifth of the solid’s peak of {:.2f} N "
+              "for {:.0f} ms together{}. The single motor is off by {:.3f} N.",
+              outcome(!is_felt), dual.felt_error, fig9.peak, dual.felt_error_time * 1e3,
+              is_felt ? ", since at contact the motor takes back at once what the coil needs its 2 ms to build up, and "
+                        "at the stop the brake’s part is gone 3.5 ms before the estimate knows"
+                      : "",
+              single.felt_error)};
 }
 
 }  // namespace
@@ -106,6 +135,7 @@ Fig9 measure_fig9() {
   fig9.stop = instant_at(dual, chosen("fig9.obstacle") * (1 - 1e-6));
   fig9.relaxation_difference = difference_after(single, dual, fig9.stop);
   fig9.relaxation_error = difference_after(truth, dual, fig9.stop);
+  fig9.peak = peak_of(truth);
   for (Fig9::Part& part : fig9.parts) compare_what_is_felt(fig9, part);
   return fig9;
 }
@@ -120,32 +150,11 @@ Section show(const Fig9& fig9) {
                           fmt::format("{:+.4f}", part.after_stop),
                           fmt::format("{:+.4f}", part.after_stop - part.before_stop),
                           fmt::format("{:.4f}", part.felt_error), fmt::format("{:.1f}", part.felt_error_time * 1e3)});
-  return {
-      "fig9",
-      "Fig. 9: a 2nd-order Maxwell solid, stopped by a rigid obstacle",
-      {fmt::format("Relaxation: single motor and dual channel differ by at most {:.2f} % of the peak, dual channel and "
-                   "ideal by "
-                   "{:.2f} %.",
-                   100 * fig9.relaxation_difference, 100 * fig9.relaxation_error),
-       "Both come to the relaxation with a little too much: their states are driven by the estimate, which enters the "
-       "object "
-       "with what it remembers of free motion and leaves it 3.5 ms late.",
-       "During compression the single motor’s command has the shape of Fig. 5’s total force, the dual channel’s that "
-       "of the "
-       "motor’s part: below zero, since the brake makes more than the solid and the motor takes it back. When the "
-       "obstacle "
-       "stops the arm, the brake’s part ends at once and the motor’s command jumps by as much.",
-       fmt::format(
-           "The paper says that these transients are not felt, because the brake acts at the same time. That does not "
-           "come "
-           "out: at contact the motor takes back at once what the coil needs its 2 ms to build up, and at the stop the "
-           "brake’s part is gone 3.5 ms before the estimate knows. Felt is a force that is off by up to {:.2f} N, for "
-           "{:.0f} "
-           "ms together, where the solid’s peak is {:.2f} N. The single motor is off by {:.3f} N.",
-           fig9.parts[2].felt_error, fig9.parts[2].felt_error_time * 1e3, peak_of(fig9.parts[0].trace),
-           fig9.parts[1].felt_error)},
-      {figure_of(fig9)},
-      {table}};
+  return {"fig9",
+          "Fig. 9: a 2nd-order Maxwell solid, stopped by a rigid obstacle",
+          words_of(fig9),
+          {figure_of(fig9)},
+          {table}};
 }
 
 }  // namespace dashpot::paper

@@ -16,12 +16,14 @@ struct Fig9 {
     double speed = 0;            // just before the obstacle [m/s]
     double felt_error = 0;       // largest |felt − ideal|, from contact until the stop has settled [N]
     double felt_error_time = 0;  // for how long it is more than a fifth of the ideal's peak [s]
+    Maker maker = Maker::emitted;
   };
   double touch = 0, stop = 0;  // when the tool meets the object, and the obstacle [s]
   std::vector<Part> parts;     // ideal, single motor, dual channel
   double relaxation_difference =
       0;  // largest |single − dual| of the motor's command after the stop has settled, over the peak [1]
   double relaxation_error = 0;  // largest |dual − ideal| there, over the peak [1]
+  double peak = 0;              // of the ideal's force [N]
 };
 
 Fig9 measure_fig9();

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
+
 namespace {
 
 using namespace dashpot::paper;
@@ -37,6 +39,17 @@ TEST(Fig9, takes_back_from_the_brake_under_compression) {
 TEST(Fig9, is_felt_at_contact_and_stop_in_the_dual_channel) {
   EXPECT_NEAR(fig9().parts[2].felt_error, 0.135, 0.015);
   EXPECT_LT(fig9().parts[1].felt_error, 0.01);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Fig9, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(fig9()), "relaxation” comes out"));
+  EXPECT_TRUE(says(show(fig9()), "at the same time. That does not come out"));
+  Fig9 other = fig9();
+  other.parts[2].felt_error = 0;
+  EXPECT_TRUE(says(show(other), "at the same time. That comes out"));
+  other.relaxation_difference = 0.5;
+  EXPECT_TRUE(says(show(other), "relaxation” does not come out"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace dashpot::paper {
 namespace {
@@ -21,7 +22,7 @@ constexpr double page_width = 720;
 constexpr double legend_line = 18;
 constexpr double row_height = 235;
 constexpr double caption_line = 17;
-constexpr Box margin{72, 26, 14, 46};  // of a panel, for title, ticks and labels
+constexpr Box margin{72, 26, 20, 46};  // of a panel, for title, ticks and labels
 constexpr double marker_radius = 2.8;
 
 std::string escaped(const std::string& text) {
@@ -48,9 +49,15 @@ std::string marker(const Style& style, Point at) {
                      at.x - r, at.y - r, 2 * r, style.colour);
 }
 
+// Positions to a tenth, 25 µm in print; each from the last that was written, so that roundings do not add up.
 std::string polyline(const Style& style, const std::vector<Point>& points) {
   std::string path;
-  for (const Point& p : points) path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", p.x, p.y);
+  long x = 0, y = 0;  // tenths
+  for (const Point& p : points) {
+    const long right = std::lround(10 * p.x) - x, down = std::lround(10 * p.y) - y;
+    path += fmt::format("{}{:g} {:g}", path.empty() ? "M" : "l", double(right) / 10, double(down) / 10);
+    x += right, y += down;
+  }
   return fmt::format(
       "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-dasharray=\"{}\" "
       "stroke-linejoin=\"round\"/>\n",
@@ -144,11 +151,46 @@ std::vector<Point> thinned(const std::vector<Point>& points) {
   return kept;
 }
 
-std::vector<Point> placed(const Curve& curve, const Axis& x, const Axis& y, const Box& box) {
+double distance(const Point& p, const Point& from, const Point& to) {
+  const double x = to.x - from.x, y = to.y - from.y, length = std::hypot(x, y);
+  if (!(length > 0)) return std::hypot(p.x - from.x, p.y - from.y);
+  return std::abs(x * (p.y - from.y) - y * (p.x - from.x)) / length;
+}
+
+// Douglas & Peucker 1973: without the points that lie on the line through the others, to a quarter of a point.
+std::vector<Point> straightened(const std::vector<Point>& points) {
+  constexpr double unseen = 0.25;
+  if (points.size() < 3) return points;
+  std::vector<bool> kept(points.size(), false);
+  kept.front() = kept.back() = true;
+  std::vector<std::pair<std::size_t, std::size_t>> stretches = {{0, points.size() - 1}};
+  while (!stretches.empty()) {
+    const auto [first, last] = stretches.back();
+    stretches.pop_back();
+    std::size_t furthest = first;
+    double most = unseen;
+    for (std::size_t i = first + 1; i < last; ++i)
+      if (const double off = distance(points[i], points[first], points[last]); off > most) most = off, furthest = i;
+    if (furthest == first) continue;
+    kept[furthest] = true;
+    stretches.push_back({first, furthest});
+    stretches.push_back({furthest, last});
+  }
+  std::vector<Point> left;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (kept[i]) left.push_back(points[i]);
+  return left;
+}
+
+// Those that the panel's range shows, and the next on either side. Markers stand for values and all stay.
+std::vector<Point> placed(const Curve& curve, const Panel& panel, const Axis& x, const Axis& y, const Box& box) {
   std::vector<Point> points;
-  for (std::size_t i = 0; i < curve.x.size(); ++i)
-    points.push_back({across(x, curve.x[i], box), up(y, curve.y[i], box)});
-  return thinned(points);
+  for (std::size_t i = 0; i < curve.x.size(); ++i) {
+    const bool is_shown = shows(panel.x_range, curve.x[i]) || (i > 0 && shows(panel.x_range, curve.x[i - 1])) ||
+                          (i + 1 < curve.x.size() && shows(panel.x_range, curve.x[i + 1]));
+    if (is_shown) points.push_back({across(x, curve.x[i], box), up(y, curve.y[i], box)});
+  }
+  return curve.style.marker == Marker::none ? straightened(thinned(points)) : points;
 }
 
 // Curves do not leave a panel whose range is given.
@@ -170,7 +212,7 @@ std::string drawn(const Panel& panel, const Box& box) {
     svg += line({box.left, zero}, {box.right, zero}, "stroke=\"#9a9a9a\" stroke-width=\"1\"");
   }
   std::string curves;
-  for (const Curve& curve : panel.curves) curves += drawn(curve.style, placed(curve, x, y, box));
+  for (const Curve& curve : panel.curves) curves += drawn(curve.style, placed(curve, panel, x, y, box));
   return svg + clipped(curves, panel, box) + labels(panel, box);
 }
 
@@ -191,9 +233,9 @@ std::vector<Entry> legend_entries(const Figure& figure) {
   double x = margin.left, y = 42;
   for (const Panel& panel : figure.panels)
     for (const Curve& curve : panel.curves) {
-      const auto is_named_so = [&](const Entry& entry) { return entry.curve->name == curve.name; };
+      const auto is_named_so = [&](const Entry& entry) { return entry.curve->label() == curve.label(); };
       if (curve.name.empty() || std::any_of(entries.begin(), entries.end(), is_named_so)) continue;
-      const double width = 36 + length_of(curve.name) + 26;
+      const double width = 36 + length_of(curve.label()) + 26;
       if (x > margin.left && x + width - 26 > page_width - margin.right) x = margin.left, y += legend_line;
       entries.push_back({&curve, x, y});
       x += width;
@@ -204,7 +246,7 @@ std::vector<Entry> legend_entries(const Figure& figure) {
 std::string legend(const std::vector<Entry>& entries) {
   std::string svg;
   for (const auto& [curve, x, y] : entries)
-    svg += drawn(curve->style, {{x, y - 4}, {x + 14, y - 4}, {x + 28, y - 4}}) + text({x + 36, y}, curve->name);
+    svg += drawn(curve->style, {{x, y - 4}, {x + 14, y - 4}, {x + 28, y - 4}}) + text({x + 36, y}, curve->label());
   return svg;
 }
 

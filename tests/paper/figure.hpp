@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "axis.hpp"
+#include "maker.hpp"
 
 namespace dashpot::paper {
 
@@ -26,12 +27,16 @@ inline constexpr Style plain{"#1a1a1a", 1.6};
 inline constexpr Style single_motor{"#c1440e", 1.8};
 inline constexpr Style dual_channel{"#0b5fa5", 1.4};
 inline constexpr Style third{"#2f8f5b", 1.4, "6 3"};
+inline constexpr Style fourth{"#8a4fa8", 1.6, "2 2"};
 inline constexpr Style bound{"#1a1a1a", 1.2, "2 3"};
 
 struct Curve {
   std::string name;  // in the legend, once a figure; "": not there
   Style style;
   std::vector<double> x, y;  // as long as each other, finite
+  Maker maker = Maker::emitted;
+
+  std::string label() const { return name + label_of(maker); }  // in the legend
 };
 
 struct Panel {

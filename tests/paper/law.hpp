@@ -5,6 +5,9 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
+
+#include "maker.hpp"
 
 namespace dashpot::paper {
 
@@ -16,8 +19,13 @@ class Law {
   virtual void update() = 0;                                             // after the command has left
 };
 
-// A new law for every run.
-using LawMaker = std::function<std::unique_ptr<Law>()>;
+// A new law for every run, and who wrote it.
+struct LawMaker {
+  Maker maker = Maker::by_hand;
+  std::function<std::unique_ptr<Law>()> make;
+
+  std::unique_ptr<Law> operator()() const { return make(); }
+};
 
 // A class that dashpot has emitted, or one written by hand in the same form.
 template <class Emitted>
@@ -32,10 +40,11 @@ class LawOf final : public Law {
   Emitted law_;
 };
 
-template <class Emitted>
-LawMaker law_of() {
-  return [] { return std::make_unique<LawOf<Emitted>>(); };
-}
+// Only dashpot writes for which device a class is certified.
+template <class Type>
+concept WrittenByDashpot = requires {
+  typename Type::certified_for;
+};
 
 // The wall of the literature (Rosenberg & Adelstein 1993; paper, 5.1): a law of the tissue alone, switched on while the
 // tool is beyond the surface at 0, and off, its states at rest, elsewhere. It may pull.
@@ -57,5 +66,21 @@ class WhileInside {
   Emitted law_;
   bool inside_ = false;
 };
+
+template <class Type>
+inline constexpr Maker maker_of = WrittenByDashpot<Type> ? Maker::emitted : Maker::by_hand;
+template <class Emitted>
+inline constexpr Maker maker_of<WhileInside<Emitted>> = Maker::in_wall;
+
+template <class Type>
+LawMaker law_of() {
+  return {maker_of<Type>, [] { return std::make_unique<LawOf<Type>>(); }};
+}
+
+// Of one that is made with values.
+template <class Type>
+LawMaker law_with(Type law) {
+  return {maker_of<Type>, [law] { return std::make_unique<LawOf<Type>>(law); }};
+}
 
 }  // namespace dashpot::paper

@@ -22,9 +22,19 @@ th, td { border-bottom: 1px solid #ddd; padding: .2em .9em .2em 0; text-align: l
 <body>
 <h1>The paper’s experiments, by emitted code</h1>
 <p>Gosline &amp; Hayward, <i>Dual-channel haptic synthesis of viscoelastic tissue properties using programmable eddy current
-brakes</i>, 2009. Every curve is made by code that dashpot emitted for a network file, on a simulated device: the same plant
-for the single motor and for the dual channel. A number that the paper does not print is chosen once; the list is at the end.
-Nothing is tuned to a figure. Where a claim of the paper does not come out, the text below the figure says so.</p>
+brakes</i>, 2009. A curve whose name has nothing in brackets behind it is made by code that dashpot emitted for a network file, on
+a simulated device: the same plant for the single motor and for the dual channel. What other code made says so:</p>
+<ul>
+<li><b>[wall by hand]</b>: an emitted law that a wall written for this page, (9) of the paper, switches on and off;</li>
+<li><b>[by hand]</b>: a law written for this page from the paper’s equation;</li>
+<li><b>[evaluated]</b>: the compiler’s own evaluation of a law, which gives the emitted code’s bits;</li>
+<li><b>[closed form]</b>: the solution of the network’s differential equation;</li>
+<li><b>[offline]</b>: computed from a record, with filters that look into the future;</li>
+<li><b>[analysis]</b>: the compiler’s analysis in frequency, or its certificate;</li>
+<li><b>[device]</b>, <b>[runtime]</b>: the simulated device alone, an estimator of the runtime.</li>
+</ul>
+<p>A number that the paper does not print is chosen once; the list is at the end. Nothing is tuned to a figure. Whether a claim of
+the paper comes out is decided by the program that writes this page, from the numbers that it draws.</p>
 )";
 
 std::string escaped(const std::string& text) {

@@ -2,12 +2,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 
+#include <laws.hpp>
+
 #include "all_experiments.hpp"
+#include "chosen.hpp"
+#include "evaluated_law.hpp"
+#include "printed_needle.hpp"
 #include "z_width.hpp"
 
 namespace {
@@ -16,8 +23,9 @@ using namespace dashpot::paper;
 
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = [] {
-    std::vector<Section> sections = all_experiments();
-    sections.push_back(show(ZWidth{map_places(true), std::vector<MapPoint>(map_places(true).size(), {100, 10, 0, 6})}));
+    std::vector<Section> sections = all_experiments(true);
+    sections.push_back(
+        show(ZWidth{map_places(false), std::vector<MapPoint>(map_places(false).size(), {100, 10, 0, 6})}));
     return sections;
   }();
   return all;
@@ -74,6 +82,53 @@ TEST(Page, shows_every_figure) {
       EXPECT_NE(page.find("src=\"" + file_of(section, i) + "\""), std::string::npos) << file_of(section, i);
 }
 
+// Fails if a figure is too large to be sent and opened with ease, however many samples it was made of.
+TEST(Page, draws_in_less_than_200_kB) {
+  for (const Section& section : sections())
+    for (const Figure& figure : section.figures) EXPECT_LT(to_svg(figure).size(), 200'000U) << figure.title;
+}
+
+// Fails if a curve that emitted code did not make is not said to be by another.
+TEST(Page, labels_what_emitted_code_did_not_make) {
+  const std::string page = index_page(sections(), {});
+  std::size_t others = 0;
+  for (const Section& section : sections())
+    for (const Figure& figure : section.figures) {
+      const std::string svg = to_svg(figure);
+      for (const Panel& panel : figure.panels)
+        for (const Curve& curve : panel.curves) {
+          if (curve.maker == Maker::emitted || curve.name.empty()) continue;
+          ++others;
+          EXPECT_NE(svg.find(">" + curve.name + label_of(curve.maker) + "<"), std::string::npos) << curve.name;
+          EXPECT_NE(page.find(std::string(label_of(curve.maker)).substr(1)), std::string::npos) << curve.name;
+        }
+    }
+  EXPECT_GT(others, 20U);
+}
+
+// Fails if a law's author is not told from its type: by hand, emitted, emitted inside a wall by hand, evaluated.
+TEST(Page, knows_who_wrote_a_law) {
+  EXPECT_EQ(law_of<laws::needle_own>().maker, Maker::emitted);
+  EXPECT_EQ(law_of<WhileInside<laws::kelvin_dual>>().maker, Maker::in_wall);
+  EXPECT_EQ(law_with(PrintedNeedle(1, 1, 1, 1, PrintedNeedle::Dampers::in_brake)).maker, Maker::by_hand);
+  EXPECT_EQ(law_of(compiled(kelvin_element(1, 1), {})).maker, Maker::evaluated);
+}
+
+// Fails if a plot of the map cannot be read by itself: more lines than one can tell apart, or a line that its own
+// legend does not name, or no word of what stable means.
+TEST(Page, makes_each_plot_of_walls_readable_by_itself) {
+  for (const Figure& figure : sections().back().figures) {
+    EXPECT_GE(figure.caption.size(), 3U) << figure.title;
+    EXPECT_TRUE(std::any_of(figure.caption.begin(), figure.caption.end(), [](const std::string& line) {
+      return line.find("Stable: a tool of") != std::string::npos;
+    })) << figure.title;
+    for (const Panel& panel : figure.panels) {
+      EXPECT_LE(panel.curves.size(), 8U) << figure.title;
+      for (const Curve& curve : panel.curves) EXPECT_FALSE(curve.name.empty()) << figure.title;
+    }
+  }
+}
+
 std::string sources_of_this_room() {
   std::stringstream all;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(DASHPOT_PAPER_ROOM))
@@ -92,6 +147,30 @@ TEST(Chosen, holds_what_is_used_with_its_reason) {
     const bool is_used =
         sources.find('"' + name + '"') != std::string::npos || sources.find('@' + name + '@') != std::string::npos;
     EXPECT_TRUE(is_used) << name;
+  }
+}
+
+// Fails if the device file assumes a value that the page does not list.
+TEST(Chosen, lists_every_assumed_value_of_the_rig) {
+  const auto file = nlohmann::json::parse(std::ifstream(DASHPOT_PAPER_ROOM "/chosen.json"));
+  for (const std::string& key : rig().assumed)
+    EXPECT_TRUE(std::any_of(file.begin(), file.end(), [&](const auto& choice) {
+      return choice.contains("device") && choice.at("device") == key;
+    })) << key;
+}
+
+// Fails if an experiment has a number of its own: what is not from the paper's print stands in chosen.json.
+TEST(Chosen, leaves_no_number_to_the_experiments) {
+  const std::regex constant("^constexpr (double|int|unsigned|std::size_t) [a-zA-Z_]+ = .*");
+  for (const auto& entry : std::filesystem::directory_iterator(DASHPOT_PAPER_ROOM)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_experiment = std::regex_match(name, std::regex("(fig[0-9]+|pareto|limits|z_width.*)\\.cpp"));
+    if (!is_experiment || name == "fig5.cpp") continue;  // a program of its own, held by Fig5.has_the_chosen_rate
+    std::ifstream file(entry.path());
+    for (std::string line; std::getline(file, line);) {
+      const bool is_known = line.find("print") != std::string::npos || line.find(" pi ") != std::string::npos;
+      EXPECT_TRUE(is_known || !std::regex_match(line, constant)) << name << ": " << line;
+    }
   }
 }
 

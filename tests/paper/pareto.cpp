@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
 #include "chosen.hpp"
 #include "evaluated_law.hpp"
@@ -11,8 +13,6 @@
 
 namespace dashpot::paper {
 namespace {
-
-constexpr int steps = 60;  // b from 0 to pareto.reach · Z_d(0)
 
 struct NetworkFile {
   const char* title;
@@ -56,9 +56,9 @@ Split split_of(const char* network, double brake, compiler::StateInput input, co
 Pareto::Sweep sweep_of(const NetworkFile& network, compiler::StateInput input, const NamedEstimator& estimator) {
   const double viscosity = compiled(network.text, {})->decomposition.candidates[1].damping;  // zero-frequency
   Pareto::Sweep sweep{network.title, estimator, std::string(name_of(input)), viscosity, {}};
-  for (int i = 0; i <= steps; ++i)
-    sweep.splits.push_back(
-        split_of(network.text, chosen("pareto.reach") * viscosity * i / steps, input, estimator.velocity));
+  const double steps = chosen("pareto.steps"), reach = chosen("pareto.reach") * viscosity;  // b from 0
+  for (double i = 0; i <= steps; ++i)
+    sweep.splits.push_back(split_of(network.text, reach * i / steps, input, estimator.velocity));
   return sweep;
 }
 
@@ -73,7 +73,7 @@ std::vector<Curve> curves_of(const Pareto& pareto, const char* network, Value va
     if (sweep.network != network) continue;
     const bool by_position = sweep.state_input == "position";
     const std::string name = by_position ? "" : sweep.estimator.name;
-    Curve curve{name, of_estimator[by_position][curves.size() % 3], {}, {}};
+    Curve curve{name, of_estimator[by_position][curves.size() % 3], {}, {}, Maker::analysis};
     for (const Split& split : sweep.splits) {
       curve.x.push_back(split.brake);
       curve.y.push_back(value(split));
@@ -87,7 +87,10 @@ std::vector<Curve> curves_of(const Pareto& pareto, const char* network, Value va
 std::vector<Curve> with_marks(std::vector<Curve> curves, double viscosity) {
   double top = 0;
   for (const Curve& curve : curves) top = std::max(top, *std::max_element(curve.y.begin(), curve.y.end()));
-  curves.push_back({"the rig’s brake ends, 2.8 N·s/m", {"#2f8f5b", 1.2, "6 3"}, {2.8, 2.8}, {0, top}});
+  const double reach =
+      rig().description.brake.max_damping / (rig().description.arm_radius * rig().description.arm_radius);
+  curves.push_back(
+      {fmt::format("the rig’s brake ends, {:.2g} N·s/m", reach), {"#2f8f5b", 1.2, "6 3"}, {reach, reach}, {0, top}});
   curves.push_back({"½ Z_d(0)", bound, {viscosity / 2, viscosity / 2}, {0, top}});
   return curves;
 }
@@ -125,6 +128,71 @@ Table winners(const Pareto& pareto) {
   return table;
 }
 
+const Pareto::Sweep& sweep(const Pareto& pareto, const char* network, const char* state_input, std::size_t estimator) {
+  std::size_t seen = 0;
+  for (const Pareto::Sweep& each : pareto.sweeps)
+    if (each.network == network && each.state_input == state_input && seen++ == estimator) return each;
+  throw std::out_of_range(network);
+}
+
+// Whether b = 0 is the best of every sweep that position drives.
+bool is_won_without_brake(const Pareto& pareto) {
+  for (const Pareto::Sweep& each : pareto.sweeps)
+    for (std::size_t i = 0; i < brake_errors.size() && each.state_input == "position"; ++i)
+      if (each.best(i).brake != 0) return false;
+  return true;
+}
+
+// The least b that needs nothing beside an exact brake; none where every b does.
+std::optional<double> first_passive(const Pareto::Sweep& sweep) {
+  for (const Split& split : sweep.splits)
+    if (split.missing[0] == 0) return split.brake;
+  return std::nullopt;
+}
+
+bool rises(const Pareto& pareto, double Split::*value) {
+  for (const Pareto::Sweep& each : pareto.sweeps)
+    if (each.state_input == "velocity" && each.splits.front().*value >= each.splits.back().*value) return false;
+  return true;
+}
+
+std::string within_reach(const Pareto::Sweep& sweep) {
+  const double half = sweep.viscosity / 2, reach = rig().description.brake.max_damping /
+                                                   (rig().description.arm_radius * rig().description.arm_radius);
+  if (half <= reach)
+    return fmt::format("{}’s element, ½ Z_d(0) = {:.2g} N·s/m, is within the reach of the rig’s brake, {:.2g} N·s/m.",
+                       sweep.network, half, reach);
+  return fmt::format(
+      "The rig’s brake of {:.2g} N·s/m is below ½ Z_d(0) = {:.2g} N·s/m of {}: on that rig its network "
+      "cannot be rendered in the paper’s form with a passivity that holds for any delay, however good the "
+      "brake.",
+      reach, half, sweep.network);
+}
+
+std::vector<std::string> words_of(const Pareto& pareto) {
+  const Pareto::Sweep &fig5 = sweep(pareto, "Fig. 5", "velocity", 1), &fig6 = sweep(pareto, "Fig. 6", "velocity", 1),
+                      &prompt = sweep(pareto, "Fig. 5", "velocity", 0),
+                      &window = sweep(pareto, "Fig. 5", "velocity", 2);
+  const std::optional<double> first = first_passive(fig5);
+  const bool is_won = is_won_without_brake(pareto),
+             needs_none = prompt.splits[0].missing[0] == 0 && window.splits[0].missing[0] == 0;
+  return {
+      fmt::format("Neither network has a damper at its feedthrough, so that position drives all of it without any "
+                  "estimate. b = 0 {} for every estimator and every error of the brake. The paper drives the states by "
+                  "the velocity, (17).",
+                  is_won ? "then needs least, and wins" : "does not win even then"),
+      fmt::format(
+          "Driven by the velocity there is no one winner. With the paper’s filter and an exact brake {} for Fig. "
+          "5, where the theorem of half the viscosity has {:.2g} for any delay; with a brake that is 2 or 5 % "
+          "short the best b is {:.2g} and {:.2g} N·s/m. With a difference over 1 or 15 samples b = 0 {} for Fig. "
+          "5. Noise and error {} with b.",
+          first ? fmt::format("b from {:.2g} N·s/m on needs nothing beside it", *first)
+                : "every b needs further damping",
+          fig5.viscosity / 2, fig5.best(1).brake, fig5.best(2).brake, needs_none ? "needs nothing" : "needs damping",
+          rises(pareto, &Split::noise) && rises(pareto, &Split::error) ? "grow" : "do not always grow"),
+      within_reach(fig5) + " " + within_reach(fig6)};
+}
+
 }  // namespace
 
 const Split& Pareto::Sweep::best(std::size_t brake_error) const {
@@ -146,25 +214,7 @@ Pareto measure_pareto() {
 Section show(const Pareto& pareto) {
   return {"pareto",
           "Pareto: what every split costs",
-          {"Neither network has a damper at its feedthrough, so that position drives all of it without any estimate: b "
-           "= 0 then has no "
-           "noise, no error but that of the late loop, and at 10 kHz needs no more damping than the arm has. It wins "
-           "for every estimator and every error of the brake. "
-           "That is not the paper’s answer; the paper drives the states by the velocity, (17).",
-           "Driven by the velocity there is no one winner. With the paper’s filter and an exact brake no b below about "
-           "½ Z_d(0) is "
-           "passive for Fig. 5 without help, as the theorem of half the viscosity says, and b from 6.6 N·s/m on is; "
-           "but a brake that is 2 or 5 % "
-           "short needs more the larger b is, and the best b falls to 0.4 and to 0. With a difference over 1 or 15 "
-           "samples b = 0 "
-           "needs nothing for Fig. 5 at all. Noise and error grow with b throughout.",
-           "The rig’s brake of 2.8 N·s/m is below ½ Z_d(0) = 5.5 N·s/m of Fig. 5: on that rig the network of Fig. 5 "
-           "cannot be rendered in the "
-           "paper’s form with a passivity that holds for any delay, however good the brake. With its own filter it "
-           "lacks about a hundredth of a "
-           "N·s/m, which friction or a hand supplies; driven by position it lacks nothing. Fig. 6’s element, ½ Z_d(0) "
-           "= 2.5 N·s/m, is just "
-           "within its reach."},
+          words_of(pareto),
           {figure_of(pareto, "Fig. 5"), figure_of(pareto, "Fig. 6")},
           {winners(pareto)}};
 }

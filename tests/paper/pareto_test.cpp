@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
+
 namespace {
 
 using namespace dashpot::paper;
@@ -72,6 +74,19 @@ TEST(Pareto, leaves_fig_5_beyond_the_rigs_brake) {
   constexpr double reach = 2.8;  // [N·s/m]
   EXPECT_GT(sweep("Fig. 5", "velocity", papers_filter).viscosity / 2, reach);
   EXPECT_LT(sweep("Fig. 6", "velocity", papers_filter).viscosity / 2, reach);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(Pareto, says_what_the_numbers_say) {
+  EXPECT_TRUE(says(show(pareto()), "then needs least, and wins"));
+  EXPECT_TRUE(says(show(pareto()), "is below ½ Z_d(0)"));
+  Pareto other = pareto();
+  for (Pareto::Sweep& each : other.sweeps) {
+    each.splits.front().missing = {9, 9, 9};
+    each.viscosity = 1;
+  }
+  EXPECT_TRUE(says(show(other), "does not win even then"));
+  EXPECT_FALSE(says(show(other), "is below ½ Z_d(0)"));
 }
 
 }  // namespace

@@ -14,10 +14,8 @@
 namespace dashpot::paper {
 namespace {
 
-constexpr double least_stiffness = 1, most_stiffness = 1e5;  // [N/m]
-constexpr int halvings = 9;                                  // of five decades: to 2 %
-constexpr double duration = 1;                               // [s]
-constexpr double speed = 0.1;  // of the tool at the start, half of the paper's typical 200 mm/s [m/s]
+double least_stiffness() { return chosen_list("map.stiffness").front(); }
+double most_stiffness() { return chosen_list("map.stiffness").back(); }
 
 compiler::Device rig_at(double rate, const velocity_description& velocity) {
   compiler::Device device = rig();
@@ -74,6 +72,7 @@ struct Outcome {
 // A tool that flies into the wall, which holds it on both sides; nobody's hand, or somebody's.
 Outcome bounce(const Wall& wall, const simulated::hand& user) {
   const device_description& plant = wall.device.description;
+  const double speed = chosen("map.speed"), escape = chosen("map.escape") * speed, rest = chosen("map.rest") * speed;
   simulated::scenario scene;
   scene.user = user;
   scene.initial_velocity = speed;
@@ -84,7 +83,7 @@ Outcome bounce(const Wall& wall, const simulated::hand& user) {
   const auto law = law_of(wall.law)();
   const transmission<double>& gear = drive.gear();
   Outcome outcome{true, 0};
-  const long last = std::lround(duration / plant.loop.sample_period);
+  const long last = std::lround(chosen("map.duration") / plant.loop.sample_period);
   device_sample sample;
   for (long k = 0; k <= last; ++k) {
     device.read(sample);
@@ -97,8 +96,8 @@ Outcome bounce(const Wall& wall, const simulated::hand& user) {
         std::min(outcome.lowest_energy, energy.brake + energy.friction + energy.damping - energy.motor);
     const double now = std::abs(gear.tool_motion(device.truth().velocity));
     const bool is_late = 10 * k > 9 * last;
-    if (now > 3 * speed || (is_late && now > speed / 10)) outcome.settled = false;
-    if (now > 3 * speed) break;
+    if (now > escape || (is_late && now > rest)) outcome.settled = false;
+    if (now > escape) break;
   }
   return outcome;
 }
@@ -106,10 +105,10 @@ Outcome bounce(const Wall& wall, const simulated::hand& user) {
 // The largest stiffness for which `holds` is true, where it is for all below. 0 where it never is.
 template <class Claim>
 double largest_stiffness(Claim holds) {
-  if (!holds(least_stiffness)) return 0;
-  if (holds(most_stiffness)) return most_stiffness;
-  double low = least_stiffness, high = most_stiffness;
-  for (int i = 0; i < halvings; ++i) {
+  double low = least_stiffness(), high = most_stiffness();
+  if (!holds(low)) return 0;
+  if (holds(high)) return high;
+  for (double i = 0; i < chosen("map.halvings"); ++i) {
     const double middle = std::sqrt(low * high);
     (holds(middle) ? low : high) = middle;
   }
@@ -118,16 +117,19 @@ double largest_stiffness(Claim holds) {
 
 const char* name_of(WallKind kind) { return kind == WallKind::kelvin ? "kelvin" : "maxwell"; }
 
-// A sixth of a decade apart, or a whole one.
+// `thinned`: a whole decade apart.
 std::vector<double> dampings(bool thinned) {
+  const double steps = chosen("map.steps");
   std::vector<double> values;
-  for (int i = 0; i <= 18; i += thinned ? 6 : 1) values.push_back(0.03 * std::pow(10, i / 6.0));
+  for (double i = 0; i <= steps * chosen("map.decades"); i += thinned ? steps : 1)
+    values.push_back(chosen("map.least_damping") * std::pow(10, i / steps));
   return values;
 }
 
 void add_places(std::vector<MapPlace>& places, WallKind kind, const WallRealisation& realisation, bool thinned) {
-  for (const double rate : {1e3, 2e3, 5e3, 1e4}) {
-    if (thinned && (rate == 2e3 || rate == 5e3)) continue;
+  const std::vector<double> rates = chosen_list("map.rates");
+  for (const double rate : rates) {
+    if (thinned && rate != rates.front() && rate != rates.back()) continue;
     for (const double damping : dampings(thinned)) places.push_back({kind, rate, realisation, damping});
   }
 }
@@ -150,8 +152,8 @@ std::vector<MapPlace> map_places(bool thinned) {
   for (std::size_t i = 0; i < estimators.size(); ++i)
     if (!thinned || i < 2)
       add_places(places, WallKind::kelvin, {estimators[i].name, "virtual", estimators[i]}, thinned);
-  add_places(places, WallKind::kelvin, {"dual channel", "most-dissipative", paper}, thinned);
-  for (const char* name : {"virtual", "most-dissipative", "quietest-passive", "velocity-free"})
+  add_places(places, WallKind::kelvin, {"dual channel", "paper", paper}, thinned);
+  for (const char* name : {"virtual", "paper", "quietest-passive", "velocity-free"})
     if (!thinned) add_places(places, WallKind::maxwell, {name, name, paper}, thinned);
   return places;
 }
@@ -165,7 +167,7 @@ MapPoint measure(const MapPlace& place) {
   if (point.certified == 0) return point;
   for (const double share : {1.0, 0.1})
     for (const simulated::hand& user : {simulated::no_hand(), simulated::relaxed_hand(), simulated::stiff_grasp()}) {
-      const Wall wall = wall_of(place, std::max(least_stiffness, share * point.certified));
+      const Wall wall = wall_of(place, std::max(least_stiffness(), share * point.certified));
       point.lowest_energy = std::min(point.lowest_energy, bounce(wall, user).lowest_energy);
       ++point.certified_runs;
     }

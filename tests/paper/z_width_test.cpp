@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "says.hpp"
 #include <atomic>
 #include <filesystem>
 #include <fstream>
@@ -84,6 +85,19 @@ TEST(ZWidth, begins_anew_after_a_finished_map) {
   std::ofstream(file) << "settings,of another map\n" << places[0].key() << ",123,45,0,7,end\n";
   EXPECT_EQ(measure_z_width(places, file, [](std::size_t, std::size_t) {}).points[0].stable,
             thinned_map().points[0].stable);
+}
+
+// Fails if the words stay when the numbers change sides.
+TEST(ZWidth, says_what_the_numbers_say) {
+  ZWidth map = thinned_map();
+  EXPECT_TRUE(says(show(map), "Certified walls never gave energy"));
+  map.points[0].lowest_energy = -1;
+  EXPECT_TRUE(says(show(map), "Certified walls gave energy"));
+  for (std::size_t i = 0; i < map.points.size(); ++i)
+    map.points[i].stable = map.places[i].realisation.name == "dual channel";
+  EXPECT_TRUE(says(show(map), "is won by the brake"));
+  for (MapPoint& point : map.points) point.stable = 1;
+  EXPECT_TRUE(says(show(map), "is not won by the brake"));
 }
 
 }  // namespace

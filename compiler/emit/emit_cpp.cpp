@@ -131,6 +131,7 @@ std::vector<std::string> assignments(const device_description& d) {
   number("velocity.bandwidth", d.velocity.bandwidth);
   number("motor.max_torque", d.motor.max_torque);
   number("motor.amplifier_lag", d.motor.amplifier_lag);
+  if (d.motor.slew > 0) number("motor.slew", d.motor.slew);
   choice("brake.kind", "brake_kind", int(d.brake.kind));
   number("brake.max_damping", d.brake.max_damping);
   number("brake.damping_per_current_squared", d.brake.damping_per_current_squared);

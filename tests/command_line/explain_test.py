@@ -1,6 +1,9 @@
 """`dashpot explain`: the text, and the JSON that other programs read."""
 import json
+import math
+import os
 import re
+import subprocess
 import unittest
 
 from dashpot_command import FIG_5, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest, network
@@ -268,6 +271,43 @@ class MotorLimits(CommandTest):
         self.assertIn("scalar kept_share() const noexcept", header)
         self.assertIn("// at the limit: the law sheds", header)
         self.dashpot("verify", "slip_certificate.json", "slip.hpp")
+
+    def test_emitted_code_sheds_as_simulate_does(self):
+        """Fails if a header, in either timing, or C99 sheds otherwise than the law that simulate runs, or not at all."""
+        self.explained("slip.json", max_torque="5 N", slew="400 N/s")
+        choices = ["slip.json", "--device", "slewing.json", "--decomposition", "velocity-free"]
+        rows = [(k * 1e-3, 0.02 * math.sin(0.006 * k) + 0.003 * math.sin(0.05 * k)) for k in range(1000)]
+        velocities = [0.0] + [(b[1] - a[1]) / 1e-3 for a, b in zip(rows, rows[1:], strict=False)]
+        motion = "".join(f"{t!r},{p!r},{v!r}\n" for (t, p), v in zip(rows, velocities, strict=True))
+        self.write("motion.csv", "time,position,velocity\n" + motion)
+        ran = self.dashpot("simulate", *choices, "--input", "motion.csv").stdout.splitlines()[1:]
+        expected = [float(row.split(",")[5]) for row in ran]
+        self.assertLessEqual(max(map(abs, expected)), 5)
+
+        def driver(header, begin, step, share):
+            return f"""#include <stdio.h>
+                #include "{header}"
+                int main(void) {{
+                  double t, p, v;
+                  int shed = 0;
+                  {begin}
+                  while (scanf("%lf,%lf,%lf", &t, &p, &v) == 3) {{
+                    {step}
+                    shed += {share} < 1;
+                    printf("%.17g\\n", c.force);
+                  }}
+                  fprintf(stderr, "%d", shed);
+                  return 0;
+                }}\n"""
+        self.write("m.cpp", driver("slip.hpp", "dashpot::generated::slip m; m.reset(0);", "const auto c = m.step(p, v);", "m.kept_share()"))
+        self.write("m.c", driver("slip.h", "slip m; slip_reset(&m, 0);", "const dashpot_command c = slip_step(&m, p, v);", "m.sampled_share"))
+        cpp, c = [os.environ.get("CXX", "c++"), "-std=c++17", "m.cpp"], [os.environ.get("CC", "cc"), "-std=c99", "m.c"]
+        for options, compiler in [([], cpp), (["--constant-time"], cpp), (["--target", "c99"], c)]:
+            self.dashpot("compile", *choices, *options)
+            subprocess.run([*compiler, "-O1", "-ffp-contract=off", f"-I{SOURCE}/runtime/include", "-o", "m"], cwd=self.folder, check=True)
+            done = subprocess.run(["./m"], input=motion, cwd=self.folder, capture_output=True, text=True, check=True)
+            self.assertEqual([float(line) for line in done.stdout.split()], expected, options)
+            self.assertGreater(int(done.stderr), 20)
 
     def test_a_header_says_nothing_of_a_limit_that_cannot_bind(self):
         """Fails if a law is changed by a limit that it never reaches."""

@@ -1,13 +1,15 @@
 // A described device led along a known motion, sample by sample: what its encoder shows, its estimator makes of that,
 // and its motor and brake then do, so that one knows what the hand that leads it would feel. The motion goes straight
-// from sample to sample; the motor is behind its amplifier, a first-order lag, the brake behind its coil, and a command
-// takes effect the device's delay after its sample. Mechanics and jitter take no part, and the brake's gain is nominal.
+// from sample to sample; the motor is behind its amplifier, a first-order lag no faster than its slew, the brake behind
+// its coil, and a command takes effect the device's delay after its sample. Mechanics and jitter take no part, and the
+// brake's gain is nominal.
 // No heap, no <cmath>.
 #pragma once
 
 #include <dashpot/actuator.hpp>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/exponential.hpp>
+#include <dashpot/slewed_lag.hpp>
 
 namespace dashpot {
 
@@ -70,7 +72,9 @@ class led_device {
   void go_on_to(double position) noexcept {
     if (index_ == 0) return;
     const double period = device_.loop.sample_period;
-    torque_ = demanded_.motor_torque + (torque_ - demanded_.motor_torque) * torque_kept_;
+    const motor_description& motor = device_.motor;
+    torque_ = motor.slew > 0 ? slewed_lag(torque_, demanded_.motor_torque, motor.amplifier_lag, motor.slew, period)
+                             : demanded_.motor_torque + (torque_ - demanded_.motor_torque) * torque_kept_;
     coil_.advance(root_, period);
     const double travelled = (position - last_position_) / period;
     const double rate = 6.283185307179586 * device_.velocity.bandwidth;
@@ -83,7 +87,7 @@ class led_device {
     demanded_ = index_ < delay ? actuation{} : line_[(index_ - delay) % length];
     const double most = device_.brake.kind == brake_kind::none ? 0 : device_.brake.max_damping;
     root_ = square_root(demanded_.brake_damping < most ? demanded_.brake_damping : most);
-    if (!(device_.motor.amplifier_lag > 0)) torque_ = demanded_.motor_torque;
+    if (!(device_.motor.amplifier_lag > 0) && !(device_.motor.slew > 0)) torque_ = demanded_.motor_torque;
     if (!(device_.brake.coil_lag > 0) && !(coil_.slew() > 0)) coil_.reset(root_);
   }
 

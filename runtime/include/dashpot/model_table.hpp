@@ -53,9 +53,7 @@ model_table table_of() noexcept {
         return command<double>{static_cast<double>(now.damping), static_cast<double>(now.force)};
       },
       [](void* model) noexcept { static_cast<Model*>(model)->update(); },
-      [](const void* model) noexcept {
-        return static_cast<double>(static_cast<const Model*>(model)->stored_energy());
-      },
+      [](const void* model) noexcept { return static_cast<double>(static_cast<const Model*>(model)->stored_energy()); },
       [](const void* model) noexcept { return kept_share_of(*static_cast<const Model*>(model)); }};
 }
 

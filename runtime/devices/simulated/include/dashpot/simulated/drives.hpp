@@ -1,6 +1,5 @@
-// The two actuators of a simulated device as functions of time: the motor behind its amplifier, and the
-// brake behind its coil,
-//     dτ/dt = clamp((τ_demanded − τ)/lag, ±slew),
+// The two actuators of a simulated device as functions of time: the motor behind its amplifier, a first-order lag no
+// faster than its slew, and the brake behind its coil,
 //     b = (gain·κ i² + residual)/(1 + (q̇/v_c)²),     gain = 1 ± tolerance.
 // Both are solved exactly; nothing here depends on the integration step. In the joint's coordinate.
 #pragma once
@@ -20,7 +19,7 @@ class drives {
   void demand(const actuation& demand) noexcept;
   void advance(double duration) noexcept;  // [s]
 
-  double torque() const noexcept { return torque_.root_damping(); }  // of the motor, along +q [N·m] or [N]
+  double torque() const noexcept { return torque_; }  // of the motor, along +q [N·m] or [N]
   double torque_after(double duration) const noexcept;
   double damping() const noexcept { return damping_of(coil_.root_damping()); }  // of the brake, at no speed
   double damping_after(double duration) const noexcept { return damping_of(coil_.after(demanded_root_, duration)); }
@@ -35,14 +34,15 @@ class drives {
  private:
   double damping_of(double root) const noexcept { return gain_ * root * root + residual_; }
 
+  double amplifier_lag_;       // [s]
+  double motor_slew_;          // [N·m/s] or [N/s]; 0: unlimited
   double max_torque_;          // [N·m] or [N]; 0: unlimited
   double max_damping_;         // [N·m·s/rad] or [N·s/m]
   double residual_;            // damping at zero current
   double gain_;                // true damping over demanded
   double per_critical_speed_;  // 1/v_c; 0: does not fade
   brake_coil<double> coil_;
-  brake_coil<double> torque_;   // [N·m] or [N]: a first order and a slew as a coil's
-  bool is_instant_;             // neither lag nor slew
+  double torque_ = 0;           // [N·m] or [N]
   double demanded_torque_ = 0;  // [N·m] or [N]
   double demanded_root_ = 0;    // √ of the demanded damping
 };

@@ -21,6 +21,8 @@ namespace {
 // Far beyond any machine: so that what a certificate multiplies stays finite.
 constexpr double lowest_speed = 1e-9, highest_speed = 1e9;  // [m/s] or [rad/s]
 constexpr double longest_time = 1e6;                        // of lags and lateness [s]
+constexpr double slowest_mode = 0.1;                        // [Hz]
+constexpr double smallest_part = 100;                       // of the inertia, on either side of a mode: one in so many
 
 // The dimensions of the joint's own coordinate.
 struct JointDimensions {
@@ -230,13 +232,14 @@ class DeviceBuilder {
   void read_motor() {
     SectionReader reader = section("motor");
     motor_description& motor = device_.description.motor;
-    reader.refuse_other_keys({"torque_constant", "max_torque", "amplifier_lag", "slew", "saturation_allowed"});
+    reader.refuse_other_keys({"torque_constant", "max_torque", "amplifier_lag", "slew", "saturation_allowed", "noise"});
     reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
     reader.read("max_torque", due_.force, Bound::above_zero, motor.max_torque);
     reader.read("amplifier_lag", dimensions::time, Bound::zero_or_more, motor.amplifier_lag);
     reader.is_within("amplifier_lag", motor.amplifier_lag, 0, longest_time, "s");
     reader.read("slew", due_.force_rate, Bound::above_zero, motor.slew);
     reader.read("saturation_allowed", dimensions::time, Bound::above_zero, motor.saturation_allowed);
+    reader.read("noise", due_.force, Bound::zero_or_more, motor.noise);
   }
 
   void read_brake() {
@@ -280,10 +283,35 @@ class DeviceBuilder {
   void read_mechanics() {
     SectionReader reader = section("mechanics");
     mechanics_description& mechanics = device_.description.mechanics;
-    reader.refuse_other_keys({"inertia", "damping", "coulomb_friction"});
+    reader.refuse_other_keys({"inertia", "damping", "coulomb_friction", "mode", "backlash"});
     reader.read("inertia", due_.inertia, Bound::zero_or_more, mechanics.inertia);
     reader.read("damping", due_.damping, Bound::zero_or_more, mechanics.damping);
     reader.read("coulomb_friction", due_.force, Bound::zero_or_more, mechanics.coulomb_friction);
+    reader.read("backlash", due_.position, Bound::zero_or_more, mechanics.backlash);
+    if (reader.has("mode"))
+      diagnostics_.report<DiagnosticCode::wrong_type>(reader.place_of("mode"), "mode", "a value", "an object");
+    else read_mode(reader, mechanics);
+  }
+
+  // Backlash is the dead zone of the mode's spring.
+  void read_mode(const SectionReader& around, mechanics_description& mechanics) {
+    SectionReader reader = section("mechanics.mode");
+    if (!reader.is_present()) {
+      if (around.has("backlash")) around.require("mode");
+      return;
+    }
+    reader.refuse_other_keys({"frequency", "damping_ratio", "mass"});
+    reader.require("frequency");
+    reader.require("mass");
+    reader.read("frequency", dimensions::frequency, Bound::above_zero, mechanics.mode.frequency);
+    reader.is_within("frequency", mechanics.mode.frequency, slowest_mode, 1 / device_.description.loop.sample_period,
+                     "Hz");
+    reader.read("damping_ratio", dimensions::number, Bound::zero_or_more, mechanics.mode.damping_ratio);
+    reader.is_within("damping_ratio", mechanics.mode.damping_ratio, 0, 1, "of critical damping");
+    reader.read("mass", due_.inertia, Bound::above_zero, mechanics.mode.mass);
+    const double least = mechanics.inertia / smallest_part;
+    reader.is_within("mass", mechanics.mode.mass, least, mechanics.inertia * (smallest_part - 1) / smallest_part,
+                     motion_ == motion::rotation ? "kg m^2" : "kg");
   }
 
   void read_assumed() {

@@ -31,20 +31,31 @@ std::optional<EntryDecl> parse_entry(const JsonMember& member, Diagnostics& diag
   return entry;
 }
 
+// An object within a section is a section of its own, "mechanics.mode".
+bool is_subsection(const std::string& section, const JsonMember& member) {
+  return section == "mechanics" && member.key == "mode" && member.value.kind == Kind::object;
+}
+
 SectionDecl parse_section(const std::string& name, const Span& name_span, const JsonValue& object,
                           Diagnostics& diagnostics) {
   const ObjectReader reader(object, name, diagnostics);
   SectionDecl section{{name, name_span}, {}, reader.opening()};
-  for (const JsonMember& member : object.members)
+  for (const JsonMember& member : object.members) {
+    if (is_subsection(name, member)) continue;
     if (std::optional<EntryDecl> entry = parse_entry(member, diagnostics)) section.entries.push_back(std::move(*entry));
+  }
   return section;
 }
 
 std::vector<SectionDecl> parse_sections(const ObjectReader& device, Diagnostics& diagnostics) {
   std::vector<SectionDecl> sections;
   for (const std::string& name : section_names)
-    if (const JsonValue* object = device.object(name))
+    if (const JsonValue* object = device.object(name)) {
       sections.push_back(parse_section(name, device.find(name)->key_span, *object, diagnostics));
+      for (const JsonMember& member : object->members)
+        if (is_subsection(name, member))
+          sections.push_back(parse_section(name + "." + member.key, member.key_span, member.value, diagnostics));
+    }
   return sections;
 }
 

@@ -63,6 +63,7 @@ struct motor_description {
   double amplifier_lag = 0;       // first order [s]
   double slew = 0;                // of the torque or force [N·m/s] or [N/s]; 0: unlimited
   double saturation_allowed = 0;  // longest uninterrupted saturation [s]; 0: unlimited
+  double noise = 0;               // of the amplifier: rms, drawn anew each sample [N·m] or [N]
 };
 
 struct brake_description {
@@ -77,10 +78,21 @@ struct brake_description {
   double safe_damping = 0;                 // commanded after a fault, same unit as max_damping
 };
 
+// The tool's side of a structure that gives: motor, brake, encoder, friction and damping are on the shaft, `mass` of
+// the inertia, the hand and end-stops on the tool's side of a spring and damper. Frequency and damping ratio are those
+// of the two sides swinging against each other with nothing else acting on them.
+struct structural_mode {
+  double frequency = 0;      // [Hz]; 0: rigid
+  double damping_ratio = 0;  // [1]
+  double mass = 0;           // on the tool's side, part of the inertia [kg·m²] or [kg]
+};
+
 struct mechanics_description {
-  double inertia = 0;           // [kg·m²] or [kg]
+  double inertia = 0;           // all of it [kg·m²] or [kg]
   double damping = 0;           // own viscous damping [N·m·s/rad] or [N·s/m]
   double coulomb_friction = 0;  // [N·m] or [N]
+  structural_mode mode = {};
+  double backlash = 0;  // width of the dead zone of the mode's spring [rad] or [m]
 };
 
 struct device_description {

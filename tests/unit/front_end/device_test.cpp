@@ -23,18 +23,20 @@ TEST(Device, IsReadIntoSi) {
                  "max_speed": "30 rad/s" },
     "velocity": { "estimator": "butterworth", "order": 4, "cutoff": "120 Hz" },
     "motor": { "torque_constant": "43 mN m/A", "max_torque": "0.1 N m", "amplifier_lag": "0.2 ms", "slew": "30 mN m/ms",
-               "saturation_allowed": "0.2 s" },
+               "saturation_allowed": "0.2 s", "noise": "0.5 mN m" },
     "brake": { "kind": "eddy_current", "max_damping": "7 mN m s/rad",
                "damping_per_current_squared": "6 mN m s/(rad A^2)", "residual_damping": "0.1 mN m s/rad",
                "tolerance": "5 %", "coil_lag": "1 ms", "slew": "2 A/ms", "critical_speed": "400 rad/s",
                "safe_damping": "3 mN m s/rad" },
-    "mechanics": { "inertia": "0.3 g m^2", "damping": "20 uN m s/rad", "coulomb_friction": "1 mN m" },
-    "assumed": ["brake.coil_lag", "arm_radius"] })json");
+    "mechanics": { "inertia": "0.3 g m^2", "damping": "20 uN m s/rad", "coulomb_friction": "1 mN m",
+      "mode": { "comment": "of the arm", "frequency": "0.4 kHz", "damping_ratio": "2 %", "mass": "20 mg m^2" },
+      "backlash": "1 mrad" },
+    "assumed": ["brake.coil_lag", "arm_radius", "mechanics.mode.mass"] })json");
   ASSERT_TRUE(run.device) << run.said();
   const device_description& d = run.device->description;
   EXPECT_EQ(run.device->name, "rig");
   EXPECT_EQ(run.device->source, "made up");
-  EXPECT_EQ(run.device->assumed, (std::vector<std::string>{"brake.coil_lag", "arm_radius"}));
+  EXPECT_EQ(run.device->assumed, (std::vector<std::string>{"brake.coil_lag", "arm_radius", "mechanics.mode.mass"}));
   EXPECT_EQ(run.device->digest.size(), 16u);
   EXPECT_EQ(d.motion, motion::rotation);
   EXPECT_EQ(d.arm_radius, 0.05);
@@ -58,6 +60,7 @@ TEST(Device, IsReadIntoSi) {
   EXPECT_DOUBLE_EQ(d.motor.slew, 30);
   EXPECT_EQ(d.motor.amplifier_lag, 0.0002);
   EXPECT_EQ(d.motor.saturation_allowed, 0.2);
+  EXPECT_EQ(d.motor.noise, 0.0005);
   EXPECT_EQ(d.brake.kind, brake_kind::eddy_current);
   EXPECT_EQ(d.brake.max_damping, 0.007);
   EXPECT_EQ(d.brake.damping_per_current_squared, 0.006);
@@ -70,6 +73,10 @@ TEST(Device, IsReadIntoSi) {
   EXPECT_EQ(d.mechanics.inertia, 0.0003);
   EXPECT_EQ(d.mechanics.damping, 0.00002);
   EXPECT_EQ(d.mechanics.coulomb_friction, 0.001);
+  EXPECT_EQ(d.mechanics.mode.frequency, 400);
+  EXPECT_EQ(d.mechanics.mode.damping_ratio, 0.02);
+  EXPECT_EQ(d.mechanics.mode.mass, 2e-5);
+  EXPECT_EQ(d.mechanics.backlash, 0.001);
 }
 
 // If this fails, what a file does not say is no longer ideal.
@@ -84,6 +91,9 @@ TEST(Device, IsIdealWhereTheFileIsSilent) {
   EXPECT_EQ(d.brake.kind, brake_kind::none);
   EXPECT_EQ(d.motor.max_torque, 0);
   EXPECT_EQ(d.mechanics.inertia, 0);
+  EXPECT_EQ(d.motor.noise, 0);
+  EXPECT_EQ(d.mechanics.mode.frequency, 0);
+  EXPECT_EQ(d.mechanics.backlash, 0);
 }
 
 // If this fails, a device that translates is measured in radians.

@@ -39,11 +39,11 @@ void drives::demand(const actuation& demand) noexcept {
 }
 
 void drives::advance(double duration) noexcept {
-  torque_ = torque_after(duration);
+  torque_ = amplified_after(duration);
   coil_.advance(demanded_root_, duration);
 }
 
-double drives::torque_after(double duration) const noexcept {
+double drives::amplified_after(double duration) const noexcept {
   if (torque_ == demanded_torque_) return torque_;
   if (motor_slew_ > 0) return slewed_lag(torque_, demanded_torque_, amplifier_lag_, motor_slew_, duration);
   return demanded_torque_ + (torque_ - demanded_torque_) * std::exp(-duration / amplifier_lag_);

@@ -42,10 +42,14 @@ double rate_of(double lag) { return lag > 0 ? 1 / lag : 0; }
 double longest_step(const device_description& device, const scenario& scene, const hand& user, double ratio) {
   const double period = device.loop.sample_period;
   if (scene.substeps > 0) return period / scene.substeps;
-  const double inertia = device.mechanics.inertia + user.mass;
+  const structural_mode& mode = device.mechanics.mode;
+  const bool gives = mode.frequency > 0;
+  const double inertia = gives ? std::min(mode.mass + user.mass, device.mechanics.inertia - mode.mass)
+                               : device.mechanics.inertia + user.mass;
   const engaged all = all_of(device, scene, user, ratio);
   const double fastest = std::max({0.5 / period, rate_of(device.motor.amplifier_lag), rate_of(device.brake.coil_lag),
-                                   all.damping / inertia, 5 * std::sqrt(all.stiffness / inertia), fastest_of(user)});
+                                   all.damping / inertia, 5 * std::sqrt(all.stiffness / inertia), fastest_of(user),
+                                   gives ? 5 * 2 * 3.14159265358979323846 * mode.frequency : 0});
   return std::max(0.5 / fastest, period / 64);
 }
 

@@ -272,6 +272,8 @@ plant_view plant::view() const noexcept {
   seen.time = shaft_.time;
   seen.position = shaft_.position;
   seen.velocity = shaft_.velocity;
+  seen.tool_position = shaft_.position;
+  seen.tool_velocity = shaft_.velocity;
   seen.motor_torque = drives_.torque();
   seen.brake_damping = drives_.at_speed(drives_.damping(), shaft_.velocity);
   seen.stop_torque = stop_force(shaft_.position, shaft_.velocity);

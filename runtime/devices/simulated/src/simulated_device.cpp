@@ -21,6 +21,28 @@ const scenario& checked(const device_description& device, const scenario& scene)
   return scene;
 }
 
+using any_plant = std::variant<simulated::plant, simulated::compliant_plant>;
+
+any_plant plant_of(const device_description& device, const scenario& scene) {
+  if (device.mechanics.mode.frequency > 0) return simulated::compliant_plant(device, scene);
+  return simulated::plant(device, scene);
+}
+
+bool is_rigid(const std::optional<simulated::end_stop>& stop) { return stop && std::isinf(stop->stiffness); }
+
+// Of a structure that gives.
+const char* refusal_of_mode(const mechanics_description& mechanics, const scenario& scene) noexcept {
+  if (!(mechanics.mode.frequency > 0))
+    return mechanics.backlash > 0 ? "backlash needs a structural mode, whose spring it lets go" : nullptr;
+  if (!(mechanics.mode.mass > 0 && mechanics.mode.mass < mechanics.inertia))
+    return "the mode's mass is not a part of the inertia";
+  if (scene.prescribed)
+    return "a prescribed motion of the tool does not say how a structure that gives moves the shaft";
+  if (is_rigid(scene.low) || is_rigid(scene.high))
+    return "a rigid end-stop is not simulated at a tool whose structure gives: give it a stiffness";
+  return nullptr;
+}
+
 std::uint64_t nanoseconds(double seconds) {
   return seconds > 0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
 }
@@ -38,6 +60,7 @@ const char* simulated_device::refusal(const device_description& device, const sc
   if (scene.low && scene.initial_position < scene.low->position) return "the tool starts below the lower end-stop";
   if (scene.high && scene.initial_position > scene.high->position) return "the tool starts above the upper end-stop";
   if (!simulated::is_passive(scene.user)) return "the hand is not passive";
+  if (const char* reason = refusal_of_mode(device.mechanics, scene)) return reason;
   for (const sample_fault& fault : scene.faults) {
     if (fault.kind == sample_fault_kind::late && !(fault.size >= 0)) return "a late sample cannot come early";
   }
@@ -47,8 +70,8 @@ const char* simulated_device::refusal(const device_description& device, const sc
 simulated_device::simulated_device(const device_description& device, scenario scene)
     : description_(device),
       scene_(std::move(scene)),
-      plant_(device, checked(device, scene_)),
-      sensors_(device, plant_.shaft()),
+      plant_(plant_of(device, checked(device, scene_))),
+      sensors_(device, shaft()),
       line_(device.loop.delay_samples + 1) {}
 
 device_status simulated_device::read(device_sample& sample) noexcept {
@@ -66,8 +89,16 @@ void simulated_device::go_on() noexcept {
   postponed_ += delay;
   const double period = description_.loop.sample_period;
   const double lateness = jitter_of(index_);
-  plant_.advance(period + (lateness - lateness_before) + delay,
-                 static_cast<double>(index_) * period + postponed_ + lateness, line_.back().command, sensors_);
+  const double duration = period + (lateness - lateness_before) + delay,
+               end = static_cast<double>(index_) * period + postponed_ + lateness;
+  std::visit(
+      [&](auto& plant) {
+        if (description_.motor.noise > 0)
+          plant.disturb(description_.motor.noise *
+                        draw_normal(scene_.seed, simulated::draw_stream::motor_noise, index_));
+        plant.advance(duration, end, line_.back().command, sensors_);
+      },
+      plant_);
   for (std::size_t slot = line_.size() - 1; slot > 0; --slot) line_[slot] = line_[slot - 1];
 }
 
@@ -78,7 +109,7 @@ double simulated_device::jitter_of(std::uint64_t index) const noexcept {
 }
 
 void simulated_device::take_sample() noexcept {
-  const simulated::shaft_motion shaft = plant_.shaft();
+  const simulated::shaft_motion shaft = this->shaft();
   newest_.position = sensors_.quantised(shaft.position);
   newest_.counts = sensors_.counts(shaft.position);
   newest_.velocity = sensors_.sensed_velocity();

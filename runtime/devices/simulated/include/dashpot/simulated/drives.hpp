@@ -19,8 +19,11 @@ class drives {
   void demand(const actuation& demand) noexcept;
   void advance(double duration) noexcept;  // [s]
 
-  double torque() const noexcept { return torque_; }  // of the motor, along +q [N·m] or [N]
-  double torque_after(double duration) const noexcept;
+  // What the amplifier adds of itself, behind lag and limit, until the next [N·m] or [N].
+  void disturb(double torque) noexcept { disturbance_ = torque; }
+
+  double torque() const noexcept { return disturbed(torque_); }  // of the motor, along +q [N·m] or [N]
+  double torque_after(double duration) const noexcept { return disturbed(amplified_after(duration)); }
   double damping() const noexcept { return damping_of(coil_.root_damping()); }  // of the brake, at no speed
   double damping_after(double duration) const noexcept { return damping_of(coil_.after(demanded_root_, duration)); }
 
@@ -33,6 +36,8 @@ class drives {
 
  private:
   double damping_of(double root) const noexcept { return gain_ * root * root + residual_; }
+  double amplified_after(double duration) const noexcept;
+  double disturbed(double torque) const noexcept { return disturbance_ != 0 ? torque + disturbance_ : torque; }
 
   double amplifier_lag_;       // [s]
   double motor_slew_;          // [N·m/s] or [N/s]; 0: unlimited
@@ -42,7 +47,8 @@ class drives {
   double gain_;                // true damping over demanded
   double per_critical_speed_;  // 1/v_c; 0: does not fade
   brake_coil<double> coil_;
-  double torque_ = 0;           // [N·m] or [N]
+  double torque_ = 0;           // without the disturbance [N·m] or [N]
+  double disturbance_ = 0;      // [N·m] or [N]
   double demanded_torque_ = 0;  // [N·m] or [N]
   double demanded_root_ = 0;    // √ of the demanded damping
 };

@@ -12,9 +12,10 @@ struct energy_ledger {
   double damping = 0;   // dissipated by the device's own viscous damping [J]
   double stop = 0;      // taken up by the end-stops, stored or dissipated [J]
   double kinetic = 0;   // of the device's inertia, gained since the start [J]
+  double mode = 0;      // taken up by the spring and damper of a structural mode, stored or dissipated [J]
 
   // What went in and is not accounted for [J]: rounding only.
-  double imbalance() const noexcept { return hand + motor - brake - friction - damping - stop - kinetic; }
+  double imbalance() const noexcept { return hand + motor - brake - friction - damping - stop - mode - kinetic; }
 };
 
 }  // namespace dashpot::simulated

@@ -27,6 +27,8 @@ struct plant_view {
   double friction_torque = 0;  // opposing +q; while stuck, what holds the shaft, a rigid stop included
   double stop_torque = 0;      // by compliant stops, opposing +q
   bool stuck = false;
+  double tool_position = 0;  // seen from the joint; the shaft's own where the structure is rigid [rad] or [m]
+  double tool_velocity = 0;  // [rad/s] or [m/s]
 };
 
 class plant {
@@ -36,6 +38,9 @@ class plant {
   // Goes on by `duration` [s], to the instant `end` [s], under `demand`, which must be finite; `sensors` see every
   // step. The caller knows both without accumulated rounding; equal durations are faster than merely similar ones.
   void advance(double duration, double end, const actuation& demand, shaft_sensors& sensors) noexcept;
+
+  // Of the motor until the next, beside what is asked for [N·m] or [N].
+  void disturb(double torque) noexcept { drives_.disturb(torque); }
 
   shaft_motion shaft() const noexcept { return shaft_; }
   const energy_ledger& ledger() const noexcept { return ledger_; }

@@ -25,7 +25,7 @@ struct scenario {
   std::optional<end_stop> low;   // below which the tool does not go freely
   std::optional<end_stop> high;  // above which
   brake_gain gain = brake_gain::nominal;
-  std::uint64_t seed = 0;  // of jitter, drawn gain and sensor noise
+  std::uint64_t seed = 0;  // of jitter, drawn gain, sensor and amplifier noise
   unsigned substeps = 0;   // integration steps a period; 0: chosen so that every rate of the plant is resolved
   std::vector<sample_fault> faults;
 };

@@ -8,9 +8,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <variant>
 #include <vector>
 
 #include <dashpot/device.hpp>
+#include <dashpot/simulated/compliant_plant.hpp>
 #include <dashpot/simulated/energy_ledger.hpp>
 #include <dashpot/simulated/plant.hpp>
 #include <dashpot/simulated/scenario.hpp>
@@ -35,21 +37,30 @@ class simulated_device {
   const device_description& description() const noexcept { return description_; }
 
   // What only a simulation can know: the truth at the newest sample, and all energy until then.
-  simulated::plant_view truth() const noexcept { return plant_.view(); }
+  simulated::plant_view truth() const noexcept {
+    return std::visit([](const auto& plant) { return plant.view(); }, plant_);
+  }
   // The same instant seen from its other side: under what write() has put into effect.
-  simulated::plant_view truth_from_now_on() const noexcept { return plant_.view_under(line_.back().command); }
-  const simulated::energy_ledger& ledger() const noexcept { return plant_.ledger(); }
+  simulated::plant_view truth_from_now_on() const noexcept {
+    return std::visit([this](const auto& plant) { return plant.view_under(line_.back().command); }, plant_);
+  }
+  const simulated::energy_ledger& ledger() const noexcept {
+    return std::visit([](const auto& plant) -> const simulated::energy_ledger& { return plant.ledger(); }, plant_);
+  }
 
  private:
   void go_on() noexcept;
   void take_sample() noexcept;
+  simulated::shaft_motion shaft() const noexcept {
+    return std::visit([](const auto& plant) { return plant.shaft(); }, plant_);
+  }
   double jitter_of(std::uint64_t index) const noexcept;  // [s]
   const simulated::sample_fault* fault_at(std::uint64_t index) const noexcept;
   device_status deliver(const simulated::sample_fault* fault, device_sample& sample) noexcept;
 
   device_description description_;
   simulated::scenario scene_;
-  simulated::plant plant_;
+  std::variant<simulated::plant, simulated::compliant_plant> plant_;
   simulated::shaft_sensors sensors_;
   struct numbered {
     actuation command;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "all_experiments.hpp"
+#include "limits.hpp"
 #include "z_width.hpp"
 
 namespace {
@@ -25,6 +26,7 @@ void print_progress(std::size_t done, std::size_t all) {
 void draw(const std::filesystem::path& folder, bool with_map) {
   std::filesystem::create_directories(folder);
   std::vector<Section> sections = all_experiments();
+  sections.push_back(show(measure_limits()));
   if (with_map)
     sections.push_back(show(measure_z_width(map_places(false), (folder / "z_width.csv").string(), print_progress)));
   for (const Section& section : sections)

@@ -14,6 +14,7 @@
 #include "all_experiments.hpp"
 #include "chosen.hpp"
 #include "evaluated_law.hpp"
+#include "limits.hpp"
 #include "printed_needle.hpp"
 #include "z_width.hpp"
 
@@ -21,9 +22,32 @@ namespace {
 
 using namespace dashpot::paper;
 
+// As many rows and samples as the measured ones have.
+Limits some_limits() {
+  Limits limits;
+  const std::vector<double> cutoffs = chosen_list("limits.cutoffs");
+  const Limits::Row row{{"mode, backlash and noise", 100, 0.1, 0.1, 0.1},
+                        {7, 40},
+                        {40, 40},
+                        cutoffs,
+                        std::vector<Limits::Bound>(cutoffs.size(), {10, 20})};
+  limits.rows.assign(5, row);
+  for (const double inertia : chosen_list("limits.inertias"))
+    for (const double mode : chosen_list("limits.modes")) {
+      limits.modes.push_back(row);
+      limits.modes.back().faults.mode = mode, limits.modes.back().faults.inertia = inertia;
+    }
+  Trace trace(std::size_t(chosen("limits.duration") * 1e4));
+  for (std::size_t k = 0; k < trace.size(); ++k) trace[k].time = 1e-4 * double(k), trace[k].motor = k % 2 ? 2 : -2;
+  for (const char* name : {"difference of one sample", "4th order, 120 Hz", "too much"})
+    limits.runs.push_back({name, plain, trace});
+  return limits;
+}
+
 const std::vector<Section>& sections() {
   static const std::vector<Section> all = [] {
     std::vector<Section> sections = all_experiments(true);
+    sections.push_back(show(some_limits()));
     sections.push_back(
         show(ZWidth{map_places(false), std::vector<MapPoint>(map_places(false).size(), {100, 10, 0, 6})}));
     return sections;

@@ -298,7 +298,8 @@ Table table_of(const ZWidth& map, WallKind kind, const char* title) {
 }  // namespace
 
 Section show(const ZWidth& map) {
-  const Group groups[] = {{"linear filters", {0, 1, 2, 8}}, {"windows", {3, 4, 5, 6}}, {"nonlinear ones", {7, 9, 10}}};
+  const Group groups[] = {
+      {"through linear filters", {0, 1, 2, 8}}, {"over windows", {3, 4, 5, 6}}, {"nonlinear estimators", {7, 9, 10}}};
   Section section{"z_width", "Z-width: which walls can be rendered", words_of(map), {figure_by_rate(map)}, {}};
   for (const Group& group : groups) section.figures.push_back(figure_of(map, group));
   section.tables = {table_of(map, WallKind::kelvin, "K beside B")};

@@ -16,15 +16,6 @@ Json interval_json(const std::optional<Interval>& interval) {
   return interval ? Json{number(interval->low), number(interval->high)} : Json(nullptr);
 }
 
-const char* word_of(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::spring: return "spring";
-    case ElementKind::damper: return "damper";
-    case ElementKind::slip: return "slip";
-  }
-  return "";
-}
-
 const char* word_of(TermKind kind) {
   switch (kind) {
     case TermKind::spring: return "spring";

@@ -243,12 +243,6 @@ class FitPage {
     return text + "</tbody></table></div>\n";
   }
 
-  std::string unit_of(const FittedElement& element) const {
-    return element.kind == ElementKind::spring   ? units_.stiffness
-           : element.kind == ElementKind::damper ? units_.damping
-                                                 : units_.force;
-  }
-
   bool has(std::optional<fitting::Interval> FittedElement::*which) const {
     return std::any_of(fit_.elements.begin(), fit_.elements.end(),
                        [&](const FittedElement& element) { return (element.*which).has_value(); });
@@ -259,8 +253,8 @@ class FitPage {
     const std::optional<fitting::Interval>& interval = element.*which;
     if (!interval) return "<td></td>";
     return "<td>" +
-           escaped(quantity_text(interval->low, unit_of(element), 4) + " … " +
-                   quantity_text(interval->high, unit_of(element), 4)) +
+           escaped(quantity_text(interval->low, unit_of(element.kind, units_), 4) + " … " +
+                   quantity_text(interval->high, unit_of(element.kind, units_), 4)) +
            "</td>";
   }
 

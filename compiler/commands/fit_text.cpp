@@ -65,18 +65,9 @@ class FitText {
     return text + "\n";
   }
 
-  std::string unit_of(const FittedElement& element) const {
-    switch (element.kind) {
-      case ElementKind::spring: return units_.stiffness;
-      case ElementKind::damper: return units_.damping;
-      case ElementKind::slip: return units_.force;
-    }
-    return "";
-  }
-
   std::string between(const Interval& interval, const FittedElement& element) const {
-    return fmt::format("{} … {}", quantity_text(interval.low, unit_of(element), 4),
-                       quantity_text(interval.high, unit_of(element), 4));
+    return fmt::format("{} … {}", quantity_text(interval.low, unit_of(element.kind, units_), 4),
+                       quantity_text(interval.high, unit_of(element.kind, units_), 4));
   }
 
   std::string elements() const {

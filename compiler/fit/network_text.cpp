@@ -75,12 +75,6 @@ std::string recordings_text(const Fit& fit, const Problem& problem) {
   return text;
 }
 
-std::string unit_of_element(const FittedElement& element, const PortUnits& units) {
-  return element.kind == ElementKind::spring   ? units.stiffness
-         : element.kind == ElementKind::damper ? units.damping
-                                               : units.force;
-}
-
 // `which` of the elements that have it.
 std::string intervals_text(const Fit& fit, const char* key, std::optional<Interval> FittedElement::*which) {
   const PortUnits units = port_units(fit.choices.port_motion);
@@ -88,7 +82,7 @@ std::string intervals_text(const Fit& fit, const char* key, std::optional<Interv
   for (const FittedElement& element : fit.elements)
     if (const std::optional<Interval>& interval = element.*which)
       text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ",\n      ", element.name,
-                          range_text(interval->low, interval->high, unit_of_element(element, units)));
+                          range_text(interval->low, interval->high, unit_of(element.kind, units)));
   return text.empty() ? "" : fmt::format(",\n    \"{}\": {{\n      {} }}", key, text);
 }
 

@@ -89,24 +89,6 @@ int digits_for(const FittedElement& element) {
   return std::clamp(static_cast<int>(std::ceil(1 - std::log10(half / 5))), least, most);
 }
 
-std::string unit_of(ElementKind kind, const PortUnits& units) {
-  switch (kind) {
-    case ElementKind::spring: return units.stiffness;
-    case ElementKind::damper: return units.damping;
-    case ElementKind::slip: return units.force;
-  }
-  return "";
-}
-
-const char* word_of(ElementKind kind) {
-  switch (kind) {
-    case ElementKind::spring: return "spring";
-    case ElementKind::damper: return "damper";
-    case ElementKind::slip: return "slip";
-  }
-  return "";
-}
-
 std::string leaf_text(const FittedElement& element) {
   if (element.springpot)
     return fmt::format("{{ \"springpot\": \"{}\", {}, \"name\": \"{}\" }}", element.text, *element.springpot,
@@ -139,6 +121,24 @@ std::string branch_text(const Branch& branch, Form form) {
 }
 
 }  // namespace
+
+std::string unit_of(ElementKind kind, const PortUnits& units) {
+  switch (kind) {
+    case ElementKind::spring: return units.stiffness;
+    case ElementKind::damper: return units.damping;
+    case ElementKind::slip: return units.force;
+  }
+  return "";
+}
+
+const char* word_of(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::spring: return "spring";
+    case ElementKind::damper: return "damper";
+    case ElementKind::slip: return "slip";
+  }
+  return "";
+}
 
 std::vector<FittedElement> elements_of(const Problem& problem, const Model& model) {
   return ElementList(problem, model).run();

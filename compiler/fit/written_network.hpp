@@ -6,6 +6,7 @@
 
 #include "fit/uncertainty.hpp"
 #include "network/network.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler::fitting {
 
@@ -21,6 +22,9 @@ struct FittedElement {
   std::optional<Interval> left_out;      // over fits that leave a file out
   std::optional<std::string> springpot;  // its other keys, as they are written
 };
+
+const char* word_of(ElementKind kind);  // "spring", "damper", "slip"
+std::string unit_of(ElementKind kind, const PortUnits& units);
 
 // Names, kinds and quantities of a model's elements: K0, B0, then K1, B1, …; Y1 with its spring S1 and damper D1; P1
 // for a springpot, to hold within 0.1 % over the recordings' own frequencies, and twice as far on either side.

@@ -172,6 +172,8 @@ class Reducer {
     return result;
   }
 
+  std::size_t parameters(const Model& model) const { return parameter_count(model, choices_.gains_are_free); }
+
   static std::size_t reducible_count(const Model& model) {
     return static_cast<std::size_t>(std::count_if(model.terms.begin(), model.terms.end(), is_reducible));
   }
@@ -361,13 +363,10 @@ class Reducer {
   }
 
   void take_better(Reduction& best, Reduction other) const {
-    if (choices_.ask_for_a_size()) {
-      if (!other.is_converged) return;
-      if (best.is_converged &&
-          parameter_count(other.model, choices_.gains_are_free) >= parameter_count(best.model, choices_.gains_are_free))
-        return;
-    } else if (!(score(other.model, effective_) < score(best.model, effective_))) return;
-    best = std::move(other);
+    const bool is_less = choices_.tolerance ? parameters(other.model) < parameters(best.model)
+                                            : score(other.model, effective_) < score(best.model, effective_);
+    const bool is_better = other.is_converged == best.is_converged ? is_less : other.is_converged;
+    if (is_better) best = std::move(other);
   }
 
   const Problem& problem_;

@@ -143,6 +143,20 @@ TEST(KnownValues, SpringpotBesideMaxwell) {
   }
 }
 
+// Fails if a number of relaxations that was asked for keeps springpots out.
+TEST(KnownValues, SpringpotBesideSpring) {
+  const std::vector<Recording> files = teaching_spectrum();
+  const Problem problem(files, Form::stiffness, Weighting::relative, every_row);
+  ReductionChoices choices;
+  choices.springpots = true;
+  choices.modes = 0;
+  const Model model = reduce(problem, choices).model;
+  EXPECT_EQ(model.count(TermKind::maxwell), 0u);
+  EXPECT_EQ(model.count(TermKind::springpot), 1u);
+  EXPECT_LE(parameters(model), 3u);
+  EXPECT_LE(rms(problem, model), free_shapes * 0.0847);
+}
+
 // Fails if spectra are fitted worse without springpots than is known: a spring and three Maxwell elements have seven
 // parameters and leave 4.871 %. On the way there the damper goes first, then the criterion gives up the spring as well,
 // one parameter fewer for 1.05 % more.
@@ -183,6 +197,15 @@ TEST(KnownValues, MasterCurveOverTime) {
   EXPECT_NEAR(rms(problem, model), 1.218e6, convex * 1.218e6);
   EXPECT_NEAR(model.weights.sum(), 1739.033e6, 0.01e6);
   EXPECT_NEAR(model.weights[0], 80.727e6, 0.1e6);
+}
+
+// Fails if elements are taken away in an order, or refined to a point, that costs more than is known.
+TEST(KnownValues, MasterCurveOfFreeTimes) {
+  const std::vector<Recording> files = master_curve();
+  const Problem problem(files, Form::stiffness, Weighting::uniform, every_row);
+  const Reduction reduction = reduce(problem, {});
+  EXPECT_LE(best_rms(problem, reduction, 2 * 24 + 1), free_shapes * 1.08e6);
+  EXPECT_LE(best_rms(problem, reduction, 2 * 30 + 1), free_shapes * 0.559e6);
 }
 
 // Fails if storage and loss are not weighted by the modulus, or the floor of inconsistent data is not told.

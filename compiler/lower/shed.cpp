@@ -58,10 +58,9 @@ class Shedding {
     return found;
   }
 
-  // k0 x becomes k0 (x − r), and the surface of before is read where it has come back to.
+  // k0 x becomes k0 (x − r).
   ExpressionId loosened(ExpressionId id) {
     const Expression e = law_.expressions[id];
-    if (e.operation == Operation::read && e.variable == surface_) return writer_.read(surface_before_);
     Expression changed = e;
     for (std::size_t i = 0; i < facts_of(e.operation).operands; ++i) changed.operands[i] = loosened(e.operands[i]);
     if (is_static_product(e)) changed.operands[1] = writer_.subtract(changed.operands[1], writer_.read(shift_now_));
@@ -71,26 +70,17 @@ class Shedding {
   void loosen_static_spring() {
     if (!has_static_spring()) return;
     shift_ = writer_.scalar("rest_shift", writer_.length(), "r, where the static spring is at rest", Role::state);
-    shift_now_ = writer_.scalar("rest_shift_now", writer_.length(), "r", Role::local);
+    shift_now_ = shift_;
     std::vector<Statement> opening;
-    if (law_.surface_at) surface_ = law_.rest_position;
-    const auto first = std::find_if(law_.output.begin(), law_.output.end(),
-                                    [&](const Statement& s) { return surface_ == no_variable || reads_surface(s); });
-    const auto place = first - law_.output.begin();
-    surface_ == no_variable ? open_port(opening) : open_contact(opening, *first);
+    if (!law_.surface_at) open_port(opening);
     for (Statement& statement : law_.output) statement.value = loosened(statement.value);
-    law_.output.insert(law_.output.begin() + place, opening.begin(), opening.end());
+    law_.output.insert(law_.output.begin(), opening.begin(), opening.end());
     for (Statement& statement : law_.energy) statement.value = loosened_energy(statement.value);
-  }
-
-  bool reads_surface(const Statement& statement) const {
-    bool found = false;
-    each_read(law_, statement.value, [&](VariableId read) { found |= read == surface_; });
-    return found;
   }
 
   // The middle one of 0, r and u.
   void open_port(std::vector<Statement>& opening) {
+    shift_now_ = writer_.scalar("rest_shift_now", writer_.length(), "r", Role::local);
     const auto shift = [&] { return writer_.read(shift_); };
     const auto tool = [&] { return writer_.read(law_.position); };
     const ExpressionId least = writer_.where(writer_.subtract(shift(), tool()), tool(), shift());
@@ -98,22 +88,6 @@ class Shedding {
     writer_.assign(opening, shift_now_,
                    writer_.where(shift(), writer_.where(tool(), least, none()), writer_.where(tool(), none(), most)),
                    "r: the middle one of 0, r and u");
-  }
-
-  // `first`: the approach, u − s₋.
-  void open_contact(std::vector<Statement>& opening, const Statement& first) {
-    const VariableId free =
-        writer_.scalar("free_gap", writer_.length(), "between tool and surface before", Role::local);
-    const VariableId returned =
-        writer_.scalar("returned", writer_.length(), "by the surface behind a tool that has left", Role::local);
-    surface_before_ = writer_.scalar("surface_before", writer_.length(), "s₋", Role::local);
-    const auto shift = [&] { return writer_.read(shift_); };
-    const auto gap = [&] { return writer_.read(free); };
-    writer_.assign(opening, free, writer_.subtract(none(), first.value), "s₋ − u");
-    const ExpressionId least = writer_.where(writer_.subtract(shift(), gap()), gap(), shift());
-    writer_.assign(opening, returned, writer_.where(gap(), least, none()), "");
-    writer_.assign(opening, surface_before_, writer_.subtract(writer_.read(surface_), writer_.read(returned)), "");
-    writer_.assign(opening, shift_now_, writer_.subtract(shift(), writer_.read(returned)), "");
   }
 
   ExpressionId none() {
@@ -171,18 +145,34 @@ class Shedding {
   // r ← r + (1 − s) (x − r), x the tool or the surface
   void keep_spring() {
     if (shift_ == no_variable) return;
-    const VariableId at = law_.surface_at ? surface_now() : law_.position;
+    const VariableId at = law_.surface_at ? local("surface_now") : law_.position;
     const VariableId next = writer_.scalar("next_rest_shift", writer_.length(), "r", Role::local);
     const ExpressionId spread = writer_.subtract(writer_.read(at), writer_.read(shift_now_));
     const ExpressionId let_go = writer_.subtract(one(), writer_.read(share_));
     writer_.assign(law_.output, next, writer_.add(writer_.read(shift_now_), writer_.multiply(let_go, spread)),
                    "r ← u − s (u − r)");
-    writer_.assign(law_.update, shift_, writer_.read(writer_.kept(next)), "");
+    const ExpressionId kept = writer_.read(writer_.kept(next));
+    if (!law_.surface_at) return writer_.assign(law_.update, shift_, kept, "");
+    const ExpressionId back = writer_.read(writer_.kept(returned(next)));
+    writer_.assign(law_.update, shift_, writer_.subtract(kept, back), "");
+    for (Statement& statement : law_.update)
+      if (statement.target == law_.rest_position) statement.value = writer_.subtract(statement.value, back);
   }
 
-  VariableId surface_now() const {
+  // Surface and r follow a tool that has left, until r is 0: what stands between them stays as it is.
+  VariableId returned(VariableId shift) {
+    const VariableId gap = local("gap");
+    const VariableId back =
+        writer_.scalar("returned", writer_.length(), "by the surface behind a tool that has left", Role::local);
+    const ExpressionId further = writer_.subtract(writer_.read(shift), writer_.read(gap));
+    const ExpressionId least = writer_.where(further, writer_.read(gap), writer_.read(shift));
+    writer_.assign(law_.output, back, writer_.where(writer_.read(gap), least, none()), "the lesser of gap and r");
+    return back;
+  }
+
+  VariableId local(const char* name) const {
     for (const Variable& variable : law_.variables)
-      if (variable.name == "surface_now") return law_.variables.id_of(variable);
+      if (variable.role == Role::local && variable.name == name) return law_.variables.id_of(variable);
     throw std::logic_error("shedding: a contact without a surface");
   }
 
@@ -209,7 +199,6 @@ class Shedding {
   MotorReach reach_;
   VariableId share_ = no_variable;
   VariableId shift_ = no_variable, shift_now_ = no_variable;
-  VariableId surface_ = no_variable, surface_before_ = no_variable;
   std::set<VariableId> unscaled_;
 };
 

@@ -63,6 +63,7 @@ Balance balance_of(const CompiledCase& one, double damping, Random random, int s
   std::deque<double> late(d.loop.delay_samples, 0);
   const double lag = d.motor.amplifier_lag, limit = one.compilation->certificate.loop.max_force;
   double energy = 0, least = 0, largest = 0, position = 0, pace = 1e-3, made = 0;
+  int way = 3;
   Balance balance;
   for (int k = 0; k < samples; ++k) {
     device_sample sample{};
@@ -77,10 +78,11 @@ Balance balance_of(const CompiledCase& one, double damping, Random random, int s
     const double force = told + (made - told) * mean;  // over a hold at a constant speed
     made = told + (made - told) * kept;
     if (random.chance(0.05)) pace = random.log_uniform(1e-6, 1e2);
-    const double change = random.chance(0.5)
-                              ? (damping > 0 ? -force * hold / (2 * damping) * random.uniform(0.5, 1.5) : 0)
-                          : random.chance(0.2) ? 0
-                                               : pace * random.uniform(-1, 1);
+    if (random.chance(0.02)) way = static_cast<int>(random.index(4));
+    const double most = damping > 0 ? -force * hold / (2 * damping) * random.uniform(0.5, 1.5) : 0;
+    const double wild = random.chance(0.5) ? most : random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
+    // Pressed, held, or slowly let go of in between.
+    const double change = way == 0 ? -0.02 * position : way == 1 ? pace / 20 : way == 2 ? 0 : wild;
     const double work = force * change + damping / hold * change * change;
     energy += work;
     least = std::min(least, energy);

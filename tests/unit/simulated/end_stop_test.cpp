@@ -73,5 +73,17 @@ TEST(EndStop, DampedObstacleNeverPulls) {
   EXPECT_GT(device.ledger().stop, 0.5 * absorbed);
 }
 
+// A stop that is reached at the very end of a step would leave a step of no length, and nothing that is a number: 1 N
+// for two samples makes 0.01 m/s, which is at 4 mm 400 samples later, 0.1 ps behind the surface.
+TEST(EndStop, MayBeReachedAtTheVeryEndOfAStep) {
+  scenario scene;
+  scene.high = end_stop{0.004 - 1e-15, 1000, 1};
+  simulated_device device(plain_device(), scene);
+  run(device, 3, {1, 0});
+  run(device, 600);
+  EXPECT_LT(device.truth().velocity, 0);
+  EXPECT_LT(std::abs(device.ledger().imbalance()), 1e-12);
+}
+
 }  // namespace
 }  // namespace dashpot::simulated

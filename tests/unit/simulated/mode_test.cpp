@@ -114,6 +114,22 @@ TEST(Backlash, DoesNotPull) {
   EXPECT_NEAR(device.truth().velocity, 1 / 0.15 * 0.002, 1e-9);
 }
 
+// At the end of an impact the structure would pull. In contact x'' + 2ζω x' + ω² x = 0 from x = 0, x' = v; the push
+// k x + c x' is gone at ω_d t = π − 2 asin ζ, before x is 0 again, and the two part with what x' is then.
+TEST(Backlash, PartsWhenThePushIsGone) {
+  device_description description = giving_device();
+  description.mechanics.backlash = 0.01;
+  description.mechanics.mode.damping_ratio = 0.3;
+  simulated_device device(description);
+  run(device, 3, {1, 0});
+  run(device, 600);
+  const double omega = 2 * pi * 40, zeta = 0.3, damped = omega * std::sqrt(1 - zeta * zeta);
+  const double angle = pi - 2 * std::asin(zeta), decay = std::exp(-zeta * omega * angle / damped);
+  const double restitution = -decay * (std::cos(angle) - zeta * omega / damped * std::sin(angle));
+  const double before = 1 / 0.15 * 0.002;
+  EXPECT_NEAR((device.truth().tool_velocity - device.truth().velocity) / before, restitution, 1e-5);
+}
+
 double turnover_with_mode(const energy_ledger& ledger) {
   return std::abs(ledger.hand) + std::abs(ledger.motor) + ledger.brake + ledger.friction + ledger.damping +
          std::abs(ledger.stop) + std::abs(ledger.mode);

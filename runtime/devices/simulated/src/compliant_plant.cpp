@@ -93,6 +93,7 @@ void compliant_plant::integrate(double duration, shaft_sensors& sensors) noexcep
     commit(attempt(until), sensors);
     settle();
     duration -= until;
+    if (!(duration > 0)) return;  // it was at the very end
   }
   commit(attempt(duration), sensors);
 }

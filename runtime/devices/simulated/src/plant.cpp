@@ -64,6 +64,7 @@ void plant::integrate(double duration, shaft_sensors& sensors) noexcept {
     commit(attempt(until), sensors);
     settle();
     duration -= until;
+    if (!(duration > 0)) return;  // it was at the very end
   }
   commit(attempt(duration), sensors);
 }

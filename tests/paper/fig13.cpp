@@ -176,8 +176,8 @@ Panel swept(const Fig13& fig13, const char* title, const char* label, Value valu
 Figure swept_figure(const Fig13& fig13) {
   const std::vector<double> inertias = chosen_list("fig13.inertias"), hands = chosen_list("fig13.hands");
   const std::vector<double> ends = {inertias.front(), inertias.back()};
-  const Curve ratio{"the paper’s ratio, −3.8/−2 rad/s", bound, ends, {printed_ratio, printed_ratio}},
-      sooner{"", bound, ends, {0, 0}};
+  const Curve ratio{"the paper’s ratio, −3.8/−2 rad/s", bound, ends, {printed_ratio, printed_ratio}, Maker::mark},
+      sooner{"", bound, ends, {0, 0}, Maker::mark};
   return {"Fig. 13 over what the paper does not print: arm, hand, element",
           {fmt::format("Solid: dragged by a hand of {} N/m; dashed: of {} N/m. Each lets go at 1.8 rad/s.",
                        hands.front(), hands.back()),

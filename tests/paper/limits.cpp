@@ -120,7 +120,7 @@ Curve over_mode(const Limits& limits, double inertia, const char* name, Limits::
 }
 
 Curve level(const char* name, const Interval& range, double value, const Style& style) {
-  return {name, style, {range.low, range.high}, {value, value}};
+  return {name, style, {range.low, range.high}, {value, value}, Maker::mark};
 }
 
 Panel wide(const char* title, const char* x, std::vector<Curve> curves, const Interval& range) {

@@ -13,6 +13,7 @@ enum class Maker : unsigned char {
   runtime,      // an estimator of the runtime
   offline,      // computed from a record, with filters that look into the future
   analysis,     // the compiler's analysis in frequency, or its certificate
+  mark,         // nobody: a value to compare with
 };
 
 // Behind the name in a legend; "" for emitted code.
@@ -27,6 +28,7 @@ constexpr const char* label_of(Maker maker) {
     case Maker::runtime: return " [runtime]";
     case Maker::offline: return " [offline]";
     case Maker::analysis: return " [analysis]";
+    case Maker::mark: return " [mark]";
   }
   return "";
 }

@@ -31,7 +31,8 @@ a simulated device: the same plant for the single motor and for the dual channel
 <li><b>[closed form]</b>: the solution of the network’s differential equation;</li>
 <li><b>[offline]</b>: computed from a record, with filters that look into the future;</li>
 <li><b>[analysis]</b>: the compiler’s analysis in frequency, or its certificate;</li>
-<li><b>[device]</b>, <b>[runtime]</b>: the simulated device alone, an estimator of the runtime.</li>
+<li><b>[device]</b>, <b>[runtime]</b>: the simulated device alone, an estimator of the runtime;</li>
+<li><b>[mark]</b>: a value to compare with, printed in the paper or of the rig.</li>
 </ul>
 <p>A number that the paper does not print is chosen once; the list is at the end. Nothing is tuned to a figure. Whether a claim of
 the paper comes out is decided by the program that writes this page, from the numbers that it draws.</p>

@@ -89,9 +89,12 @@ std::vector<Curve> with_marks(std::vector<Curve> curves, double viscosity) {
   for (const Curve& curve : curves) top = std::max(top, *std::max_element(curve.y.begin(), curve.y.end()));
   const double reach =
       rig().description.brake.max_damping / (rig().description.arm_radius * rig().description.arm_radius);
-  curves.push_back(
-      {fmt::format("the rig’s brake ends, {:.2g} N·s/m", reach), {"#2f8f5b", 1.2, "6 3"}, {reach, reach}, {0, top}});
-  curves.push_back({"½ Z_d(0)", bound, {viscosity / 2, viscosity / 2}, {0, top}});
+  curves.push_back({fmt::format("the rig’s brake ends, {:.2g} N·s/m", reach),
+                    {"#2f8f5b", 1.2, "6 3"},
+                    {reach, reach},
+                    {0, top},
+                    Maker::mark});
+  curves.push_back({"½ Z_d(0)", bound, {viscosity / 2, viscosity / 2}, {0, top}, Maker::mark});
   return curves;
 }
 

@@ -243,8 +243,9 @@ void describe_exchange(CLI::App& app, CommandLine& line) {
 
 void describe(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
-  CLI::App* check = add_command(app, line, "check", "Report errors and warnings of networks, devices and motions");
-  check->add_option("FILE", options.networks, "Network or device files, or motions (.csv)")->required()->expected(-1);
+  CLI::App* check =
+      add_command(app, line, "check", "Report errors and warnings of networks, devices, motions and recordings");
+  check->add_option("FILE", options.networks, "Network or device files, or tables")->required()->expected(-1);
   add_choices(*check, line);
 
   CLI::App* explain =

@@ -1,13 +1,35 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
 #include "commands/commands.hpp"
 #include "commands/motion_csv.hpp"
 #include "compile.hpp"
+#include "fit/read_recording.hpp"
 #include "insist.hpp"
 #include "syntax/json.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-bool is_motion(const SourceFile& file) { return file.path().ends_with(".csv") || file.path().ends_with(".CSV"); }
+bool is_table(const std::string& path) {
+  const std::string ending = std::filesystem::path(path).extension().string();
+  return ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".dat";
+}
+
+// What a motion has not: a column of what answered it, named in the first lines.
+bool is_recording(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::string beginning(4096, ' ');
+  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  beginning.resize(static_cast<std::size_t>(stream.gcount()));
+  std::transform(beginning.begin(), beginning.end(), beginning.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const std::string_view answer : {"force", "torque", "moment", "load", "stress", "modul", "storage", "compliance"})
+    if (beginning.find(answer) != std::string::npos) return true;
+  return false;
+}
 
 // What is no JSON is told of as a network.
 bool is_device(const SourceFile& file) {
@@ -17,13 +39,24 @@ bool is_device(const SourceFile& file) {
          !find_member(*root, "dashpot");
 }
 
-void check(const SourceFile& file, const Options& options, const std::optional<Device>& device,
+// As `dashpot fit` would read it without further words; its questions are answered there.
+void check_recording(const std::string& path, Diagnostics& diagnostics) {
+  fitting::ReadChoices choices;
+  choices.columns.command = "dashpot fit " + path;
+  fitting::LineReader lines(path, fitting::ReadProgress());
+  if (lines.open(diagnostics)) read_recording(lines, choices, diagnostics);
+}
+
+void check(const std::string& path, const Options& options, const std::optional<Device>& device, SourceFiles& files,
            Diagnostics& diagnostics) {
-  if (is_motion(file)) {
-    parse_motion(file, diagnostics);
-  } else if (is_device(file)) {
-    read_device(file, diagnostics);
-  } else if (const auto compilation = compile(file, options.choices, device, diagnostics)) {
+  if (is_table(path) && is_recording(path)) return check_recording(path, diagnostics);
+  const SourceFile* file = files.open(path, diagnostics);
+  if (file == nullptr) return;
+  if (is_table(path)) {
+    parse_motion(*file, diagnostics);
+  } else if (is_device(*file)) {
+    read_device(*file, diagnostics);
+  } else if (const auto compilation = compile(*file, options.choices, device, diagnostics)) {
     warn_of_felt_error(*compilation, options.choices, diagnostics);
   }
 }
@@ -33,8 +66,7 @@ void check(const SourceFile& file, const Options& options, const std::optional<D
 ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
-  for (const std::string& path : options.networks)
-    if (const SourceFile* file = files.open(path, diagnostics)) check(*file, options, device.device, diagnostics);
+  for (const std::string& path : options.networks) check(path, options, device.device, files, diagnostics);
   return diagnostics.has_errors() ? ExitStatus::input_refused : ExitStatus::done;
 }
 

@@ -24,9 +24,8 @@ struct ReadChoices {
   std::optional<Geometry> geometry;
   Start start = Start::automatic;
   bool has_header = true;
-  bool keeps_positions = false;   // a surface is looked for: positions stay as they stand in the file
-  bool position_follows = false;  // the force was controlled
-  double force_delay = 0;         // the force was recorded so much later than it acted [s]
+  bool keeps_positions = false;  // a surface is looked for: positions stay as they stand in the file
+  double force_delay = 0;        // the force was recorded so much later than it acted [s]
 };
 
 struct ReadRecording {

@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from dashpot_command import COMMAND_LINE_WRONG, DASHPOT, INPUT_REFUSED, SOURCE, CommandTest
+from dashpot_command import COMMAND_LINE_WRONG, DASHPOT, FIG_5, INPUT_REFUSED, SOURCE, CommandTest
 
 RECORDINGS = SOURCE / "networks/tissues/measured"
 ADHESIVE = [RECORDINGS / f"soft_adhesive/shear_relaxation_{rate}.csv" for rate in (1, 2, 5)]
@@ -227,6 +227,19 @@ int main() {
         self.assertIn("[recordings-differ]", self.dashpot(
             "fit", "zener.csv", self.write("s.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n"),
             status=INPUT_REFUSED).stderr)
+
+    def test_check_reads_what_is_there(self):
+        """Fails if check takes a recording or a device for a broken network, or a broken recording for a sound one."""
+        self.write("zener.csv", recording())
+        self.write("falls.csv", recording() + "0,0,0\n")
+        done = self.dashpot("check", "zener.csv", SOURCE / "runtime/devices/board_mps2.json", FIG_5)
+        self.assertEqual(done.stdout + done.stderr, "")
+        self.refused("check", "zener.csv", "falls.csv", code="recording-time-falls")
+        done = self.dashpot("check", TITIN[0], status=INPUT_REFUSED)
+        self.assertIn(f"dashpot fit {TITIN[0]} --columns time=Time:s,", done.stderr)
+        self.write("device.json", '{ "dashpot_device": 1, "name": "arm", "loop": { "rate": "10 m" } }')
+        done = self.dashpot("check", "device.json", status=INPUT_REFUSED)
+        self.assertNotIn("[device-instead-of-network]", done.stderr)
 
     def test_a_line_without_end(self):
         """Fails if a line is read for as long as it lasts."""

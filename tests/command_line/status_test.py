@@ -151,7 +151,7 @@ class RefusedInput(CommandTest):
 
     def test_files_of_the_other_kind(self):
         """Fails if network and device files can be swapped unnoticed."""
-        self.refused("check", PANTOGRAPH, code="device-instead-of-network")
+        self.refused("explain", PANTOGRAPH, code="device-instead-of-network")
         self.refused("check", FIG_5, "--device", FIG_5, code="network-instead-of-device")
 
     def test_devices_that_do_not_fit(self):

@@ -1,4 +1,5 @@
-// Every experiment but the limits of virtual damping and the map of walls, which take longer, measured and shown, in the order of the paper.
+// Every experiment but the limits of virtual damping and the map of walls, which take longer, measured and shown, in
+// the order of the paper.
 #pragma once
 
 #include "page.hpp"

@@ -33,8 +33,7 @@ std::string against_paper(const Candidate& choice, const Candidate& paper, const
     return "The paper's rule chooses the same.";
   std::string text = fmt::format("With the paper's rule, b = {:.4g} {}, it errs by {} %", paper.damping, units.damping,
                                  in_percent(paper.largest_error));
-  if (choice.minimum_damping && paper.minimum_damping &&
-      std::max(*choice.minimum_damping, *paper.minimum_damping) > 0)
+  if (choice.minimum_damping && paper.minimum_damping && std::max(*choice.minimum_damping, *paper.minimum_damping) > 0)
     text += fmt::format(", {:.3g} {} have to be added for passivity where here it is {:.3g}", *paper.minimum_damping,
                         units.damping, *choice.minimum_damping);
   if (choice.motor_noise && paper.motor_noise && std::max(*choice.motor_noise, *paper.motor_noise) > 0)
@@ -53,8 +52,9 @@ std::string idle_brake(const Candidate& choice, const PortUnits& units, double r
   if (reach == 0) return "The device has no brake.";
   if (choice.damping >= next_to_nothing * reach) return "";
   if (viscosity < next_to_nothing * reach)
-    return fmt::format("The brake has next to nothing to do, because the whole network damps by no more than {:.3g} {}.",
-                       viscosity, units.damping);
+    return fmt::format(
+        "The brake has next to nothing to do, because the whole network damps by no more than {:.3g} {}.", viscosity,
+        units.damping);
   return fmt::format(
       "The brake has next to nothing to do: of the network's damping only {:.3g} {} act at once, the rest is behind "
       "springs; a brake acts at once, and what it makes too much the motor takes back a sample too late.",
@@ -86,9 +86,10 @@ std::string choice_in_words(const Decomposition& decomposition, const PortUnits&
       choice.faithful->certified ? "" : "; nothing that errs so little is certified");
   if (const Candidate* paper = named(decomposition, "paper")) text += " " + against_paper(choice, *paper, units);
   if (decomposition.moves)
-    text += fmt::format(" If each value that the device file assumes is off by up to {:.0f} %, b is {:.4g} to {:.4g} {}{}.",
-                        100 * assumed_spread, decomposition.moves->least, decomposition.moves->most, units.damping,
-                        decomposition.moves->by.empty() ? "" : ", mostly because of " + decomposition.moves->by);
+    text +=
+        fmt::format(" If each value that the device file assumes is off by up to {:.0f} %, b is {:.4g} to {:.4g} {}{}.",
+                    100 * assumed_spread, decomposition.moves->least, decomposition.moves->most, units.damping,
+                    decomposition.moves->by.empty() ? "" : ", mostly because of " + decomposition.moves->by);
   if (zero_frequency_damping > 0 && choice.damping > zero_frequency_damping * (1 + same))
     text += fmt::format(" That is {:.3g} % more than the network damps in steady motion; the motor pushes it back.",
                         100 * (choice.damping / zero_frequency_damping - 1));

@@ -96,8 +96,7 @@ std::string fitted(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     const bool is_labelled = line.size() > label && line.compare(label - 2, 2, "  ") == 0 && line[label] != ' ';
     const std::size_t indented = std::min(line.find_first_not_of(' '), line.size());
-    for (const std::string& one : wrapped_text(line, widest, is_labelled ? label : indented + 4))
-      all += one + "\n";
+    for (const std::string& one : wrapped_text(line, widest, is_labelled ? label : indented + 4)) all += one + "\n";
   }
   return all;
 }

@@ -26,7 +26,8 @@ bool is_recording(const std::string& path) {
   beginning.resize(static_cast<std::size_t>(stream.gcount()));
   std::transform(beginning.begin(), beginning.end(), beginning.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  for (const std::string_view answer : {"force", "torque", "moment", "load", "stress", "modul", "storage", "compliance"})
+  for (const std::string_view answer :
+       {"force", "torque", "moment", "load", "stress", "modul", "storage", "compliance"})
     if (beginning.find(answer) != std::string::npos) return true;
   return false;
 }

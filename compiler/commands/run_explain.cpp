@@ -43,7 +43,8 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
   }
   warn_of_felt_error(*compilation, options.choices, diagnostics);
   weigh_all_candidates(*compilation, options.choices);
-  return write_standard_output(options.json ? explain_json(*compilation) : explain_text(*compilation, options.legend), diagnostics);
+  return write_standard_output(options.json ? explain_json(*compilation) : explain_text(*compilation, options.legend),
+                               diagnostics);
 }
 
 }  // namespace dashpot::compiler

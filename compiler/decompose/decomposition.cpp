@@ -258,8 +258,8 @@ std::string candidate_row(const Candidate& c) {
 }
 
 std::string reason_line(const Candidate& c) {
-  return fmt::format("  {:<20}{}{}\n", c.name,
-                     c.capped() ? fmt::format("lowered from {:.5g}: ", c.wanted_damping) : "", c.reason);
+  return fmt::format("  {:<20}{}{}\n", c.name, c.capped() ? fmt::format("lowered from {:.5g}: ", c.wanted_damping) : "",
+                     c.reason);
 }
 
 }  // namespace
@@ -288,8 +288,8 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
 }
 
 std::string legend(bool has_device) {
-  const std::string error = has_device ? "the largest error of the felt force in the device's band: hold, estimator, delay, "
-                                         "amplifier lag, brake tolerance and added damping included"
+  const std::string error = has_device ? "the largest error of the felt force in the device's band: hold, estimator, "
+                                         "delay, amplifier lag, brake tolerance and added damping included"
                                        : "of the felt force; 0 on an ideal device";
   const std::pair<const char*, std::string> columns[] = {
       {"b", "the damping that the brake is told to make"},

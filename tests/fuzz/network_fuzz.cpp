@@ -33,8 +33,8 @@ class Tail {
 
 std::variant<std::string, double> decomposition_for(std::uint8_t choice) {
   static const char* const names[] = {
-      "paper",            "zero-frequency", "quietest-passive", "velocity-free", "virtual",
-      "largest-observer", "gated",          "steady",           "ramped",        "no such name"};
+      "paper", "zero-frequency", "quietest-passive", "velocity-free", "virtual", "largest-observer",
+      "gated", "steady",         "ramped",           "no such name"};
   constexpr std::size_t count = std::size(names);
   if (choice % 16 < count) return names[choice % 16];
   return std::ldexp(1.0, choice / 16 * 8 - 60);

@@ -168,8 +168,8 @@ TEST(ModelRunner, estimates_the_velocity_as_described) {
   }
 }
 
-// Of an estimator that times the encoder's edges: a clock that is cut short, or wraps within the run, would make a speed
-// of what is none.
+// Of an estimator that times the encoder's edges: a clock that is cut short, or wraps within the run, would make a
+// speed of what is none.
 TEST(ModelRunner, times_edges_by_the_whole_clock_and_over_its_wrap) {
   velocity_description timed;
   timed.estimator = estimator_kind::inverse_time;
@@ -178,7 +178,8 @@ TEST(ModelRunner, times_edges_by_the_whole_clock_and_over_its_wrap) {
     std::vector<float> all;
     for (std::uint32_t k = 0; k < 100; ++k) {
       const std::uint64_t now = begin + k * 1'000'000U;
-      all.push_back(runner.step({static_cast<std::int32_t>(k / 3 * 2), now, now - k % 3 * 1'000'000U - 40'000U}).speed);
+      const std::uint64_t edge = now - k % 3 * 1'000'000U - 40'000U;
+      all.push_back(runner.step({static_cast<std::int32_t>(k / 3 * 2), now, edge}).speed);
     }
     return all;
   };

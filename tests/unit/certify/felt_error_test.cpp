@@ -50,7 +50,7 @@ TEST(FeltError, OfAMotorThatDampsIsThatOfItsEstimator) {
         estimator(estimator_kind::butterworth, 2, 100), estimator(estimator_kind::butterworth, 3, 400),
         estimator(estimator_kind::butterworth, 4, 60), estimator(estimator_kind::kalman, 0, 50)}) {
     SCOPED_TRACE(::testing::Message() << "estimator " << int(velocity.estimator) << ", " << velocity.order << ", "
-                                    << velocity.cutoff);
+                                      << velocity.cutoff);
     Diagnostics diagnostics;
     const PortDevice device = PortDevice::of(device_with(velocity), Network(), diagnostics).value();
     const SampledLoop loop = sampled_loop(device, sample_period);

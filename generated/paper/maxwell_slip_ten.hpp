@@ -9,8 +9,8 @@
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any switching of the brake
-//   above its least command: needs 0.775 N·s/m over the longest hold of 0.001 s, at least 0 N·s/m is there,
-//   0.775 N·s/m more is missing in the brake's command
+//   above its least command: needs 0.775 N·s/m over the longest hold of 0.001 s, at least 0 N·s/m is there, 0.775
+//   N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
 //   adds at most 3.9e-15 of the sum of the force's terms

@@ -2,8 +2,8 @@
 //
 // source: Gosline & Hayward 2009, Fig. 5
 // scheme: exact at 1000 Hz, double
-// decomposition: paper, b = 11 N·s/m: in series B1 dissipates 100 % at low frequency and is observed; in series
-//   B2 dissipates 100 % at low frequency and is observed
+// decomposition: paper, b = 11 N·s/m: in series B1 dissipates 100 % at low frequency and is observed; in series B2
+//   dissipates 100 % at low frequency and is observed
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
 // passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11

@@ -2,7 +2,8 @@
 //
 // source: Gosline & Hayward 2009, Fig. 10 and (21); the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double
-// decomposition: most-dissipative, b = 2.5 N·s/m: dampers at the tool in parallel add
+// decomposition: faithful, b = 2.5 N·s/m: no device to be faithful on, so the paper's rule: dampers at the tool in
+//   parallel add
 // behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
 //   2.04e-05 %; b = 0.8 N·s/m stuck, 0.8 sliding
 // states: position driven: on an ideal device nothing tells the inputs apart

@@ -7,8 +7,8 @@
 //   series connections likewise
 // states: position driven: on an ideal device nothing tells the inputs apart
 // any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
-// passivity: certified for any motion, samples at 1000 Hz: needs 6.24683 N·s/m, most at 40.8013 Hz, at least
-//   6.629 N·s/m is there
+// passivity: certified for any motion, samples at 1000 Hz: needs 6.24683 N·s/m, most at 40.8013 Hz, at least 6.629
+//   N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: the constants never give more work than stored_energy() falls; rounding adds at most 5.6e-13 of the sum
 //   of the force's terms

@@ -193,6 +193,7 @@ void describe_fit(CLI::App& app, CommandLine& line) {
       ->option_text("none|auto");
   command->add_flag("--gain-per-file", fit.gain_per_file, "Specimens that differ by a factor");
   command->add_option("--modes", fit.modes, "So many relaxations, instead of what the criterion says")
+      ->check(CLI::Range(0, 1000))
       ->option_text("N");
   command->add_option("--tolerance", fit.tolerance, "The fewest elements that leave so little, relative")
       ->option_text("1%");
@@ -210,10 +211,24 @@ const std::map<std::string, PronyFormat> prony_formats = {{"abaqus", PronyFormat
                                                           {"ls-dyna", PronyFormat::ls_dyna},
                                                           {"generic", PronyFormat::generic}};
 
+// Of a name in any case the number of what it names; numbers themselves are no names.
+template <class Named>
+auto named_number(const std::map<std::string, Named>& names) {
+  return [&names](const std::string& text) {
+    const auto found = names.find(CLI::detail::to_lower(text));
+    if (found == names.end()) {
+      std::string known;
+      for (const auto& [name, value] : names) known += (known.empty() ? "" : ", ") + name;
+      throw CLI::ValidationError("'" + text + "' is not one of " + known);
+    }
+    return std::to_string(static_cast<int>(found->second));
+  };
+}
+
 void add_format(CLI::App& command, CommandLine& line, const char* option, const char* what) {
   command.add_option(option, line.options.exchange.format, what)
       ->required()
-      ->transform(CLI::CheckedTransformer(prony_formats, CLI::ignore_case))
+      ->transform(named_number(prony_formats))
       ->option_text("abaqus|febio|ansys|ls-dyna|generic");
 }
 
@@ -227,7 +242,7 @@ void describe_exchange(CLI::App& app, CommandLine& line) {
   in->add_option("--stiffness", words.stiffness, "That the file's weights are shares of, as \"1.2 kN/m\"");
   in->add_option("--modulus", words.modulus, "What a modulus of 1 in the file is as a stiffness, as \"24 mN/m\"");
   in->add_option("--of", words.of, "generic: the stiffness that the weights are shares of")
-      ->transform(CLI::CheckedTransformer(conventions, CLI::ignore_case))
+      ->transform(named_number(conventions))
       ->option_text("instantaneous|long-term|absolute");
   in->add_option("--material", words.material, "Name or number of the material, where the file has several");
   in->add_option("--time-unit", words.time_unit, "Of the file's times, default s");

@@ -50,7 +50,7 @@ std::string against_paper(const Candidate& choice, const Candidate& paper, const
 std::string idle_brake(const Candidate& choice, const PortUnits& units, double reach, double viscosity,
                        double feedthrough) {
   if (reach == 0) return "The device has no brake.";
-  if (choice.damping >= next_to_nothing * reach) return "";
+  if (choice.damping + choice.minimum_damping.value_or(0) >= next_to_nothing * reach) return "";
   if (viscosity < next_to_nothing * reach)
     return fmt::format(
         "The brake has next to nothing to do, because the whole network damps by no more than {:.3g} {}.", viscosity,

@@ -26,7 +26,9 @@ double fastest_rate(const Compilation& c) {
 namespace {
 
 std::string kelvin_text(const Compilation& c, const PortUnits& units) {
-  const KelvinForm creep = kelvin_form(c.form.linear);
+  const LinearForm& linear = c.form.linear;
+  if (linear.static_stiffness == 0 && linear.feedthrough_damping == 0 && linear.modes.empty()) return "";
+  const KelvinForm creep = kelvin_form(linear);
   std::string text =
       fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g} {}, fluidity {:.8g} {}\n",
                   to_double(creep.glass_compliance), units.compliance, to_double(creep.fluidity), units.fluidity);

@@ -18,7 +18,7 @@ bool is_table(const std::string& path) {
   return ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".dat";
 }
 
-// What a motion has not: a column of what answered it, named in the first lines.
+// A motion has a column 'position', and none of what answered it: told from the first lines.
 bool is_recording(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   std::string beginning(4096, ' ');
@@ -29,7 +29,7 @@ bool is_recording(const std::string& path) {
   for (const std::string_view answer :
        {"force", "torque", "moment", "load", "stress", "modul", "storage", "compliance"})
     if (beginning.find(answer) != std::string::npos) return true;
-  return false;
+  return beginning.find("position") == std::string::npos;
 }
 
 // What is no JSON is told of as a network.

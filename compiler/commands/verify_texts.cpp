@@ -140,7 +140,12 @@ class TextsVerification {
   const Network& network() const { return *network_; }
 
   // Of what has been found right.
-  std::string_view grade() const { return grade_of(compiled_->certificate); }
+  std::string grade() const {
+    const Certificate& certificate = compiled_->certificate;
+    const std::string grade(grade_of(certificate));
+    if (certificate.limits.is_covered) return grade;
+    return grade + "; that no energy comes of the motor's limits is not proved: " + certificate.limits.reason;
+  }
   std::string why_uncertified() const { return why_not_certified(compiled_->certificate, network_->port_motion); }
 
  private:

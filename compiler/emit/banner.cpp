@@ -140,7 +140,7 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
   facts.push_back(fmt::format("any delay of the estimate: {:.6g} {} of extra damping keep an exact brake passive",
                               choice.extra_damping_any_delay.value_or(0), unit));
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
-  if (c.law.sheds())
+  if (c.law.sheds() || !c.certificate.limits.is_covered)
     for (const std::string& line :
          to_lines(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion)))
       facts.push_back(line);

@@ -76,6 +76,8 @@ class WrongCommandLine(CommandTest):
         """Fails if a missing or unknown command or option counts as refused input, or passes."""
         self.wrong()
         self.wrong("complie", FIG_5, mentions="'compile' is the nearest")
+        self.wrong("export", FIG_5, "--to", "0", mentions="'0' is not one of abaqus")
+        self.wrong("fit", "none.csv", "--modes", "-1", mentions="--modes")
         self.wrong("draw", FIG_5, mentions="commands are check, compile")
         self.wrong("help", "complie", mentions="'compile' is the nearest")
         self.wrong("explain", FIG_5, "--rate", "1 kilo", mentions="as 1000 or 1kHz")

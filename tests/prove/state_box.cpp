@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "discretise/rounding.hpp"
@@ -127,6 +128,7 @@ class Magnitudes {
       case Operation::add: return sum(part(0), part(1), 1);
       case Operation::subtract: return sum(part(0), part(1), -1);
       case Operation::multiply: return product(e.operands[0], e.operands[1], place);
+      case Operation::divide: return {{}, std::numeric_limits<double>::infinity()};  // nothing bounds a quotient
       case Operation::flush: return part(0);
       case Operation::clamp: return {{}, std::min(size(0), size(1))};
       case Operation::where: return {{}, std::max(size(1), size(2))};

@@ -1,5 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "certify/motor_limits.hpp"
 #include "emit/banner.hpp"
 #include "emit/cpp_batch.hpp"
 #include "emit/cpp_program.hpp"
@@ -84,6 +89,18 @@ double test_tolerance(const UpdateLaw& law) {
   return law.relative_error_bound + roundoff * double(2 * (8 + cost.additions + cost.multiplications));
 }
 
+// Where the test lets the law rest: half a unit deep, or, where the law keeps to its motor's limits, no deeper than the
+// motor holds in its first sample. A power of two is exact in every scalar.
+double rest_depth(const Compilation& c) {
+  constexpr double deepest = 0.5;
+  const double stiffness = to_double(c.form.linear.static_stiffness);
+  if (!c.law.sheds() || !(stiffness > 0)) return deepest;
+  double force = std::numeric_limits<double>::infinity();
+  for (const double limit : {c.certificate.loop.max_force, largest_change(c.certificate.loop)})
+    if (limit > 0) force = std::min(force, limit);
+  return std::min(deepest, std::exp2(std::floor(std::log2(force / stiffness)) - 1));
+}
+
 CodeModel test_model(const Compilation& c) {
   CodeModel model;
   Fields& fields = model.fields;
@@ -93,6 +110,7 @@ CodeModel test_model(const Compilation& c) {
   fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.linear.static_stiffness));
   fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.linear.feedthrough_damping));
   fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
+  fields["rest_depth"] = fmt::format("{:#}", rest_depth(c));
   fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
   for (const Mode& mode : c.form.linear.modes)
     model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},

@@ -140,11 +140,11 @@ class TextsVerification {
   const Network& network() const { return *network_; }
 
   // Of what has been found right.
-  std::string grade() const {
-    const Certificate& certificate = compiled_->certificate;
-    const std::string grade(grade_of(certificate));
-    if (certificate.limits.is_covered) return grade;
-    return grade + "; that no energy comes of the motor's limits is not proved: " + certificate.limits.reason;
+  std::string_view grade() const { return grade_of(compiled_->certificate); }
+  // What is left open at the motor's limits, before the grade; empty where nothing is.
+  std::string at_limits() const {
+    const MotorLimits& limits = compiled_->certificate.limits;
+    return limits.is_covered ? "" : "that no energy comes of the motor's limits is not proved: " + limits.reason + "; ";
   }
   std::string why_uncertified() const { return why_not_certified(compiled_->certificate, network_->port_motion); }
 
@@ -188,8 +188,8 @@ std::optional<std::string> verify_texts(const SourceFile& certificate_file, cons
   }
   return fmt::format(
       "{}: {} constants are the nearest to those of the network, recomputed in 100 digits; banner and code are those "
-      "of the network; {}\n",
-      verification.network().name, count, verification.grade());
+      "of the network; {}{}\n",
+      verification.network().name, count, verification.at_limits(), verification.grade());
 }
 
 }  // namespace dashpot::compiler

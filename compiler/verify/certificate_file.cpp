@@ -101,18 +101,19 @@ Json json_of(const EnergyLemma& lemma) {
 Json json_of_choices(const Compilation& c, const Choices& choices) {
   Json decomposition = c.decomposition.choice().name;
   if (const double* given = std::get_if<double>(&choices.decomposition)) decomposition = *given;
-  return {{"rate", c.rate},
-          {"scheme", name_of(c.law.scheme)},
-          {"scalar", name_of(c.law.scalar)},
-          {"vector", name_of(choices.registers)},
-          {"state_input", name_of(c.decomposition.choice().state_input)},
-          {"state_input_asked", choices.state_input.has_value()},
-          {"tolerance", choices.tolerance},
-          {"guards_each_sample", choices.guards_each_sample},
-          {"decomposition", decomposition},
-          {"damping", c.decomposition.choice().damping},
-          {"brake_command", c.law.damping},
-          {"added_damping", c.certificate.added_damping}};
+  Json told = {{"rate", c.rate},
+               {"scheme", name_of(c.law.scheme)},
+               {"scalar", name_of(c.law.scalar)},
+               {"vector", name_of(choices.registers)},
+               {"state_input", name_of(c.decomposition.choice().state_input)},
+               {"state_input_asked", choices.state_input.has_value()},
+               {"guards_each_sample", choices.guards_each_sample},
+               {"decomposition", decomposition},
+               {"damping", c.decomposition.choice().damping},
+               {"brake_command", c.law.damping},
+               {"added_damping", c.certificate.added_damping}};
+  if (choices.tolerance != Choices().tolerance) told["tolerance"] = choices.tolerance;  // where it was asked for
+  return told;
 }
 
 }  // namespace

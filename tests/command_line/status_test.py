@@ -62,7 +62,7 @@ class Check(CommandTest):
         self.write("late.csv", "time,position\n0,0\n0.001,0.1\n0.0005,0.2\n")
         self.write("broken_device.json", '{ "dashpot_device": 1, "name": "none" }')
         self.assertEqual(self.dashpot("check", FIG_5, PANTOGRAPH, "motion.csv").stderr, "")
-        self.refused("check", FIG_5, "late.csv")
+        self.refused("check", FIG_5, "late.csv", code="csv-time-not-rising")
         self.refused("check", "broken_device.json", code="missing-key")
 
 

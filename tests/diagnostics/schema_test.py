@@ -23,7 +23,7 @@ BEYOND_THE_SCHEMAS = {
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
     "devices/rate_is_a_period",
     # names
-    "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
+    "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
     # JSON that Python reads all the same
     "key_given_three_times", "key_given_twice", "levels_too_many", "number_too_large",
     # parameters

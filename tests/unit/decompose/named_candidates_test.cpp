@@ -143,7 +143,7 @@ TEST(NamedCandidates, text_names_every_candidate) {
   const Decomposed all = decomposed(second_order, choosing("zero-frequency"));
   const std::string text = to_text(*all.result, all.network);
   for (const Candidate& candidate : all.result->candidates) EXPECT_NE(text.find(candidate.name), std::string::npos);
-  EXPECT_NE(text.find("chosen             zero-frequency"), std::string::npos) << text;
+  EXPECT_NE(text.find("chosen                zero-frequency"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "certify/convex_search.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -19,38 +21,14 @@ struct Ends {
   double at(double share) const { return low + share * (high - low); }
 };
 
-// The least of a convex function, by golden section; left as soon as a value is at most `enough`.
+// The least of a convex function, its ends included; left as soon as a value is at most `enough`.
 template <class Function>
 double least_place(Function f, Ends span, double enough, int steps = halvings) {
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double low = span.low, high = span.high;
-  double left = high - golden * (high - low), right = low + golden * (high - low);
-  double at_left = f(left), at_right = f(right);
-  for (int i = 0; i < steps && at_left > enough && at_right > enough; ++i) {
-    if (at_left < at_right) {
-      high = right, right = left, at_right = at_left;
-      left = high - golden * (high - low), at_left = f(left);
-    } else {
-      low = left, left = right, at_left = at_right;
-      right = low + golden * (high - low), at_right = f(right);
-    }
-  }
-  double best = at_left < at_right ? left : right, value = std::min(at_left, at_right);
+  LeastPlace best = golden_section(f, span.low, span.high, enough, steps);
   for (const double end : {span.low, span.high})
-    if (value > enough)
-      if (const double there = f(end); there < value) best = end, value = there;
-  return best;
-}
-
-// The last place towards `fails` where the claim is true, which is true at `holds`.
-template <class Claim>
-double boundary(Claim claim, double holds, double fails, int steps = halvings) {
-  for (int i = 0; i < steps; ++i) {
-    const double middle = (holds + fails) / 2;
-    if (middle == holds || middle == fails) break;
-    (claim(middle) ? holds : fails) = middle;
-  }
-  return holds;
+    if (best.value > enough)
+      if (const double there = f(end); there < best.value) best = {end, there};
+  return best.place;
 }
 
 // Where a convex function is at most `level`; empty where it is above it everywhere.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/convex_search.hpp"
 #include "decompose/spectrum.hpp"
 #include "discretise/discretise.hpp"
 #include "discretise/law_writer.hpp"
@@ -21,24 +22,6 @@ bool is_better(const StateInputMerit& one, const StateInputMerit& other) {
   if (is_noticeably_less(needed, others)) return true;
   if (is_noticeably_less(others, needed)) return false;
   return one.largest_error < other.largest_error * (1 - 1e-9);
-}
-
-// The least of a convex function on [low, high], by golden section; ends as soon as a value is not above zero.
-template <class Function>
-double least_place(Function f, double low, double high) {
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double left = high - golden * (high - low), right = low + golden * (high - low);
-  double at_left = f(left), at_right = f(right);
-  for (int i = 0; i < 40 && at_left > 0 && at_right > 0; ++i) {
-    if (at_left < at_right) {
-      high = right, right = left, at_right = at_left;
-      left = high - golden * (high - low), at_left = f(left);
-    } else {
-      low = left, left = right, at_left = at_right;
-      right = low + golden * (high - low), at_right = f(right);
-    }
-  }
-  return at_left < at_right ? left : right;
 }
 
 }  // namespace
@@ -214,13 +197,9 @@ void CandidateSettler::make_room(Candidate& candidate) {
 std::optional<double> CandidateSettler::largest_fitting(StateInput input, double most) {
   const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 1e-9);
   const auto lack = [&](double damping) { return bound(input, damping, search_terms).needed - available; };
-  double fits = least_place(lack, 0, most), fails = most;
-  if (lack(fits) > 0) return std::nullopt;
-  for (int i = 0; i < 30; ++i) {
-    const double middle = (fits + fails) / 2;
-    (lack(middle) <= 0 ? fits : fails) = middle;
-  }
-  return fits;
+  const auto fits = [&](double damping) { return lack(damping) <= 0; };
+  const double place = golden_section(lack, 0, most, 0, 40).place;
+  return fits(place) ? std::optional(boundary(fits, place, most, 30)) : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

@@ -104,13 +104,7 @@ void compliant_plant::commit(const step& done, shaft_sensors& sensors) noexcept 
   tool_ = done.tool;
   grip_ = done.grip;
   drives_.advance(done.duration);
-  ledger_.hand += done.work.hand;
-  ledger_.motor += done.work.motor;
-  ledger_.brake += done.work.brake;
-  ledger_.friction += done.work.friction;
-  ledger_.damping += done.work.damping;
-  ledger_.stop += done.work.stop;
-  ledger_.mode += done.work.mode;
+  ledger_ += done.work;
   ledger_.kinetic = kinetic() - kinetic_at_start_;
 }
 

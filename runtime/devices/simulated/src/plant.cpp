@@ -74,12 +74,7 @@ void plant::commit(const step& done, shaft_sensors& sensors) noexcept {
   shaft_ = done.shaft;
   grip_ = done.grip;
   drives_.advance(done.duration);
-  ledger_.hand += done.work.hand;
-  ledger_.motor += done.work.motor;
-  ledger_.brake += done.work.brake;
-  ledger_.friction += done.work.friction;
-  ledger_.damping += done.work.damping;
-  ledger_.stop += done.work.stop;
+  ledger_ += done.work;
   ledger_.kinetic = kinetic(shaft_.velocity) - kinetic_at_start_;
 }
 

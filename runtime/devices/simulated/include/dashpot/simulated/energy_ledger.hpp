@@ -14,6 +14,18 @@ struct energy_ledger {
   double kinetic = 0;   // of the device's inertia, gained since the start [J]
   double mode = 0;      // taken up by the spring and damper of a structural mode, stored or dissipated [J]
 
+  energy_ledger& operator+=(const energy_ledger& more) noexcept {
+    hand += more.hand;
+    motor += more.motor;
+    brake += more.brake;
+    friction += more.friction;
+    damping += more.damping;
+    stop += more.stop;
+    kinetic += more.kinetic;
+    mode += more.mode;
+    return *this;
+  }
+
   // What went in and is not accounted for [J]: rounding only.
   double imbalance() const noexcept { return hand + motor - brake - friction - damping - stop - mode - kinetic; }
 };

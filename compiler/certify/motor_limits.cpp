@@ -183,9 +183,10 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
   std::vector<std::string> lines;
   if (!loop.has_device) return lines;
   const std::string rate = units.force + "/s";
-  std::string asked = limits.largest_force ? fmt::format("asks for up to {:.6g} {} within the encoder's range",
-                                                         *limits.largest_force, units.force)
-                                           : std::string("asks for a force that is not bounded beforehand");
+  std::string asked =
+      limits.largest_force
+          ? fmt::format("asks for up to {:.6g} {} within the encoder's range", *limits.largest_force, units.force)
+          : std::string("asks for a force whose largest value is not known before it runs");
   if (loop.max_force > 0) asked += fmt::format(", the motor gives {:.6g} {}", loop.max_force, units.force);
   if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: the law " + asked);
   if (limits.slew_needed || loop.motor_slew > 0)
@@ -195,11 +196,13 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
                          : std::string("what would follow any motion is not known beforehand")) +
                     (loop.motor_slew > 0 ? fmt::format(", the motor has {:.6g} {}", loop.motor_slew, rate) : ""));
   if (limits.largest_discontinuity)
-    lines.push_back(fmt::format(
-        "discontinuity: up to {:.6g} {} may vanish at once: what the slew costs is less than the springs let go",
-        *limits.largest_discontinuity, units.force));
+    lines.push_back(
+        fmt::format("sudden loss: where a force of up to {:.6g} {} is to vanish at once, as in a puncture, the motor "
+                    "follows as fast as its slew lets it, and gives no energy",
+                    *limits.largest_discontinuity, units.force));
   if (limits.rule == LimitRule::none) return lines;
-  const char* does = limits.rule == LimitRule::sheds ? "the law sheds, all its forces by one share" : "the motor clips";
+  const char* does =
+      limits.rule == LimitRule::sheds ? "the law sheds, which shrinks all its forces by one share" : "the motor clips";
   lines.push_back(
       limits.is_covered
           ? fmt::format("at the limit: {}, and no energy comes of it with the {:.6g} {} that it needs", does,

@@ -58,6 +58,14 @@ TEST(Farewell, IsConfirmedByASample) {
   }
 }
 
+// Broken, a run that is stopped after its first period would not know that the device can confirm, and would not wait.
+TEST(Farewell, IsConfirmedAfterOnePeriodToo) {
+  telling_device device(scripted_description());
+  const servo_summary summary = run(device, 0.001).summary;
+  EXPECT_EQ(device.written().size(), 2u);
+  EXPECT_NE(to_text(summary).find("ended     running, device left safe\n"), std::string::npos) << to_text(summary);
+}
+
 // Broken, a device that has stopped talking would be called safe because the stream took the command.
 TEST(Farewell, WithoutAConfirmationIsToldSo) {
   telling_device device(scripted_description());

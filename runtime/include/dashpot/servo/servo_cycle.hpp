@@ -32,8 +32,7 @@ class servo_cycle {
 
   void serve(const wake_up& woken) {
     device_sample sample;
-    const device_status status = device_.read(sample);
-    tells_ = tells_ || sample.report.told;
+    const device_status status = listen(sample);
     const bool starts = start_asked_ && status == device_status::ok && begin();
     const bool running = machine_.is_running();
     const fault_report found = running
@@ -61,17 +60,18 @@ class servo_cycle {
   }
 
   // Gives the device the safe command, again every period while it does not take it, as often as deadlines may be
-  // missed; a device that tells what it applies is asked until it confirms. Never for longer than `farewell` [s].
+  // missed; a device that tells what it applies is asked until it confirms, and so is one that has given no sample
+  // yet since its first command. Never for longer than `farewell` [s].
   void leave_device_safe(double farewell) noexcept {
     const double periods = farewell > 0 ? farewell / loop_.sample_period : 0;
     const unsigned longest = periods < 1e6 ? static_cast<unsigned>(periods) : 1'000'000;
     unsigned taken = 0;
     for (unsigned attempt = 0; attempt <= longest && !summary_.safe_confirmed; ++attempt) {
       if (attempt > 0) clock_.wait();
-      if (attempt > 0 && tells_) confirm(taken);
+      if (attempt > 0 && may_tell()) confirm(taken);
       if (summary_.safe_confirmed || is_over(attempt, taken)) break;
       if (device_.write(path_.safe()) == device_status::ok) ++taken;
-      if (taken != 0 && !tells_) break;
+      if (taken != 0 && !may_tell()) break;
     }
     summary_.left_safe = summary_.safe_confirmed || (taken != 0 && !tells_);
     summary_.safe_sent = taken != 0;
@@ -87,8 +87,19 @@ class servo_cycle {
   }
 
  private:
+  device_status listen(device_sample& sample) noexcept {
+    const device_status status = device_.read(sample);
+    tells_ = tells_ || sample.report.told;
+    heard_ = heard_ || (commanded_ && status == device_status::ok);
+    return status;
+  }
+
+  // A device tells nothing before its first command.
+  bool may_tell() const noexcept { return tells_ || !heard_; }
+
   device_status write(const actuation& command) noexcept {
     const device_status taken = device_.write(command);
+    commanded_ = commanded_ || taken == device_status::ok;
     path_.note_write(command, taken == device_status::ok);
     return taken;
   }
@@ -101,7 +112,7 @@ class servo_cycle {
   // Only a sample that knows one of the last `taken` commands, all of them the safe one, says anything.
   void confirm(unsigned taken) noexcept {
     device_sample sample;
-    device_.read(sample);
+    listen(sample);
     const device_report& report = sample.report;
     const double off = report.applied.brake_damping - path_.safe().brake_damping;
     const double rounding = 1e-6 * path_.safe().brake_damping;  // of a device in single precision
@@ -220,8 +231,10 @@ class servo_cycle {
   servo_state_machine machine_;
   bool start_asked_ = false;
   bool waiting_announced_ = false;
-  bool tells_ = false;   // the device says what it applies
-  unsigned waited_ = 0;  // for the first sample [periods]
+  bool tells_ = false;      // the device says what it applies
+  bool commanded_ = false;  // it has taken a command
+  bool heard_ = false;      // and given a sample since
+  unsigned waited_ = 0;     // for the first sample [periods]
   servo_summary summary_;
 };
 

@@ -1,9 +1,13 @@
-// Searches along a line, for functions that are convex there and claims that hold up to one place.
+// Searches along a line of positive numbers, for functions that are convex there and claims that hold up to one place.
+// What is looked for may be a millionth of the line's length: places are found to a `precision` relative to themselves.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace dashpot::compiler {
+
+inline constexpr int most_search_steps = 150;  // of a place that is 0
 
 struct LeastPlace {
   double place;
@@ -13,11 +17,12 @@ struct LeastPlace {
 // Towards the least of a convex function within (low, high), by golden section; left as soon as a value is at most
 // `enough`.
 template <class Function>
-LeastPlace golden_section(Function f, double low, double high, double enough, int steps) {
+LeastPlace golden_section(Function f, double low, double high, double enough, double precision) {
   const double golden = (std::sqrt(5.0) - 1) / 2;
   double left = high - golden * (high - low), right = low + golden * (high - low);
   double at_left = f(left), at_right = f(right);
-  for (int i = 0; i < steps && at_left > enough && at_right > enough; ++i) {
+  for (int i = 0; i < most_search_steps && at_left > enough && at_right > enough; ++i) {
+    if (high - low <= precision * high) break;
     if (at_left < at_right) {
       high = right, right = left, at_right = at_left;
       left = high - golden * (high - low), at_left = f(left);
@@ -31,9 +36,10 @@ LeastPlace golden_section(Function f, double low, double high, double enough, in
 
 // The last place towards `fails` where the claim is true, which is true at `holds`.
 template <class Claim>
-double boundary(Claim claim, double holds, double fails, int steps) {
-  for (int i = 0; i < steps; ++i) {
+double boundary(Claim claim, double holds, double fails, double precision) {
+  for (int i = 0; i < most_search_steps; ++i) {
     const double middle = (holds + fails) / 2;
+    if (std::abs(fails - holds) <= precision * std::max(holds, fails)) break;
     if (middle == holds || middle == fails) break;
     (claim(middle) ? holds : fails) = middle;
   }

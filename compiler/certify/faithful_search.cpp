@@ -11,10 +11,9 @@ namespace dashpot::compiler {
 namespace {
 
 constexpr double unbounded = std::numeric_limits<double>::infinity();
-constexpr int halvings = 50;
-constexpr int roughly = 30;              // halvings of what need not be exact
-constexpr std::size_t most_places = 48;  // of one convex function
-constexpr double fine = 1e-4;            // how well x is known before b is searched for, relative
+constexpr double exactly = 1e-14, closely = 1e-10, roughly = 1e-6;  // precision of a place, relative
+constexpr std::size_t most_places = 48;                             // of one convex function
+constexpr double fine = 1e-4;  // how well x is known before b is searched for, relative
 
 struct Ends {
   double low, high;
@@ -23,8 +22,8 @@ struct Ends {
 
 // The least of a convex function, its ends included; left as soon as a value is at most `enough`.
 template <class Function>
-double least_place(Function f, Ends span, double enough, int steps = halvings) {
-  LeastPlace best = golden_section(f, span.low, span.high, enough, steps);
+double least_place(Function f, Ends span, double enough, double precision = closely) {
+  LeastPlace best = golden_section(f, span.low, span.high, enough, precision);
   for (const double end : {span.low, span.high})
     if (best.value > enough)
       if (const double there = f(end); there < best.value) best = {end, there};
@@ -33,17 +32,17 @@ double least_place(Function f, Ends span, double enough, int steps = halvings) {
 
 // Where a convex function is at most `level`; empty where it is above it everywhere.
 template <class Function>
-std::optional<Ends> sublevel(Function f, Ends span, double level, int steps = halvings) {
+std::optional<Ends> sublevel(Function f, Ends span, double level, double precision = exactly) {
   const auto is_below = [&](double x) { return f(x) <= level; };
   const bool low = is_below(span.low), high = is_below(span.high);
   if (low && high) return span;
   double inside = low ? span.low : span.high;
   if (!low && !high) {
-    inside = least_place(f, span, level, steps);
+    inside = least_place(f, span, level, std::max(precision, closely));
     if (!is_below(inside)) return std::nullopt;
   }
-  return Ends{low ? span.low : boundary(is_below, inside, span.low, steps),
-              high ? span.high : boundary(is_below, inside, span.high, steps)};
+  return Ends{low ? span.low : boundary(is_below, inside, span.low, precision),
+              high ? span.high : boundary(is_below, inside, span.high, precision)};
 }
 
 // One state input with all that is asked of it at one b.
@@ -321,7 +320,7 @@ class FaithfulSearch {
   double least_added(double allowed) const {
     double least = unbounded;
     for (const FoundOption& found : options_)
-      if (found.option.certified && found.option.error <= allowed)
+      if (found.option.certified && is_within(found.option.error, allowed))
         least = std::min(least, found.option.added.value_or(0));
     return least;
   }
@@ -329,8 +328,9 @@ class FaithfulSearch {
   void look_for_least_added(Stretch& stretch, double allowed) {
     InputLine& line = lines_[stretch.line];
     for (const Ends& span : stretch.certified.within(allowed)) {
-      const auto lack = [&](double b) { return line.lack(b); };
-      keep(stretch.line, least_place(lack, span, 0, 30));
+      const auto is_allowed = [&](double b) { return is_within(line.error(b), allowed); };
+      const double least = least_place([&](double b) { return line.lack(b); }, span, 0, roughly);
+      keep(stretch.line, nearest_allowed(is_allowed, least, span.at(0.5)));
     }
   }
 
@@ -338,16 +338,27 @@ class FaithfulSearch {
   void look_for_end(Stretch& stretch, double allowed, double most_added) {
     InputLine& line = lines_[stretch.line];
     const auto is_allowed = [&](double b) {
-      return line.fits(b) && line.added(b) <= most_added && line.error(b) <= allowed;
+      return line.fits(b) && is_within(line.added(b), most_added) && is_within(line.error(b), allowed);
     };
     for (const Ends& span : stretch.certified.within(allowed)) {
-      double inside = least_place([&](double b) { return line.lack(b); }, span, 0, 30);
-      if (line.added(inside) > most_added) continue;
-      const double end = line.added(span.high) <= most_added
-                             ? span.high
-                             : boundary([&](double b) { return line.added(b) <= most_added; }, inside, span.high, 40);
+      double inside = least_place([&](double b) { return line.lack(b); }, span, 0, roughly);
+      if (!is_within(line.added(inside), most_added)) continue;
+      const double end =
+          line.added(span.high) <= most_added
+              ? span.high
+              : boundary([&](double b) { return line.added(b) <= most_added; }, inside, span.high, 1e-12);
       keep(stretch.line, settled_end(is_allowed, end, std::min(most_, span.high + (span.high - span.low))));
     }
+  }
+
+  // What is allowed next to `guess`, on the way to `inner`: an end of a chord's error is not quite the error's own.
+  template <class Claim>
+  static double nearest_allowed(Claim is_allowed, double guess, double inner) {
+    for (double share = 0; share < 1; share = share == 0 ? 1e-9 : 4 * share) {
+      const double inside = guess + share * (inner - guess);
+      if (is_allowed(inside)) return boundary(is_allowed, inside, guess, closely);
+    }
+    return guess;
   }
 
   // The end of what is allowed, near `guess`.
@@ -358,11 +369,11 @@ class FaithfulSearch {
       double outside = std::min(guess + step, most);
       while (outside < most && is_allowed(outside)) guess = outside, step *= 4, outside = std::min(guess + step, most);
       if (is_allowed(outside)) return outside;
-      return boundary(is_allowed, guess, outside, 40);
+      return boundary(is_allowed, guess, outside, 1e-13);
     }
     double inside = guess;
     for (; step < guess && !is_allowed(inside); step *= 4) inside = guess - step;
-    return is_allowed(inside) ? boundary(is_allowed, inside, guess, 40) : guess;
+    return is_allowed(inside) ? boundary(is_allowed, inside, guess, 1e-13) : guess;
   }
 
   const SearchReach& reach_;

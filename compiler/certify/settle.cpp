@@ -198,8 +198,8 @@ std::optional<double> CandidateSettler::largest_fitting(StateInput input, double
   const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 1e-9);
   const auto lack = [&](double damping) { return bound(input, damping, search_terms).needed - available; };
   const auto fits = [&](double damping) { return lack(damping) <= 0; };
-  const double place = golden_section(lack, 0, most, 0, 40).place;
-  return fits(place) ? std::optional(boundary(fits, place, most, 30)) : std::nullopt;
+  const double place = golden_section(lack, 0, most, 0, 1e-8).place;
+  return fits(place) ? std::optional(boundary(fits, place, most, 1e-9)) : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

@@ -38,14 +38,12 @@ std::optional<std::size_t> preferred(const std::vector<EvaluatedOption>& options
 
 std::optional<FaithfulChoice> certified_choice(const std::vector<EvaluatedOption>& options, double least,
                                                double allowed) {
-  const auto fits = [=](const EvaluatedOption& option) {
-    return option.certified && option.error <= allowed * rounding_of_rule;
-  };
+  const auto fits = [=](const EvaluatedOption& option) { return option.certified && is_within(option.error, allowed); };
   double least_added = none_yet;
   for (const EvaluatedOption& option : options)
     if (fits(option)) least_added = std::min(least_added, option.added.value_or(0));
   const auto chosen = preferred(options, [=](const EvaluatedOption& option) {
-    return fits(option) && option.added.value_or(0) <= leeway * least_added * rounding_of_rule;
+    return fits(option) && is_within(option.added.value_or(0), leeway * least_added);
   });
   if (!chosen) return std::nullopt;
   return FaithfulChoice{*chosen, least, allowed, least_added, true};
@@ -55,6 +53,8 @@ std::optional<FaithfulChoice> certified_choice(const std::vector<EvaluatedOption
 
 double allowed_error(double tolerance, double least_error) { return std::max(tolerance, leeway * least_error); }
 
+bool is_within(double error, double allowed) { return error <= allowed * rounding_of_rule; }
+
 FaithfulChoice choose_faithful(const std::vector<EvaluatedOption>& options, double tolerance) {
   const double least = least_error(options, is_any), allowed = allowed_error(tolerance, least);
   if (const auto choice = certified_choice(options, least, allowed)) return *choice;
@@ -63,7 +63,7 @@ FaithfulChoice choose_faithful(const std::vector<EvaluatedOption>& options, doub
     if (const auto choice = certified_choice(options, of_certified, allowed_error(tolerance, of_certified)))
       return *choice;
   const auto chosen =
-      preferred(options, [=](const EvaluatedOption& option) { return option.error <= allowed * rounding_of_rule; });
+      preferred(options, [=](const EvaluatedOption& option) { return is_within(option.error, allowed); });
   return {chosen.value_or(0), least, allowed, 0, false};
 }
 

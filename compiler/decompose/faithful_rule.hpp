@@ -30,6 +30,9 @@ inline constexpr double leeway = 1.05;  // on the least reachable error, and on 
 // max(tolerance, 1.05 × least)
 double allowed_error(double tolerance, double least_error);
 
+// But for what its own rounding may add.
+bool is_within(double error, double allowed);
+
 // Among all options with an error of at most max(`tolerance`, 1.05 × the least reachable), those that are certified
 // with at most 1.05 × the least added damping among these; of them the largest b; of equal b the least motor noise,
 // then the least error, then the first. An error that only options reach which cannot be certified shuts out none that

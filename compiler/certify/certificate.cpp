@@ -321,7 +321,10 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
   else if (slips && !law.tunable)
     result.quantisation_gain = quantisation_gain(linear_motor_constants(law), *slips, loop);
   if (!motor) result.energy.rounding_share = rounding_of_step(law);
-  result.limits = motor_limits(law, slips, loop, result.bound.needed, assured);
+  const bool is_proved = result.bound.proof != Proof::none;
+  result.limits =
+      law.tunable ? motor_limits_over_box(loop, is_proved ? std::optional(result.bound.needed) : std::nullopt, assured)
+                  : motor_limits(law, slips, loop, result.bound.needed, assured);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;
 }

@@ -141,14 +141,6 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
                          double needed, const Rational& assured) {
   MotorLimits limits;
   if (!loop.has_device) return limits;
-  const bool is_limited = loop.max_force > 0 || loop.motor_slew > 0;
-  if (law.tunable) {
-    if (!is_limited) return limits;
-    limits.rule = LimitRule::clamps;
-    limits.is_covered = false;
-    limits.reason = "its parameters change while it runs";
-    return limits;
-  }
   const MotorConstants linear = linear_motor_constants(law);
   const Gains gains = gains_of(linear, slips, loop);
   limits.largest_force = largest_force(gains, linear, slips, loop);
@@ -175,6 +167,21 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
     if (!std::isfinite(limits.needed) || Rational(limits.needed) > there)
       limits.reason = too_little(limits.needed, there.convert_to<double>());
   }
+  limits.is_covered = limits.reason.empty();
+  return limits;
+}
+
+MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<double>& needed,
+                                  const Rational& assured) {
+  MotorLimits limits;
+  if (!loop.has_device || !(loop.max_force > 0 || loop.motor_slew > 0)) return limits;
+  limits.rule = LimitRule::sheds;
+  const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
+  if (!needed) limits.reason = "nothing is proved of it within the limit either";
+  else if (loop.motor_slew > 0) limits.reason = "its force may have to fall faster than the motor's slew";
+  else if (is_late) limits.reason = "its parameters change while it runs, and the loop is late";
+  else limits.needed = *needed;
+  if (Rational(limits.needed) > assured) limits.reason = too_little(limits.needed, assured.convert_to<double>());
   limits.is_covered = limits.reason.empty();
   return limits;
 }

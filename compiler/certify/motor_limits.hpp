@@ -49,9 +49,16 @@ struct MotorLimits {
   std::optional<double> largest_discontinuity;  // of the force that the slew covers [N]; empty where no slew is stated
 };
 
-// Of a law before anything is shed. `slips` as in the certificate; `needed` and `assured` the certificate's [N·s/m].
+// Of a law without tunables before anything is shed. `slips` as in the certificate; `needed` and `assured` the
+// certificate's [N·s/m].
 MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& slips, const SampledLoop& loop,
                          double needed, const Rational& assured);
+
+// With tunables, which shed. What is proved for one sample wherever they are in their ranges does not ask how large the
+// forces are: it holds with all of them shrunk, as long as nothing of the sample before is still on its way. `needed`
+// as above, empty where nothing is proved.
+MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<double>& needed,
+                                  const Rational& assured);
 
 // (k0 + Σ c_i) v T/(h − j) + Σ |F_i| (1 − a_i)/(h − j), not below it, of a linear law; empty where it is not bounded.
 std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop& loop);

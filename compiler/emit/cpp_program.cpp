@@ -34,12 +34,7 @@ class CppPrinter {
     program.parameters = {"struct parameters {};"};
     program.set = {"// No parameter of this network can be set while it runs.",
                    "unsigned set(const parameters&) noexcept { return 0; }"};
-    if (law_.sheds())
-      for (const char* line : {"",
-                               "// The share of all forces in the network that the last output() kept, for the motor "
-                               "to be able to follow.",
-                               "scalar kept_share() const noexcept { return sampled_share_; }"})
-        program.set.push_back(line);
+    if (law_.sheds()) append_kept_share(program.set, "sampled_share_");
     program.reset = reset();
     program.constants = constants();
     program.states = states();
@@ -254,6 +249,13 @@ void check_by_jumps(CppProgram& program, const std::string& checked, const std::
   program.check = {"sampled_ = false;", fmt::format("if (!dashpot::all_finite({})) return {};", checked, safe_command),
                    "sampled_ = true;"};
   program.wait = {"if (!sampled_) return;", "sampled_ = false;"};
+}
+
+void append_kept_share(std::vector<std::string>& lines, const std::string& share) {
+  lines.push_back("");
+  lines.push_back(
+      "// The share of all forces in the network that the last output() kept, for the motor to be able to follow.");
+  lines.push_back(fmt::format("scalar kept_share() const noexcept {{ return {}; }}", share));
 }
 
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines) {

@@ -38,6 +38,9 @@ CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timi
 // number.
 void check_by_jumps(CppProgram& program, const std::string& checked, const std::string& safe_command);
 
+// kept_share() of a law that sheds.
+void append_kept_share(std::vector<std::string>& lines, const std::string& share);
+
 // A line for each place of the coefficient.
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines);
 

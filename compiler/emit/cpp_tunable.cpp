@@ -53,6 +53,7 @@ class TunablePrinter {
         is_pushed ? "// where the surface goes, b, and m = f − b u̇" : "// Δu = u − u₋, b, and m = f − b u̇",
         "const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);",
         "const scalar force = sample.force;"};
+    if (law_.sheds()) program.output.push_back("const scalar wanted = sample.wanted;");
     program.step = two_phases();
     program.keep = {"sampled_position_change_ = sample.change;", "sampled_position_ = sample.position;",
                     "last_damping_ = sample.damping;"};
@@ -61,7 +62,8 @@ class TunablePrinter {
     program.energy = {"// V + T: in the springs, and what changes of parameters have set free",
                       "const scalar stored = law_.stored_energy(tables);"};
     const std::string added = tables_.added_damping > 0 ? " + added_damping" : "";
-    check_by_jumps(program, "position, velocity, force", "{last_damping_" + added + ", 0}");
+    check_by_jumps(program, law_.sheds() ? "position, velocity, wanted" : "position, velocity, force",
+                   "{last_damping_" + added + ", 0}");
     program.command = "{sample.damping" + added + ", force}";
     return program;
   }
@@ -82,7 +84,7 @@ class TunablePrinter {
   std::vector<std::string> set() const {
     std::string wanted;
     for (const Tunable& t : tables_.tunables) wanted += (wanted.empty() ? "" : ", ") + ("wanted." + t.name);
-    return {
+    std::vector<std::string> lines = {
         "// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its "
         "bound now, or it was",
         "// no number and is as it was.",
@@ -91,6 +93,8 @@ class TunablePrinter {
         fmt::format("  const scalar values[] = {{{}}};", wanted),
         "  return law_.set(tables, values);",
         "}"};
+    if (law_.sheds()) append_kept_share(lines, "law_.kept_share()");
+    return lines;
   }
 
   std::vector<std::string> constants() const {
@@ -168,8 +172,11 @@ class TunablePrinter {
                                 name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
                                 name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes),
                                 tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties",
-                                tables_.shares.empty() ? "};" : ","));
-    if (!tables_.shares.empty()) lines.push_back("    shares};");
+                                tables_.shares.empty() && !law_.sheds() ? "};" : ","));
+    const std::string shares = name_or_none("shares", tables_.shares);
+    if (law_.sheds())
+      lines.push_back(fmt::format("    {}, {}, {}}};", shares, number(h.motor_limit), number(h.motor_step)));
+    else if (!tables_.shares.empty()) lines.push_back("    shares};");
   }
 
   template <class Entry>

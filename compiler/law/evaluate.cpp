@@ -81,11 +81,16 @@ Scalar Evaluation<Scalar>::damping(VariableId changing) const {
 
 template <class Scalar>
 command<Scalar> Evaluation<Scalar>::tunable_output(Scalar position, Scalar velocity) {
-  const Scalar force = tunable_->force(position, velocity);
-  sampled_ = all_finite(position, velocity, force);
+  sampled_ = all_finite(position, velocity, tunable_->wanted(position, velocity));
   if (!sampled_) return {tunable_->last_damping(), Scalar(0)};
   tunable_->keep();
-  return {tunable_->damping(), force};
+  return {tunable_->damping(), tunable_->force()};
+}
+
+template <class Scalar>
+Scalar Evaluation<Scalar>::kept_share() const {
+  if (tunable_) return tunable_->kept_share();
+  return law_.sheds() ? at(law_.share)[0] : Scalar(1);
 }
 
 template <class Scalar>

@@ -99,9 +99,10 @@ int TunableTables::operations(const tunable_graph& graph) const {
 TunableCost cost_of(const TunableTables& tables) {
   const std::size_t springs = tables.springs.size();
   const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
+  const std::size_t shed = tables.sheds() ? 10 : 0, shed_of_spring = tables.sheds() ? 3 : 0;
   return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables),
-          6 + slips(tables) + slip_brake(tables) + contact(tables), advance(tables) + held(tables) + 9 * springs,
-          springs};
+          6 + slips(tables) + slip_brake(tables) + contact(tables) + shed,
+          advance(tables) + held(tables) + (9 + shed_of_spring) * springs + shed, springs};
 }
 
 }  // namespace dashpot::compiler

@@ -34,10 +34,12 @@ class TunableRun {
   Scalar last_damping() const { return last_damping_ + added_damping_; }
   Scalar damping() const { return sample_.damping + added_damping_; }
 
-  Scalar force(Scalar position, Scalar velocity) {
+  // The motor's part of it, were there no limit: not finite where the sample is to be refused.
+  Scalar wanted(Scalar position, Scalar velocity) {
     sample_ = law_.output(tables_, last_position_, position, velocity);
-    return sample_.force;
+    return sample_.wanted;
   }
+  Scalar force() const { return sample_.force; }
 
   void keep() {
     sampled_change_ = sample_.change;
@@ -51,6 +53,7 @@ class TunableRun {
   }
 
   unsigned set(const Scalar* values) { return law_.set(tables_, values); }
+  Scalar kept_share() const { return law_.kept_share(); }
   Scalar stored_energy() const { return law_.stored_energy(tables_); }
 
  private:
@@ -113,7 +116,9 @@ class TunableRun {
             t.graphs.data(),
             t.links.data(),
             t.ties.data(),
-            shares_.empty() ? nullptr : shares_.data()};
+            shares_.empty() ? nullptr : shares_.data(),
+            scalar(h.motor_limit),
+            scalar(h.motor_step)};
   }
 
   std::vector<tunable_range<Scalar>> ranges_;

@@ -42,6 +42,7 @@ struct TunableTables {
   std::string brake;                                 // what b follows, for people
   std::vector<std::string> mesh_elements;            // whose states are kept by backward Euler, for people
   int operations(const tunable_graph& graph) const;  // of a step, at most
+  bool sheds() const { return head.motor_limit > 0 || head.motor_step > 0; }
 };
 
 // What evaluate() has room for; refused beyond.

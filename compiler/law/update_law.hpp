@@ -219,8 +219,10 @@ struct UpdateLaw {
   std::size_t padded(std::size_t size) const {
     return (size + lanes - 1) / lanes * lanes;
   }  // of a rolled vector: whole rounds of its loop
-  bool sheds() const { return wanted != no_variable; }
-  VariableId checked() const { return sheds() ? wanted : force; }  // not finite where the sample is to be refused
+  bool sheds() const { return tunable ? tunable->sheds() : wanted != no_variable; }
+  VariableId checked() const {
+    return wanted != no_variable ? wanted : force;
+  }  // not finite where the sample is to be refused
   bool brake_changes() const { return brake != no_variable; }
 };
 

@@ -205,7 +205,10 @@ class Shedding {
 }  // namespace
 
 UpdateLaw with_shedding(UpdateLaw law, const MotorReach& reach, motion port_motion) {
-  return Shedding(std::move(law), reach, port_motion).result();
+  if (!law.tunable) return Shedding(std::move(law), reach, port_motion).result();
+  law.tunable->head.motor_limit = reach.limit;
+  law.tunable->head.motor_step = reach.step;
+  return law;
 }
 
 }  // namespace dashpot::compiler

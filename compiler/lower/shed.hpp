@@ -21,7 +21,8 @@ struct MotorReach {
   double step = 0;   // of its change from one sample to the next [N]
 };
 
-// In: a law without tunables. Its states stay what they were, to the last bit, as long as nothing is shed.
+// The states stay what they were, to the last bit, as long as nothing is shed. A law with tunables does the same in
+// tunable/shedding.hpp, with the offsets of its springs in the place of r.
 UpdateLaw with_shedding(UpdateLaw law, const MotorReach& reach, motion port_motion);
 
 }  // namespace dashpot::compiler

@@ -19,8 +19,9 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
       pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
   const TunableTables& tables = *compiled.law.tunable;
   const tunable_tables<double>& head = tables.head;
-  for (const double chosen : {head.damping, head.max_damping, head.contact.encoder_step, head.slip_rule.hysteresis,
-                              head.slip_rule.coil_share, head.slip_rule.assured_share})
+  for (const double chosen :
+       {head.damping, head.max_damping, head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share,
+        head.slip_rule.assured_share, head.motor_limit, head.motor_step})
     pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(head.observed)].base);
   pool_["sample_period"] = {1 / Reference(facts_.rate)};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <deque>
+#include <vector>
 
 #include "certify/motor_limits.hpp"
 #include "law/evaluate.hpp"
@@ -22,10 +23,10 @@ using namespace dashpot::compiler;
 
 int runs() { return static_cast<int>(repetitions(200, 10'000)); }
 
-// A motor that gives little of what is asked for, behind a lag or not.
-void limit(CompiledCase& one, Random& random) {
+// A motor that gives little of what is asked for, behind a lag or, with a chance of `prompt`, not.
+void limit(CompiledCase& one, Random& random, double prompt = 0.7) {
   device_description& d = one.device.description;
-  d.motor.amplifier_lag = random.chance(0.7) ? 0 : random.log_uniform(0.05, 2) * d.loop.sample_period;
+  d.motor.amplifier_lag = random.chance(prompt) ? 0 : random.log_uniform(0.05, 2) * d.loop.sample_period;
   d.motor.max_torque = random.log_uniform(1e-3, 1e1);
   Diagnostics diagnostics;
   one.compilation = compile(*one.source, one.choices, one.device, diagnostics);
@@ -45,6 +46,12 @@ CompiledCase linear_case(std::uint64_t seed, const char* decomposition) {
   one.choices.scheme = random.chance(0.7) ? Scheme::exact : Scheme::backward_euler;
   limit(one, random);
   return one;
+}
+
+void set_at_random(Evaluation<double>& law, const TunableTables& tables, Random& random) {
+  std::vector<double> values;
+  for (const Tunable& t : tables.tunables) values.push_back(random.uniform(t.range.min, t.range.max));
+  law.set(values);
 }
 
 // Least energy that has gone in, over the largest exchanged in a period, while a hold takes `damping` [N·s/m].
@@ -72,7 +79,7 @@ Balance balance_of(const CompiledCase& one, double damping, Random random, int s
     const double wanted = late.front();
     late.pop_front();
     const double told = std::clamp(wanted, -limit, limit);
-    balance.limited += told != wanted || (update.sheds() && law.value_of(update.share) < 1) ? 1 : 0;
+    balance.limited += told != wanted || (law.kept_share() < 1) ? 1 : 0;
     const double hold = d.loop.sample_period + (lag == 0 && random.chance(0.5) ? d.loop.jitter : 0);
     const double kept = lag > 0 ? std::exp(-hold / lag) : 0, mean = lag > 0 ? lag / hold * (1 - kept) : 0;
     const double force = told + (made - told) * mean;  // over a hold at a constant speed
@@ -82,7 +89,11 @@ Balance balance_of(const CompiledCase& one, double damping, Random random, int s
     const double most = damping > 0 ? -force * hold / (2 * damping) * random.uniform(0.5, 1.5) : 0;
     const double wild = random.chance(0.5) ? most : random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
     // Pressed, held, or slowly let go of in between.
-    const double change = way == 0 ? -0.02 * position : way == 1 ? pace / 20 : way == 2 ? 0 : wild;
+    double change = way == 0 ? -0.02 * position : way == 1 ? pace / 20 : way == 2 ? 0 : wild;
+    if (update.tunable && random.chance(0.02)) {
+      set_at_random(law, *update.tunable, random);
+      change = 0;  // else the command that is held would be of a force that is no more
+    }
     const double work = force * change + damping / hold * change * change;
     energy += work;
     least = std::min(least, energy);
@@ -169,6 +180,27 @@ TEST(MotorLimits, SheddingSlipsAndContactsGiveOutNoEnergy) {
   EXPECT_GT(limited, covered / 2);
 }
 
+// Parameters that change while the motor is at its limit would give out energy, or what was shed would come back.
+TEST(MotorLimits, SheddingTunablesGiveOutNoEnergy) {
+  int covered = 0, slipping = 0, limited = 0;
+  for (std::uint64_t seed = 1; covered < runs() / 4; ++seed) {
+    SCOPED_TRACE(seed);
+    CompiledCase one = tunable_case(seed);
+    if (!one.compilation || !one.compilation->certificate.certified) continue;
+    Random random(seed);
+    one.device.description.loop.delay_samples = 0;
+    limit(one, random, 1);
+    if (!one.compilation || limits_of(one).rule != LimitRule::sheds || !limits_of(one).is_covered) continue;
+    ++covered;
+    slipping += one.compilation->form.has_slips() ? 1 : 0;
+    const Balance balance = balance_of(one, limits_of(one).needed, Random(seed), 1000);
+    limited += balance.limited > 0 ? 1 : 0;
+    EXPECT_GE(balance.least, -1e-9);
+  }
+  EXPECT_GT(slipping, covered / 20);
+  EXPECT_GT(limited, covered / 2);
+}
+
 // Shedding would be free: the same far below the damping that it asks for gives out energy, where slips do not take it
 // up.
 TEST(MotorLimits, SheddingSlipsNeedTheirDamping) {
@@ -220,9 +252,55 @@ TEST(MotorLimits, SlewGivesNothingBackThatItDidNotTake) {
   for (const char* structure : {R"("network": { "spring": "1 kN/m" })",
                                 R"("network": { "series": [{ "spring": "1 kN/m" }, { "damper": "1 kN s/m" }] })",
                                 R"("network": { "series": [{ "spring": "1 kN/m" }, { "slip": "100 N" }] })",
-                                R"("contact": { "at": 0 }, "network": { "spring": "1 kN/m" })"}) {
+                                R"("contact": { "at": 0 }, "network": { "spring": "1 kN/m" })",
+                                R"("parameters": { "K": { "value": "1 kN/m", "tunable": true, "min": 10, "max": 1e4 } },
+                                   "network": { "spring": "K" })",
+                                R"("parameters": { "K": { "value": "1 kN/m", "tunable": true, "min": 10, "max": 1e4 } },
+                                   "contact": { "at": 0 }, "network": { "spring": "K" })",
+                                R"("parameters": { "B": { "value": 1e3, "tunable": true, "min": 10, "max": 1e4 } },
+                                   "network": { "series": [{ "spring": "1 kN/m" }, { "damper": "B" }] })",
+                                R"("parameters": { "B": { "value": 1e3, "tunable": true, "min": 10, "max": 1e4 } },
+                                   "network": { "series": [{ "spring": "1 kN/m" },
+                                                           { "parallel": [{ "damper": "B" }, { "spring": 1e3 }] }] })"}) {
     EXPECT_LT(pressed_and_let_go(structure, false), -0.3) << structure;
     EXPECT_GE(pressed_and_let_go(structure, true), 0) << structure;
+  }
+}
+
+// 1 kN/m on a motor of 2 N: pressed in by 100 mm, made ten times softer there, and let go of until nothing pushes any
+// more, before offsets are home. Out: the energy that has gone in [J].
+double pressed_softened_and_let_go(const std::string& structure, bool sheds) {
+  const SourceFile source("softened.json", R"({ "dashpot": 1, "name": "softened", )" + structure + " }");
+  Diagnostics diagnostics;
+  Choices choices;
+  choices.decomposition = std::string("velocity-free");
+  std::optional<Compilation> wall = compile(source, choices, std::nullopt, diagnostics);
+  const double limit = 2;
+  const UpdateLaw update = sheds ? with_shedding(wall->law, {limit, 0}, motion::translation) : wall->law;
+  Evaluation<double> law(update);
+  law.reset(0);
+  double energy = 0, position = 0, force = 0, beta = 500;
+  const auto move_by = [&](double change) {
+    force = std::clamp(law.step(position, 0).force, -limit, limit);
+    energy += (force + beta * change) * change;
+    position += change;
+  };
+  for (int k = 0; k < 400; ++k) move_by(2.5e-4);
+  move_by(0);
+  law.set({100});
+  beta = 50;
+  move_by(0);
+  for (int k = 0; k < 4000 && (force > 0 || k == 0); ++k) move_by(-2e-3);
+  return energy;
+}
+
+// What the motor never took in would be kept as the force of a softer spring, and come out over a longer way.
+TEST(MotorLimits, SofteningGivesNothingBackThatWasShed) {
+  const std::string of_spring = R"("parameters": { "K": { "value": 1e3, "tunable": true, "min": 100, "max": 1e3 } }, )";
+  for (const std::string& structure : {of_spring + R"("network": { "spring": "K" })",
+                                       of_spring + R"("contact": { "at": 0 }, "network": { "spring": "K" })"}) {
+    EXPECT_LT(pressed_softened_and_let_go(structure, false), -0.1) << structure;
+    EXPECT_GE(pressed_softened_and_let_go(structure, true), 0) << structure;
   }
 }
 
@@ -231,11 +309,12 @@ TEST(MotorLimits, CommandsStayWithinLimitAndSlew) {
   int shed = 0;
   for (std::uint64_t seed = 1; seed <= std::uint64_t(runs()); ++seed) {
     SCOPED_TRACE(seed);
-    CompiledCase one = seed % 2 == 0 ? slip_case(seed) : linear_case(seed, "virtual");
+    CompiledCase one = seed % 3 == 0   ? slip_case(seed)
+                       : seed % 3 == 1 ? tunable_case(seed)
+                                       : linear_case(seed, "virtual");
     if (!one.compilation || one.compilation->law.sheds()) continue;
     Random random(seed);
     const UpdateLaw& plain = one.compilation->law;
-    if (plain.tunable) continue;
     const MotorReach reach = {random.log_uniform(1e-3, 1), random.chance(0.5) ? random.log_uniform(1e-4, 1) : 0};
     const UpdateLaw wide = with_shedding(plain, {1e300, reach.step > 0 ? 1e300 : 0}, motion::translation);
     const UpdateLaw narrow = with_shedding(plain, reach, motion::translation);
@@ -252,7 +331,7 @@ TEST(MotorLimits, CommandsStayWithinLimitAndSlew) {
       if (reach.step > 0) {
         ASSERT_LE(std::abs(force - last), reach.step * (1 + 1e-12));
       }
-      shed += held.value_of(narrow.share) < 1 ? 1 : 0;
+      shed += held.kept_share() < 1 ? 1 : 0;
       last = force;
       position += random.log_uniform(1e-6, 1e-1) * random.uniform(-1, 1);
     }

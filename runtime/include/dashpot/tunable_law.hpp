@@ -11,6 +11,7 @@
 #include <dashpot/command.hpp>
 #include <dashpot/tunable/parts.hpp>
 #include <dashpot/tunable/sample.hpp>
+#include <dashpot/tunable/shedding.hpp>
 #include <dashpot/tunable/slips.hpp>
 #include <dashpot/tunable/tables.hpp>
 
@@ -43,6 +44,7 @@ class tunable_law {
     if (t.static_spring != no_index) parts_.springs.set_elongation(t.static_spring, position);
     parts_.each(t, t.blocks[0], [&](const tunable_part<Scalar>& part) { parts_.load(t, part, position); });
     find_held(t);
+    shedding_.reset();
     if constexpr (Slips > 0) slips_.reset(left_to_brake(t, slips_.damping_at_rest(t, curves_)));
   }
 
@@ -56,6 +58,54 @@ class tunable_law {
 
   // In: where the tool, or the surface that it pushes, was in the sample before; where the tool is, and its velocity.
   tunable_sample<Scalar> output(const tables& t, Scalar last, Scalar position, Scalar velocity) noexcept {
+    tunable_sample<Scalar> sample = wanted(t, last, position, velocity);
+    if (!shedding_.is_limited(t)) return sample;
+    sample.force = shedding_.command(t, sample.wanted);
+    if (comes_back(t))
+      sample.position = shedding_.followed(sample.position, sample.position - (position - t.contact.at));
+    return sample;
+  }
+
+  // Takes the states over the sample that output() has seen last, by its change and to its position.
+  void update(const tables& t, Scalar change, Scalar position) noexcept {
+    curves_.elongation[0] = change;
+    for (int i = 0; i < t.block_count; ++i)
+      parts_.each(t, t.blocks[i],
+                  [&](const tunable_part<Scalar>& part) { parts_.advance(t, part, curves_.elongation[i]); });
+    if (shedding_.is_limited(t)) shed(t, position);
+    else if (t.static_spring != no_index) parts_.springs.set_elongation(t.static_spring, position);
+    parts_.springs.bring_offsets_home(t);
+    if constexpr (Slips > 0) slips_.keep(t);
+    find_held(t);
+  }
+
+  // Of all forces, what the last output() has kept for the motor to be able to follow.
+  constexpr Scalar kept_share() const noexcept { return shedding_.share(); }
+
+  // Bit i of the result: wanted[i] was no number within the range. What is no number at all leaves its parameter as it
+  // is. Where nothing changes, no bit of the states does. To be called between samples.
+  constexpr unsigned set(const tables& t, const Scalar* wanted) noexcept {
+    const auto change = parts_.values.take(t, wanted);
+    if (!change.is_new) return change.clamped;
+    parts_.springs.begin_change(t.spring_count);
+    tune(t);
+    carry_forces_over(t);
+    find_held(t);
+    return change.clamped;
+  }
+
+  // V + T [J]
+  Scalar stored_energy(const tables& t) const noexcept { return parts_.springs.stored_energy(t.spring_count); }
+
+  Scalar value(int tunable) const noexcept { return parts_.values.value(tunable); }
+
+ private:
+  constexpr auto numbers(const tables& t) const noexcept {
+    return [this, &t](int index) { return parts_.number(t, index); };
+  }
+
+  // Were there no limits of the motor.
+  tunable_sample<Scalar> wanted(const tables& t, Scalar last, Scalar position, Scalar velocity) noexcept {
     tunable_answer<Scalar> answer = {0, velocity_gain_, damping_};
     if (!t.contact.is_there) {
       const Scalar change = position - last;
@@ -78,38 +128,20 @@ class tunable_law {
     return touching_sample(t.contact, t.threshold, last, depth, change, velocity, answer);
   }
 
-  // Takes the states over the sample that output() has seen last, by its change and to its position.
-  void update(const tables& t, Scalar change, Scalar position) noexcept {
-    curves_.elongation[0] = change;
-    for (int i = 0; i < t.block_count; ++i)
-      parts_.each(t, t.blocks[i],
-                  [&](const tunable_part<Scalar>& part) { parts_.advance(t, part, curves_.elongation[i]); });
-    if (t.static_spring != no_index) parts_.springs.set_elongation(t.static_spring, position);
-    parts_.springs.bring_offsets_home(t);
-    if constexpr (Slips > 0) slips_.keep(t);
-    find_held(t);
+  // A surface that something elastic holds, and not slips alone, which stay where they are.
+  static constexpr bool comes_back(const tables& t) noexcept {
+    return t.contact.is_there && (t.static_spring != no_index || t.slip_count == 0);
   }
 
-  // Bit i of the result: wanted[i] was no number within the range. What is no number at all leaves its parameter as it
-  // is. Where nothing changes, no bit of the states does. To be called between samples.
-  constexpr unsigned set(const tables& t, const Scalar* wanted) noexcept {
-    const auto change = parts_.values.take(t, wanted);
-    if (!change.is_new) return change.clamped;
-    parts_.springs.begin_change(t.spring_count);
-    tune(t);
-    carry_forces_over(t);
-    find_held(t);
-    return change.clamped;
-  }
-
-  // V + T [J]
-  Scalar stored_energy(const tables& t) const noexcept { return parts_.springs.stored_energy(t.spring_count); }
-
-  Scalar value(int tunable) const noexcept { return parts_.values.value(tunable); }
-
- private:
-  constexpr auto numbers(const tables& t) const noexcept {
-    return [this, &t](int index) { return parts_.number(t, index); };
+  // After the parts have advanced, by the share that output() has found.
+  constexpr void shed(const tables& t, Scalar position) noexcept {
+    const Scalar share = shedding_.share();
+    const Scalar at = comes_back(t) ? position - shedding_.dented(position) : position;
+    if (t.static_spring != no_index && !t.contact.is_there) parts_.springs.set_elongation(t.static_spring, at);
+    for (int i = 0; i < t.part_count && share < 1; ++i) parts_.shed(t, t.parts[i], share);
+    if (t.static_spring != no_index && t.contact.is_there) parts_.springs.set_elongation(t.static_spring, at);
+    for (int i = 0; i < t.part_count && parts_.springs.has_shed(); ++i) parts_.bring_shed_offsets_home(t, t.parts[i]);
+    shedding_.keep();
   }
 
   // Of b∞ behind slips, what the brake has left.
@@ -207,6 +239,7 @@ class tunable_law {
   tunable_parts<Scalar, Tunables, Springs, Nodes> parts_;
   tunable_curves<Scalar, Blocks> curves_;
   tunable_slips<Scalar, Blocks, SlipParts, Slips, Corners, Ends> slips_;
+  tunable_shedding<Scalar> shedding_;
   Scalar step_stiffness_ = 0;                                 // g of block 0 without b∞/h [N/m]
   Scalar release_compliance_ = 0;                             // 1/g of block 0 [m/N]
   Scalar feedthrough_ = 0, damping_ = 0, velocity_gain_ = 0;  // b∞, b, b∞ − b, without slips [N·s/m]

@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include "support/shrink.hpp"
+#include "lower/shed.hpp"
 #include "support/tunable_run.hpp"
 
 namespace dashpot::testing {
@@ -46,8 +47,12 @@ struct Share {
 
 Share share_of(std::uint64_t seed, Kind kind) {
   const TunableLaw compiled(tunable_network(seed, kind));
-  const compiler::TunableCost cost = compiler::cost_of(*compiled.law().tunable);
-  compiler::TunableRun<Counted> run(*compiled.law().tunable);
+  // Every other one on a motor that gives little, whose limits the law knows.
+  const compiler::MotorReach reach = {0.05, seed % 4 == 0 ? 1e-3 : 0};
+  const compiler::UpdateLaw law =
+      seed % 2 == 0 ? compiler::with_shedding(compiled.law(), reach, motion::translation) : compiled.law();
+  const compiler::TunableCost cost = compiler::cost_of(*law.tunable);
+  compiler::TunableRun<Counted> run(*law.tunable);
   Random random(seed);
   std::vector<double> values = compiled.defaults();
   Share most;
@@ -60,7 +65,7 @@ Share share_of(std::uint64_t seed, Kind kind) {
     values = next_values(compiled.tunables(), values, random);
     const std::vector<Counted> given(values.begin(), values.end());
     count(most.set, cost.set, [&] { run.set(given.data()); });
-    count(most.output, cost.output, [&] { run.force(position, 0.1); });
+    count(most.output, cost.output, [&] { run.wanted(position, 0.1); });
     run.keep();
     count(most.update, cost.update, [&] { run.update(); });
   }

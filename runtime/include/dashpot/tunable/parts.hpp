@@ -99,13 +99,37 @@ class tunable_parts {
 
   // In a relaxation the damper makes room, of a loose spring the slip; of other springs the offset does.
   constexpr void take_forces(const tables& t, const part_type& part) noexcept {
-    if (part.kind == tunable_kind::spring && !part.is_loose) return springs.move_offset(part.spring);
+    if (is_between_tool_and_ground(part)) return springs.move_offset(part.spring);
     if (part.spring != no_index) springs.move_end(part.spring);
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i)
       if (t.edges[i].spring != no_index) springs.move_offset(t.edges[i].spring);
   }
 
+  // All but `share` of its forces is let go of. Behind a surface that can move everything shrinks alike.
+  constexpr void shed(const tables& t, const part_type& part, Scalar share) noexcept {
+    each_spring(t, part, [&](int spring) {
+      if (t.contact.is_there) springs.shed_both(spring, share);
+      else if (part.kind == tunable_kind::mesh || is_between_tool_and_ground(part)) springs.shed_offset(spring, share);
+      else springs.shed_end(spring, share);
+    });
+  }
+
+  constexpr void bring_shed_offsets_home(const tables& t, const part_type& part) noexcept {
+    each_spring(t, part, [&](int spring) { springs.bring_shed_offset_home(spring); });
+  }
+
  private:
+  static constexpr bool is_between_tool_and_ground(const part_type& part) noexcept {
+    return part.kind == tunable_kind::spring && !part.is_loose;
+  }
+
+  template <class Visit>
+  static constexpr void each_spring(const tables& t, const part_type& part, Visit visit) noexcept {
+    if (part.spring != no_index) visit(part.spring);
+    for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i)
+      if (t.edges[i].spring != no_index) visit(t.edges[i].spring);
+  }
+
   // z ← z + φ δ − α z with x = k h/B, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
   constexpr void tune_relaxation(const tables& t, const part_type& part) noexcept {
     const Scalar stiffness = springs.stiffness(part.spring), damping = number(t, part.damping);

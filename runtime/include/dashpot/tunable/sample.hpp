@@ -11,7 +11,8 @@ struct tunable_sample {
   Scalar change;    // Δu; of a contact Δs, of its surface [m]
   Scalar position;  // u; s, of the surface from where it lies unloaded [m]
   Scalar damping;   // b [N·s/m]
-  Scalar force;     // m [N]
+  Scalar force;     // m, within what the motor can make [N]
+  Scalar wanted;    // m, were there no limit [N]
 };
 
 // What the tool and the network know of each other in a sample.
@@ -26,7 +27,8 @@ struct tunable_answer {
 template <class Scalar>
 constexpr tunable_sample<Scalar> held_sample(Scalar change, Scalar position, Scalar velocity,
                                              const tunable_answer<Scalar>& answer) noexcept {
-  return {change, position, answer.damping, answer.opposing + answer.gain * velocity};
+  const Scalar force = answer.opposing + answer.gain * velocity;
+  return {change, position, answer.damping, force, force};
 }
 
 // A surface that may be left (theory, section 5, "Contact"). `approach` is what its change would be if it stuck to the
@@ -41,8 +43,9 @@ constexpr tunable_sample<Scalar> touching_sample(const tunable_contact<Scalar>& 
   const Scalar now = is_open ? flush_below(threshold, surface + change) : depth;
   const Scalar felt = answer.opposing + answer.damping * velocity + answer.gain * velocity;
   const bool is_free = felt < Scalar(0) || gap > contact.encoder_step || (is_open && !(answer.opposing > Scalar(0)));
-  if (is_free) return {change, now, Scalar(0), Scalar(0)};
-  return {change, now, answer.damping, answer.opposing + answer.gain * velocity};
+  if (is_free) return {change, now, Scalar(0), Scalar(0), Scalar(0)};
+  const Scalar force = answer.opposing + answer.gain * velocity;
+  return {change, now, answer.damping, force, force};
 }
 
 }  // namespace dashpot

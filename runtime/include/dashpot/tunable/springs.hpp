@@ -1,7 +1,7 @@
 // The springs of a law with tunable parameters: elongations z, and how far from home each one's rest length is, the
 // offset r. A spring's force is k (z − r). A change of stiffness leaves the forces alone and moves the offsets, as far
 // as energy allows (energy_tank.hpp); with every sample the offsets then go home by a part of the way, where the tank
-// pays for it.
+// pays for it. Forces that the motor cannot make are shed (shedding.hpp), which moves offsets too, and pays nothing in.
 #pragma once
 
 #include <dashpot/command.hpp>
@@ -18,7 +18,7 @@ class tunable_springs {
   constexpr void reset(int count) noexcept {
     for (int i = 0; i < count; ++i) elongation_[i] = offset_[i] = 0;
     tank_ = 0;
-    is_owing_ = false;
+    is_owing_ = is_shed_ = false;
   }
 
   constexpr void set_stiffness(int spring, Scalar stiffness) noexcept { stiffness_[spring] = stiffness; }
@@ -70,6 +70,28 @@ class tunable_springs {
     is_owing_ = is_owing_ || offset_[spring] != 0;
   }
 
+  // All but `share` of a force is let go of: what is next to the spring makes room, its offset does, or both do.
+  constexpr void shed_end(int spring, Scalar share) noexcept {
+    elongation_[spring] = offset_[spring] + share * (elongation_[spring] - offset_[spring]);
+  }
+  constexpr void shed_offset(int spring, Scalar share) noexcept {
+    offset_[spring] = elongation_[spring] - share * (elongation_[spring] - offset_[spring]);
+    is_owing_ = is_shed_ = true;
+  }
+  constexpr void shed_both(int spring, Scalar share) noexcept {
+    elongation_[spring] *= share;
+    offset_[spring] *= share;
+  }
+
+  // What has been shed is not asked for again, and nothing pulls because of it: the offset is no further from home than
+  // the spring, the middle one of 0, r and z.
+  constexpr void bring_shed_offset_home(int spring) noexcept {
+    const Scalar r = offset_[spring], z = elongation_[spring];
+    const Scalar least = r < z ? r : z, most = r < z ? z : r;
+    offset_[spring] = least > 0 ? least : most < 0 ? most : Scalar(0);
+  }
+  constexpr bool has_shed() const noexcept { return is_shed_; }
+
   // Once a sample.
   constexpr void bring_offsets_home(const tables& t) noexcept {
     if (!is_owing_) return;
@@ -85,6 +107,7 @@ class tunable_springs {
       }
       is_owing_ = is_owing_ || offset_[i] != 0;
     }
+    is_shed_ = is_shed_ && is_owing_;
   }
 
  private:
@@ -98,6 +121,7 @@ class tunable_springs {
   Scalar offset_[Springs] = {};      // r [m]
   Scalar tank_ = 0;                  // T [J]
   bool is_owing_ = false;            // some offset is not home
+  bool is_shed_ = false;             // and what was shed is the reason
   spring_change<Scalar> changes_[Springs] = {};
 };
 

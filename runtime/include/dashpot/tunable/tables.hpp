@@ -156,6 +156,8 @@ struct tunable_tables {
   const tunable_ends* links;  // one a slip
   const tunable_ends* ties;
   const Scalar* shares = nullptr;  // one a term; none where all are 1
+  Scalar motor_limit = 0;          // of its force; 0: none [N]
+  Scalar motor_step = 0;           // of its change in a period; 0: none [N]
 };
 
 }  // namespace dashpot

@@ -1,8 +1,11 @@
-"""Runs every code block of a README, in order, in one scratch folder.
+"""Runs every code block of a page, in order, in one scratch folder, and follows its links.
 
-    python3 run_blocks.py README.md PREFIX
+    python3 run_blocks.py PAGE.md PREFIX
 
-PREFIX is where dashpot is installed. What happens to a block depends on its language:
+PREFIX is where dashpot is installed. The scratch folder looks like a clone in which `./try --install ~/dashpot` has run: it has
+`networks/` and `runtime/`, a `try` that builds nothing, since PREFIX is built, and a home with `dashpot/` in it. Where
+DASHPOT_BOARD_FIRMWARE names the board's firmware, it stands where its target leaves it. What happens to a block depends on its
+language:
 
     json   a network or a device: saved under its name and compiled, without warnings passing for errors
     sh     run by bash, dashpot on the path; a command that fails fails the test
@@ -12,7 +15,7 @@ PREFIX is where dashpot is installed. What happens to a block depends on its lan
     cmake  saved as CMakeLists.txt, configured and built against the installed package
     text   what the block before printed; a line `…` stands for any number of lines
 
-Any other language, or none, is an error: nothing in a README goes unread.
+Any other language, or none, is an error: nothing in a page goes unread. So is a link to a file or a heading that is not there.
 """
 import json
 import os
@@ -22,7 +25,15 @@ import subprocess
 import sys
 import tempfile
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+FIRMWARE = "build/quick/tests/realtime/board/board_firmware.elf"
+TRY = """#!/usr/bin/env bash
+# Takes the options of the real one.
+[[ $# == 0 || ( $# == 1 && $1 == --figures ) || ( $# == 2 && $1 == --install && -n $2 ) ]] || exit 2
+"""
 BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+LINK = re.compile(r"\]\(([^)\s]+)\)")
+HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 STRICT = ["-std=c++17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow",
           "-Wdouble-promotion", "-Werror"]
 PLAIN_NETWORK = {"dashpot": 1, "name": "plain", "motion": None,
@@ -34,16 +45,26 @@ class Failure(Exception):
 
 
 class Scratch:
-    """The folder that the blocks of one README share, and what the last of them printed."""
+    """The folder that the blocks of one page share, and what the last of them printed."""
 
     def __init__(self, folder, prefix):
         self.folder, self.prefix = pathlib.Path(folder), pathlib.Path(prefix)
         self.printed = ""
         self.environment = dict(os.environ, PATH=f"{self.prefix / 'bin'}:{os.environ['PATH']}",
                                 CMAKE_PREFIX_PATH=str(self.prefix))
+        for room in ("networks", "runtime"):
+            (self.folder / room).symlink_to(ROOT / room)
+        (self.folder / "try").write_text(TRY)
+        (self.folder / "try").chmod(0o755)
+        self.home = self.folder / "home"
+        self.home.mkdir()
+        (self.home / "dashpot").symlink_to(self.prefix.resolve())
+        if firmware := os.environ.get("DASHPOT_BOARD_FIRMWARE"):
+            (self.folder / FIRMWARE).parent.mkdir(parents=True)
+            (self.folder / FIRMWARE).symlink_to(firmware)
 
-    def run(self, *command):
-        done = subprocess.run([str(part) for part in command], cwd=self.folder, env=self.environment, text=True,
+    def run(self, *command, **variables):
+        done = subprocess.run([str(part) for part in command], cwd=self.folder, env={**self.environment, **variables}, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode != 0:
             raise Failure(f"{' '.join(str(part) for part in command)}\n{done.stdout}")
@@ -65,7 +86,7 @@ def run_json(scratch, text):
 
 
 def run_sh(scratch, text):
-    scratch.run("bash", "-euo", "pipefail", "-c", text)
+    scratch.run("bash", "-euo", "pipefail", "-c", text, HOME=str(scratch.home))
 
 
 def run_cpp(scratch, text):
@@ -129,6 +150,25 @@ def blocks(text):
         yield text.count("\n", 0, match.start()) + 1, match.group(1).strip(), match.group(2)
 
 
+def anchors(text):
+    """What links to headings of this page end in, as the page's readers make them."""
+    without_code = BLOCK.sub("", text)
+    return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in HEADING.findall(without_code)}
+
+
+def check_links(text, folder):
+    """Raises Failure for the first link of a page in `folder` that leads nowhere; pages elsewhere are left alone."""
+    for target in LINK.findall(BLOCK.sub("", text)):
+        if re.match(r"\w+:", target):
+            continue
+        file, _, anchor = target.partition("#")
+        path = folder / file
+        if file and not path.exists():
+            raise Failure(f"link to '{target}': there is no such file")
+        if anchor and anchor not in anchors(path.read_text() if file else text):
+            raise Failure(f"link to '{target}': there is no such heading")
+
+
 def run_readme(text, prefix):
     """The number of blocks run. Raises Failure, with the line, for the first block that does not do what it should."""
     count = 0
@@ -150,6 +190,7 @@ def run_readme(text, prefix):
 if __name__ == "__main__":
     readme, prefix = pathlib.Path(sys.argv[1]), sys.argv[2]
     try:
+        check_links(readme.read_text(), readme.parent)
         print(f"{readme.name}: {run_readme(readme.read_text(), prefix)} blocks ran")
     except Failure as failure:
         sys.exit(f"{readme}: {failure}")

@@ -2,10 +2,12 @@
 
     python3 run_blocks_test.py PREFIX
 """
+import pathlib
 import sys
+import tempfile
 import unittest
 
-from run_blocks import Failure, run_readme
+from run_blocks import Failure, check_links, run_readme
 
 PREFIX = sys.argv.pop()
 
@@ -80,6 +82,21 @@ int main(void) {
         self.assert_refused("```python\nls\n```", "language 'python'")
         self.assert_refused("  ```sh\nls\n```\n", "fence")
         self.assert_refused("```sh\nls\n", "fence")
+
+    # Fails if a page may send its reader to a file or a heading that is not there.
+    def test_refuses_links_that_lead_nowhere(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            (folder / "other.md").write_text("# Words, and `code`\n```sh\n# no heading\n```\n")
+            check_links("## Here\n[a](other.md) [b](other.md#words-and-code) [c](#here) [d](https://example.org/x#y)", folder)
+            for link in ("another.md", "other.md#no-heading", "#there"):
+                with self.assertRaisesRegex(Failure, f"link to '{link}'"):
+                    check_links(f"# Here\n[a]({link})", folder)
+
+    # Fails if a page may show a `./try` that the real one would not understand.
+    def test_try_takes_the_options_of_the_real_one(self):
+        run_readme("```sh\n./try --install ~/dashpot\n~/dashpot/bin/dashpot --version\n```\n", PREFIX)
+        self.assert_refused("```sh\n./try --instal ~/dashpot\n```\n", "line 1: sh")
 
 
 if __name__ == "__main__":

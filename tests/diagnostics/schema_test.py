@@ -95,6 +95,8 @@ class SchemaTest(unittest.TestCase):
     def test_files_of_the_project_are_good(self):
         networks = [path for path in (ROOT / "networks").rglob("*.json") if not path.name.endswith(".schema.json")]
         devices = [path for path in (ROOT / "runtime/devices").glob("*.json") if not path.name.endswith(".schema.json")]
+        devices += (ROOT / "examples").glob("*/device.json")
+        networks += (path for path in (ROOT / "examples").glob("*/*.json") if path not in devices)
         self.assertTrue(networks)
         for path in networks:
             self.expect_good(NETWORK, load(path), path)

@@ -3,7 +3,7 @@
     python3 run_blocks.py PAGE.md PREFIX
 
 PREFIX is where dashpot is installed. The scratch folder looks like a clone in which `./try --install ~/dashpot` has run: it has
-`networks/` and `runtime/`, a `try` that builds nothing, since PREFIX is built, and a home with `dashpot/` in it. Where
+`networks/`, `runtime/` and `examples/`, a `try` that builds nothing, since PREFIX is built, and a home with `dashpot/` in it. Where
 DASHPOT_BOARD_FIRMWARE names the board's firmware, it stands where its target leaves it. What happens to a block depends on its
 language:
 
@@ -52,7 +52,7 @@ class Scratch:
         self.printed = ""
         self.environment = dict(os.environ, PATH=f"{self.prefix / 'bin'}:{os.environ['PATH']}",
                                 CMAKE_PREFIX_PATH=str(self.prefix))
-        for room in ("networks", "runtime"):
+        for room in ("networks", "runtime", "examples"):
             (self.folder / room).symlink_to(ROOT / room)
         (self.folder / "try").write_text(TRY)
         (self.folder / "try").chmod(0o755)

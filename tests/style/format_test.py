@@ -21,7 +21,7 @@ RAW_STRING = re.compile(r'R"(\w*)\(.*?\)\1"', re.DOTALL)
 
 def sources():
     """C++ of the project's own, and its messages; generated/ looks as the compiler writes it."""
-    return [path for folder in ("compiler", "runtime", "tests") for path in sorted((ROOT / folder).rglob("*"))
+    return [path for folder in ("compiler", "examples", "runtime", "tests") for path in sorted((ROOT / folder).rglob("*"))
             if path.suffix in {".cpp", ".hpp", ".def"}]
 
 

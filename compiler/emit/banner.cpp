@@ -13,6 +13,12 @@
 namespace dashpot::compiler {
 namespace {
 
+// For who has not read the theory: the words that the sentences of the compiler's stages use.
+const char* const words =
+    "words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A mode "
+    "is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and the motor "
+    "makes what the spring behind it changes of that";
+
 std::string length_unit(const Network& network) { return network.port_motion == motion::rotation ? "[rad]" : "[m]"; }
 std::string velocity_unit(const Network& network) {
   return network.port_motion == motion::rotation ? "[rad/s]" : "[m/s]";
@@ -22,7 +28,7 @@ std::string damping_unit(const Network& network) {
 }
 
 std::string cost_line(const char* phase, const Cost& cost) {
-  return fmt::format("{} {} additions, {} multiplications, {} guards against subnormals", phase, cost.additions,
+  return fmt::format("{} {} additions, {} multiplications, {} guards against subnormal numbers", phase, cost.additions,
                      cost.multiplications, cost.guards);
 }
 
@@ -74,6 +80,23 @@ std::string validity_text(const Network& network) {
   return text;
 }
 
+// What a scheme makes of the time between two samples.
+std::string in_words(Scheme scheme, bool switches) {
+  if (scheme == Scheme::backward_euler) return "the paper's own, whose error falls in proportion to the period";
+  return std::string("a motion that is straight between two samples is answered exactly") +
+         (switches ? ", but for samples in which a slip or a contact changes" : "");
+}
+
+// What moves the states.
+const char* in_words(StateInput input) {
+  switch (input) {
+    case StateInput::position: return "the measured position";
+    case StateInput::velocity: return "the estimated velocity";
+    case StateInput::nodal: return "position and velocity, as the network's nodes have it";
+  }
+  return "";
+}
+
 // What may change, what follows it, and what that costs.
 void describe_tunables(const TunableTables& tables, const std::string& damping_unit, std::vector<std::string>& facts) {
   std::string names, elements;
@@ -83,13 +106,14 @@ void describe_tunables(const TunableTables& tables, const std::string& damping_u
   const TunableCost cost = cost_of(tables);
   facts.push_back("tunable: " + names);
   facts.push_back(
-      "  set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay");
+      "  set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay");
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
   facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions", cost.output));
   facts.push_back(
-      fmt::format("cost of update(): at most {} additions and multiplications; {} states", cost.update, cost.states));
+      fmt::format("cost of update(): at most {} additions and multiplications; {} numbers are kept between samples",
+                  cost.update, cost.states));
   facts.push_back(fmt::format("cost of set(): at most {} additions, multiplications and divisions", cost.set));
 }
 
@@ -99,7 +123,8 @@ void describe_cost(const Compilation& c, std::vector<std::string>& facts) {
   if (output.coupled > 0)
     facts.push_back(
         fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
-  facts.push_back(cost_line("cost of update():", update) + fmt::format("; {} states", output.states));
+  facts.push_back(cost_line("cost of update():", update) +
+                  fmt::format("; {} numbers are kept between samples", output.states));
 }
 
 std::string form_text(ModeForm form) {
@@ -125,34 +150,41 @@ std::vector<Fields> as_list(const std::vector<std::string>& lines) {
 std::vector<std::string> banner(const Compilation& c, Timing timing) {
   const Candidate& choice = c.decomposition.choice();
   const std::string unit = damping_unit(c.network);
+  const std::vector<SlipLikes> slips = likes_of(c.decomposition.slips, c.network);
   std::vector<std::string> facts;
   if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
-  facts.push_back(fmt::format("scheme: {} at {} Hz, {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
+  facts.push_back(fmt::format("scheme: {} at {} Hz, {}: {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar),
+                              in_words(c.law.scheme, c.network.contact || !slips.empty())));
   const std::string capped =
       choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
   facts.push_back(
-      fmt::format("decomposition: {}, b = {} {}{}: {}", choice.name, choice.damping, unit, capped, choice.reason));
-  for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) facts.push_back(brake_line(likes, unit));
-  facts.push_back("states: " + c.decomposition.reason);
+      fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
+                  choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what follows", choice.name,
+                  choice.reason));
+  for (const SlipLikes& likes : slips) facts.push_back(brake_line(likes, unit));
+  facts.push_back(fmt::format("states: what is kept of the past follows {} ({})", in_words(choice.state_input),
+                              c.decomposition.reason));
   if (!c.decomposition.in_words.empty()) facts.push_back("choice: " + c.decomposition.in_words);
   if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
-  facts.push_back(fmt::format("any delay of the estimate: {:.6g} {} of extra damping keep an exact brake passive",
-                              choice.extra_damping_any_delay.value_or(0), unit));
+  facts.push_back(fmt::format(
+      "late velocity: with {:.6g} {} more in an exact brake, no lateness of the estimate alone costs passivity",
+      choice.extra_damping_any_delay.value_or(0), unit));
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
   if (c.law.sheds() || !c.certificate.limits.is_covered)
     for (const std::string& line :
          to_lines(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion)))
       facts.push_back(line);
   facts.push_back(
-      fmt::format("device: {}", c.device ? c.device->name : "ideal: exact brake, exact velocity, no delay"));
+      fmt::format("device: {}", c.device ? c.device->name : "none is named: exact brake, exact velocity, no delay"));
   if (c.law.tunable) describe_tunables(*c.law.tunable, unit, facts);
   else describe_cost(c, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
   if (c.law.lanes > 1) facts.push_back(loops_line(c.law));
   if (c.law.relative_error_bound > 0)
-    facts.push_back(fmt::format("rounding: {}a mode's force is off by at most {:.2g} of its peak",
+    facts.push_back(fmt::format("rounding: {}the force of a mode is off by at most {:.2g} of its peak",
                                 form_text(c.law.mode_form), c.law.relative_error_bound));
+  facts.push_back(words);
   std::vector<std::string> lines;
   for (const std::string& fact : facts)
     for (const std::string& line : wrapped_text(fact, 112, 2)) lines.push_back(comment_text(line));

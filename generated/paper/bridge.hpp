@@ -1,19 +1,25 @@
 // A bridge, which is no series-parallel tree
 //
 // source: beyond Gosline & Hayward 2009, who treat trees; values chosen here
-// scheme: exact at 1000 Hz, double
-// decomposition: paper, b = 6.171597633136095 N·s/m: no series-parallel tree, so the viscosity at low frequency
-// states: position driven: on an ideal device nothing tells the inputs apart
-// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// brake: makes b = 6.171597633136095 N·s/m of damping, and the motor the rest of the force; by the rule 'paper':
+//   no series-parallel tree, so the viscosity at low frequency
+// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
+//   tells the inputs apart)
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 5.93552 N·s/m, most at 38.8226 Hz, at least
 //   6.1716 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-14 of the sum of
 //   the force's terms
-// device: ideal: exact brake, exact velocity, no delay
-// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormals
-// cost of update(): 3 additions, 4 multiplications, 2 guards against subnormals; 6 states
-// rounding: a mode's force is off by at most 1.9e-14 of its peak
+// device: none is named: exact brake, exact velocity, no delay
+// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
+// cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers are kept between
+//   samples
+// rounding: the force of a mode is off by at most 1.9e-14 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
 //
 // Written by dashpot 0.1.0 from a network with digest 285999e31eaec0f9. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -29,7 +35,7 @@ class bridge {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -43,7 +49,7 @@ class bridge {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     relaxed_force_ = 0;
@@ -87,7 +93,7 @@ class bridge {
     last_position_ = sampled_position_;
   }
 
-  // Both at once, where nothing else has to happen in between.
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;

@@ -1,24 +1,30 @@
 // Presliding friction of ten springs with slips, which yield one after the other, every 0.1 mm
 //
 // source: beyond Gosline & Hayward 2009, whose Fig. 10 has one; values chosen here
-// scheme: exact at 1000 Hz, double
-// decomposition: faithful, b = 0 N·s/m: no device to be faithful on, so the paper's rule: dampers at the tool in
-//   parallel add
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+//   samples in which a slip or a contact changes
+// brake: makes b = 0 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
+//   rule 'faithful': no device to be faithful on, so the paper's rule: dampers at the tool in parallel add
 // behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck,
 //   0 sliding
-// states: position driven: on an ideal device nothing tells the inputs apart
-// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
+//   tells the inputs apart)
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any switching of the brake
 //   above its least command: needs 0.775 N·s/m over the longest hold of 0.001 s, at least 0 N·s/m is there, 0.775
 //   N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
 //   adds at most 3.9e-15 of the sum of the force's terms
-// device: ideal: exact brake, exact velocity, no delay
-// cost of output(): 20 additions, 10 multiplications, 0 guards against subnormals
-// cost of update(): 0 additions, 0 multiplications, 10 guards against subnormals; 23 states
+// device: none is named: exact brake, exact velocity, no delay
+// cost of output(): 20 additions, 10 multiplications, 0 guards against subnormal numbers
+// cost of update(): 0 additions, 0 multiplications, 10 guards against subnormal numbers; 23 numbers are kept
+//   between samples
 // loops: laid out for registers of 16 bytes; sums in 8 parts, the same bits on every machine
-// rounding: a mode's force is off by at most 5.6e-16 of its peak
+// rounding: the force of a mode is off by at most 5.6e-16 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
 //
 // Written by dashpot 0.1.0 from a network with digest 29c7245beaf6283a. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -35,7 +41,7 @@ class maxwell_slip_ten {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -49,7 +55,7 @@ class maxwell_slip_ten {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     clear(K1_spring_force_);
@@ -107,7 +113,7 @@ class maxwell_slip_ten {
     last_position_ = sampled_position_;
   }
 
-  // Both at once, where nothing else has to happen in between.
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();

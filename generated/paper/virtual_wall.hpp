@@ -1,19 +1,25 @@
 // Virtual wall: a contact with a Kelvin element
 //
 // source: Gosline & Hayward 2009, section 5.1 and (9); stiffness and damping are chosen, not printed
-// scheme: exact at 1000 Hz, double
-// decomposition: paper, b = 5 N·s/m: dampers at the tool in parallel add
-// states: position driven by definition
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+//   samples in which a slip or a contact changes
+// brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': dampers at the
+//   tool in parallel add
+// states: what is kept of the past follows the measured position (position driven by definition)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: not certified: a free tool, which the brake leaves alone, touches late, and the device itself has
 //   less damping than that needs: 10.25 N·s/m
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
 //   adds at most 1.1e-15 of the sum of the force's terms
-// device: ideal: exact brake, exact velocity, no delay
-// cost of output(): 6 additions, 4 multiplications, 1 guards against subnormals
-// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormals; 3 states
+// device: none is named: exact brake, exact velocity, no delay
+// cost of output(): 6 additions, 4 multiplications, 1 guards against subnormal numbers
+// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 3 numbers are kept between
+//   samples
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
 //
 // Written by dashpot 0.1.0 from a network with digest e60aea3a90d2a9f2. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -29,7 +35,7 @@ class virtual_wall {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -43,7 +49,7 @@ class virtual_wall {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     surface_ = dashpot::all_finite(position, position, position) ? dashpot::pushed_in(0.0, position) : 0;
     sampled_brake_ = 0;
@@ -92,7 +98,7 @@ class virtual_wall {
     surface_ = sampled_surface_now_;
   }
 
-  // Both at once, where nothing else has to happen in between.
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δ = u − s₋
     const scalar approach = position - surface_;

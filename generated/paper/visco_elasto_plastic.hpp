@@ -1,22 +1,28 @@
 // A needle that sticks and slides, Fig. 10
 //
 // source: Gosline & Hayward 2009, Fig. 10 and (21); the paper prints no values, these are chosen here
-// scheme: exact at 1000 Hz, double
-// decomposition: faithful, b = 2.5 N·s/m: no device to be faithful on, so the paper's rule: dampers at the tool in
-//   parallel add
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+//   samples in which a slip or a contact changes
+// brake: makes b = 2.5 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by
+//   the rule 'faithful': no device to be faithful on, so the paper's rule: dampers at the tool in parallel add
 // behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
 //   2.04e-05 %; b = 0.8 N·s/m stuck, 0.8 sliding
-// states: position driven: on an ideal device nothing tells the inputs apart
-// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
+//   tells the inputs apart)
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, whatever slides, sticks, touches or lets go, any switching of the brake
 //   above its least command: needs 1.3 N·s/m over the longest hold of 0.001 s, at least 3.3 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
 //   adds at most 1.4e-15 of the sum of the force's terms
-// device: ideal: exact brake, exact velocity, no delay
-// cost of output(): 5 additions, 3 multiplications, 0 guards against subnormals
-// cost of update(): 1 additions, 1 multiplications, 1 guards against subnormals; 6 states
-// rounding: a mode's force is off by at most 5.6e-16 of its peak
+// device: none is named: exact brake, exact velocity, no delay
+// cost of output(): 5 additions, 3 multiplications, 0 guards against subnormal numbers
+// cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 6 numbers are kept between
+//   samples
+// rounding: the force of a mode is off by at most 5.6e-16 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
 //
 // Written by dashpot 0.1.0 from a network with digest ac88426b23200b24. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -32,7 +38,7 @@ class visco_elasto_plastic {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -46,7 +52,7 @@ class visco_elasto_plastic {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     K_spring_force_ = 0;
@@ -90,7 +96,7 @@ class visco_elasto_plastic {
     last_position_ = sampled_position_;
   }
 
-  // Both at once, where nothing else has to happen in between.
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // Δu = u − u₋
     const scalar position_change = position - last_position_;

@@ -3,18 +3,24 @@
 // source: Nguyen et al. 2014, Ultrasound Med Biol 40:168, from the abstract: Voigt, mu 0.88 kPa, eta 1.06 Pa s. At
 //   a flat punch of radius a = 5 mm on an incompressible half-space: f = 8 G a u, so 0.04 m times modulus and
 //   viscosity
-// scheme: exact at 1000 Hz, double
-// decomposition: paper, b = 0.0424 N·s/m: dampers at the tool in parallel add
-// states: position driven: on an ideal device nothing tells the inputs apart
-// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// brake: makes b = 0.0424 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': dampers at
+//   the tool in parallel add
+// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
+//   tells the inputs apart)
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, any switching of the brake above its command: needs 0.0176 N·s/m over the
 //   longest hold of 0.001 s, at least 0.0424 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: the constants never give more work than stored_energy() falls; rounding adds at most 8.9e-16 of the sum
 //   of the force's terms
-// device: ideal: exact brake, exact velocity, no delay
-// cost of output(): 0 additions, 1 multiplications, 0 guards against subnormals
-// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormals; 2 states
+// device: none is named: exact brake, exact velocity, no delay
+// cost of output(): 0 additions, 1 multiplications, 0 guards against subnormal numbers
+// cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers are kept between
+//   samples
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
 //
 // Written by dashpot 0.1.0 from a network with digest 2a53f7d910a2efd2. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -30,7 +36,7 @@ class gelatin_oil_40 {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -44,7 +50,7 @@ class gelatin_oil_40 {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
@@ -71,7 +77,7 @@ class gelatin_oil_40 {
     last_position_ = sampled_position_;
   }
 
-  // Both at once, where nothing else has to happen in between.
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     // m = f − b u̇
     const scalar force = static_stiffness * position;

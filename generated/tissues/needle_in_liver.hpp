@@ -6,24 +6,30 @@
 //   kPa, eta 7.3 Pa s; at a shaft of radius a = 0.6 mm, l = 30 mm deep, in tissue of radius R = 20 mm: f = 2 pi G
 //   l u / ln(R/a), so 0.05375 m times each. The needle pushes and is not drawn out: the contact lets it go
 // valid: displacement 0 to 0.03 m, rate 0 to 0.02 m/s
-// scheme: exact at 1000 Hz, double
-// decomposition: faithful, b = 5 N·s/m: no device to be faithful on, so the paper's rule: in series B2 dissipates
-//   100 % at low frequency and is observed; with the contact no more than the feedthrough damping, so that the
-//   motor compensates nothing
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+//   samples in which a slip or a contact changes
+// brake: makes b = 5 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
+//   rule 'faithful': no device to be faithful on, so the paper's rule: in series B2 dissipates 100 % at low
+//   frequency and is observed; with the contact no more than the feedthrough damping, so that the motor
+//   compensates nothing
 // behind friction: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck, 0 sliding
-// states: position driven by definition
+// states: what is kept of the past follows the measured position (position driven by definition)
 // contact: at 0 m; brake and motor 0 while the tool is free
-// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: not certified: a free tool, which the brake leaves alone, touches late, and the device itself has
 //   less damping than that needs: 10.5838 N·s/m
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
 //   adds at most 9.5e-15 of the sum of the force's terms
-// device: ideal: exact brake, exact velocity, no delay
-// cost of output(): 7 additions, 3 multiplications, 1 guards against subnormals
+// device: none is named: exact brake, exact velocity, no delay
+// cost of output(): 7 additions, 3 multiplications, 1 guards against subnormal numbers
 //   and at most 61 additions, multiplications and divisions for the coupled slips
-// cost of update(): 2 additions, 3 multiplications, 2 guards against subnormals; 7 states
-// rounding: a mode's force is off by at most 1.6e-15 of its peak
+// cost of update(): 2 additions, 3 multiplications, 2 guards against subnormal numbers; 7 numbers are kept between
+//   samples
+// rounding: the force of a mode is off by at most 1.6e-15 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
 //
 // Written by dashpot 0.1.0 from a network with digest 7795867927feb132. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -40,7 +46,7 @@ class needle_in_liver {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -54,7 +60,7 @@ class needle_in_liver {
 
   struct parameters {};
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     surface_ = dashpot::all_finite(position, position, position) ? dashpot::pushed_in(0.0, position) : 0;
     B2_K2_force_ = 0;
@@ -121,7 +127,7 @@ class needle_in_liver {
     surface_ = sampled_surface_now_;
   }
 
-  // Both at once, where nothing else has to happen in between.
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();

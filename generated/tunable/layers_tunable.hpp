@@ -1,25 +1,30 @@
 // A needle that sticks in two layers, which slide on each other: a ring of three slips, frictions and stiffness change while it runs
 //
-// scheme: exact at 1000 Hz, double
-// decomposition: faithful, b = 3 N·s/m: no device to be faithful on, so the paper's rule: dampers at the tool in
-//   parallel add
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
+//   samples in which a slip or a contact changes
+// brake: makes b = 3 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
+//   rule 'faithful': no device to be faithful on, so the paper's rule: dampers at the tool in parallel add
 // behind skin_grip, muscle_grip, fascia: velocity-free, parameters change while it runs; b is that of their
 //   default values
-// states: position driven, so that a change of parameters injects no energy
-// any delay of the estimate: 0 N·s/m of extra damping keep an exact brake passive
+// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+//   injects no energy)
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their
 //   ranges between changes, any switching of the brake above its least command: needs 3 N·s/m over the longest
 //   hold of 0.001 s, at least 3 N·s/m is there, 2.66454e-15 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
 //   1.3e-12 of the sum of the force's terms
-// device: ideal: exact brake, exact velocity, no delay
+// device: none is named: exact brake, exact velocity, no delay
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
-//   set() injects no energy: a rise of stiffness while the tool presses stays owed until the springs can pay
+//   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows drag
 // cost of output(): at most 11529 additions, multiplications and divisions
-// cost of update(): at most 96 additions and multiplications; 4 states
+// cost of update(): at most 96 additions and multiplications; 4 numbers are kept between samples
 // cost of set(): at most 1434 additions, multiplications and divisions
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
 //
 // Written by dashpot 0.1.0 from a network with digest 35cf3fded87fa20a. It belongs to whoever had it written. Compile it
 // with -ffp-contract=off where results are compared bit for bit.
@@ -36,7 +41,7 @@ class layers_tunable {
   static constexpr scalar sample_period = 0.001;  // [s]
   static constexpr dashpot::motion port_motion = dashpot::motion::translation;
 
-  // Of the brake's command, for passivity alone: what is rendered is the network and this damping.
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
   static constexpr scalar added_damping = 0.0;
 
   // What the servo loop compares with the device that it drives.
@@ -54,7 +59,7 @@ class layers_tunable {
     scalar muscle_stiffness = 900.0;  // 100 to 4000 [N/m]
   };
 
-  // At rest at `position` [m], springs relaxed at 0 but for the static load. What is no number counts as 0.
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_change_ = 0;
@@ -88,7 +93,7 @@ class layers_tunable {
     last_position_ = sampled_position_;
   }
 
-  // Both at once, where nothing else has to happen in between.
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
   dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
     const dashpot::command<scalar> now = output(position, velocity);
     update();

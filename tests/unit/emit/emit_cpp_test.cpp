@@ -71,10 +71,29 @@ TEST(EmitCpp, states_form_and_error_bound_of_float) {
   choices.scalar = ScalarType::float32;
   // u/α + 4u with u = 2⁻²⁴ and α = 1 − e^(−10 h)
   EXPECT_TRUE(
-      contains(header_of(network, choices), "in delta form a mode's force is off by at most 6.2e-06 of its peak"));
+      contains(header_of(network, choices), "in delta form the force of a mode is off by at most 6.2e-06 of its peak"));
   choices.rate = 1e6;
   EXPECT_TRUE(contains(header_of(network, choices),
-                       "in compensated form a mode's force is off by at most 3.6e-07 of its peak"));
+                       "in compensated form the force of a mode is off by at most 3.6e-07 of its peak"));
+}
+
+// Fails if a banner promises exactness where a slip or a contact changes between two samples, or forgets it of linear
+// networks; or if it takes the damping that the brake makes beside slips for all that it makes.
+TEST(EmitCpp, says_of_slips_and_contacts_where_exactness_ends) {
+  const std::string exact = "a motion that is straight between two samples is answered exactly";
+  const std::string but = exact + ", but for";
+  const auto banner = [](const std::string& more, const std::string& beside) {
+    return header_of(R"({ "dashpot": 1, "name": "pad", )" + more + R"("network": { "parallel": [ { "spring": 50 }, )" +
+                         beside + R"({ "damper": 5 } ] } })",
+                     Choices());
+  };
+  const std::string linear = banner("", ""), contact = banner(R"("contact": { "at": 0 }, )", "");
+  const std::string slip = banner("", R"({ "series": [ { "slip": 1 }, { "spring": 500 } ] }, )");
+  EXPECT_TRUE(contains(linear, exact) && !contains(linear, but));
+  EXPECT_TRUE(contains(contact, but));
+  EXPECT_TRUE(contains(slip, but));
+  EXPECT_TRUE(contains(linear, "brake: makes b = 5 N·s/m of damping, and the motor"));
+  EXPECT_TRUE(contains(slip, "brake: makes b = 5 N·s/m of damping, behind slips also"));
 }
 
 // Fails if an input that is no number can pass unseen, or if what the force shows of itself is looked at again.

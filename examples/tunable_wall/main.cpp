@@ -17,7 +17,7 @@
 
 using wall = dashpot::generated::tunable_wall;
 
-// What the user interface hands over: where its sliders are, and the how manyth position that is.
+// What the user interface hands over: where its sliders are, and a running number.
 struct setting {
   wall::parameters sliders;
   unsigned number = 0;

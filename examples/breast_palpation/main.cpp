@@ -38,13 +38,12 @@ dashpot::servo_summary palpate(records& felt) {
   options.require_certified = true;
   options.duration = 3.4;  // [s]
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };
-  options.outputs.log = nullptr;
   return dashpot::servo_loop(phantom, device, estimator, options, dashpot::simulated_clock{}).run();
 }
 
 // At rest in the tissue the springs alone push back, one behind the other; beside it nothing does.
 bool is_right(const dashpot::servo_summary& run, const records& felt, double stiffness) {
-  const dashpot::telemetry_record& held = felt[static_cast<std::size_t>(2.2 * 2000)];
+  const dashpot::telemetry_record& held = felt.at(static_cast<std::size_t>(2.2 * 2000));
   const double closed_form = stiffness * (held.position - surface);                 // [N]
   const double one_count = stiffness * 5e-6 + held.damping * 5e-6 / (10 / 2000.0);  // [N]: of the encoder
   bool free_is_free = true;

@@ -47,10 +47,9 @@ int main(int, char** arguments) {
   options.duration = end;
   options.telemetry_capacity = 1u << 10;
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };
-  options.outputs.log = nullptr;
   const auto run = dashpot::servo_loop(law, device, estimator, options, dashpot::simulated_clock{}).run();
 
-  const auto at = [&](double time) { return felt[static_cast<std::size_t>(time / facts.loop.sample_period + 0.5)]; };
+  const auto at = [&](double time) { return felt.at(static_cast<std::size_t>(time / facts.loop.sample_period + 0.5)); };
   const double one_count =
       2 * stiffness * facts.encoder.step;  // [N·m]: the encoder rounds down, and a sample may be late
   bool right = run.left_safe && run.faults.total() == 0;

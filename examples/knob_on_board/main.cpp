@@ -53,7 +53,6 @@ int main(int count, char** arguments) {
   options.outputs.observe = [&](const dashpot::telemetry_record& record) {
     if (record.fresh && record.state == dashpot::servo_state::running) felt.push_back(record);
   };
-  options.outputs.log = nullptr;
   dashpot::servo_loop loop(law, device, estimator, options);
   const dashpot::stop_on_signals ctrl_c(loop.control());
   const dashpot::servo_summary run = loop.run();

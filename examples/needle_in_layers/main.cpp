@@ -41,7 +41,6 @@ int main(int, char** arguments) {
   options.require_certified = true;
   options.duration = end;
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };
-  options.outputs.log = nullptr;
   const auto run = dashpot::servo_loop(law, device, estimator, options, dashpot::simulated_clock{}).run();
 
   // Where both slips slide. The estimate of the velocity may be off by one count in its window of ten samples, the
@@ -55,7 +54,7 @@ int main(int, char** arguments) {
     const double error = force_of(record) - closed_form(record.position, record.time < reversal ? 1 : -1);
     worst = std::fmax(worst, std::fabs(error));
   }
-  const auto at = [&](double time) { return felt[static_cast<std::size_t>(time / facts.loop.sample_period)]; };
+  const auto at = [&](double time) { return felt.at(static_cast<std::size_t>(time / facts.loop.sample_period)); };
   const double in = 20e-3 / speed, out = reversal + 10e-3 / speed;  // [s]
   std::printf("going in at 20 mm   %+.3f N\n", force_of(at(in)));
   std::printf("drawn back at 20 mm %+.3f N\n", force_of(at(out)));

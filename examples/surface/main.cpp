@@ -79,12 +79,12 @@ int main(int, char** arguments) {
   options.identity.name = "probe";
   options.duration = 0.7;  // [s]
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };
-  options.outputs.log = nullptr;
   const auto run = dashpot::servo_loop(liver, device, estimator, options, dashpot::simulated_clock{}).run();
 
   // A paraboloid in such a bed, at rest: F = π R c d². A circle of 12 mm is covered by squares of 1 mm, which is off by
   // less than a hundredth.
-  const double depth = felt.back().position, force = felt.back().motor_force;
+  const dashpot::telemetry_record& last = felt.at(felt.size() - 1);
+  const double depth = last.position, force = last.motor_force;
   const double closed_form = 3.141592653589793 * ball * bed * depth * depth;
   std::printf("%d points, %.3f mm deep: %.4f N, a bed without grain %.4f N\n", points, depth * 1e3, force, closed_form);
   if (std::FILE* table = arguments[1] ? std::fopen(arguments[1], "w") : nullptr) {

@@ -77,7 +77,6 @@ int main(int, char** arguments) {
   options.identity = {wall::certified_for::device, wall::certified_for::device_digest};
   options.duration = 2;  // [s]
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };
-  options.outputs.log = nullptr;
   dashpot::servo_loop loop(law, device, estimator, options);
   const dashpot::stop_on_signals ctrl_c(loop.control());
 
@@ -95,7 +94,7 @@ int main(int, char** arguments) {
   }
   servo.join();
 
-  const bool last_arrived = law.wanted().number == at_rest && felt.back().damping == 3;
+  const bool last_arrived = law.wanted().number == at_rest && !felt.empty() && felt.back().damping == 3;
   std::printf("values taken while it ran: %s, torn: %u, out of order: %u\n", law.taken() > 10 ? "many" : "too few",
               law.torn(), law.out_of_order());
   std::printf("energy that the wall gave to the hand: %s\n", run.lowest_energy >= 0 ? "none" : "some");

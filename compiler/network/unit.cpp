@@ -10,13 +10,7 @@ namespace {
 
 constexpr std::size_t longest_unit = 100;  // [bytes]: keeps every exponent far from overflow
 
-struct Symbol {
-  std::string_view text;
-  Unit unit;
-  bool takes_prefix;
-};
-
-constexpr Symbol symbols[] = {
+constexpr UnitSymbol symbols[] = {
     {"N", {dimensions::force}, true},
     {"m", {dimensions::length}, true},
     {"s", {dimensions::time}, true},
@@ -32,32 +26,28 @@ constexpr Symbol symbols[] = {
     {"ohm", {{1, 2, -3, -2}}, true},
     {"Ω", {{1, 2, -3, -2}}, true},
     {"min", {dimensions::time, 0, 1}, false},
+    {"rpm", {dimensions::angular_velocity, -1, 1, 1}, false},  // 360°/min = 6°/s
     {"deg", {dimensions::angle, 0, 0, 1}, false},
     {"°", {dimensions::angle, 0, 0, 1}, false},
     {"%", {dimensions::number, -2}, false},
 };
 
-struct Prefix {
-  std::string_view text;
-  int power_of_ten;
-};
-
-constexpr Prefix prefixes[] = {
+constexpr UnitPrefix prefixes[] = {
     {"f", -15}, {"p", -12}, {"n", -9}, {"u", -6}, {"µ", -6}, {"μ", -6}, {"m", -3}, {"c", -2},
     {"d", -1},  {"da", 1},  {"h", 2},  {"k", 3},  {"M", 6},  {"G", 9},  {"T", 12},
 };
 
-const Symbol* find_symbol(std::string_view text) {
+const UnitSymbol* find_symbol(std::string_view text) {
   const auto found =
       std::find_if(std::begin(symbols), std::end(symbols), [&](auto& symbol) { return symbol.text == text; });
   return found == std::end(symbols) ? nullptr : found;
 }
 
 std::optional<Unit> find_unit(std::string_view text) {
-  if (const Symbol* symbol = find_symbol(text)) return symbol->unit;
-  for (const Prefix& prefix : prefixes) {
+  if (const UnitSymbol* symbol = find_symbol(text)) return symbol->unit;
+  for (const UnitPrefix& prefix : prefixes) {
     if (!text.starts_with(prefix.text)) continue;
-    const Symbol* symbol = find_symbol(text.substr(prefix.text.size()));
+    const UnitSymbol* symbol = find_symbol(text.substr(prefix.text.size()));
     if (symbol == nullptr || !symbol->takes_prefix) continue;
     Unit unit = symbol->unit;
     unit.power_of_ten += prefix.power_of_ten;
@@ -192,20 +182,40 @@ class UnitParser {
   std::optional<UnitFault> fault_;
 };
 
+std::optional<std::string> split(std::string_view symbol);
+
+// A factor with a prefix, as the "cm" of "gcm".
+std::optional<std::string> split_behind_prefix(std::string_view symbol) {
+  for (const UnitPrefix& prefix : prefixes) {
+    if (!symbol.starts_with(prefix.text)) continue;
+    const std::string_view rest = symbol.substr(prefix.text.size());
+    for (std::size_t length = std::min<std::size_t>(3, rest.size()); length > 0; --length) {
+      const UnitSymbol* known = find_symbol(rest.substr(0, length));
+      if (known == nullptr || !known->takes_prefix) continue;
+      if (const auto others = split(rest.substr(length)))
+        return std::string(prefix.text) + std::string(rest.substr(0, length)) + (others->empty() ? "" : " ") + *others;
+    }
+  }
+  return std::nullopt;
+}
+
 // Longest symbols first, so that "rad" is not read as "r a d".
 std::optional<std::string> split(std::string_view symbol) {
   if (symbol.empty()) return std::string();
+  // "mm" is no product of a metre and a metre.
+  if (symbol.size() > 1 && symbol[0] == symbol[1])
+    if (const auto prefixed = split_behind_prefix(symbol)) return prefixed;
   for (std::size_t length = std::min<std::size_t>(3, symbol.size()); length > 0; --length) {
     if (find_symbol(symbol.substr(0, length)) == nullptr) continue;
     if (const auto rest = split(symbol.substr(length)))
       return std::string(symbol.substr(0, length)) + (rest->empty() ? "" : " ") + *rest;
   }
-  return std::nullopt;
+  return split_behind_prefix(symbol);
 }
 
 // A prefix in front is the likelier reading: "mNm" is rather "mN m" than "m N m".
 std::optional<std::string> split_prefixed(std::string_view symbol) {
-  for (const Prefix& prefix : prefixes) {
+  for (const UnitPrefix& prefix : prefixes) {
     if (!symbol.starts_with(prefix.text) || symbol == prefix.text) continue;
     if (const auto rest = split(symbol.substr(prefix.text.size()))) return std::string(prefix.text) + *rest;
   }
@@ -213,6 +223,9 @@ std::optional<std::string> split_prefixed(std::string_view symbol) {
 }
 
 }  // namespace
+
+std::span<const UnitSymbol> unit_symbols() { return symbols; }
+std::span<const UnitPrefix> unit_prefixes() { return prefixes; }
 
 std::variant<Unit, UnitFault> parse_unit(std::string_view text) { return UnitParser(text).parse(); }
 

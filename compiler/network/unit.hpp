@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -31,6 +32,19 @@ struct UnitFault {
 // brackets may stand around a divisor. After a '/' only the next factor divides; a product after it is refused, since
 // "N/m s" is read in two ways.
 std::variant<Unit, UnitFault> parse_unit(std::string_view text);
+
+// What a factor may be: a symbol, or a prefix and a symbol that takes one.
+struct UnitSymbol {
+  std::string_view text;
+  Unit unit;
+  bool takes_prefix;
+};
+struct UnitPrefix {
+  std::string_view text;
+  int power_of_ten;
+};
+std::span<const UnitSymbol> unit_symbols();
+std::span<const UnitPrefix> unit_prefixes();
 
 // For a symbol that is unknown, the product of known ones that it was probably meant to be ("Nms" → "N m s"); empty
 // where there is none.

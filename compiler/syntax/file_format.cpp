@@ -37,7 +37,7 @@ bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics)
   }
   if (format->value.kind != JsonValue::Kind::number)
     report_wrong_type(format->key, format->value, "the number 1", diagnostics);
-  else if (format->value.text != "1")
+  else if (number_in(format->value) != 1)
     diagnostics.report<DiagnosticCode::unknown_format>(format->value.span, excerpt(format->value.text));
   else return true;
   return false;

@@ -83,11 +83,20 @@ std::optional<RangeDecl> ObjectReader::range(std::string_view key) const {
 
 Span ObjectReader::opening() const { return {object_.span.file, object_.span.begin, object_.span.begin + 1}; }
 
+// What others call the way from a motor to a tool.
+static bool is_transmission(std::string_view key) {
+  for (const std::string_view name :
+       {"gear_ratio", "capstan_ratio", "transmission_ratio", "reduction", "ratio", "gear", "capstan"})
+    if (key == name) return true;
+  return false;
+}
+
 std::optional<std::string> report_unknown_key(const Text& key, std::string_view owner,
                                               const std::vector<std::string>& keys, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::unknown_key>(key.span, owner, excerpt(key.text));
   const std::optional<std::string> nearest = nearest_name(key.text, keys);
-  if (nearest) diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
+  if (is_transmission(key.text)) diagnostics.note<DiagnosticCode::gear_ratio_instead>({});
+  else if (nearest) diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
   else diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
   return nearest;
 }

@@ -73,6 +73,8 @@ TEST(Unit, RunTogetherIsTakenApart) {
   EXPECT_EQ(spaced_unit("Nms"), "N m s");
   EXPECT_EQ(spaced_unit("mNm"), "mN m");
   EXPECT_EQ(spaced_unit("kNm"), "kN m");
+  EXPECT_EQ(spaced_unit("gcm"), "g cm");
+  EXPECT_EQ(spaced_unit("Nmm"), "N mm");
   EXPECT_EQ(spaced_unit("Nmrad"), "N m rad");
   for (const char* text : {"h", "lbf", "", "NmNmNmNmNmNmNmNm"}) EXPECT_EQ(spaced_unit(text), "") << text;
 }

@@ -113,6 +113,12 @@ std::string check_decomposition(const std::string& text) {
 
 void add_choices(CLI::App& command, CommandLine& line) {
   Choices& choices = line.options.choices;
+  command.add_option("--name", line.options.name, "Of the network, and so of what is emitted; default its own")
+      ->option_text("NAME");
+  command
+      .add_option("--set", line.options.set,
+                  "Value of a parameter or an element, in SI or with its unit; again for more")
+      ->option_text("NAME=VALUE");
   command.add_option("--device", line.options.device, "Device file; without one an ideal device at --rate");
   command.add_option("--rate", choices.rate, "Rate of the servo loop [Hz], default 1000 or the device's")
       ->transform(in_hertz)
@@ -306,7 +312,9 @@ void describe(CLI::App& app, CommandLine& line) {
   CLI::App* simulate = add_command(app, line, "simulate", "Run the law over a recorded motion");
   add_networks(*simulate, line, false);
   add_choices(*simulate, line);
-  simulate->add_option("--input", options.input, "Motion: time,position[,velocity] at a uniform period")
+  simulate
+      ->add_option("--input", options.input,
+                   "Motion: columns time, position, perhaps velocity, with or without units, at a uniform period")
       ->required()
       ->option_text("FILE.csv");
   simulate->add_flag("--batch", options.emission.batch,

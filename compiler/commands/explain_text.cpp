@@ -103,6 +103,28 @@ std::string fitted(const std::string& text) {
   return all;
 }
 
+// Behind a contact whose brake does nothing even while the tool touches: why, and what would change it.
+std::string why_no_brake(const Compilation& c, const PortUnits& units) {
+  if (c.law.damping > 0 || c.law.largest_damping > 0) return "";
+  const double feedthrough = to_double(c.form.linear.feedthrough_damping);
+  if (feedthrough > 0)
+    return fmt::format(
+        "why b is 0            '{}' leaves everything to the motor; another --decomposition gives the brake up to "
+        "{:.6g} {}\n",
+        c.decomposition.choice().name, feedthrough, units.damping);
+  const double viscosity = to_double(zero_frequency_damping(c.form.linear));
+  std::string text =
+      "why b is 0            behind a contact the brake may take no more than the feedthrough damping, and that is 0 "
+      "here: no "
+      "damper reaches from the tool to ground without a spring or a slip before it. What the brake made beyond it the "
+      "motor would "
+      "have to take back through the velocity's estimate, also in the samples in which the tool touches or lets go, "
+      "and that can "
+      "bring in energy. A damper beside the rest, from the tool to ground, would give the brake its own value";
+  if (viscosity > 0) text += fmt::format("; without 'contact' it could take up to {:.6g} {}", viscosity, units.damping);
+  return text + "\n";
+}
+
 }  // namespace
 
 std::string explain_text(const Compilation& c, bool with_legend) {
@@ -122,7 +144,8 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   text += fmt::format(
       "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",
       choice.extra_damping_any_delay.value_or(0), units.damping);
-  if (c.network.contact) text += "contact               " + contact_text(c.decomposition, c.network) + "\n";
+  if (c.network.contact)
+    text += "contact               " + contact_text(c.decomposition, c.network) + "\n" + why_no_brake(c, units);
   text += to_text(c.certificate, c.network.port_motion) + notes_text(c);
   return fitted(text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c)));
 }

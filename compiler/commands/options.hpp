@@ -42,6 +42,8 @@ struct Options {
   std::vector<std::string> networks;
   std::optional<std::string> device;
   Choices choices;
+  std::optional<std::string> name;     // of the network, in place of its own
+  std::vector<std::string> set;        // NAME=VALUE: of parameters and elements of the network
   std::optional<std::string> output;   // folder of compile, file of simulate, log of run
   std::string input;                   // simulate: the motion
   std::optional<std::string> print;    // compile: the stage to show instead of writing

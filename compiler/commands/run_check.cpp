@@ -3,6 +3,7 @@
 #include <fstream>
 #include <string_view>
 
+#include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/motion_csv.hpp"
 #include "compile.hpp"
@@ -51,7 +52,8 @@ void check_recording(const std::string& path, Diagnostics& diagnostics) {
 void check(const std::string& path, const Options& options, const std::optional<Device>& device, SourceFiles& files,
            Diagnostics& diagnostics) {
   if (is_table(path) && is_recording(path)) return check_recording(path, diagnostics);
-  const SourceFile* file = files.open(path, diagnostics);
+  const SourceFile* file =
+      is_table(path) ? files.open(path, diagnostics) : open_network(path, options, files, diagnostics);
   if (file == nullptr) return;
   if (is_table(path)) {
     parse_motion(*file, diagnostics);

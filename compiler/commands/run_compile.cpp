@@ -2,6 +2,7 @@
 #include <iostream>
 #include <utility>
 
+#include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "compile.hpp"
 #include "emit/write_files.hpp"
@@ -104,12 +105,16 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   if (device.status != ExitStatus::done) return device.status;
   std::vector<OutputFile> outputs;
   std::string shown, certificate;
+  if (options.name && options.networks.size() > 1) {
+    diagnostics.report<DiagnosticCode::name_of_several>({}, options.networks.size());
+    return ExitStatus::command_line_wrong;
+  }
   if (options.certificate && options.networks.size() > 1) {
     diagnostics.report<DiagnosticCode::certificate_of_several>({}, options.networks.size());
     return ExitStatus::command_line_wrong;
   }
   for (const std::string& path : options.networks) {
-    const SourceFile* file = files.open(path, diagnostics);
+    const SourceFile* file = open_network(path, options, files, diagnostics);
     const std::optional<Compilation> compilation =
         file ? compile(*file, options.choices, device.device, diagnostics, times) : std::nullopt;
     times.enter("emission");

@@ -1,3 +1,4 @@
+#include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/exchange.hpp"
 #include "commands/explain.hpp"
@@ -33,7 +34,7 @@ std::optional<std::string> network_as(const std::string& form, const Compilation
 ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
-  const SourceFile* file = files.open(options.networks.front(), diagnostics);
+  const SourceFile* file = open_network(options.networks.front(), options, files, diagnostics);
   if (file == nullptr) return ExitStatus::input_refused;
   std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;

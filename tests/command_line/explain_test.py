@@ -12,6 +12,60 @@ NAMES = ["paper", "zero-frequency", "quietest-passive", "velocity-free", "larges
 NUMBER, TEXT = (int, float), str
 
 
+class Changes(CommandTest):
+    """--name and --set: the network as if its file said so."""
+
+    TUNED = """{ "dashpot": 1, "name": "tuned", "parameters": { "K": { "value": "100 N/m", "tunable": true, "min": 10, "max": 1000 }, "B": 5 },
+        "network": { "parallel": [ { "spring": "K", "name": "K1" }, { "damper": "B", "name": "B1" }, { "spring": 7, "name": "K2" } ] } }"""
+
+    def explained(self, *arguments):
+        return json.loads(self.dashpot("explain", *arguments, "--json").stdout)
+
+    def test_set(self):
+        """Fails if --set does not change the element or the parameter that it names, in its unit, the last of two for one."""
+        self.write("tuned.json", self.TUNED)
+        for words, stiffness in {"K=200": 207, "K2=0.2 kN/m": 300, "K1=3": 10}.items():
+            self.assertEqual(self.explained("tuned.json", "--set", words)["static_stiffness"], stiffness)
+        found = self.explained("tuned.json", "--set", "B=8", "--set", "K=20", "--set", "K=30")
+        self.assertEqual((found["static_stiffness"], found["feedthrough_damping"]), (37, 8))
+
+    def test_set_that_does_not_fit(self):
+        """Fails if a name that nothing has, or a value that the file could not hold, is taken, or is refused without what would do."""
+        self.write("tuned.json", self.TUNED)
+        told = self.refused("explain", "tuned.json", "--set", "K3=1", code="set-unknown-name").stderr
+        self.assertIn("'K' is the nearest name", told)
+        for words in ["K1", "=3", "K1="]:
+            self.refused("explain", "tuned.json", "--set", words, code="set-malformed")
+        self.refused("explain", "tuned.json", "--set", "K=2000", code="tunable-out-of-range")
+        self.refused("explain", "tuned.json", "--set", "B=2 N/m", code="parameter-of-wrong-unit")
+        self.refused("explain", "tuned.json", "--set", "K1=-2", code="negative-stiffness")
+
+    def test_name(self):
+        """Fails if --name is not that of the file and the class, if what is emitted so is not certified under it, or if two networks get one."""
+        self.write("kelvin.json", KELVIN)
+        self.dashpot("compile", "kelvin.json", "--name", "soft", "-o", "out", "--certificate", "out/soft.json")
+        self.assertIn("class soft", (self.folder / "out/soft.hpp").read_text())
+        self.dashpot("verify", "out/soft.json", "out/soft.hpp", "--allow-uncertified")
+        self.refused("compile", "kelvin.json", "--name", "2 soft", code="name-form")
+        self.refused("compile", "kelvin.json", FIG_5, "--name", "soft", code="name-of-several", status=2)
+
+
+class BehindAContact(CommandTest):
+    def explained(self, structure):
+        self.write("behind.json", network(structure, "behind", '"contact": { "at": "1 mm" },'))
+        return re.sub(r"\s+", " ", self.dashpot("explain", "behind.json").stdout)
+
+    def test_why_the_brake_does_nothing(self):
+        """Fails if b = 0 behind a contact goes unexplained, or is explained where the brake has something to do."""
+        said = self.explained('{ "series": [ { "spring": 50 }, { "damper": 5 } ] }')
+        self.assertIn("why b is 0 behind a contact the brake may take no more than the feedthrough damping, and that is 0 here", said)
+        self.assertIn("without 'contact' it could take up to 5 N s/m", said)
+        said = self.explained('{ "parallel": [ { "spring": 50 }, { "damper": 5 } ] }')
+        self.assertNotIn("why b is 0", said)
+        said = re.sub(r"\s+", " ", self.dashpot("explain", "behind.json", "--decomposition", "virtual").stdout)
+        self.assertIn("why b is 0 'virtual' leaves everything to the motor; another --decomposition gives the brake up to 5 N s/m", said)
+
+
 class Json(CommandTest):
     def explained(self, *arguments):
         return json.loads(self.dashpot("explain", *arguments, "--json").stdout)

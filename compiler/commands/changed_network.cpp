@@ -1,0 +1,119 @@
+#include "commands/changed_network.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "network/decimal.hpp"
+#include "source/excerpt.hpp"
+#include "source/nearest_name.hpp"
+#include "syntax/json.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Kind = JsonValue::Kind;
+
+// Text in place of a span of the file.
+struct Change {
+  std::size_t begin, end;
+  std::string text;
+};
+
+std::string quoted(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+// A plain number is one in SI; all else is read as a value in quotes is.
+std::string value_text(const std::string& value) {
+  return !value.empty() && value[0] != '+' && decimal_length(value) == value.size() ? value : quoted(value);
+}
+
+class NetworkChanger {
+ public:
+  NetworkChanger(const JsonValue& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {
+    if (const JsonMember* parameters = find_member(root, "parameters"))
+      for (const JsonMember& parameter : parameters->value.members) add(parameter.key, value_of(parameter.value));
+    find_elements(root);
+  }
+
+  void rename(const std::string& name) {
+    if (const JsonMember* member = find_member(root_, "name")) replace(member->value.span, quoted(name));
+    else changes_.push_back({root_.span.begin + 1, root_.span.begin + 1, " \"name\": " + quoted(name) + ","});
+  }
+
+  void set(const std::string& words) {
+    const std::size_t equals = words.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == words.size())
+      return diagnostics_.report<DiagnosticCode::set_malformed>({}, excerpt(words));
+    const std::string name = words.substr(0, equals);
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    if (found == names_.end()) return report_missing(name);
+    replace(values_[static_cast<std::size_t>(found - names_.begin())], value_text(words.substr(equals + 1)));
+  }
+
+  std::string changed(std::string text) {
+    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.begin > b.begin; });
+    for (const Change& change : changes_) text.replace(change.begin, change.end - change.begin, change.text);
+    return text;
+  }
+
+ private:
+  // A parameter is its value, or an object that states it beside a range.
+  static Span value_of(const JsonValue& parameter) {
+    const JsonMember* stated = parameter.kind == Kind::object ? find_member(parameter, "value") : nullptr;
+    return stated ? stated->value.span : parameter.span;
+  }
+
+  // Whatever has a name and is a spring, a damper or a slip; names of parameters go before those of elements.
+  void find_elements(const JsonValue& value) {
+    const JsonMember* name = find_member(value, "name");
+    for (const char* kind : {"spring", "damper", "slip"})
+      if (const JsonMember* law = find_member(value, kind); law && name && name->value.kind == Kind::string)
+        add(name->value.text, law->value.span);
+    for (const JsonMember& member : value.members) find_elements(member.value);
+    for (const JsonValue& item : value.items) find_elements(item);
+  }
+
+  void add(const std::string& name, Span value) {
+    names_.push_back(name);
+    values_.push_back(value);
+  }
+
+  // Of two changes of one value the last holds.
+  void replace(Span span, std::string text) {
+    std::erase_if(changes_, [&](const Change& change) { return change.begin == span.begin; });
+    changes_.push_back({span.begin, span.end, std::move(text)});
+  }
+
+  void report_missing(const std::string& name) {
+    diagnostics_.report<DiagnosticCode::set_unknown_name>({}, excerpt(name));
+    if (const auto nearest = nearest_name(name, names_))
+      return diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
+    std::string known;
+    for (const std::string& each : names_) known += (known.empty() ? "" : ", ") + each;
+    if (!known.empty()) diagnostics_.note<DiagnosticCode::known_keys>({}, known);
+  }
+
+  const JsonValue& root_;
+  Diagnostics& diagnostics_;
+  std::vector<std::string> names_;
+  std::vector<Span> values_;  // of the names
+  std::vector<Change> changes_;
+};
+
+}  // namespace
+
+const SourceFile* open_network(const std::string& path, const Options& options, SourceFiles& files,
+                               Diagnostics& diagnostics) {
+  const SourceFile* file = files.open(path, diagnostics);
+  if (file == nullptr || (!options.name && options.set.empty())) return file;
+  Diagnostics unheard;
+  const std::optional<JsonValue> root = parse_json(*file, unheard);
+  if (!root || root->kind != Kind::object) return file;
+  NetworkChanger changer(*root, diagnostics);
+  if (options.name) changer.rename(*options.name);
+  for (const std::string& words : options.set) changer.set(words);
+  return &files.keep(file->path(), changer.changed(file->text()));
+}
+
+}  // namespace dashpot::compiler

@@ -1,19 +1,28 @@
 #include "commands/motion_csv.hpp"
 
 #include <algorithm>
-#include <initializer_list>
 #include <string_view>
 
 #include "commands/motion_cell.hpp"
 #include "commands/uniform_period.hpp"
+#include "fit/column_choice.hpp"
+#include "fit/table_shape.hpp"
 #include "network/rate_limits.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
+constexpr std::size_t head_lines = 200;  // tell how the table is written
+
 struct Cell {
   std::string_view text;
   Span span;
+};
+
+// Which column is what, and what 1 in it stands for in SI.
+struct Column {
+  std::size_t index;
+  double factor;
 };
 
 class CsvTable {
@@ -21,25 +30,28 @@ class CsvTable {
   CsvTable(const SourceFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
 
   std::optional<Motion> read() {
-    const std::vector<Cell> header = next_row();
+    find_dialect();
+    const std::vector<Cell> header = find_header();
     if (header.empty()) return refuse_empty();
-    const auto time = column(header, {"time", "time [s]"}, true);
-    const auto position = column(header, {"position", "position [m]", "position [rad]"}, true);
-    const auto velocity = column(header, {"velocity", "velocity [m/s]", "velocity [rad/s]"}, false);
-    if (failed_) return std::nullopt;
     Motion motion;
+    const std::vector<fitting::TableColumn> columns = with_units(header);
+    const auto time = column(columns, header, fitting::Role::time, motion);
+    const auto position = column(columns, header, fitting::Role::position, motion);
+    const auto velocity = column(columns, header, fitting::Role::velocity, motion);
+    if (failed_) return std::nullopt;
     std::vector<std::size_t> others;
     for (std::size_t i = 0; i < header.size(); ++i) {
-      if (i == time || i == position || i == velocity) continue;
+      if (i == time->index || i == position->index || (velocity && i == velocity->index)) continue;
       others.push_back(i);
       motion.others.push_back({std::string(header[i].text), header[i].span, {}, {}});
     }
-    for (std::vector<Cell> row = next_row(); !row.empty(); row = next_row()) {
+    digits_ = TimeDigits(time->factor);
+    for (std::vector<Cell> row = next_row(header.size()); !row.empty(); row = next_row(header.size())) {
       if (!has_fields(row, header.size())) break;
-      append(motion.time, row[*time], "time");
-      digits_.add(row[*time].text);
-      append(motion.position, row[*position], "position");
-      if (velocity) append(motion.velocity, row[*velocity], "velocity");
+      append(motion.time, row, *time, "time");
+      digits_.add(with_point(row[time->index].text));
+      append(motion.position, row, *position, "position");
+      if (velocity) append(motion.velocity, row, *velocity, "velocity");
       for (std::size_t i = 0; i < motion.others.size(); ++i) append(motion.others[i], row[others[i]]);
       row_spans_.push_back(row.front().span);
     }
@@ -54,47 +66,112 @@ class CsvTable {
     return std::nullopt;
   }
 
-  // The next line that is not blank; nothing at the end of the file.
-  std::vector<Cell> next_row() {
+  // Commas where nothing tells.
+  void find_dialect() {
+    std::vector<fitting::HeadLine> head;
+    for (Cell line = next_line(); !line.text.empty() && head.size() < head_lines; line = next_line())
+      head.push_back({std::string(line.text), head.size() + 1});
+    place_ = 0;
+    dialect_ = fitting::dialect_of(head).value_or(fitting::Dialect());
+  }
+
+  // The first line that names time and position; without one the first line, whose want is told.
+  std::vector<Cell> find_header() {
+    std::vector<Cell> first;
+    std::size_t behind_first = 0;
+    for (std::size_t i = 0; i < head_lines; ++i) {
+      const std::vector<Cell> line = names_in(next_line());
+      if (line.empty()) break;
+      if (first.empty()) first = line, behind_first = place_;
+      if (is_header(line)) return line;
+    }
+    place_ = behind_first;
+    return first;
+  }
+
+  static bool is_header(const std::vector<Cell>& line) {
+    std::vector<fitting::TableColumn> columns;
+    for (const Cell& cell : line) columns.push_back(fitting::table_column(cell.text));
+    return !columns_for(columns, fitting::Role::time).empty() && !columns_for(columns, fitting::Role::position).empty();
+  }
+
+  // The names may stand behind the sign of a comment.
+  std::vector<Cell> names_in(Cell line) const {
+    while (line.text.starts_with('#') || line.text.starts_with('%')) line.text.remove_prefix(1), ++line.span.begin;
+    return line.text.empty() ? std::vector<Cell>() : cells_in(line);
+  }
+
+  // Units beside the names, or in a line of their own below.
+  std::vector<fitting::TableColumn> with_units(const std::vector<Cell>& header) {
+    std::vector<fitting::TableColumn> columns;
+    for (const Cell& cell : header) columns.push_back(fitting::table_column(cell.text));
+    const std::size_t before = place_;
+    const std::vector<Cell> below = names_in(next_line());
+    const auto is_unit = [](const Cell& cell) { return fitting::is_unit(cell.text); };
+    if (below.size() != header.size() || !std::all_of(below.begin(), below.end(), is_unit)) {
+      place_ = before;
+      return columns;
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      if (!below[i].text.empty()) columns[i] = {columns[i].title, columns[i].title, std::string(below[i].text)};
+    return columns;
+  }
+
+  // The next line that is not blank, without blanks around it; empty at the end of the file.
+  Cell next_line() {
     const std::string_view all = file_.text();
     while (place_ < all.size()) {
       const std::size_t begin = place_, end = std::min(all.find('\n', place_), all.size());
       place_ = end + 1;
-      if (!trimmed(begin, end).text.empty()) return cells_between(begin, end);
+      if (const Cell line = trimmed(begin, end); !line.text.empty()) return line;
     }
     return {};
   }
 
-  std::vector<Cell> cells_between(std::size_t begin, std::size_t end) const {
+  // A delimiter at the end of a line ends its last field, or stands before one that is empty where one is missing.
+  std::vector<Cell> next_row(std::size_t width) {
+    const Cell line = next_line();
+    if (line.text.empty()) return {};
+    std::vector<Cell> cells = cells_in(line);
+    const bool ends_open = dialect_.delimiter != ' ' && line.text.back() == dialect_.delimiter;
+    if (ends_open && cells.size() + 1 == width)
+      cells.push_back({line.text.substr(line.text.size()), {&file_, line.span.end, line.span.end}});
+    return cells;
+  }
+
+  std::vector<Cell> cells_in(const Cell& line) const {
     std::vector<Cell> cells;
-    while (begin <= end) {
-      const std::size_t comma = std::min(file_.text().find(',', begin), end);
-      cells.push_back(trimmed(begin, comma));
-      begin = comma + 1;
+    for (const std::string_view field : fitting::fields_of(line.text, dialect_)) {
+      const std::size_t begin =
+          field.data() == nullptr ? line.span.end : static_cast<std::size_t>(field.data() - file_.text().data());
+      cells.push_back({field, {&file_, begin, begin + field.size()}});
     }
     return cells;
   }
 
   Cell trimmed(std::size_t begin, std::size_t end) const {
     const std::string_view all = file_.text();
-    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '"'; };
+    const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
     if (begin == 0 && all.substr(0, 3) == "\xEF\xBB\xBF") begin = 3;
     while (begin < end && is_blank(all[begin])) ++begin;
     while (begin < end && is_blank(all[end - 1])) --end;
     return {all.substr(begin, end - begin), {&file_, begin, end}};
   }
 
-  // A column by its name alone, or with its unit as the loop's own log writes it.
-  std::optional<std::size_t> column(const std::vector<Cell>& header, std::initializer_list<std::string_view> names,
-                                    bool needed) {
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < header.size(); ++i) {
-      if (std::find(names.begin(), names.end(), header[i].text) == names.end()) continue;
-      if (found) fail<DiagnosticCode::csv_column_twice>(header[i].span, *names.begin());
-      found = i;
+  std::optional<Column> column(const std::vector<fitting::TableColumn>& columns, const std::vector<Cell>& header,
+                               fitting::Role role, Motion& motion) {
+    const std::vector<std::size_t> found = columns_for(columns, role);
+    if (found.empty() && role != fitting::Role::velocity)
+      fail<DiagnosticCode::csv_missing_column>(header.front().span, name_of(role));
+    if (found.size() > 1) fail<DiagnosticCode::csv_column_twice>(header[found[1]].span, name_of(role));
+    if (found.size() != 1) return std::nullopt;
+    const fitting::TableColumn& named = columns[found.front()];
+    const fitting::ColumnUnit unit = *unit_of_column(named, role);
+    if (named.unit && role != fitting::Role::time) {
+      motion.kind = unit.dimension.radian != 0 ? dashpot::motion::rotation : dashpot::motion::translation;
+      motion.kind_span = header[found.front()].span;
     }
-    if (needed && !found) fail<DiagnosticCode::csv_missing_column>(header.front().span, *names.begin());
-    return found;
+    return Column{found.front(), unit.factor};
   }
 
   bool has_fields(const std::vector<Cell>& row, std::size_t count) {
@@ -104,16 +181,26 @@ class CsvTable {
   }
 
   // Of many bad cells the first is reported.
-  void append(std::vector<double>& values, const Cell& cell, const char* name) {
-    const std::optional<double> value = number_in_cell(cell.text);
+  void append(std::vector<double>& values, const std::vector<Cell>& row, const Column& column, const char* name) {
+    const Cell& cell = row[column.index];
+    const std::optional<double> value = number_in_cell(with_point(cell.text));
     if (!value && !failed_) report_cell(cell.span, name, diagnostics_);
     failed_ |= !value;
-    values.push_back(value.value_or(0));
+    values.push_back(value.value_or(0) * column.factor);
+  }
+
+  // "0,5" where decimals stand behind a comma; nothing that is a number where a point stands too.
+  std::string with_point(std::string_view text) const {
+    std::string number(text);
+    if (!dialect_.decimal_comma) return number;
+    std::replace(number.begin(), number.end(), '.', ';');
+    std::replace(number.begin(), number.end(), ',', '.');
+    return number;
   }
 
   // What is in it may be of no interest to anybody.
-  static void append(OtherColumn& column, const Cell& cell) {
-    const std::optional<double> value = number_in_cell(cell.text);
+  void append(OtherColumn& column, const Cell& cell) const {
+    const std::optional<double> value = number_in_cell(with_point(cell.text));
     if (!value && !column.not_a_number) column.not_a_number = cell.span;
     column.values.push_back(value.value_or(0));
   }
@@ -160,6 +247,7 @@ class CsvTable {
   const SourceFile& file_;
   Diagnostics& diagnostics_;
   std::size_t place_ = 0;
+  fitting::Dialect dialect_;
   std::vector<Span> row_spans_;
   TimeDigits digits_;
   bool failed_ = false;
@@ -169,6 +257,14 @@ class CsvTable {
 
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics) {
   return CsvTable(file, diagnostics).read();
+}
+
+bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics) {
+  if (!motion.kind || *motion.kind == port_motion) return true;
+  const bool turns = port_motion == dashpot::motion::rotation;
+  diagnostics.report<DiagnosticCode::csv_other_motion>(motion.kind_span, turns ? "metres" : "radians",
+                                                       turns ? "radians" : "metres");
+  return false;
 }
 
 }  // namespace dashpot::compiler

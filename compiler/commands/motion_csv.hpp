@@ -1,6 +1,8 @@
 // A motion to simulate: a table of time, position and perhaps velocity.
 #pragma once
 
+#include <dashpot/command.hpp>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,18 +23,25 @@ struct OtherColumn {
 };
 
 struct Motion {
-  std::vector<double> time;      // [s]
-  std::vector<double> position;  // [m] or [rad]
-  std::vector<double> velocity;  // [m/s] or [rad/s]; empty where the file has none
+  std::optional<dashpot::motion> kind;  // what the units of position and velocity say; empty where they stand alone
+  Span kind_span;                       // of the column that says so
+  std::vector<double> time;             // [s]
+  std::vector<double> position;         // [m] or [rad]
+  std::vector<double> velocity;         // [m/s] or [rad/s]; empty where the file has none
   std::vector<OtherColumn> others;
   std::optional<double> period;  // [s]; empty for a single row
   double period_error = 0;       // what the rounding of the times leaves open [s]
 };
 
-// In: comma-separated text with a header that names `time` and `position`, optionally `velocity`, in any order among
-// other columns, alone or with units as in "time [s]"; blank lines do not count. Refuses: missing or repeated columns,
-// rows of another length, cells that are no finite numbers, times that do not rise, a period that is not uniform or
-// that no loop has.
+// In: a table as `dashpot fit` reads it, separated by commas, semicolons, tabs or blanks, decimals behind a point or a
+// comma, lines of other text before its header. The header names time and position, perhaps velocity, in any order
+// among other columns and under any of the names that `fit` knows, with a unit beside or below the name ("position
+// [mm]") or, without one, in SI. Blank lines do not count. The page of `dashpot report` reads by the same rules
+// (report/page/table.js). Refuses: missing or repeated columns, rows of another length, cells that are no finite
+// numbers, times that do not rise, a period that is not uniform or that no loop has.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
+
+// Refuses a motion in degrees for a tool that moves in metres, and the other way round.
+bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

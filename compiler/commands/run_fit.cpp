@@ -206,9 +206,19 @@ class FitCommand {
       note_start(*read, &recordings == &recordings_, recordings.size());
       is_rotation_ = read->is_rotation;
       rotations_ += read->is_rotation ? 1 : 0;
+      warn_of_the_same(read->recording, &recordings == &recordings_);
       recordings.push_back(std::move(read->recording));
     }
     return is_whole;
+  }
+
+  void warn_of_the_same(const Recording& recording, bool is_fitted) {
+    for (const Recording& other : recordings_) {
+      if (other.digest != recording.digest) continue;
+      if (is_fitted) diagnostics_.report<DiagnosticCode::recording_twice>({}, recording.name, other.name);
+      else diagnostics_.report<DiagnosticCode::recording_held_out_fitted>({}, recording.name, other.name);
+      return;
+    }
   }
 
   void note_start(const ReadRecording& read, bool is_fitted, std::size_t file) {

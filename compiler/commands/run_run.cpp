@@ -9,6 +9,7 @@
 #include <dashpot/servo/servo_loop.hpp>
 #include <dashpot/simulated/simulated_device.hpp>
 
+#include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/hand_motion.hpp"
 #include "commands/live_line.hpp"
@@ -147,7 +148,7 @@ ExitStatus play_motion(const Options& options, const Compilation& compilation, S
                        Diagnostics& diagnostics) {
   const SourceFile* input = files.open(*options.motion, diagnostics);
   const std::optional<Motion> motion = input ? parse_motion(*input, diagnostics) : std::nullopt;
-  if (!motion) return ExitStatus::input_refused;
+  if (!motion || !suits(*motion, compilation.network.port_motion, diagnostics)) return ExitStatus::input_refused;
   const std::string log = log_name(options, compilation);
   if (!spares_inputs(options, {log}, diagnostics)) return ExitStatus::command_line_wrong;
   warn_of_range(compilation, *motion, *input, diagnostics);
@@ -167,7 +168,7 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
     return ExitStatus::command_line_wrong;
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
-  const SourceFile* file = files.open(options.networks.front(), diagnostics);
+  const SourceFile* file = open_network(options.networks.front(), options, files, diagnostics);
   const std::optional<Compilation> compilation =
       file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/motion_csv.hpp"
 #include "commands/value_columns.hpp"
@@ -80,14 +81,15 @@ std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& di
 ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
-  const SourceFile* network = files.open(options.networks.front(), diagnostics);
+  const SourceFile* network = open_network(options.networks.front(), options, files, diagnostics);
   const SourceFile* input = files.open(options.input, diagnostics);
   const std::optional<Motion> motion = input ? parse_motion(*input, diagnostics) : std::nullopt;
   if (network == nullptr || !motion) return ExitStatus::input_refused;
   Choices choices = options.choices;
   if (!settle_rate(*motion, device.device, choices, *input, diagnostics)) return ExitStatus::command_line_wrong;
   const std::optional<Compilation> compilation = compile(*network, choices, device.device, diagnostics);
-  if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (!compilation || diagnostics.has_errors() || !suits(*motion, compilation->network.port_motion, diagnostics))
+    return ExitStatus::input_refused;
   const std::string text = choices.scalar == ScalarType::float64 ? simulate<double>(*compilation, *motion, diagnostics)
                                                                  : simulate<float>(*compilation, *motion, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;

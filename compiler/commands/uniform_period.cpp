@@ -76,8 +76,9 @@ void TimeDigits::add(std::string_view number) {
 
 double TimeDigits::unit_at(double time) const {
   const double by_decimals = std::pow(10.0, last_place_.value_or(0));
-  if (time == 0) return by_decimals;
-  return std::max(by_decimals, std::pow(10.0, std::floor(std::log10(std::abs(time))) + 1 - significant_));
+  if (time == 0) return unit_ * by_decimals;
+  return unit_ *
+         std::max(by_decimals, std::pow(10.0, std::floor(std::log10(std::abs(time / unit_))) + 1 - significant_));
 }
 
 std::variant<UniformPeriod, Irregularity> uniform_period(const std::vector<double>& times, const TimeDigits& digits) {

@@ -15,10 +15,12 @@ inline constexpr double coarsest_share = 0.1;  // of the period, of a last digit
 // What the digits of times tell of their rounding, in a table that has so many decimals, or so many significant digits.
 class TimeDigits {
  public:
-  void add(std::string_view number);  // decimal notation
-  double unit_at(double time) const;  // of the last digit of a time of this size [s]
+  explicit TimeDigits(double unit = 1) : unit_(unit) {}  // of the numbers [s]
+  void add(std::string_view number);                     // decimal notation
+  double unit_at(double time) const;                     // of the last digit of a time of this size [s]
 
  private:
+  double unit_;
   std::optional<int> last_place_;  // the finest there is: −6 where microseconds are written
   int significant_ = 1;            // the most there are
 };

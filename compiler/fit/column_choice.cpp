@@ -85,6 +85,11 @@ const std::vector<RoleRule>& rules() {
        {dimensions::force, dimensions::torque, pressure, dimensions::stiffness, dimensions::rotational_stiffness,
         per_pressure, compliance},
        "N"},
+      {Role::velocity,
+       "velocity",
+       {"velocity", "angularvelocity"},
+       {dimensions::velocity, dimensions::angular_velocity},
+       "m/s"},
   };
   return list;
 }
@@ -143,17 +148,10 @@ std::string letters_of(std::string_view text) {
   return letters;
 }
 
-struct TableColumn {
-  std::string title;  // whole
-  std::string name;
-  std::optional<std::string> unit;
-};
-
 std::vector<TableColumn> columns_of(const TableShape& shape) {
   std::vector<TableColumn> columns;
   for (std::size_t i = 0; i < shape.names.size(); ++i) {
-    const Title title = title_of(shape.names[i]);
-    columns.push_back({shape.names[i], title.name, title.unit});
+    columns.push_back(table_column(shape.names[i]));
     if (i < shape.units.size() && !shape.units[i].empty())
       columns.back() = {shape.names[i], shape.names[i], shape.units[i]};
   }
@@ -425,6 +423,33 @@ ColumnRequest request_of(Role role, std::string text) {
 }  // namespace
 
 const char* name_of(Role role) { return rule_of(role).word; }
+const std::vector<std::string>& names_of(Role role) { return rule_of(role).names; }
+
+TableColumn table_column(std::string_view text) {
+  const Title title = title_of(text);
+  return {std::string(text), title.name, title.unit};
+}
+
+std::optional<ColumnUnit> unit_of_column(const TableColumn& column, Role role) {
+  const RoleRule& rule = rule_of(role);
+  if (!column.unit) return ColumnUnit{rule.dimensions.front(), 1};
+  const std::optional<ReadUnit> unit = unit_in(*column.unit);
+  if (!unit || !takes(rule, unit->dimension)) return std::nullopt;
+  return ColumnUnit{unit->dimension, unit->factor};
+}
+
+std::vector<std::size_t> columns_for(const std::vector<TableColumn>& columns, Role role) {
+  const RoleRule& rule = rule_of(role);
+  std::vector<std::size_t> by_word, by_name;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::string letters = letters_of(columns[i].name);
+    const bool is_named = std::find(rule.names.begin(), rule.names.end(), letters) != rule.names.end();
+    if (!is_named || !unit_of_column(columns[i], role)) continue;
+    by_name.push_back(i);
+    if (letters == rule.word) by_word.push_back(i);
+  }
+  return by_word.empty() ? by_name : by_word;
+}
 
 std::optional<std::vector<ColumnRequest>> parse_columns(const std::string& words, Diagnostics& diagnostics) {
   std::vector<ColumnRequest> requests;
@@ -435,11 +460,13 @@ std::optional<std::vector<ColumnRequest>> parse_columns(const std::string& words
     begin = end + 1;
     const std::size_t equals = part.find('=');
     const std::string word = part.substr(0, equals);
-    const auto rule = std::find_if(rules().begin(), rules().end(), [&](const RoleRule& r) { return r.word == word; });
+    const auto rule = std::find_if(rules().begin(), rules().end(),
+                                   [&](const RoleRule& r) { return r.role != Role::velocity && r.word == word; });
     if (equals == std::string::npos || equals + 1 == part.size() || rule == rules().end()) {
       diagnostics.report<DiagnosticCode::columns_malformed>({}, excerpt(part));
       std::vector<std::string> known;
-      for (const RoleRule& r : rules()) known.emplace_back(r.word);
+      for (const RoleRule& r : rules())
+        if (r.role != Role::velocity) known.emplace_back(r.word);
       diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(known, ", ")));
       return std::nullopt;
     }

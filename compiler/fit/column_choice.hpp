@@ -23,9 +23,31 @@ enum class Role {
   loss,
   modulus,
   compliance,
-  deviation
+  deviation,
+  velocity,  // of a motion to simulate; no recording is fitted by it
 };
 const char* name_of(Role role);
+const std::vector<std::string>& names_of(Role role);  // as headers spell it: letters and digits only, lower case
+
+// A column as the header tells of it: "Load (N)", "time [s]", "force_N" and "t/s" are a name with its unit.
+struct TableColumn {
+  std::string title;  // whole
+  std::string name;
+  std::optional<std::string> unit;  // one that is known
+};
+TableColumn table_column(std::string_view title);
+
+// What 1 in a column of this role stands for in SI, and its dimension; a column without a unit is in SI as it is.
+// Nothing for a unit that does not fit.
+struct ColumnUnit {
+  Dimension dimension;
+  double factor;
+};
+std::optional<ColumnUnit> unit_of_column(const TableColumn& column, Role role);
+
+// Columns whose name says that they are this, and whose unit does not say otherwise; alone that which is called by the
+// role's own word, where there is one.
+std::vector<std::size_t> columns_for(const std::vector<TableColumn>& columns, Role role);
 
 // A part of --columns: ROLE=[-]NAME[+NUMBER][:UNIT], the number in the column's unit; NAME may be the column's number.
 struct ColumnRequest {

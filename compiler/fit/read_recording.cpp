@@ -151,6 +151,7 @@ class RecordingReader {
       case Role::compliance: return &Row::answer;
       case Role::loss: return &Row::loss;
       case Role::deviation: return &Row::deviation;
+      case Role::velocity: break;  // of no recording
     }
     return &Row::answer;
   }
@@ -292,6 +293,8 @@ class RecordingReader {
       diagnostics_.note<DiagnosticCode::recording_motion_remedy>({});
       return;
     }
+    if (const double whole = r.time.back() - r.time.front(); std::abs(choices_.force_delay) >= whole)
+      return diagnostics_.report<DiagnosticCode::recording_delay_too_long>(line_of_row(0), choices_.force_delay, whole);
     if (choices_.force_delay != 0) move_force();
     check_signs();
     check_saturation(*high - *low);

@@ -74,14 +74,6 @@ Fit fit_of(const Dialect& dialect, const std::vector<HeadLine>& head) {
   return best;
 }
 
-bool is_unit(std::string_view field) {
-  const std::string_view text = trimmed(field);
-  if (text.empty() || text == "-" || text == "1" || text == "%" || text == "[-]" || text == "°C" || text == "C" ||
-      text == "K")
-    return true;
-  return std::holds_alternative<Unit>(parse_unit(text));
-}
-
 // "0,1,1,5": digits alone in an even number of fields, as many names as pairs or none.
 bool has_comma_twice(const TableShape& shape, const std::vector<HeadLine>& head) {
   if (shape.dialect.delimiter != ',' || shape.width % 2 != 0 || shape.names.size() == shape.width) return false;
@@ -100,13 +92,6 @@ bool has_comma_twice(const TableShape& shape, const std::vector<HeadLine>& head)
   return true;
 }
 
-std::vector<std::string> names_in(std::string_view line, const Dialect& dialect) {
-  while (line.starts_with('#') || line.starts_with('%')) line.remove_prefix(1);
-  std::vector<std::string> names;
-  for (const std::string_view field : fields_of(line, dialect)) names.emplace_back(field);
-  return names;
-}
-
 // Names, and perhaps units, stand in the lines right above the numbers.
 void find_header(TableShape& shape, const std::vector<HeadLine>& head) {
   std::vector<std::vector<std::string>> above;  // the nearest first
@@ -122,6 +107,29 @@ void find_header(TableShape& shape, const std::vector<HeadLine>& head) {
 }
 
 }  // namespace
+
+std::vector<std::string> names_in(std::string_view line, const Dialect& dialect) {
+  while (line.starts_with('#') || line.starts_with('%')) line.remove_prefix(1);
+  std::vector<std::string> names;
+  for (const std::string_view field : fields_of(line, dialect)) names.emplace_back(field);
+  return names;
+}
+
+bool is_unit(std::string_view field) {
+  const std::string_view text = trimmed(field);
+  if (text.empty() || text == "-" || text == "1" || text == "%" || text == "[-]" || text == "°C" || text == "C" ||
+      text == "K")
+    return true;
+  return std::holds_alternative<Unit>(parse_unit(text));
+}
+
+std::optional<Dialect> dialect_of(const std::vector<HeadLine>& head) {
+  Fit best;
+  std::optional<Dialect> found;
+  for (const Dialect& dialect : dialects)
+    if (const Fit fit = fit_of(dialect, head); fit.score > best.score) best = fit, found = dialect;
+  return found;
+}
 
 std::vector<std::string_view> fields_of(std::string_view line, const Dialect& dialect) {
   if (dialect.delimiter == ' ') return blank_separated(line);

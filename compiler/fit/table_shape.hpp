@@ -34,6 +34,12 @@ struct TableShape {
 // The fields of a line, free of blanks and quotes around them. A delimiter at the end ends the last field.
 std::vector<std::string_view> fields_of(std::string_view line, const Dialect& dialect);
 
+// Of a header's line, without the sign of a comment in front.
+std::vector<std::string> names_in(std::string_view line, const Dialect& dialect);
+
+// Whether a field of the line below the names is a unit, or says that there is none.
+bool is_unit(std::string_view field);
+
 // A finite decimal number, and nothing else.
 std::optional<double> number_of(std::string_view field, const Dialect& dialect);
 
@@ -42,6 +48,9 @@ std::optional<double> number_of(std::string_view field, const Dialect& dialect);
 // are two numbers with commas or four without.
 std::optional<TableShape> table_shape(const std::string& path, const std::vector<HeadLine>& head, bool has_header,
                                       Diagnostics& diagnostics);
+
+// How the fields of most lines are separated; nothing where no line is a row of numbers.
+std::optional<Dialect> dialect_of(const std::vector<HeadLine>& head);
 
 // The place of a line that is shown in a message; `field` where it points to one.
 Span place_of(const std::string& path, std::string_view line, std::size_t number, std::string_view field,

@@ -228,6 +228,22 @@ int main() {
             "fit", "zener.csv", self.write("s.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n"),
             status=INPUT_REFUSED).stderr)
 
+    def test_the_same_recording_twice(self):
+        """Fails if one recording counts twice, or is held out of itself, without a word; or if another one is taken for it."""
+        self.write("zener.csv", recording())
+        self.write("copy.csv", recording())
+        self.write("other.csv", recording() + "\n")
+        said = self.dashpot("fit", "zener.csv", "copy.csv").stderr
+        self.assertIn("'copy.csv' holds what 'zener.csv' holds", said)
+        self.assertIn("[recording-twice]", said)
+        self.assertIn("[recording-held-out-fitted]", self.dashpot("fit", "zener.csv", "--hold-out", "copy.csv").stderr)
+        self.assertNotIn("to the byte", self.dashpot("fit", "zener.csv", "other.csv").stderr)
+
+    def test_a_delay_longer_than_the_recording(self):
+        """Fails if a force is moved beyond the ends of its recording, where nothing is known of it."""
+        self.write("zener.csv", recording())
+        self.assertIn("[recording-delay-too-long]", self.dashpot("fit", "zener.csv", "--force-delay", "1000 s", status=INPUT_REFUSED).stderr)
+
     def test_check_reads_what_is_there(self):
         """Fails if check takes a recording or a device for a broken network, or a broken recording for a sound one."""
         self.write("zener.csv", recording())

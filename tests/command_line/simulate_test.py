@@ -202,11 +202,32 @@ class Table(SimulateTest):
                         text.replace(",", " , "), text.replace("time", '"time"')]:
             self.assertEqual(self.simulated("kelvin.json", variant), plain, repr(variant[:40]))
 
+    def test_units_names_and_separators(self):
+        """Fails if a recording in other units, under other names, with other separators or with lines in front gives other forces, or if a unit
+        that does not fit is taken."""
+        rows = [(n, (7 * n) % 40) for n in range(60)]  # [ms], [mm]
+        plain = self.simulated("kelvin.json", table([(f"{t / 1000:.3f}", repr(u * 1e-3)) for t, u in rows]))
+        lines = {"time [ms],position [mm]": ",", "t [ms];x_mm": ";", "elapsed time/ms\tdepth (mm)": "\t", "# t[ms] disp[mm]": " "}
+        for header, separator in lines.items():
+            text = header + "\n" + "".join(f"{t}{separator}{u}\n" for t, u in rows)
+            for before in ["", "rig no. 3\nby hand, twice\n"]:
+                found = self.simulated("kelvin.json", before + text)
+                self.assertEqual([row["position"] for row in found], [row["position"] for row in plain], header)
+                self.assertEqual([row["force"] for row in found], [row["force"] for row in plain], header)
+        found = self.simulated("kelvin.json", "time;position\nms;mm\n" + "".join(f"{t},0;{u},0\n" for t, u in rows))
+        self.assertEqual([row["force"] for row in found], [row["force"] for row in plain])
+        slow = self.simulated("kelvin.json", table([(n, 0, 60) for n in range(3)], "time [ms],position [mm],velocity [mm/min]"))
+        self.assertEqual(slow[0]["velocity"], 60 * (1 / 60000))
+        self.refuses(table([(0, 0)], "time,position [N]"), "csv-missing-column")
+        self.refuses(table([(0, 0)], "time [mm],position"), "csv-missing-column")
+        told = self.refuses(table([(0, 0), (0.001, 1)], "time,position [deg]"), "csv-other-motion").stderr
+        self.assertTrue(told.startswith("motion.csv:1:6: error: the motion is in radians; the network's tool moves in metres"), told)
+
     def test_missing_columns(self):
         """Fails if a table without time or position is given a meaning; both are named where both are missing."""
-        self.refuses(table([(0, 0)], "time,depth"), "csv-missing-column")
-        self.refuses(table([(0, 0)], "t,position"), "csv-missing-column")
-        done = self.refuses(table([(0, 0)], "t,x"), "csv-missing-column")
+        self.refuses(table([(0, 0)], "time,where"), "csv-missing-column")
+        self.refuses(table([(0, 0)], "when,position"), "csv-missing-column")
+        done = self.refuses(table([(0, 0)], "when,where"), "csv-missing-column")
         self.assertEqual(codes(done.stderr), ["csv-missing-column"] * 2)
 
     def test_a_column_twice(self):

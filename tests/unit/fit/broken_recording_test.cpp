@@ -153,8 +153,10 @@ TEST(BrokenRecording, IsToldWithPlaceAndRemedy) {
 // command line, several files and lines that stream are provoked by command_line/fit_test.py.
 TEST(BrokenRecording, EveryMessageHasACase) {
   const std::set<DiagnosticCode> provoked_elsewhere = {
-      DiagnosticCode::recording_line_too_long, DiagnosticCode::columns_malformed, DiagnosticCode::geometry_malformed,
-      DiagnosticCode::recordings_differ};
+      DiagnosticCode::recording_line_too_long,  DiagnosticCode::columns_malformed,
+      DiagnosticCode::geometry_malformed,       DiagnosticCode::recordings_differ,
+      DiagnosticCode::recording_delay_too_long, DiagnosticCode::recording_twice,
+      DiagnosticCode::recording_held_out_fitted};
   std::set<std::string> provoked;
   for (const BrokenRecording& broken : broken_recordings()) provoked.insert(broken.code);
   for (auto i = static_cast<std::size_t>(DiagnosticCode::recording_not_text);

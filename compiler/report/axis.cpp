@@ -41,7 +41,7 @@ Axis linear_axis(Interval values, int wanted) {
   Axis axis{
       AxisScale::linear, {first * step, last * step}, power_for(std::max(std::abs(first), std::abs(last)) * step), {}};
   for (double i = first; i <= last; ++i)
-    axis.ticks.push_back({i * step, number_text(i * step / std::pow(10, axis.power_of_ten), 6)});
+    axis.ticks.push_back({i * step, number_text(i * step / std::pow(10, axis.power_of_ten))});
   return axis;
 }
 

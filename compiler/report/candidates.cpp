@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -22,17 +24,17 @@ struct FigureOfMerit {
   std::function<double(const Candidate&)> value;  // not_computed where it is not there
 };
 
-// In the order of the plot's menus.
+// In the order of the table: the error comes first, so that it is there on a narrow screen too.
 std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
   const PortUnits units = page_units(c.network.port_motion);
   const auto known = [](const std::optional<double>& figure) { return figure.value_or(not_computed); };
   std::vector<FigureOfMerit> all = {
+      {"largest error of what is felt", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
       {"motor noise", units.force, [=](const Candidate& k) { return known(k.motor_noise); }},
       {"velocity gain of the motor", units.damping, [](const Candidate& k) { return k.velocity_gain; }},
       {"minimum damping", units.damping, [=](const Candidate& k) { return known(k.minimum_damping); }},
       {"extra damping under any delay", units.damping,
        [=](const Candidate& k) { return known(k.extra_damping_any_delay); }},
-      {"largest error of what is felt", "%", [](const Candidate& k) { return 100 * k.largest_error; }},
       {"damping asked of the brake", units.damping, [](const Candidate& k) { return k.damping; }}};
   const auto is_known = [&](const FigureOfMerit& figure) {
     return std::any_of(c.decomposition.candidates.begin(), c.decomposition.candidates.end(),
@@ -59,8 +61,8 @@ std::string rows(const Candidate& candidate, bool chosen, const std::vector<Figu
       fmt::format("<tbody{}>\n<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td>",
                   chosen ? " class=\"chosen\"" : "", escaped(candidate.name), name_of(candidate.state_input));
   for (const FigureOfMerit& figure : figures) html += cell(figure.value(candidate));
-  return html + fmt::format("</tr>\n<tr class=\"why\"><td colspan=\"{}\">{}</td></tr>\n</tbody>\n", figures.size() + 2,
-                            escaped(reason(candidate)));
+  return html + fmt::format("</tr>\n<tr class=\"why\"><td colspan=\"{}\"><span>{}</span></td></tr>\n</tbody>\n",
+                            figures.size() + 2, escaped(in_four_digits(reason(candidate))));
 }
 
 }  // namespace
@@ -93,37 +95,72 @@ std::string candidates_json(const Compilation& c) {
   return "{\"figures\":[" + labels + "],\"candidates\":[" + candidates + "]}";
 }
 
+namespace {
+
+// Candidates that err alike, to the digits that are shown.
+struct ErrorCurve {
+  std::vector<std::string> names;
+  std::vector<double> errors;  // over Decomposition::error_frequencies [%]
+  bool chosen = false;
+};
+
+bool is_the_same(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double shown = 1e-3;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](double x, double y) { return std::abs(x - y) <= shown * std::max(std::abs(x), std::abs(y)); });
+}
+
+// The chosen one first.
+std::vector<ErrorCurve> error_curves(const Compilation& c) {
+  std::vector<ErrorCurve> curves;
+  const auto add = [&](const Candidate& candidate) {
+    std::vector<double> errors;
+    for (const double error : candidate.error_over_band) errors.push_back(100 * error);
+    const auto same = std::find_if(curves.begin(), curves.end(),
+                                   [&](const ErrorCurve& curve) { return is_the_same(curve.errors, errors); });
+    if (same != curves.end()) same->names.push_back(candidate.name);
+    else curves.push_back({{candidate.name}, std::move(errors), curves.empty()});
+  };
+  add(c.decomposition.choice());
+  for (const Candidate& candidate : c.decomposition.candidates)
+    if (&candidate != &c.decomposition.choice()) add(candidate);
+  return curves;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+}  // namespace
+
 std::string felt_error_html(const Compilation& c) {
-  const Candidate& choice = c.decomposition.choice();
   if (c.decomposition.error_frequencies.empty()) return "";
   Plot plot{"Error of what is felt", {"frequency", "Hz"},    {"error", "%"},
             AxisScale::logarithmic,  AxisScale::logarithmic, {}};
-  const auto add = [&](const Candidate& candidate, const std::string& name, Channel channel, bool dashed) {
-    Curve curve{name, channel, c.decomposition.error_frequencies, {}, dashed};
-    for (const double error : candidate.error_over_band) curve.y.push_back(100 * error);
-    plot.curves.push_back(std::move(curve));
-  };
-  add(choice, choice.name, Channel::total, false);
-  for (const Candidate& candidate : c.decomposition.candidates)
-    if (&candidate != &choice && (candidate.name == "paper" || candidate.name == "virtual"))
-      add(candidate, candidate.name, candidate.name == "paper" ? Channel::brake : Channel::motor, true);
-  plot.note = "Hold, estimator, delay, amplifier lag, brake tolerance and added damping included.";
+  constexpr Channel channels[] = {Channel::brake, Channel::motor, Channel::closed_form};
+  std::size_t next = 0;
+  for (const ErrorCurve& curve : error_curves(c)) {
+    const Channel channel = curve.chosen ? Channel::total : channels[next % std::size(channels)];
+    const bool dashed = !curve.chosen && next++ >= std::size(channels);
+    plot.curves.push_back({joined(curve.names), channel, c.decomposition.error_frequencies, curve.errors, dashed});
+  }
   return plot_figure(plot);
 }
 
 std::string felt_error_json(const Compilation& c) {
-  const auto list = [](const std::vector<double>& values, double factor) {
+  const auto list = [](const std::vector<double>& values) {
     std::string text;
-    for (const double value : values) text += (text.empty() ? "" : ",") + fmt::format("{:.4g}", factor * value);
+    for (const double value : values) text += (text.empty() ? "" : ",") + fmt::format("{:.4g}", value);
     return "[" + text + "]";
   };
   if (c.decomposition.error_frequencies.empty()) return "";
   std::string candidates;
-  for (const Candidate& candidate : c.decomposition.candidates)
+  for (const ErrorCurve& curve : error_curves(c))
     candidates += fmt::format("{}{{\"name\":{},\"chosen\":{},\"errors\":{}}}", candidates.empty() ? "" : ",",
-                              json_literal(candidate.name), &candidate == &c.decomposition.choice(),
-                              list(candidate.error_over_band, 100));
-  return "{\"frequencies\":" + list(c.decomposition.error_frequencies, 1) + ",\"candidates\":[" + candidates + "]}";
+                              json_literal(joined(curve.names)), curve.chosen, list(curve.errors));
+  return "{\"frequencies\":" + list(c.decomposition.error_frequencies) + ",\"candidates\":[" + candidates + "]}";
 }
 
 }  // namespace dashpot::compiler

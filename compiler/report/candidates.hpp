@@ -13,8 +13,8 @@ std::string candidates_table_html(const Compilation& compilation);
 // is better, only those that were computed for some candidate.
 std::string candidates_json(const Compilation& compilation);
 
-// The error of what is felt over frequency: a figure of the choice beside the paper's rule and no brake at all, and all
-// candidates for the page's chart. Empty text without a device.
+// The error of what is felt over frequency, of all candidates; those that err alike share a curve. A figure for where
+// no script runs, and the numbers of the page's chart. Empty text without a device.
 std::string felt_error_html(const Compilation& compilation);
 std::string felt_error_json(const Compilation& compilation);
 

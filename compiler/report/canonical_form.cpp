@@ -53,11 +53,10 @@ std::string modes_table(const Compilation& c, const PortUnits& units) {
       "<th><i>k</i>/<i>λ</i> [{}]</th></tr></thead><tbody>\n",
       units.stiffness, units.damping);
   for (const Mode& mode : c.form.linear.modes)
-    table +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                    escaped(name_of(mode.elements, c.network)), number_text(to_double(mode.stiffness), 6),
-                    number_text(to_double(mode.relaxation_rate), 6),
-                    number_text(to_double(1 / mode.relaxation_rate), 6), number_text(to_double(mode.damping()), 6));
+    table += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                         escaped(name_of(mode.elements, c.network)), number_text(to_double(mode.stiffness)),
+                         number_text(to_double(mode.relaxation_rate)), number_text(to_double(1 / mode.relaxation_rate)),
+                         number_text(to_double(mode.damping())));
   return table + "</tbody></table></div>\n";
 }
 
@@ -67,12 +66,11 @@ std::string canonical_form_html(const Compilation& c) {
   const LinearForm& form = c.form.linear;
   const PortUnits units = page_units(c.network.port_motion);
   std::string html = in_letters() + in_numbers(form) + "<table class=\"facts\"><tbody>\n";
+  html += row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness)), units.stiffness);
   html +=
-      row("static stiffness <i>k</i><sub>0</sub>", number_text(to_double(form.static_stiffness), 6), units.stiffness);
-  html += row("feedthrough damping <i>b</i><sub>∞</sub>", number_text(to_double(form.feedthrough_damping), 6),
-              units.damping);
+      row("feedthrough damping <i>b</i><sub>∞</sub>", number_text(to_double(form.feedthrough_damping)), units.damping);
   html += row("viscosity at low frequency <i>b</i><sub>∞</sub> + ∑<i>k</i>/<i>λ</i>",
-              number_text(to_double(zero_frequency_damping(form)), 6), units.damping);
+              number_text(to_double(zero_frequency_damping(form))), units.damping);
   html += "</tbody></table>\n";
   return form.modes.empty() ? html : html + modes_table(c, units);
 }

@@ -20,17 +20,17 @@ std::string sentence(std::string line) {
   if (line.compare(0, heading.size(), heading) == 0) line.erase(0, heading.size());
   line.erase(0, line.find_first_not_of(' '));
   if (!line.empty() && line[0] >= 'a' && line[0] <= 'z') line[0] = char(line[0] - 'a' + 'A');
-  return "<p>" + escaped(line) + ".</p>\n";
+  return "<p>" + escaped(in_four_digits(line)) + ".</p>\n";
 }
 
 std::string damping_facts(const Certificate& c, const PortUnits& units) {
-  std::string html = fact("damping needed at most", number_text(c.bound.needed, 6), units.damping);
+  std::string html = fact("damping needed at most", number_text(c.bound.needed), units.damping);
   if (c.bound.frequency > 0) html += fact("where it binds", number_text(c.bound.frequency), "Hz");
-  html += fact("damping assured", number_text(c.assured, 6), units.damping);
-  if (c.added_damping > 0) html += fact("of it added for passivity", number_text(c.added_damping, 6), units.damping);
+  html += fact("damping assured", number_text(c.assured), units.damping);
+  if (c.added_damping > 0) html += fact("of it added for passivity", number_text(c.added_damping), units.damping);
   if (c.certified) return html;
   const double missing = c.minimum_damping - c.added_damping;
-  const std::string lacking = std::isfinite(missing) ? number_text(missing, 6) : "no command would do";
+  const std::string lacking = std::isfinite(missing) ? number_text(missing) : "no command would do";
   return html + fact("lacking in the brake's command", lacking, units.damping);
 }
 

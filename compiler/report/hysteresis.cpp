@@ -125,9 +125,8 @@ double usual_frequency(const Compilation& c) {
   return 1;
 }
 
-std::string three_loops(const Compilation& c) {
+std::string three_loops(const Compilation& c, double middle) {
   const double frequency = usual_frequency(c);
-  const double middle = yielding_amplitude(c, frequency);
   const PortUnits units = page_units(c.network.port_motion);
   Plot plot = empty_plot("", units);
   for (const double size : {0.5, 1.0, 2.0}) {
@@ -144,8 +143,12 @@ std::string three_loops(const Compilation& c) {
 
 }  // namespace
 
-std::string hysteresis_html(const Compilation& c) {
-  return c.form.components.empty() && !c.network.contact ? linear_loop(c) : three_loops(c);
+double telling_amplitude(const Compilation& c) {
+  return c.form.has_slips() ? yielding_amplitude(c, usual_frequency(c)) : default_amplitude(c.network);
+}
+
+std::string hysteresis_html(const Compilation& c, double amplitude) {
+  return c.form.has_slips() || c.network.contact ? three_loops(c, amplitude) : linear_loop(c);
 }
 
 }  // namespace dashpot::compiler

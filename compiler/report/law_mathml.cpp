@@ -73,7 +73,7 @@ class Writer {
 
  private:
   static std::string constant(const Coefficient& c) {
-    return c.values.size() == 1 ? number_mathml(c.values.front(), 6) : coefficient_mathml(c);
+    return c.values.size() == 1 ? number_mathml(c.values.front()) : coefficient_mathml(c);
   }
 
   // Letters stand side by side; names, and numbers behind anything, need a dot between them.

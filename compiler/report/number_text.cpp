@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -62,6 +63,36 @@ std::string number_mathml(double value, int digits) {
   const std::string exponent = d.exponent < 0 ? fmt::format("<mrow><mo>−</mo><mn>{}</mn></mrow>", -d.exponent)
                                               : fmt::format("<mn>{}</mn>", d.exponent);
   return "<mrow><mn>" + d.mantissa + "</mn><mo>×</mo><msup><mn>10</mn>" + exponent + "</msup></mrow>";
+}
+
+std::string in_four_digits(std::string_view text) {
+  const auto is_digit = [&](std::size_t i) { return i < text.size() && text[i] >= '0' && text[i] <= '9'; };
+  const auto is_of_a_name = [&](std::size_t i) {
+    return i < text.size() &&
+           (std::isalpha(static_cast<unsigned char>(text[i])) != 0 || text[i] == '_' || text[i] == '.');
+  };
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    std::size_t end = i;
+    while (is_digit(end)) ++end;
+    if (end == i || (i > 0 && (is_of_a_name(i - 1) || is_digit(i - 1)))) {
+      result += text[i++];
+      continue;
+    }
+    const bool has_point = end < text.size() && text[end] == '.' && is_digit(end + 1);
+    if (has_point)
+      for (++end; is_digit(end);) ++end;
+    const std::size_t sign =
+        end + 1 < text.size() && (text[end + 1] == '-' || text[end + 1] == '+') ? end + 2 : end + 1;
+    const bool has_exponent = end < text.size() && text[end] == 'e' && is_digit(sign);
+    if (has_exponent)
+      for (end = sign; is_digit(end);) ++end;
+    const std::string number(text.substr(i, end - i));
+    const bool is_number = (has_point || has_exponent) && !is_of_a_name(end);
+    result += is_number ? number_text(std::strtod(number.c_str(), nullptr)) : number;
+    i = end;
+  }
+  return result;
 }
 
 PortUnits page_units(motion port_motion) {

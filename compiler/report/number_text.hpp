@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "network/network.hpp"
 #include "network/port_units.hpp"
@@ -17,6 +18,10 @@ std::string number_mathml(double value, int digits = 4);
 
 // "10⁻³"
 std::string power_text(int exponent);
+
+// A sentence whose numbers with a decimal point have at most four significant digits: "needs 0.01395" for "needs
+// 0.0139549". Whole numbers and names with digits stay as they are.
+std::string in_four_digits(std::string_view text);
 
 // Units at a port that moves so, with U+00B7 between factors.
 PortUnits page_units(motion port_motion);

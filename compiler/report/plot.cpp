@@ -14,6 +14,7 @@ namespace {
 
 constexpr double width = 440, height = 286;
 constexpr double left = 62, right = 428, top = 12, bottom = 238;
+constexpr double widest_digit = 8.5;  // of a tick's label, in the larger type of narrow pages
 
 const char* class_of(Channel channel) {
   switch (channel) {
@@ -92,12 +93,19 @@ class Drawing {
     return text;
   }
 
+  // A label at the right end, which would run off the drawing were it set around its tick.
+  bool ends_beyond(const Tick& tick) const {
+    const auto is_a_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; };
+    const auto characters = std::count_if(tick.label.begin(), tick.label.end(), is_a_character);
+    return x_at(tick.value) + widest_digit * static_cast<double>(characters) / 2 > width;
+  }
+
   std::string tick_labels() const {
     std::string text;
     for (const Tick& tick : x_.ticks)
       if (is_inside(tick) && !tick.label.empty())
-        text += fmt::format("<text class=\"tick\" x=\"{:.1f}\" y=\"{}\">{}</text>", x_at(tick.value), bottom + 17,
-                            tick.label);
+        text += fmt::format("<text class=\"tick{}\" x=\"{:.1f}\" y=\"{}\">{}</text>", ends_beyond(tick) ? " last" : "",
+                            ends_beyond(tick) ? width : x_at(tick.value), bottom + 17, tick.label);
     for (const Tick& tick : y_.ticks)
       if (!tick.label.empty())
         text += fmt::format("<text class=\"tick y\" x=\"{}\" y=\"{:.1f}\">{}</text>", left - 7, y_at(tick.value) + 4,

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "decompose/slip_laws.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
@@ -26,15 +28,76 @@ std::string row(const ComponentSplit& split, std::size_t i, const Network& netwo
       number_text(to_double(regime.form.static_stiffness)));
 }
 
-std::string table(const ComponentSplit& split, const Network& network) {
+// Parts that are decided alike: each keeps its rows of the table.
+struct Group {
+  std::vector<const ComponentSplit*> parts;
+};
+
+bool is_decided_alike(const ComponentSplit& a, const ComponentSplit& b) {
+  const auto same = [](const SlipLawOffer& x, const SlipLawOffer& y) {
+    return x.law == y.law && x.refusal == y.refusal;
+  };
+  return a.law == b.law && a.reason == b.reason &&
+         std::equal(a.offers.begin(), a.offers.end(), b.offers.begin(), b.offers.end(), same);
+}
+
+std::vector<Group> groups_of(const SlipDecomposition& slips) {
+  std::vector<Group> groups;
+  for (const ComponentSplit* split : slips.all()) {
+    const auto alike = std::find_if(groups.begin(), groups.end(),
+                                    [&](const Group& group) { return is_decided_alike(*group.parts.front(), *split); });
+    if (alike == groups.end()) groups.push_back({{split}});
+    else alike->parts.push_back(split);
+  }
+  return groups;
+}
+
+std::string decided(const Group& group, const Network& network) {
+  std::vector<std::string> names;
+  for (const ComponentSplit* split : group.parts) names.push_back(name_of(*split, network));
+  const ComponentSplit& first = *group.parts.front();
+  return fmt::format("<h3>Behind {}</h3>\n<p><b>{}</b>: {}.</p>\n", escaped(listed(names)), name_of(first.law),
+                     escaped(in_four_digits(first.reason)));
+}
+
+// All laws, the one taken first, and why others are not to be had.
+std::string candidates(const ComponentSplit& split) {
+  if (split.offers.empty()) return "";
+  std::string html = "<ul class=\"laws\">\n";
+  for (const SlipLawOffer& offer : split.offers) {
+    const bool is_taken = offer.law == split.law;
+    const std::string verdict = is_taken                ? "taken"
+                                : offer.refusal.empty() ? "possible"
+                                                        : "not to be had: " + offer.refusal;
+    html += fmt::format("<li{}><b>{}</b> {}</li>\n", is_taken ? " class=\"chosen\"" : "", name_of(offer.law),
+                        escaped(in_four_digits(verdict)));
+  }
+  return html + "</ul>\n";
+}
+
+// Of a part whose regimes are too many to list, how many there are and what holds in all of them.
+std::string unlisted(const ComponentSplit& split, const Network& network) {
+  const double damping = split.shares.empty() ? 0 : split.shares.front().damping;
+  return fmt::format(
+      "<tr><th scope=\"row\" colspan=\"2\">each of {} patterns of "
+      "{}</th><td>{}</td><td>–</td><td>–</td><td>–</td></tr>\n",
+      number_text(split.regimes.count), escaped(name_of(split, network)), number_text(damping));
+}
+
+std::string table(const Group& group, const Network& network) {
   const PortUnits units = page_units(network.port_motion);
   std::string html = fmt::format(
-      "<div class=\"wide\"><table class=\"candidates\"><thead><tr><th>sliding</th><th class=\"word\">stuck</th>"
+      "<div class=\"wide\"><table class=\"regimes\"><thead><tr><th>sliding</th><th class=\"word\">stuck</th>"
       "<th>brake <i>b</i> [{0}]</th><th>feedthrough <i>b</i><sub>∞</sub> [{0}]</th><th>compensated [{0}]</th>"
-      "<th>static stiffness [{1}]</th></tr></thead><tbody>\n",
+      "<th>static stiffness [{1}]</th></tr></thead>\n",
       units.damping, units.stiffness);
-  for (std::size_t i = 0; i < split.regimes.regimes.size(); ++i) html += row(split, i, network);
-  return html + "</tbody></table></div>\n";
+  for (const ComponentSplit* split : group.parts) {
+    html += "<tbody>\n";
+    for (std::size_t i = 0; i < split->regimes.regimes.size(); ++i) html += row(*split, i, network);
+    if (split->regimes.regimes.empty()) html += unlisted(*split, network);
+    html += "</tbody>\n";
+  }
+  return html + "</table></div>\n";
 }
 
 // What each law does in runs of the whole network.
@@ -42,7 +105,8 @@ std::string merits_table(const SlipDecomposition& slips, const Network& network)
   if (slips.merits.empty()) return "";
   const PortUnits units = page_units(network.port_motion);
   std::string html = fmt::format(
-      "<p>Laws behind slips in runs around yield, sines at both ends of the band and a drag with reversals; within "
+      "<h3>Candidates in runs of the whole</h3>\n<p>Each law behind all slips that can have it, in runs around yield: "
+      "sines at both ends of the band and a drag with reversals; within "
       "{} % the largest brake is taken.</p>\n<div class=\"wide\"><table class=\"candidates\"><thead><tr>"
       "<th class=\"word\">law</th><th>peak error [%]</th><th>rms error [%]</th><th>mean brake [{}]</th>"
       "<th>minimum damping [{}]</th><th>motor noise [{}]</th></tr></thead><tbody>\n",
@@ -62,9 +126,10 @@ std::string regimes_html(const Compilation& c) {
   if (c.law.tunable)
     html = fmt::format("<p>Chosen: <b>{}</b>; {}.</p>\n", escaped(c.decomposition.choice().name),
                        escaped(c.decomposition.choice().reason));
-  for (const SlipLikes& likes : likes_of(c.decomposition.slips, c.network)) {
-    html += "<p>" + escaped(to_text(likes)) + "</p>\n";
-    if (!likes.first->regimes.regimes.empty()) html += table(*likes.first, c.network);
+  for (const Group& group : groups_of(c.decomposition.slips)) {
+    html += decided(group, c.network);
+    html += candidates(*group.parts.front());
+    html += table(group, c.network);
   }
   html += merits_table(c.decomposition.slips, c.network);
   return html;

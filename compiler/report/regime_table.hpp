@@ -7,7 +7,8 @@
 
 namespace dashpot::compiler {
 
-// A paragraph and a table for each component with slips; empty text for a network without.
+// For each part behind slips its names, the laws that it may have and the one taken, and a row for each pattern of
+// sliding and stuck slips; parts that are decided alike share the words. Then what the laws do in runs of the whole.
 std::string regimes_html(const Compilation& compilation);
 
 }  // namespace dashpot::compiler

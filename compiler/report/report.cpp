@@ -7,6 +7,10 @@
 #include <dashpot/led_device.hpp>
 
 #include "emit/template_text.hpp"
+#include "fit/column_choice.hpp"
+#include "network/decimal.hpp"
+#include "network/rate_limits.hpp"
+#include "network/unit.hpp"
 #include "report/agreement.hpp"
 #include "report/base64.hpp"
 #include "report/candidates.hpp"
@@ -27,7 +31,7 @@ namespace {
 constexpr std::size_t most_drawn_elements = 150;
 
 // Behind a contact a linear network is one for as long as it is touched.
-bool is_linear(const Compilation& c) { return c.form.components.empty(); }
+bool is_linear(const Compilation& c) { return !c.form.has_slips(); }
 
 Fields fact(const std::string& label, const std::string& value, const std::string& unit, const char* channel = "") {
   return {{"label", label}, {"value", value}, {"unit", unit}, {"channel", channel}};
@@ -45,11 +49,29 @@ std::vector<Fields> facts(const Compilation& c) {
     list.push_back(fact("modes", std::to_string(c.form.linear.modes.size()), ""));
     const double viscosity = to_double(zero_frequency_damping(c.form.linear));
     list.push_back(fact("viscosity at low frequency", number_text(viscosity), units.damping));
+  } else {
+    const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
+    const auto slips = std::count_if(c.network.elements.begin(), c.network.elements.end(), is_slip);
+    list.push_back(fact("slips", std::to_string(slips), ""));
   }
+  if (c.network.contact)
+    list.push_back(fact("surface of the contact", number_text(c.network.contact->at), units.position));
   return list;
 }
 
-std::string in_words_html(const std::string& words) { return words.empty() ? "" : "<p>" + escaped(words) + ".</p>"; }
+std::string in_words_html(const std::string& words) {
+  if (words.empty()) return "";
+  return "<p>" + escaped(in_four_digits(words)) + (words.ends_with('.') ? "" : ".") + "</p>";
+}
+
+// What the author remarks, with the name or the place in the file that it stands at.
+void add_comments(const Compilation& c, CodeModel& model) {
+  for (const char* list : {"comments", "remarks", "remarks_end"}) model.lists[list];
+  if (!c.network.comments.empty()) model.lists["remarks"] = model.lists["remarks_end"] = {{}};
+  for (const Comment& comment : c.network.comments)
+    model.lists["comments"].push_back({{"about", comment.about.empty() ? "" : "<b>" + escaped(comment.about) + "</b> "},
+                                       {"text", escaped(comment.text)}});
+}
 
 void add_linear_parts(const Compilation& c, CodeModel& model) {
   for (const char* list : {"canonical", "agreement", "candidates", "felt_error", "regimes"}) model.lists[list];
@@ -60,7 +82,7 @@ void add_linear_parts(const Compilation& c, CodeModel& model) {
   model.lists["canonical"].push_back({{"form", canonical_form_html(c)}});
   if (!c.network.contact) model.lists["agreement"].push_back({{"body", agreement_html(c)}});
   model.lists["candidates"].push_back({{"choice", escaped(c.decomposition.choice().name)},
-                                       {"reason", escaped(c.decomposition.reason)},
+                                       {"reason", escaped(in_four_digits(c.decomposition.reason))},
                                        {"in_words", in_words_html(c.decomposition.in_words)},
                                        {"table", candidates_table_html(c)}});
   if (const std::string figure = felt_error_html(c); !figure.empty())
@@ -78,7 +100,17 @@ double live_duration(const Compilation& c) {
   return std::clamp(std::strtod(fmt::format("{:.2g}", 4 * slowest).c_str(), nullptr), 0.5, 20.0);
 }
 
-void add_live_part(const Compilation& c, bool there, CodeModel& model) {
+// Two digits of what lets slips yield even where a motion is slower than the loops that are drawn, within the network's
+// range.
+double live_depth(const Compilation& c, double amplitude) {
+  double depth = c.form.has_slips() ? 2 * amplitude : amplitude;
+  const double surface = c.network.contact ? c.network.contact->at : 0;
+  if (const auto& range = c.network.valid.displacement; range && range->high > surface)
+    depth = std::min(depth, range->high - surface);
+  return std::strtod(fmt::format("{:.2g}", depth).c_str(), nullptr);
+}
+
+void add_live_part(const Compilation& c, bool there, double amplitude, CodeModel& model) {
   const PortUnits units = page_units(c.network.port_motion);
   for (const char* list : {"live", "led", "live_controls", "live_end", "still", "sliders"}) model.lists[list];
   if (!there) {
@@ -95,7 +127,8 @@ void add_live_part(const Compilation& c, bool there, CodeModel& model) {
                : "";
   model.lists["live"].push_back({{"felt", felt}});
   if (c.device) model.lists["led"].push_back({});
-  model.lists["live_controls"].push_back({{"depth", c.network.port_motion == motion::rotation ? "0.1" : "0.001"},
+  model.lists["live_controls"].push_back({{"depth", fmt::format("{}", live_depth(c, amplitude))},
+                                          {"depth_of_what", c.network.contact ? "depth beyond the surface" : "depth"},
                                           {"duration", fmt::format("{:g}", live_duration(c))},
                                           {"position_unit", units.position}});
   model.lists["live_end"].push_back({});
@@ -123,6 +156,32 @@ std::string form_json(const Compilation& c) {
                      json_literal(to_double(c.form.linear.feedthrough_damping)), modes);
 }
 
+// Symbols and prefixes that a unit in a table's header may be made of, for the page's own reader.
+std::string units_json() {
+  std::string known, scales;
+  for (const UnitSymbol& symbol : unit_symbols()) {
+    const Dimension& d = symbol.unit.dimension;
+    known += fmt::format("{}{}:[[{},{},{},{},{}],{},{},{},{}]", known.empty() ? "" : ",", json_literal(symbol.text),
+                         d.kilogram, d.metre, d.second, d.ampere, d.radian, symbol.unit.power_of_ten,
+                         symbol.unit.power_of_sixty, symbol.unit.power_of_degree, symbol.takes_prefix);
+  }
+  for (const UnitPrefix& prefix : unit_prefixes())
+    scales += fmt::format("{}[{},{}]", scales.empty() ? "" : ",", json_literal(prefix.text), prefix.power_of_ten);
+  return fmt::format("{{\"symbols\":{{{}}},\"prefixes\":[{}],\"degree\":{}}}", known, scales,
+                     json_literal(round_decimal("1", Unit{dimensions::angle, 0, 0, 1}).value));
+}
+
+// The columns of a motion as the page's reader looks for them: names that each may have, letters and digits only.
+std::string columns_json() {
+  std::string json;
+  for (const fitting::Role role : {fitting::Role::time, fitting::Role::position, fitting::Role::velocity}) {
+    std::string names;
+    for (const std::string& name : fitting::names_of(role)) names += (names.empty() ? "" : ",") + json_literal(name);
+    json += fmt::format("{}\"{}\":[{}]", json.empty() ? "" : ",", fitting::name_of(role), names);
+  }
+  return "{" + json + "}";
+}
+
 // In samples, what the device has before a motion begins.
 std::string device_json(const Compilation& c) {
   if (!c.device) return "null";
@@ -133,10 +192,12 @@ std::string device_json(const Compilation& c) {
 std::string live_json(const Compilation& c, const std::string& module) {
   const PortUnits units = page_units(c.network.port_motion);
   return fmt::format(
-      "{{\"period\":{},\"rate\":{},\"scalar\":\"{}\",\"position_unit\":{},\"force_unit\":{},\"tunables\":{},"
-      "\"device\":{},\"form\":{},\"module\":\"{}\"}}",
-      c.law.sample_period, c.rate, name_of(c.law.scalar), json_literal(units.position), json_literal(units.force),
-      tunables_json(c.law), device_json(c), form_json(c), base64(module));
+      "{{\"period\":{},\"rate\":{},\"rates\":[{},{}],\"scalar\":\"{}\",\"surface\":{},\"position_unit\":{},"
+      "\"force_unit\":{},\"tunables\":{},\"device\":{},\"form\":{},\"units\":{},\"columns\":{},\"module\":\"{}\"}}",
+      c.law.sample_period, c.rate, lowest_rate, highest_rate, name_of(c.law.scalar),
+      c.network.contact ? fmt::format("{}", c.network.contact->at) : "null", json_literal(units.position),
+      json_literal(units.force), tunables_json(c.law), device_json(c), form_json(c), units_json(), columns_json(),
+      base64(module));
 }
 
 std::string data_json(const Compilation& c, const std::optional<std::string>& module) {
@@ -160,8 +221,8 @@ void add_page(CodeModel& model, Diagnostics& diagnostics) {
   fields["uplot_style"] = built_in("uPlot.min.css", diagnostics);
   fields["uplot"] = built_in("uPlot.iife.min.js", diagnostics);
   fields["uplot_licence"] = escaped_lines(built_in("uPlot-LICENSE", diagnostics));
-  for (const char* part : {"page.js", "pareto.js", "felt_error.js", "motion.js", "pad.js", "forces.js", "tunables.js",
-                           "felt.js", "live.js", "start.js"})
+  for (const char* part : {"page.js", "pareto.js", "felt_error.js", "units.js", "table.js", "period.js", "motion.js",
+                           "pad.js", "forces.js", "tunables.js", "felt.js", "live.js", "start.js"})
     fields["script"] += built_in(part, diagnostics);
 }
 
@@ -188,10 +249,12 @@ std::optional<std::string> report(const Compilation& c, const std::optional<std:
   model.lists["facts"] = facts(c);
   fields["schematic"] = drawing(c.network);
   fields["law"] = update_law_html(c);
-  fields["responses"] = (is_linear(c) ? linear_responses_html(c) : "") + hysteresis_html(c);
+  const double amplitude = telling_amplitude(c);
+  fields["responses"] = (is_linear(c) ? linear_responses_html(c) : "") + hysteresis_html(c, amplitude);
+  add_comments(c, model);
   add_linear_parts(c, model);
   add_passivity(c, model);
-  add_live_part(c, module.has_value(), model);
+  add_live_part(c, module.has_value(), amplitude, model);
   fields["data"] = data_json(c, module);
   add_page(model, diagnostics);
   const SourceFile* shape = find_template("report.html.in", std::nullopt, diagnostics);

@@ -13,8 +13,8 @@ namespace {
 std::string math(const std::string& inner) { return "<math>" + inner + "</math>"; }
 
 std::string line(const std::string& left, const char* sign, const std::string& right, const std::string& purpose) {
-  return "<li>" + math("<mrow>" + left + "<mo>" + sign + "</mo>" + right + "</mrow>") + " <span class=\"purpose\">" +
-         escaped(purpose) + "</span></li>\n";
+  return "<li><div class=\"wide\">" + math("<mrow>" + left + "<mo>" + sign + "</mo>" + right + "</mrow>") +
+         "</div> <span class=\"purpose\">" + escaped(purpose) + "</span></li>\n";
 }
 
 // Remembering a sample under another name is no equation.
@@ -44,13 +44,21 @@ std::string program(const UpdateLaw& law, const std::vector<Statement>& statemen
   return list + "</ul>\n";
 }
 
-// The place's name without what the coefficient adds to it: "B1_K1" of "B1_K1_gain" in "mode_gain".
+std::size_t shared_ending(const std::string& a, const std::string& b) {
+  std::size_t same = 0;
+  while (same < a.size() && same < b.size() && a[a.size() - 1 - same] == b[b.size() - 1 - same]) ++same;
+  return same;
+}
+
+// The place's name without what the coefficient adds to it: "B1_K1" of "B1_K1_gain" in "mode_gain". A coefficient that
+// is called after its first place has that place's whole name: there the others tell what is added.
 std::string place_name(const Coefficient& c, std::size_t place) {
   const std::string& name = c.element_names[place];
-  std::size_t same = 0;
-  while (same < name.size() && same < c.name.size() && name[name.size() - 1 - same] == c.name[c.name.size() - 1 - same])
-    ++same;
-  return name.substr(0, name.size() - same);
+  std::size_t added = shared_ending(name, c.name);
+  if (name == c.name)
+    for (const std::string& other : c.element_names)
+      if (other != name) added = std::min(added, shared_ending(name, other));
+  return name.substr(0, name.size() - added);
 }
 
 std::string coefficients_table(const UpdateLaw& law, std::size_t size) {
@@ -64,7 +72,7 @@ std::string coefficients_table(const UpdateLaw& law, std::size_t size) {
   table += "</tr></thead><tbody>\n";
   for (std::size_t i = 0; i < size; ++i) {
     table += "<tr><th scope=\"row\">" + escaped(place_name(*columns.front(), i)) + "</th>";
-    for (const Coefficient* c : columns) table += "<td>" + number_text(c->values[i], 9) + "</td>";
+    for (const Coefficient* c : columns) table += "<td>" + number_text(c->values[i]) + "</td>";
     table += "</tr>\n";
   }
   return table + "</tbody></table></div>\n";
@@ -84,8 +92,8 @@ std::string all_tables(const UpdateLaw& law) {
 }  // namespace
 
 std::string brake_text(const UpdateLaw& law) {
-  const std::string least = number_text(law.damping, 6);
-  return law.largest_damping > law.damping ? least + " to " + number_text(law.largest_damping, 6) : least;
+  const std::string least = number_text(law.damping);
+  return law.largest_damping > law.damping ? least + " to " + number_text(law.largest_damping) : least;
 }
 
 std::string update_law_html(const Compilation& c) {

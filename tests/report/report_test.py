@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import tempfile
@@ -28,6 +29,10 @@ FIG_10 = """{ "dashpot": 1, "name": "fig_10", "title": "Spring before a slip bes
     { "damper": "2 N s/m", "name": "B1" },
     { "series": [ { "spring": "200 N/m", "name": "K" },
                   { "parallel": [ { "slip": "0.3 N", "name": "Y" }, { "damper": "5 N s/m", "name": "B2" } ] } ] } ] } }"""
+BEHIND = """{ "dashpot": 1, "name": "behind", "contact": { "at": "5 mm" }, "comment": "Made to be looked at.",
+    "network": { "parallel": [ { "spring": "50 N/m", "name": "K0", "comment": [ "Stiff <b>", "and steady" ] },
+                               { "series": [ { "spring": "200 N/m", "name": "K1" }, { "slip": "0.2 N", "name": "Y1" } ] } ] } }"""
+RING = "networks/tunable/layers_tunable.json"
 COUPLED = """{ "dashpot": 1, "name": "coupled", "network": { "parallel": [
     { "spring": "50 N/m", "name": "K0" },
     { "series": [ { "spring": "200 N/m", "name": "K1" },
@@ -48,6 +53,7 @@ DOWNLOADED = """
   URL.createObjectURL = create;
   return blob.text();"""
 DOWNLOADED_FELT = DOWNLOADED.replace("'download'", "'download-felt'")
+DATA = "return JSON.parse(document.getElementById('data').textContent)"
 # Keys, as the protocol names them.
 TAB, END, HOME = "\ue004", "\ue010", "\ue011"
 # The page has shown a response, or says what is wrong.
@@ -148,7 +154,8 @@ class Pages(unittest.TestCase):
         for control, value in [("depth", "0.002"), ("duration", "0.7")]:
             self.enter(control, value)
             self.assertIn("largest force", self.browser.run(SETTLED))
-        self.assertAlmostEqual(max(float(row[1]) for row in self.response()), 0.002)
+        surface = self.browser.run(f"{DATA}.live.surface") or 0
+        self.assertAlmostEqual(max(float(row[1]) for row in self.response()), surface + 0.002)
         self.browser.drag("#pad", [(-300, 0), (-100, -40), (50, 30), (200, 10)])
         self.assertIn("largest force", self.browser.run(SETTLED))
         self.hover("#pareto .u-over", "#pareto .tip")
@@ -237,7 +244,9 @@ class Pages(unittest.TestCase):
 
     def click_through_felt_error(self):
         """The chart of the error names every candidate, says its error where the pointer is, and hides and shows its curve."""
-        names = self.browser.run("return JSON.parse(document.getElementById('data').textContent).felt_error.candidates.map((c) => c.name)")
+        names = self.browser.run(f"{DATA}.felt_error.candidates.map((c) => c.name)")
+        candidates = self.browser.run(f"{DATA}.pareto.candidates.map((c) => c.name)")
+        self.assertEqual(sorted(", ".join(names).split(", ")), sorted(candidates))
         labels = "[...document.querySelectorAll('#felt-error .u-legend .u-series .u-label')]"
         self.assertEqual(self.browser.run(f"return {labels}.map((label) => label.textContent)"), ["frequency", *names])
         self.hover("#felt-error .u-over", "#felt-error .u-legend")
@@ -245,7 +254,7 @@ class Pages(unittest.TestCase):
                  "return [document.querySelectorAll('#felt-error .u-series.u-off').length, canvas.toDataURL()]")
         off, before = self.browser.run(shown)
         self.assertEqual(off, 0)
-        click = f"{labels}.find((label) => label.textContent === 'paper').dispatchEvent(new MouseEvent('click', {{ bubbles: true }}))"
+        click = f"{labels}.find((label) => label.textContent.startsWith('paper')).dispatchEvent(new MouseEvent('click', {{ bubbles: true }}))"
         redrawn = "return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
         self.browser.run(f"{click}; {redrawn}")
         off, without = self.browser.run(shown)
@@ -305,10 +314,135 @@ class Pages(unittest.TestCase):
                 self.assertIn("three amplitudes", self.browser.run("return document.body.textContent"))
                 self.assertIn("brake b", self.browser.run("return document.getElementById('regimes').textContent"))
                 self.assertIn("ertified", self.browser.run("return document.getElementById('passivity').textContent"))
-                for left_out in ["candidates", "agreement"]:
+                for left_out in ["candidates", "agreement", "canonical"]:
                     self.assertIsNone(self.browser.run(f"return document.getElementById('{left_out}')"))
                 self.assert_simulates(network)
                 self.assert_quiet()
+
+    def test_every_slip_keeps_its_name(self):
+        """Fails if one of several slips shares the name, the regimes or the candidates of another, or if what is said of a ring of slips is said
+        of a network without."""
+        rows = "return [...document.querySelectorAll('#regimes .regimes tbody tr')].map((row) => [...row.children].map((cell) => cell.textContent))"
+        self.open(SOURCE / "networks/paper/maxwell_slip_ten.json")
+        shown = self.browser.run(rows)
+        for i in range(1, 11):
+            self.assertIn(["–", f"Y{i}", "0", "0", "0", str(210 - 10 * i)], shown)
+            self.assertIn([f"Y{i}", "–", "0", "0", "0", "0"], shown)
+        self.assertIn("Y1, Y2, Y3, Y4, Y5, Y6, Y7, Y8, Y9, Y10", self.browser.run("return document.querySelector('#regimes h3').textContent"))
+        laws = self.browser.run("return [...document.querySelectorAll('#regimes .laws b')].map((law) => law.textContent)")
+        self.assertEqual(laws, ["velocity-free", "steady", "ramped", "gated"])
+        self.open(SOURCE / RING)
+        self.assertEqual(len(self.browser.run(rows)), 8)
+        for left_out in ["candidates", "agreement"]:
+            self.assertIsNone(self.browser.run(f"return document.getElementById('{left_out}')"))
+        self.assertNotIn("Canonical form", self.browser.run("return document.body.textContent"))
+
+    def test_the_first_response_says_something(self):
+        """Fails if a page opens with a motion that does not reach the tissue, or at which no slip yields: a tenth of it would then answer with a
+        tenth of the force."""
+        for network in [self.write("behind.json", BEHIND), *(path for path in NETWORKS if "slip" in features(path))]:
+            with self.subTest(network=network.name):
+                self.open(network)
+                depth = float(self.browser.run("return document.getElementById('depth').value"))
+                forces = []
+                for part in [1, 10]:
+                    self.enter("depth", repr(depth / part))
+                    forces.append(max(abs(float(row[3])) for row in self.response()))
+                self.assertGreater(forces[1], 0)
+                self.assertLess(forces[0], 9.9 * forces[1])
+
+    def test_comments(self):
+        """Fails if what the author remarks does not reach the page, with the place that it stands at."""
+        self.open(self.write("behind.json", BEHIND))
+        said = self.browser.run("return [...document.querySelectorAll('#comments li')].map((line) => line.textContent)")
+        self.assertEqual(said, ["Made to be looked at.", "K0 Stiff <b>", "K0 and steady"])
+        self.open(FIG_5)
+        self.assertIsNone(self.browser.run("return document.getElementById('comments')"))
+
+    def test_uploads_are_read_as_simulate_reads(self):
+        """Fails if the page reads another table than `dashpot simulate`, reads it otherwise, or takes one that it refuses: units, separators,
+        decimals, lines in front, digits of times."""
+        self.open(FIG_5)
+        rows = [(k / 1000, 0.002 * math.sin(0.02 * k)) for k in range(60)]
+        def table(header, line, before=""):
+            return before + header + "\n" + "".join(line(t, u) + "\n" for t, u in rows)
+        good = [table("time [s],position [mm]", lambda t, u: f"{t:.3f},{1000 * u!r}"),
+                table("t;x (µm)", lambda t, u: f"{t:.3f};{1e6 * u!r}".replace(".", ",")),
+                table("time\tdisplacement", lambda t, u: f"{1000 * t:.0f}\t{100 * u!r}", "a rig, 3 runs\n\n").replace("ment\n", "ment\nms\tcm\n"),
+                table("# time[ms] position[m] velocity[mm/min]", lambda t, u: f"{1000 * t:.0f}  {u!r}  7.25"),
+                table("note,time,position", lambda t, u: f"a,{t:.3f},+{abs(u):.6f}"),
+                table("time,position,u", lambda t, u: f"{t:.3f},{u!r},9"),
+                table("time,position", lambda t, u: f"{t + 1e4:.3f},{u:.7e}"),
+                "time,position\r\n0,0\r\n\r\n0.001,.5e-3\r\n0.002,\"1e-3\"\r\n"]
+        for text in good:
+            with self.subTest(text=text[:60]):
+                motion = self.upload(text)
+                self.wait_for("3 samples" if "\r" in text else "60 samples")
+                done = subprocess.run([DASHPOT, "simulate", str(FIG_5), "--input", str(motion)], capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(columns(self.handed_out(), "double"), columns(done.stdout, "double"))
+        bad = {"time,position [N]\n0,0\n": "no column 'position'", "time,position [deg]\n0,0\n0.001,1\n": "the motion is in radians",
+               "time,position,position [mm]\n0,0,0\n": "there twice", "t;x\n0;0\n0,001;1;2\n": "row 3 has 3 fields",
+               "time [ms],position\n0,0\n1,0\n2,0\n4,0\n": "a uniform period", "time,position\n0,0\n0.001,1e999\n": "a finite number",
+               "time,position\n0,0\n0.001,\n": "position is ''",
+               table("time,position", lambda t, u: f"{t:.2f},{u!r}"): "times that rise", "time,position\n0,0\n1e10,0\n": "rows come at 10⁻¹⁰ Hz"}
+        for text, said in bad.items():
+            with self.subTest(said=said):
+                motion = self.upload(text)
+                self.wait_for(said)
+                done = subprocess.run([DASHPOT, "simulate", str(FIG_5), "--input", str(motion)], capture_output=True, text=True, timeout=60)
+                self.assertNotEqual(done.returncode, 0)
+        self.assert_quiet()
+
+    def test_advice_works(self):
+        """Fails if the --rate that a page asks for is not one that the compiler takes, or does not let the upload in."""
+        for period in ["0.000333", "0.0123456", "0.02"]:
+            text = "time,position\n" + "".join(f"{k * float(period):.9g},{k % 7}e-4\n" for k in range(40))
+            self.open(FIG_5)
+            self.upload(text)
+            self.wait_for("write the page again")
+            rate = re.search(r"--rate ([0-9.e+-]+)", self.browser.run(SETTLED))[1]
+            self.open(FIG_5, "--rate", rate)
+            self.upload(text)
+            self.wait_for("40 samples")
+
+    def test_axes_that_tell_the_candidates_apart(self):
+        """Fails if another pair of figures would show more of the candidates apart than the two that the scatter begins with."""
+        for network in [FIG_5, SOURCE / "networks/tissues/swine_kidney_cortex.json"]:
+            for choices in [[], ["--device", PANTOGRAPH]]:
+                self.open(network, *choices)
+                pareto = self.browser.run(f"{DATA}.pareto")
+                values = [candidate["values"] for candidate in pareto["candidates"]]
+                def apart(x, y):
+                    most = [max(abs(row[i]) for row in values if row[i] is not None) or 1 for i in (x, y)]
+                    points = [(row[x] / most[0], row[y] / most[1]) for row in values if None not in (row[x], row[y])]
+                    return sum(math.dist(p, q) >= 0.05 for i, p in enumerate(points) for q in points[:i])
+                chosen = [int(self.browser.run(f"return document.getElementById('pareto-{axis}').value")) for axis in "xy"]
+                count = len(pareto["figures"])
+                self.assertEqual(apart(*chosen), max(apart(x, y) for x in range(count) for y in range(x + 1, count)))
+
+    def test_legends_and_labels(self):
+        """Fails if a legend says values that nobody asked for, if a label is cut off at the edge of its plot, or if a number has more than four
+        digits."""
+        for network, choices in [(FIG_5, ["--device", PANTOGRAPH]), (SOURCE / "networks/paper/visco_elasto_plastic_organ.json", [])]:
+            self.open(network, *choices)
+            for width in [1100, 390]:
+                self.browser.devtools("Emulation.setDeviceMetricsOverride", width=width, height=844, deviceScaleFactor=1, mobile=False)
+                self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
+                legends = self.browser.run("return [...document.querySelectorAll('.u-legend')].map((legend) => legend.innerText)")
+                self.assertTrue(legends)
+                self.assertFalse([text for text in legends if ":" in text or "--" in text or re.match("time|frequency", text)])
+                cut = self.browser.run("""return [...document.querySelectorAll('svg.plot')].filter((plot) => plot.checkVisibility()).flatMap((plot) => {
+                    const box = plot.getBoundingClientRect();
+                    return [...plot.querySelectorAll('text')].filter((text) => {
+                      const own = text.getBoundingClientRect();
+                      return own.left < box.left - 0.5 || own.right > box.right + 0.5 || own.top < box.top - 0.5 || own.bottom > box.bottom + 0.5;
+                    }).map((text) => text.textContent);
+                  })""")
+                self.assertEqual(cut, [])
+            text = self.browser.run("return [...document.querySelectorAll('header dl, main section:not(#live)')].map((part) => part.innerText).join('\\n')")
+            long = [number for number in re.findall(r"(?<![\w.])\d+\.\d+", text) if len(number.replace(".", "").lstrip("0")) > 4]
+            self.assertEqual(long, [])
 
     def test_tunables(self):
         """Fails if a slider's set() is not that of the law: what the page hands out, with the parameters' values beside the
@@ -316,6 +450,8 @@ class Pages(unittest.TestCase):
         for network in TUNABLE:
             with self.subTest(network=network.name):
                 self.open(network)
+                shown = self.browser.run("return [...document.querySelectorAll('#tunables label > span')].map((name) => name.textContent)")
+                self.assertEqual(shown, [name for name, *_ in self.tunables()])
                 for i, (name, value, least, most) in enumerate(self.tunables()):
                     self.enter("change-at", ["0", "0.1234", "0.3"][i % 3])
                     self.browser.run(f"const slider = document.getElementById('tunable-{name}');"
@@ -373,6 +509,7 @@ class Pages(unittest.TestCase):
             self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=3, mobile=True)
             self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
             self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
+            self.assert_cues()
             colours = []
             for scheme in ["light", "dark"]:
                 self.browser.devtools("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
@@ -384,6 +521,44 @@ class Pages(unittest.TestCase):
             self.assertGreater(len(self.browser.devtools("Page.printToPDF")["data"]), 20_000)
             self.browser.devtools("Emulation.setEmulatedMedia", features=[])
             self.assert_quiet()
+
+    def assert_cues(self):
+        """What is wider than the page says so at its edge, and no longer when it is scrolled to its end."""
+        self.browser.run("dispatchEvent(new Event('resize')); return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+        wide = self.browser.run("""return Promise.all([...document.querySelectorAll('.wide')].filter((part) => part.scrollWidth > part.clientWidth + 1)
+          .map(async (part) => {
+            const states = [part.matches('.more-right:not(.more-left)') && getComputedStyle(part).maskImage !== 'none'];
+            part.scrollLeft = part.scrollWidth;
+            await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+            states.push(part.matches('.more-left:not(.more-right)'));
+            part.scrollLeft = 0;
+            return states.every((state) => state);
+          }))""")
+        self.assertTrue(wide)
+        self.assertTrue(all(wide), wide)
+
+    def test_the_error_is_seen_on_a_phone(self):
+        """Fails if the column of the error is beyond the edge of a phone."""
+        self.open(FIG_5, "--device", PANTOGRAPH)
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=3, mobile=True)
+        self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
+        heads = self.browser.run("return [...document.querySelectorAll('#candidates thead th')].map((head) => [head.textContent, head.getBoundingClientRect().right])")
+        self.assertLess([right for text, right in heads if "error" in text][0], 390 - 42)  # the edge fades
+
+    def test_paper(self):
+        """Fails if a table, a formula or a drawing is cut on paper, a control is printed, or the chart of the error is not there."""
+        self.open(FIG_5, "--device", PANTOGRAPH)
+        self.browser.devtools("Emulation.setEmulatedMedia", media="print")
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=673, height=1000, deviceScaleFactor=1, mobile=False)
+        self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
+        self.browser.run("dispatchEvent(new Event('beforeprint'))")
+        self.addCleanup(self.browser.devtools, "Emulation.setEmulatedMedia", media="")
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('button, select, input')].filter((part) => part.checkVisibility()).length"), 0)
+        self.assertTrue(self.browser.run("return document.querySelector('#what-is-felt svg').checkVisibility()"))
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('.wide')].filter((part) => getComputedStyle(part).maskImage !== 'none').length"), 0)
+        beyond = self.browser.run("return [...document.querySelectorAll('main table, main math, main svg')].filter((part) => part.checkVisibility() &&"
+                                  "part.getBoundingClientRect().right > innerWidth + 1).map((part) => part.outerHTML.slice(0, 80))")
+        self.assertEqual(beyond, [])
 
     def test_without_clang(self):
         """Fails if a page is not written without clang, or promises a live response that it does not have."""

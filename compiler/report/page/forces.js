@@ -6,11 +6,11 @@ function forces_chart(holder, response, felt, live) {
   const curve = (label, stroke, thick) => ({ label, stroke: colour(stroke), width: thick, points: { show: false }, value });
   return new uPlot({
     width, height: Math.round(Math.min(340, 140 + width * 0.4)), padding: [12, 16, 0, 0], legend: { show: true, live: true },
-    scales: { x: { time: false } }, axes: [axis('time [s]'), axis(`force [${live.force_unit}]`, { size: 68, space: 40 })],
+    scales: { x: { time: false } }, axes: [axis('time [s]'), axis(`force [${live.force_unit}]`, { ...numbers_wide, space: 40 })],
     series: [{ label: 'time [s]', value }, curve('brake b·v̂', '--brake', 1.5), curve('motor m', '--motor', 1.5),
              curve('force', '--ink', 2),
              ...(felt ? [curve('felt on the device', '--closed', 1.5), ...(live.form ? [curve('network', '--muted', 1)] : [])] : [])],
-    hooks: { draw: [(u) => paint_change(u, response.changed_at)] },
+    hooks: { ...quiet_legend, draw: [(u) => paint_change(u, response.changed_at)] },
   }, [response.time, response.brake, response.motor, response.force,
       ...(felt ? [felt.felt, ...(live.form ? [felt.closed] : [])] : [])].map(thinned), holder);
 }

@@ -78,7 +78,7 @@ async function set_up_live(live) {
     const pressed = document.querySelector('#motions [aria-pressed="true"]');
     if (!sane()) return refuse('a depth other than 0 and a duration of at least two periods are expected');
     const shape = pressed ? shapes[pressed.dataset.motion] : drawn;
-    if (shape) take(motion_of_shape(shape, depth(), duration(), live.period));
+    if (shape) take(motion_of_shape(shape, depth(), duration(), live));
   }
 
   function draw() {
@@ -92,13 +92,13 @@ async function set_up_live(live) {
   function take_drawn(shape) {
     drawn = shape;
     if (!sane()) return;
-    motion = motion_of_shape(drawn, depth(), duration(), live.period);
+    motion = motion_of_shape(drawn, depth(), duration(), live);
     draw_pad(pad, motion, live);
   }
 
   async function take_file(file) {
     try {
-      take(motion_of_csv(await file.text(), live.period, live.tunables, Boolean(live.device)));
+      take(motion_of_csv(await file.text(), live));
       drawn = null;
       press(null);
     } catch (error) {

@@ -4,22 +4,32 @@
 
 // A recorded motion as `dashpot simulate` reads it, or, where a device is led along it, at any uniform rate as `dashpot run
 // --motion` does. Throws what is wrong with it.
-function motion_of_csv(text, period, tunables, any_rate) {
-  const rows = text.replace(/^\uFEFF/, '').split('\n').map((line) => line.trim()).filter((line) => line !== '')
-    .map((line) => line.split(',').map((cell) => cell.replace(/^[\s"]+|[\s"]+$/g, '')));
-  if (rows.length < 2) throw new Error('no rows; a header and at least one row are expected');
-  const column = (name) => {
-    const places = rows[0].filter((title) => title === name);
-    if (places.length > 1) throw new Error(`column '${name}' is there twice`);
-    return rows[0].indexOf(name);
-  };
-  const places = { time: column('time'), position: column('position'), velocity: column('velocity') };
-  for (const name of ['time', 'position'])
-    if (places[name] < 0) throw new Error(`no column '${name}'; 'time' and 'position' are expected`);
-  const values = (name) => Float64Array.from(rows.slice(1), (row, i) => number(row, places[name], rows[0].length, name, i + 2));
-  const time = values('time'), position = values('position'), velocity = places.velocity < 0 ? null : values('velocity');
-  const recorded = { time, position, velocity, values: recorded_values(rows, column, tunables) };
-  return check_period(time, period, any_rate) ? recorded : resampled(recorded, period);
+function motion_of_csv(text, live) {
+  const table = table_of(text, live), width = table.columns.length;
+  if (table.rows.length === 0) throw new Error('no rows; a header and at least one row are expected');
+  const columns = { time: named_column(table, 'time', live, true), position: named_column(table, 'position', live, true),
+                    velocity: named_column(table, 'velocity', live, false) };
+  const bad = table.rows.findIndex((row) => row.length !== width);
+  if (bad >= 0) throw new Error(`row ${table.lines[bad]} has ${table.rows[bad].length} fields; the header has ${width}`);
+  const values = (place, name) => Float64Array.from(table.rows, (row, i) => number(row[place], name, table.lines[i], table.dialect));
+  const in_si = (role) => values(columns[role].place, role).map((value) => value * columns[role].factor);
+  const time = in_si('time'), position = in_si('position'), velocity = columns.velocity ? in_si('velocity') : null;
+  const recorded = { time, position, velocity, values: recorded_values(table, values, live.tunables) };
+  if (time.length < 2) return recorded;
+  const uniform = uniform_period(time, table.rows.map((row) => row[columns.time.place]), columns.time.factor, table.lines);
+  return is_at_rate(uniform, live) ? recorded : resampled(recorded, live.period);
+}
+
+// Where a column stands, and what 1 in it is in SI.
+function named_column(table, role, live, is_needed) {
+  const places = columns_for(table.columns, role, live.columns);
+  if (places.length > 1) throw new Error(`column '${role}' is there twice`);
+  if (places.length === 0 && is_needed) throw new Error(`no column '${role}'; 'time' and 'position' are expected`);
+  if (places.length === 0) return null;
+  const { unit } = table.columns[places[0]], turns = live.position_unit === 'rad';
+  if (unit && role !== 'time' && (unit.dimension[4] !== 0) !== turns)
+    throw new Error(`the motion is in ${turns ? 'metres' : 'radians'}; the network's tool moves in ${turns ? 'radians' : 'metres'}`);
+  return { place: places[0], factor: unit ? unit.factor : 1 };
 }
 
 // Straight between the rows; tunables keep their values until the next.
@@ -37,34 +47,21 @@ function resampled(motion, period) {
 }
 
 // Of columns that are called like tunables; one that has none keeps its default.
-function recorded_values(rows, column, tunables) {
-  const places = tunables.map((tunable) => column(tunable.name));
-  if (places.every((place) => place < 0)) return null;
-  return rows.slice(1).map((row, i) => tunables.map((tunable, j) =>
-    places[j] < 0 ? tunable.value : number(row, places[j], rows[0].length, tunable.name, i + 2)));
-}
-
-function number(row, place, count, name, line) {
-  if (row.length !== count) throw new Error(`row ${line} has ${row.length} fields; the header has ${count}`);
-  if (!/^-?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?$/.test(row[place]) || !isFinite(Number(row[place])))
-    throw new Error(`row ${line}: ${name} is '${row[place]}'; a finite number is expected`);
-  return Number(row[place]);
-}
-
-// Decimal times are rounded; the median step tells the period. Whether it is the law's.
-function check_period(time, period, any_rate) {
-  if (time.length < 2) return true;
-  const steps = time.slice(1).map((t, i) => t - time[i]);
-  const median = steps.slice().sort()[steps.length >> 1];
-  steps.forEach((step, i) => {
-    if (!(Math.abs(step - median) <= 1e-6 * median + 2 ** -50 * Math.abs(time[i + 1])))
-      throw new Error(`row ${i + 3} follows after ${step} s; a uniform period of ${median} s is expected`);
+function recorded_values(table, values, tunables) {
+  const places = tunables.map(({ name }) => {
+    const found = table.columns.map((column, i) => i).filter((i) => table.columns[i].title === name);
+    if (found.length > 1) throw new Error(`column '${name}' is there twice`);
+    return found[0] ?? -1;
   });
-  const is_the_same = Math.abs(median / period - 1) <= 1e-6;
-  if (!is_the_same && !any_rate)
-    throw new Error(`rows come at ${rounded(1 / median)} Hz, the law of this page runs at ${rounded(1 / period)} Hz; ` +
-                    `write the report with --rate ${rounded(1 / median)}`);
-  return is_the_same;
+  if (places.every((place) => place < 0)) return null;
+  const columns = places.map((place, i) => (place < 0 ? null : values(place, tunables[i].name)));
+  return table.rows.map((_, row) => tunables.map((tunable, i) => (columns[i] ? columns[i][row] : tunable.value)));
+}
+
+function number(field, name, line, dialect) {
+  const value = number_of(field, dialect);
+  if (value === null) throw new Error(`row ${line}: ${name} is '${field}'; a finite number is expected`);
+  return value;
 }
 
 // Of depth 1, over times from 0 to 1.
@@ -75,8 +72,9 @@ const shapes = {
   steps: (t) => Math.min(3, Math.floor(4 * t)) / 3,
 };
 
-function motion_of_shape(shape, depth, duration, period) {
-  const count = Math.round(duration / period);
-  const position = Float64Array.from({ length: count + 1 }, (_, k) => depth * shape(k / count));
+// From the surface on, where there is a contact.
+function motion_of_shape(shape, depth, duration, live) {
+  const count = Math.round(duration / live.period), surface = live.surface ?? 0;
+  const position = Float64Array.from({ length: count + 1 }, (_, k) => surface + depth * shape(k / count));
   return { time: null, position, velocity: null, values: null };
 }

@@ -1,24 +1,26 @@
-// The pad on which a motion is shown and drawn: times from 0 to the motion's end, and twice its depth.
+// The pad on which a motion is shown and drawn: times from 0 to the motion's end, and twice its depth; with a contact around
+// its surface.
 function draw_pad(pad, motion, live) {
   const scale = devicePixelRatio, width = pad.clientWidth, height = pad.clientHeight, ctx = pad.getContext('2d');
   pad.width = width * scale;
   pad.height = height * scale;
   ctx.scale(scale, scale);
-  const most = motion.position.reduce((m, u) => Math.max(m, Math.abs(u)), Number.MIN_VALUE);
+  const middle = live.surface ?? 0;  // what is drawn is how far from there
+  const most = motion.position.reduce((m, u) => Math.max(m, Math.abs(u - middle)), Number.MIN_VALUE);
   const y = (u) => height / 2 - (u / most) * (height / 2 - 16);
   ctx.strokeStyle = colour('--rule');
   ctx.strokeRect(-1, y(0), width + 2, 0);
   ctx.fillStyle = colour('--muted');
   ctx.font = `11px ${sans()}`;
-  ctx.fillText(`${rounded(most)} ${live.position_unit}`, 8, 14);
-  ctx.fillText('0', 8, y(0) - 4);
+  ctx.fillText(`${rounded(middle + most)} ${live.position_unit}`, 8, 14);
+  ctx.fillText(live.surface === null ? '0' : `${rounded(middle)} ${live.position_unit}: surface`, 8, y(0) + 14);
   ctx.textAlign = 'right';
   ctx.fillText(`motion over ${rounded((motion.position.length - 1) * live.period)} s: draw here`, width - 8, height - 7);
   ctx.strokeStyle = colour('--ink');
   ctx.lineWidth = 1.6;
   ctx.beginPath();
   const count = motion.position.length, stride = Math.max(1, Math.floor(count / (4 * width)));
-  for (let k = 0; k < count; k += stride) ctx.lineTo((k / Math.max(1, count - 1)) * width, y(motion.position[k]));
+  for (let k = 0; k < count; k += stride) ctx.lineTo((k / Math.max(1, count - 1)) * width, y(motion.position[k] - middle));
   ctx.stroke();
 }
 

@@ -1,13 +1,29 @@
+// The two figures whose plane separates the candidates most: in which the most pairs of them can be told apart, and of equals the
+// one with the greatest sum of distances; each figure as a share of its largest value, as the axes show it. A candidate without
+// a figure does not count there.
+const apart = 0.05;  // of the axes: a point's own size
+function most_telling_pair(candidates, count) {
+  const largest = Array.from({ length: count }, (_, i) => Math.max(...candidates.map((c) => Math.abs(c.values[i] ?? 0))) || 1);
+  let best = [0, Math.min(1, count - 1)], most = [-1, 0];
+  for (let x = 0; x < count; ++x)
+    for (let y = x + 1; y < count; ++y) {
+      const points = candidates.filter((c) => c.values[x] !== null && c.values[y] !== null)
+        .map((c) => [c.values[x] / largest[x], c.values[y] / largest[y]]);
+      const distances = points.flatMap((p, i) => points.slice(0, i).map((q) => Math.hypot(p[0] - q[0], p[1] - q[1])));
+      const told = distances.filter((distance) => distance >= apart).length, sum = distances.reduce((a, b) => a + b, 0);
+      if (told > most[0] || (told === most[0] && sum > most[1] * (1 + 1e-9))) [best, most] = [[x, y], [told, sum]];
+    }
+  return best;
+}
+
 // The candidates by two figures of merit of the reader's choice.
 function set_up_pareto(figures, candidates) {
   const holder = element('pareto');
   const menus = [element('pareto-x'), element('pareto-y')];
-  // At first the figures that tell the candidates apart.
-  const tells = (i) => new Set(candidates.map((candidate) => candidate.values[i])).size > 1;
-  const first = figures.map((_, i) => i).sort((i, j) => tells(j) - tells(i) || i - j);
+  const first = most_telling_pair(candidates, figures.length);
   menus.forEach((menu, place) => {
     figures.forEach((figure, i) => menu.add(new Option(`${figure.label} [${figure.unit}]`, i)));
-    menu.value = first[Math.min(place, first.length - 1)];
+    menu.value = first[place];
     menu.addEventListener('change', () => draw());
   });
   let chart = null;
@@ -43,9 +59,9 @@ function set_up_pareto(figures, candidates) {
     tip.hidden = true;
     const width = width_of(holder);
     chart = new uPlot({
-      width, height: Math.round(Math.min(360, 120 + width * 0.5)), legend: { show: false }, padding: [12, 16, 0, 0],
+      width, height: Math.round(Math.min(360, 120 + width * 0.5)), legend: { show: false }, padding: [12, 30, 0, 0],
       scales: { x: { time: false, range }, y: { range } },
-      axes: [axis(titles[0]), axis(titles[1], { size: 66, space: 40 })],
+      axes: [axis(titles[0]), axis(titles[1], { ...numbers_wide, space: 40 })],
       series: [{}, { paths: () => null, points: { show: false } }],
       cursor: { drag: { x: false, y: false }, points: { show: false } },
       hooks: { draw: [(u) => paint(u, points)] },

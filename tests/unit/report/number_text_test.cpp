@@ -34,5 +34,16 @@ TEST(NumberText, LabelsAnElement) {
   EXPECT_EQ(value_text(element, motion::translation), "2 N");
 }
 
+// Fails if a sentence keeps more digits than a reader wants, or if a whole number, a name or a file is taken for one.
+TEST(NumberText, SentencesInFourDigits) {
+  EXPECT_EQ(in_four_digits("needs 0.0139549 N s/m, most at 26.9358 Hz"), "needs 0.01395 N s/m, most at 26.94 Hz");
+  EXPECT_EQ(in_four_digits("noise 8.11e-07 N where here it is 2.5E3"), "noise 8.11×10⁻⁷ N where here it is 2.5E3");
+  EXPECT_EQ(in_four_digits("of 10000 Hz, §5.1 of 2009, K1.25 and v1.23456.txt"),
+            "of 10000 Hz, §5.1 of 2009, K1.25 and v1.23456.txt");
+  EXPECT_EQ(in_four_digits("6.68 % in the band."), "6.68 % in the band.");
+  EXPECT_EQ(in_four_digits("b is 5. Then 1.00000 more"), "b is 5. Then 1 more");
+  EXPECT_EQ(in_four_digits("-0.123456"), "-0.1235");
+}
+
 }  // namespace
 }  // namespace dashpot::compiler

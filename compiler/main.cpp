@@ -14,6 +14,7 @@
 #include "commands/commands.hpp"
 #include "network/rate_limits.hpp"
 #include "source/nearest_name.hpp"
+#include "source/render.hpp"
 
 namespace {
 
@@ -440,10 +441,22 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   return status;
 }
 
+// Before anything is parsed, and also where that fails.
+bool asks_for_json(const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    if (arguments[i] == "--diagnostics=json" ||
+        (arguments[i] == "--diagnostics" && i + 1 < arguments.size() && arguments[i + 1] == "json"))
+      return true;
+  return false;
+}
+
 // Help and version are asked for; what else ends parsing is a fault of the command line.
-ExitStatus answer(const CLI::App& app, const CLI::ParseError& error) {
-  std::ostringstream text;
-  if (app.exit(error, text, std::cerr) != 0) return ExitStatus::command_line_wrong;
+ExitStatus answer(const CLI::App& app, const CLI::ParseError& error, bool in_json) {
+  std::ostringstream text, fault;
+  if (app.exit(error, text, fault) != 0) {
+    std::cerr << (in_json ? command_line_fault_as_json(error.what()) : fault.str());
+    return ExitStatus::command_line_wrong;
+  }
   Diagnostics diagnostics;
   const ExitStatus status = write_standard_output(text.str(), diagnostics);
   tell({}, diagnostics);
@@ -461,14 +474,15 @@ int main(int argc, char** argv) {
   describe(app, line);
   std::vector<std::string> arguments = with_help_as_option(line.options.fit.arguments);
   if (const std::string complaint = complaint_about_command(arguments); !complaint.empty()) {
-    std::cerr << complaint << "Run with --help for more information.\n";
+    if (asks_for_json(arguments)) std::cerr << command_line_fault_as_json(complaint.substr(0, complaint.size() - 1));
+    else std::cerr << complaint << "Run with --help for more information.\n";
     return static_cast<int>(ExitStatus::command_line_wrong);
   }
   try {
     std::reverse(arguments.begin(), arguments.end());  // as the parser takes them
     app.parse(arguments);
   } catch (const CLI::ParseError& error) {
-    return static_cast<int>(answer(app, error));
+    return static_cast<int>(answer(app, error, asks_for_json(line.options.fit.arguments)));
   }
   try {
     take_over_words(line);

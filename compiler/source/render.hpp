@@ -14,4 +14,8 @@ std::string render_text(const Diagnostics& diagnostics);
 // file and places are null for a diagnostic without a place.
 std::string render_json(const Diagnostics& diagnostics);
 
+// The same of a command line that could not be read at all: an array of one error without a place, its code
+// "command-line".
+std::string command_line_fault_as_json(const std::string& message);
+
 }  // namespace dashpot::compiler

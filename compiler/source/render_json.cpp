@@ -44,4 +44,13 @@ std::string render_json(const Diagnostics& diagnostics) {
   return list.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+std::string command_line_fault_as_json(const std::string& message) {
+  Json json = place_of({});
+  json["severity"] = "error";
+  json["code"] = "command-line";
+  json["message"] = message;
+  json["notes"] = Json::array();
+  return Json::array({json}).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace dashpot::compiler

@@ -239,6 +239,10 @@ class Diagnostics(CommandTest):
     def test_json_where_there_is_nothing_to_say(self):
         """Fails if a tool that reads the array gets nothing instead of an empty one."""
         self.assertEqual(json.loads(self.dashpot("check", FIG_5, "--diagnostics=json").stderr), [])
+        for wrong in [["chekc", FIG_5], ["check"], ["check", FIG_5, "--rate", "fast"], ["check", FIG_5, "--nonsense"]]:
+            found, = json.loads(self.dashpot(*wrong, "--diagnostics", "json", status=COMMAND_LINE_WRONG).stderr)
+            self.assertEqual((found["severity"], found["code"], found["line"]), ("error", "command-line", None))
+            self.assertTrue(found["message"])
 
 
 class StandardOutput(CommandTest):

@@ -67,7 +67,8 @@ std::string to_text(const servo_summary& summary) {
                count(summary.held), count(summary.clipped)) +
          shedding(summary) + durations("wake-up", summary.lateness) + durations("response", summary.response) +
          durations("busy", summary.busy) + faults(summary.faults) +
-         print("energy    %.6g J taken from the tool, never below %.6g J\n", summary.energy, summary.lowest_energy) +
+         print("energy    %.6g J that motor and brake took from the tool, never below %.6g J\n", summary.energy,
+               summary.lowest_energy) +
          losses(summary) + print("ended     %s, %s\n", name_of(summary.state), ending(summary));
 }
 

@@ -62,6 +62,16 @@ class Run(unittest.TestCase):
             made = stiffness * float(row["position [m]"]) + velocity_gain * float(row["velocity [m/s]"])
             self.assertAlmostEqual(float(row["motor_force [N]"]), made, delta=1e-12)
 
+    def test_a_value_from_the_command_line(self):
+        """Fails if --set does not reach the law that drives the device, or if the energy is told without whose it is."""
+        result = self.run_fast("paper/kelvin", "phantom_shorted_motor", "--set", "K=250")
+        self.assertRegex(result.stdout, r"energy +[-0-9.e]+ J that motor and brake took from the tool")
+        with open(self.log, newline="") as stream:
+            rows = list(csv.DictReader(stream))
+        for row in rows:
+            made = 250.0 * float(row["position [m]"]) + (2.0 - 0.6) * float(row["velocity [m/s]"])
+            self.assertAlmostEqual(float(row["motor_force [N]"]), made, delta=1e-12)
+
     def test_who_reads_along_sees_no_fault_where_none_was(self):
         """Fails if the line that is printed while the loop runs counts faults that nobody had."""
         result = dashpot("run", network("paper/kelvin"), "--device", device("phantom_shorted_motor"), "--for", "2.5", "--fast", "--log", self.log)

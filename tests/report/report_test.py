@@ -452,6 +452,9 @@ class Pages(unittest.TestCase):
                 self.open(network)
                 shown = self.browser.run("return [...document.querySelectorAll('#tunables label > span')].map((name) => name.textContent)")
                 self.assertEqual(shown, [name for name, *_ in self.tunables()])
+                listed = self.browser.run("return [...document.querySelectorAll('#equations tbody tr')].map((row) => [...row.children].map((cell) => cell.textContent))")
+                for name, *_ in self.tunables():
+                    self.assertTrue(any(row[0] == name and row[-1] for row in listed), name)
                 for i, (name, value, least, most) in enumerate(self.tunables()):
                     self.enter("change-at", ["0", "0.1234", "0.3"][i % 3])
                     self.browser.run(f"const slider = document.getElementById('tunable-{name}');"

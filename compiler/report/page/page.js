@@ -62,7 +62,7 @@ function room_for(values, canvas) {
   ctx.font = `11px ${sans()}`;
   const widest = Math.max(0, ...(values ?? []).map((text) => ctx.measureText(text).width));
   ctx.restore();
-  return Math.ceil(widest) + 16;
+  return Math.ceil(widest) + 28;
 }
 const numbers_wide = { size: (chart, values) => room_for(values, chart.ctx.canvas) };
 

@@ -9,6 +9,7 @@
 
 #include "certify/box_motor.hpp"
 #include "certify/hold_bound.hpp"
+#include "certify/proved_bound.hpp"
 #include "certify/quantisation.hpp"
 #include "discretise/rounding.hpp"
 #include "law/add_damping.hpp"
@@ -236,8 +237,7 @@ PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
 }
 
 PassivityBound bound_of(const UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
-  return slips ? passivity_bound(linear_motor_constants(law), *slips, loop)
-               : passivity_bound(motor_constants(law), loop);
+  return slips ? passivity_bound(linear_motor_constants(law), *slips, loop) : proved_bound(motor_constants(law), loop);
 }
 
 BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "certify/convex_search.hpp"
+#include "certify/proved_bound.hpp"
 #include "decompose/spectrum.hpp"
 #include "discretise/discretise.hpp"
 #include "discretise/law_writer.hpp"
@@ -195,7 +196,8 @@ void CandidateSettler::make_room(Candidate& candidate) {
 
 // The need is a convex function of b: each frequency's is, and the largest of convex functions.
 std::optional<double> CandidateSettler::largest_fitting(StateInput input, double most) {
-  const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 1e-9);
+  const double available =
+      assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 2 * most_storage_excess);
   const auto lack = [&](double damping) { return bound(input, damping, search_terms).needed - available; };
   const auto fits = [&](double damping) { return lack(damping) <= 0; };
   const double place = golden_section(lack, 0, most, 0, 1e-8).place;

@@ -266,7 +266,7 @@ class StorageSearch {
 
 // As near above the supremum as one of the steps allows.
 std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::size_t states) {
-  for (double slack = 4e-9; slack < 100; slack *= 10) {
+  for (double slack = 4e-9; slack < 0.1; slack *= 10) {
     const double damping = search.supremum() * (1 + slack);
     for (const bool in_doubles : {true, false})
       if (in_doubles || states <= most_states_in_digits)

@@ -1,11 +1,12 @@
 #include <cmath>
 #include <numbers>
-#include <set>
 
 #include "check.hpp"
 
 namespace dashpot_check {
 namespace {
+
+std::string displacement(unsigned age) { return "q" + std::to_string(age); }
 
 Form substituted(const Form& form, const std::map<std::string, Form>& values) {
   Form result;
@@ -13,17 +14,8 @@ Form substituted(const Form& form, const std::map<std::string, Form>& values) {
   return result;
 }
 
-std::string displacement(unsigned age) { return "q" + std::to_string(age); }
-
-// Displacements that the estimate is a sum of, for those that are.
-unsigned window_of(const Device& device) {
-  const bool is_long = device.estimator == "backward_difference" || device.estimator == "least_squares";
-  return is_long && device.window > 1 ? device.window : 1;
-}
-
-// The velocity estimate in terms of the states after the sample; adds the states that the estimator has of its own. Its
-// coefficients are those that the certificate gives, which must be what the description says, to the rounding of
-// doubles.
+// The velocity estimate in terms of the states after the sample; adds those that it has of its own. Its coefficients
+// are those of the certificate, which must be what the description says, to the rounding of doubles.
 Form estimate(const Device& device, LoopForm& loop) {
   std::size_t at = 0;
   const auto coefficient = [&](long double derived) {
@@ -32,129 +24,112 @@ Form estimate(const Device& device, LoopForm& loop) {
       throw Unknown("a coefficient of the estimator is not what its description gives");
     return Rational(given);
   };
+  const auto keep = [&](const std::string& state, const Form& next) {
+    loop.states.push_back(state), loop.next[state] = next;
+    return Form{{state, 1}};
+  };
   const long double T = device.sample_period;
   const Form arriving = loop.next.at(displacement(device.delay_samples));
   if (device.estimator == "butterworth") {  // sections of two trapezoidal integrators
     const unsigned order = device.order < 4 ? 2 : 4;
-    const long double pi = std::numbers::pi_v<long double>, warped = std::tan(pi * device.cutoff * T);
+    const long double turn = std::numbers::pi_v<long double>, warped = std::tan(turn * device.cutoff * T);
     Form value = coefficient(1 / T) * arriving;
     const Rational g = coefficient(warped);
     for (unsigned i = 0; i < order / 2; ++i) {
-      const long double k = 2 * std::sin(pi * (order - 1 - 2 * i) / (2 * order));
+      const long double k = 2 * std::sin(turn * (order - 1 - 2 * i) / (2 * order));
       const std::string band = "band" + std::to_string(i), low = "low" + std::to_string(i);
       const Rational solve = coefficient(1 / (1 + warped * (warped + k))), damped = coefficient(warped + k);
       const Form high = solve * (value + Form{{band, -damped}, {low, -1}}), middle = Form{{band, 1}} + g * high;
       value = Form{{low, 1}} + g * middle;
-      loop.states.insert(loop.states.end(), {band, low});
-      loop.next[band] = middle + g * high;
-      loop.next[low] = value + g * middle;
+      keep(band, middle + g * high), keep(low, value + g * middle);
     }
-    loop.next["estimate"] = value;
-  } else if (device.estimator == "kalman") {  // e ← Δ + r² e − T v̂, v̂ ← v̂ + (β/T) e
-    const long double step = device.joint_encoder_step, L = device.acceleration * T * T * std::sqrt(12.0L) / step;
+    return keep("estimate", value);
+  }
+  if (device.estimator == "kalman") {  // e ← Δ + r² e − T v̂, v̂ ← v̂ + (β/T) e
+    const long double L = device.acceleration * T * T * std::sqrt(12.0L) / device.joint_encoder_step;
     const long double r = 4 / (4 + L + std::sqrt(8 * L + L * L));
     const Rational period = coefficient(T), leak = coefficient(r * r), gain = coefficient(2 * (1 - r) * (1 - r) / T);
-    loop.states.push_back("innovation");
-    loop.next["innovation"] = arriving + Form{{"innovation", leak}, {"estimate", -period}};
-    loop.next["estimate"] = Form{{"estimate", 1}} + gain * loop.next["innovation"];
-  } else {
-    const bool slope = device.estimator == "least_squares";
-    if (!slope && device.estimator != "difference of two samples" && device.estimator != "backward_difference")
-      throw Unknown("nothing is known of the estimator " + device.estimator);
-    const unsigned n = window_of(device);
-    const Rational rate = coefficient((slope ? 6.0L / (n * (n + 1.0L) * (n + 2.0L)) : 1.0L / n) / T);
-    Form sum;
-    for (unsigned j = 0; j < n; ++j)
-      sum[displacement(device.delay_samples + j)] = rate * (slope ? (j + 1) * (n - j) : 1);
-    return sum;
+    const Form innovation = arriving + Form{{"innovation", leak}, {"estimate", -period}};
+    return keep("innovation", innovation), keep("estimate", Form{{"estimate", 1}} + gain * innovation);
   }
-  loop.states.push_back("estimate");
-  return {{"estimate", 1}};
-}
-
-// The states that the force reads, and those that these read, but for those that stay zero.
-std::set<std::string> live_states(const Program& program) {
-  std::set<std::string> live;
-  for (std::vector<Form> open = {program.force}; !open.empty();) {
-    const Form form = open.back();
-    open.pop_back();
-    for (const auto& [name, value] : form)
-      if (program.next.count(name) && !program.next.at(name).empty() && live.insert(name).second)
-        open.push_back(program.next.at(name));
+  const bool slope = device.estimator == "least_squares", is_mean = device.estimator == "backward_difference";
+  if (!slope && !is_mean && device.estimator != "difference of two samples")
+    throw Unknown("nothing is known of the estimator " + device.estimator);
+  const unsigned n = slope || is_mean ? std::max(device.window, 1u) : 1;
+  const Rational rate = coefficient((slope ? 6.0L / (n * (n + 1.0L) * (n + 2.0L)) : 1.0L / n) / T);
+  Form sum;
+  for (unsigned j = 0, age = device.delay_samples; j < n; ++j, ++age) {
+    if (j > 0) keep(displacement(age), {{displacement(age - 1), 1}});
+    sum[displacement(age)] = rate * (slope ? (j + 1) * (n - j) : 1);
   }
-  return live;
-}
-
-// A state that only adds all others up, for the force, is replaced by them.
-void remove_sum(std::map<std::string, Form>& law, Form& force) {
-  Form all;
-  for (const auto& [state, form] : law) all = all + form;
-  for (const auto& [state, form] : law) {
-    bool is_sum = law.size() > 1 && all == Rational(2) * form;
-    for (const auto& [other, its_form] : law) is_sum = is_sum && its_form.count(state) == 0;
-    if (!is_sum) continue;
-    const Rational read = of(force, state);
-    for (const auto& [other, its_form] : law) force = force + Form{{other, other == state ? Rational(-read) : read}};
-    law.erase(state);
-    return;
-  }
+  return sum;
 }
 
 }  // namespace
 
-LoopForm loop_form(const Program& program, const Device& device) {
+LoopForm loop_form(Program program, const Device& device) {
+  for (auto at = program.next.begin(); at != program.next.end();) {  // what stays at zero is left out
+    if (!at->second.empty() && at->second != Form{{at->first, 1}}) {
+      ++at;
+      continue;
+    }
+    program.force.erase(at->first);
+    for (auto& [other, form] : program.next) form.erase(at->first);
+    program.next.erase(at), at = program.next.begin();
+  }
+  if (device.delay_samples > 1000 || device.window > 1000) throw Unknown("more than a thousand samples are remembered");
   LoopForm loop;
-  std::string last;  // the state that keeps the position
-  std::map<std::string, Form> law;
-  for (const std::string& state : live_states(program))
-    if (program.next.at(state) != Form{{"position", 1}}) law[state] = program.next.at(state);
-    else if (!std::exchange(last, state).empty()) throw Unknown("two states keep the position");
-  Form force = program.force;
-  remove_sum(law, force);
-
   const std::string drive = displacement(device.delay_samples);
-  loop.follows_estimate = force.count("velocity") > 0;
-  for (const auto& [state, form] : law) loop.follows_estimate |= form.count("velocity") > 0;
-  const unsigned memory = device.delay_samples + (loop.follows_estimate ? window_of(device) : 1);
-  if (memory > 1000) throw Unknown("more than a thousand samples are remembered");
-  for (unsigned age = 0; age < memory; ++age) {
+  for (unsigned age = 0; age <= device.delay_samples; ++age) {
     loop.states.push_back(displacement(age));
     loop.next[displacement(age)] = {{age == 0 ? "w" : displacement(age - 1), 1}};
   }
-  const Form velocity = loop.follows_estimate ? estimate(device, loop) : Form{};
-  std::map<std::string, Form> values, answers;  // G in terms of the states, and F − G
+  std::map<std::string, Form> values = {{"position", {{"u", 1}}}};
+  Form all, sum;
+  bool follows = program.force.count("velocity") > 0;
+  std::vector<std::string> own;
   for (const std::string& state : program.states) {
-    values[state];
-    if (law.count(state) == 0) continue;  // it stays zero, or is not read
-    const Rational decay = of(law[state], state), by_step = -of(law[state], last),
-                   by_speed = of(law[state], "velocity");
-    if (decay != 0)
-      answers[state] = Form{{drive, Rational((by_step / decay).convert_to<double>())}} +
-                       Rational((by_speed / decay).convert_to<double>()) * velocity;
-    values[state] = Form{{state, 1}} + Rational(-1) * answers[state];
-    loop.states.push_back(state);
+    if (program.next.count(state) == 0 || state.rfind("sampled_", 0) == 0)
+      continue;  // the latter are for update() alone
+    const Form& next = program.next.at(state);
+    const bool is_place = next == Form{{"position", 1}};
+    values[state] = is_place ? Form{{"u", 1}, {drive, -1}} : Form{{state, 1}};
+    if (!is_place) own.push_back(state), all = all + next, sum = sum + values[state];
+    follows |= next.count("velocity") > 0;
   }
-  values["velocity"] = velocity;
-  const auto carried_out = [&](Form form, const Rational& at_rest) {
-    const Rational by_step = -of(form, last), by_place = of(form, "position");
-    if (by_place - by_step != at_rest) throw Unknown("a force depends on where the tool is, not only on how it moves");
-    form.erase(last);
-    form.erase("position");
-    return substituted(form, values) + by_step * Form{{drive, 1}};
-  };
-  for (const auto& [state, form] : law)
-    loop.next[state] = carried_out(form, 0) + substituted(answers[state], loop.next);
-  loop.stiffness = of(force, "position") + of(force, last);
-  loop.force = carried_out(force, loop.stiffness);
+  if (follows) values["velocity"] = estimate(device, loop);
+  loop.states.insert(loop.states.end(), own.begin(), own.end());
+  std::erase_if(loop.states, [&](const std::string& state) {  // that only adds all others up: replaced by them
+    if (!program.next.count(state) || all.count(state) || all != Rational(2) * program.next.at(state)) return false;
+    values[state] = sum + Form{{state, -1}};
+    return true;
+  });
+  for (const std::string& state : loop.states)
+    if (program.next.count(state)) loop.next[state] = substituted(program.next.at(state), values);
+  loop.force = substituted(program.force, values);
+  loop.stiffness = of(loop.force, "u");
+  loop.force.erase("u");
   for (unsigned age = 0; age < device.delay_samples; ++age)
     loop.force = loop.force + Form{{displacement(age), -loop.stiffness}};
-  if (device.amplifier_lag > 0) {
-    loop.next["w"] = {{"w", 1}};
-    loop.next["lacking"] =
-        loop.force + Form{{"w", -loop.stiffness}} + Rational(-1) * substituted(loop.force, loop.next);
-    loop.states.push_back("lacking");
-  }
+  if (device.amplifier_lag == 0) return loop;
+  loop.next["w"] = {{"w", 1}};
+  loop.next["lacking"] = loop.force + Form{{"w", -loop.stiffness}} + Rational(-1) * substituted(loop.force, loop.next);
+  loop.states.push_back("lacking");
   return loop;
+}
+
+Rational hold_stiffness(const LoopForm& loop, const Device& device) {
+  const std::string drive = displacement(device.delay_samples);
+  Rational sum = loop.stiffness / 2, left = of(loop.force, drive);
+  if (device.amplifier_lag != 0 || loop.stiffness < 0) throw Unknown("the amplifier lags, or the spring pushes");
+  for (std::size_t i = device.delay_samples + 1; i < loop.states.size(); ++i) {
+    const Form& next = loop.next.at(loop.states[i]);
+    const Rational a = of(next, loop.states[i]), d = of(next, drive);
+    if (next.size() != (a == 0 ? 1u : 2u) || a < 0 || a >= 1 || d <= 0 || of(loop.force, loop.states[i]) != 1)
+      throw Unknown("'" + loop.states[i] + "' is not a mode that relaxes and that position alone drives");
+    sum += a == 0 ? d : Rational(d / (a + a * a)), left -= a == 0 ? Rational(0) : Rational(d / a);
+  }
+  return (sum + abs(left)) * (1 + 2 * device.delay_samples);
 }
 
 }  // namespace dashpot_check

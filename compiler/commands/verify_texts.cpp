@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "check/check.hpp"
 #include "compile.hpp"
 #include "linear/reach.hpp"
 #include "source/excerpt.hpp"
@@ -134,6 +135,7 @@ class TextsVerification {
                                            certificate_.device_text, of_one.text());
       compare_certificates(certificate_file_, files_.keep("certificate written again", std::move(again)), diagnostics_);
     }
+    if (!diagnostics_.has_errors() && is_linear && compiled_->certificate.bound.proof != Proof::none) check_apart();
     return count;
   }
 
@@ -149,6 +151,19 @@ class TextsVerification {
   std::string why_uncertified() const { return why_not_certified(compiled_->certificate, network_->port_motion); }
 
  private:
+  // The bound, by code that shares nothing with the compiler, where that knows the law: in the form that decides by
+  // jumps, of which the header has been found to be another one or itself.
+  void check_apart() {
+    const PassivityBound& bound = compiled_->certificate.bound;
+    const bool has_storage = certificate_file_.text().find("\n  \"storage\": null,") == std::string_view::npos;
+    if (compiled_->certificate.loop.motor_slew > 0 || (bound.proof == Proof::sampled && !has_storage)) return;
+    const dashpot_check::Verdict verdict =
+        dashpot_check::verdict(emitted(*compiled_, false).at(0), std::string(certificate_file_.text()));
+    if (!verdict.proved)
+      diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "independent check",
+                                                                 excerpt(verdict.words));
+  }
+
   bool recompile() {
     if (compiled_) return true;
     Diagnostics unheard;

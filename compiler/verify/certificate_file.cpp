@@ -3,6 +3,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <nlohmann/json.hpp>
 
+#include "certify/proved_bound.hpp"
 #include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
@@ -54,7 +55,9 @@ Json json_of(const SampledLoop& loop) {
           {"window", v.window},
           {"order", v.order},
           {"cutoff", v.cutoff},
-          {"acceleration", v.acceleration}};
+          {"acceleration", v.acceleration},
+          {"joint_encoder_step", loop.joint_encoder_step},
+          {"estimator_coefficients", checked_device(loop).estimator_coefficients}};
 }
 
 Json json_of(const Certificate& c) {
@@ -71,6 +74,12 @@ Json json_of(const Certificate& c) {
           {"reason", c.bound.reason},
           {"quantisation_stiffness", c.quantisation_stiffness},
           {"quantisation_gain", c.quantisation_gain ? Json(*c.quantisation_gain) : Json(nullptr)}};
+}
+
+// P of the storage function that proves the needed damping; null where the statement rests on something else.
+Json json_of_storage(const Compilation& c) {
+  const std::optional<StorageProof> proof = storage_of(c.certificate.bound, motor_constants(c.law), c.certificate.loop);
+  return proof ? Json{{"matrix", proof->storage}} : Json(nullptr);
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -140,6 +149,7 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
                     {"constants", constants},
                     {"loop", json_of(c.certificate.loop)},
                     {"passivity", json_of(c.certificate)},
+                    {"storage", json_of_storage(c)},
                     {"energy", json_of(c.certificate.energy)},
                     {"motor_limits", json_of(c.certificate.limits, c.certificate.loop)},
                     {"network_file", network_text},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "certify/proved_bound.hpp"
 #include "certify/quantisation.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
@@ -110,7 +111,7 @@ class Verification {
 
   void recompute_bounds(const PortDevice& device) {
     const SampledLoop loop = sampled_loop(device, 1 / *certificate_.choices.rate);
-    const PassivityBound bound = passivity_bound(motor_of(groups_), loop);
+    const PassivityBound bound = proved_bound(motor_of(groups_), loop);
     const double brake = value_of(groups_, "damping"), added = value_of(groups_, "added_damping");
     const bool is_too_small = is_correctly_rounded(0, Reference(certificate_.damping), header_.scalar);
     const double damping = is_too_small ? 0 : certificate_.damping;

@@ -1,0 +1,19 @@
+// dashpot-check HEADER CERTIFICATE: 0 if what the certificate states is proved, 1 if not, 2 for a wrong command line.
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "check.hpp"
+
+int main(int count, char** words) {
+  if (count != 3) return std::cerr << "dashpot-check HEADER CERTIFICATE\n", 2;
+  std::string texts[2];
+  for (int i : {0, 1}) {
+    std::ifstream file(words[i + 1]);
+    texts[i].assign(std::istreambuf_iterator<char>(file), {});
+    if (!file) return std::cerr << "dashpot-check: cannot read " << words[i + 1] << "\n", 2;
+  }
+  const dashpot_check::Verdict verdict = dashpot_check::verdict(texts[0], texts[1]);
+  std::cout << verdict.words;
+  return verdict.proved ? 0 : 1;
+}

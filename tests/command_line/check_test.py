@@ -1,0 +1,182 @@
+"""`dashpot-check`: what it accepts, and that it accepts nothing false."""
+import cmath
+import json
+import math
+import os
+import random
+import re
+import subprocess
+import unittest
+
+from dashpot_command import FIG_5, PANTOGRAPH, SOURCE, CommandTest
+
+CHECK = os.environ["DASHPOT_CHECK"]
+PAPER = SOURCE / "networks/paper"
+TWENTY = SOURCE / "tests/responses/networks/twenty_branches.json"
+SEED = 20090911
+LONG = os.environ.get("DASHPOT_LONG") == "1"
+
+# Straight and rolled, position and velocity driven, nodal, in single precision by every scheme of the states, on a device
+# with delay, lag, filter and a motor's limit, and by the hold certificate.
+LAWS = [[FIG_5], [PAPER / "bridge.json", "--rate", "3000"], [FIG_5, "--state-input", "velocity"],
+        [FIG_5, "--scalar", "float"], [FIG_5, "--scalar", "float", "--rate", "100000"],
+        [PAPER / "generalised_kelvin_two.json", "--scheme", "backward-euler", "--state-input", "nodal"],
+        [PAPER / "kelvin.json"], [FIG_5, "--decomposition", "virtual", "--state-input", "velocity"],
+        [TWENTY], [TWENTY, "--vector", "avx512"], [TWENTY, "--scalar", "float"],
+        [TWENTY, "--scalar", "float", "--rate", "100000"], [FIG_5, "--device", PANTOGRAPH],
+        [TWENTY, "--device", PANTOGRAPH, "--state-input", "velocity"],
+        [FIG_5, "--device", SOURCE / "runtime/devices/phantom_single_motor.json"]]
+# What has a slip, a contact or a tunable parameter: not linear.
+OTHERS = [PAPER / "visco_elasto_plastic.json", PAPER / "virtual_wall.json", PAPER / "maxwell_slip_ten.json",
+          SOURCE / "networks/tunable/second_order_maxwell_tunable.json", SOURCE / "networks/tissues/needle_in_liver.json"]
+
+# Edits of the code around the constants, each of which makes another law of it or one that is not known.
+CODE = [("position_change = position - last_position_", "position_change = position + last_position_"),
+        ("last_position_ = sampled_position_;", "last_position_ = sampled_position_change_;"),
+        ("return {damping, force};", "return {damping, force + force};"), ("using scalar = double", "using scalar = int"),
+        ("return {damping, force};", ""), ("scalar position, scalar velocity", "scalar velocity, scalar position"),
+        ("unsigned set(const parameters&) noexcept { return 0; }",
+         "unsigned set(const parameters&) noexcept { relaxed_force_ = 1; return 0; }"),
+        ("#pragma once", "#pragma once\n#define position velocity"), ("#pragma once", "#pragma once /* */"),
+        ("  void update() noexcept {", "  void update() noexcept {\n    B2_K2_force_ = 3;"),
+        ("    relaxed_force_ = 0;", "    relaxed_force_ = 7;"), ("scalar relaxed_force_ = 0;", "scalar relaxed_force_ = 2;"),
+        ("scalar last_position_ = 0;", "scalar last_position_ = 0; static inline int more = 0;"),
+        ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 050.0;"),
+        ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 5.0f;"),
+        ("B2_K2_decay, B2_K2_force_,", "B1_K1_decay, B2_K2_force_,")]
+# Edits of a certificate, each of which makes a false statement of it, or a proof of none.
+FALSE = {"less is needed": lambda c: c["passivity"].update(needed_damping=c["passivity"]["needed_damping"] * (1 - 1e-7)),
+         "the hold certificate": lambda c: c["passivity"].update(proof="hold"),
+         "more is assured": lambda c: c["passivity"].update(assured_damping=c["passivity"]["assured_damping"] * (1 + 1e-9)),
+         "no storage function": lambda c: c.update(storage=None),
+         "a shorter period": lambda c: c["loop"].update(sample_period=0.0009),
+         "jitter": lambda c: c["loop"].update(jitter=1e-6), "a lag": lambda c: c["loop"].update(amplifier_lag=1e-5),
+         "a delay": lambda c: c["loop"].update(delay_samples=1), "a filter": lambda c: c["loop"].update(estimator="kalman"),
+         "another rate": lambda c: c["loop"].update(estimator_coefficients=[999.9]),
+         "a row less": lambda c: c["storage"]["matrix"].pop(), "a short row": lambda c: c["storage"]["matrix"][-1].pop(),
+         "a negative P": lambda c: c["storage"]["matrix"][0].__setitem__(0, -1e9)}
+
+
+def largest_need(header):
+    """The largest S(θ) on a grid, of a straight law on an ideal device, from the constants in its text."""
+    constants = {name: float(value) for name, value in re.findall(r"constexpr scalar (\w+) = (\S+);", header)}
+    period, most = constants["sample_period"], 0
+    modes = [name[:-5] for name in constants if name.endswith("_decay")]
+    for i in range(1, 4001):
+        w = cmath.exp(-1j * math.pi * (i / 4000) ** 3)
+        answer = constants.get("step_stiffness", 0) + constants.get("velocity_gain", 0) / period
+        for mode in modes:
+            drive = constants.get(mode + "gain", 0) + constants.get(mode + "velocity_drive", 0) / period
+            answer += drive * w / (1 - constants[mode + "decay"] * w)
+        most = max(most, period * (constants.get("static_stiffness", 0) / 2 - (w * answer).real))
+    return most
+
+
+class CheckTest(CommandTest):
+    def compiled(self, arguments):
+        self.dashpot("compile", *arguments, "--certificate", "law.json", "--uncertified")
+        header = next(self.folder.glob("*.hpp"))
+        text = header.read_text()
+        header.unlink()
+        return text, json.loads((self.folder / "law.json").read_text())
+
+    def said(self, header, certificate):
+        files = [self.write("checked/law.hpp", header), self.write("checked/law.json", json.dumps(certificate))]
+        done = subprocess.run([CHECK, *files], capture_output=True, text=True, timeout=60)
+        self.assertIn(done.returncode, (0, 1), done.stderr)
+        self.assertRegex(done.stdout, "^not proved here: " if done.returncode else "^proved: with a damping of ")
+        return done.returncode == 0, done.stdout
+
+    def accepts(self, header, certificate):
+        return self.said(header, certificate)[0]
+
+    # A law of a form that the compiler writes would not be proved by the program that shares nothing with it.
+    def test_every_form(self):
+        for law in LAWS:
+            with self.subTest(law=law):
+                accepted, words = self.said(*self.compiled(law))
+                self.assertTrue(accepted, words)
+
+    # A header that is committed would be refused, or one with slips, contacts or tunables taken for a linear law.
+    def test_committed_headers(self):
+        networks = sorted([*PAPER.glob("*.json"), *(SOURCE / "networks/tissues").glob("*.json")])
+        self.assertGreater(len(networks), 20)
+        for network in networks:
+            with self.subTest(network=network.name):
+                header, certificate = self.compiled([network])
+                committed = SOURCE / "generated" / network.parent.name / f"{network.stem}.hpp"
+                if committed.exists(): self.assertEqual(header, committed.read_text())
+                is_linear = not certificate["passivity"]["any_regime"]
+                self.assertEqual(self.accepts(header, certificate), is_linear)
+        for network in OTHERS:
+            self.assertFalse(self.accepts(*self.compiled([network])), network)
+
+    # The README would claim fewer lines than have to be believed, or the checker would include something of the compiler.
+    def test_size_and_independence(self):
+        files = sorted((SOURCE / "compiler/check").iterdir())
+        self.assertIn(f"{sum(len(file.read_text().splitlines()) for file in files)} lines in `compiler/check/`",
+                      (SOURCE / "README.md").read_text())
+        for file in files:
+            included = re.findall(r'#include ["<](\S+)[">]', file.read_text())
+            self.assertTrue(all(name == "check.hpp" or name.startswith(("boost/multiprecision/", "nlohmann/")) or "." not in name
+                                for name in included), (file, included))
+
+    # What is no header or no certificate would be proved, or a file that is not there.
+    def test_other_files(self):
+        header, certificate = self.compiled([FIG_5])
+        for text in ("", "int main() {}", header[:len(header) // 2], header + header):
+            self.assertFalse(self.accepts(text, certificate))
+        for other in ({}, [], None, {"passivity": {}, "storage": {}, "loop": {}}):
+            self.assertFalse(self.accepts(header, other))
+        for files in ([], ["a", "b", "c"], ["missing.hpp", "missing.json"]):
+            self.assertEqual(subprocess.run([CHECK, *files], capture_output=True, cwd=self.folder).returncode, 2)
+
+    # Less damping than is proved would be proved, or another loop, or code that does something else.
+    def test_false_statements(self):
+        header, certificate = self.compiled([FIG_5])
+        self.assertTrue(self.accepts(header, certificate))
+        for what, edit in FALSE.items():
+            edited = json.loads(json.dumps(certificate))
+            edit(edited)
+            self.assertFalse(self.accepts(header, edited), what)
+        for old, new in CODE:
+            self.assertIn(old, header)
+            self.assertFalse(self.accepts(header.replace(old, new, 1), certificate), new)
+
+    # A law that lacks damping on its device would pass for one that has it.
+    def test_lacking_damping(self):
+        header, certificate = self.compiled([FIG_5, "--device", SOURCE / "runtime/devices/phantom_single_motor.json"])
+        self.assertIn("not proved: that as much damping is there", self.said(header, certificate)[1])
+        certificate["passivity"]["certified"] = True
+        self.assertFalse(self.accepts(header, certificate))
+        certificate["passivity"].update(certified=False, minimum_damping=certificate["passivity"]["minimum_damping"] * 0.999)
+        self.assertFalse(self.accepts(header, certificate))
+
+    # An edited number, by an ulp or by a lot, would be accepted though more damping is needed than is stated.
+    def test_edited_numbers(self):
+        chance = random.Random(SEED)
+        header, certificate = self.compiled([FIG_5])
+        places = [m for m in re.finditer(r"constexpr scalar (?!damping|threshold|added|half)\w+ = (-?[\d.e-]+);", header)
+                  if "weight" not in m[0]]
+        accepted = 0
+        for _ in range(1000 if LONG else 60):
+            edited, stated = header, json.loads(json.dumps(certificate))
+            if chance.random() < 0.6:
+                place = chance.choice(places)
+                value = float(place[1])
+                other = value * (1 + chance.choice((-1, 1)) * 10 ** chance.uniform(-12, 0))
+                if chance.random() < 0.5: other = math.nextafter(value, chance.choice((-1, 1)) * math.inf)
+                edited = header[:place.start(1)] + repr(other) + header[place.end(1):]
+            else:
+                row = chance.choice(stated["storage"]["matrix"])
+                place = chance.randrange(len(row))
+                other = row[place] * (1 + chance.uniform(-1, 1) * 10 ** chance.uniform(-12, 0))
+                row[place] = math.nextafter(row[place], math.inf) if chance.random() < 0.5 else other
+            if self.accepts(edited, stated):
+                accepted += 1
+                self.assertLessEqual(largest_need(edited), stated["passivity"]["needed_damping"], (SEED, edited))
+        self.assertGreater(accepted, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -17,13 +17,20 @@ std::string listed(const std::vector<std::string>& names) {
   return text.empty() ? "–" : text;
 }
 
+// Names break behind their underscores, where a page is narrow.
+std::string breakable(const std::string& names) {
+  std::string html;
+  for (const char c : escaped(names)) html += c == '_' ? "_<wbr>" : std::string(1, c);
+  return html;
+}
+
 std::string row(const ComponentSplit& split, std::size_t i, const Network& network) {
   const Regime& regime = split.regimes.regimes[i];
   const BrakeShare& share = split.shares[i];
   return fmt::format(
       "<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-      escaped(listed(slip_names(split.regimes, regime, true, network))),
-      escaped(listed(slip_names(split.regimes, regime, false, network))), number_text(share.damping),
+      breakable(listed(slip_names(split.regimes, regime, true, network))),
+      breakable(listed(slip_names(split.regimes, regime, false, network))), number_text(share.damping),
       number_text(to_double(regime.feedthrough())), number_text(share.compensation),
       number_text(to_double(regime.form.static_stiffness)));
 }

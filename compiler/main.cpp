@@ -301,6 +301,8 @@ void describe(CLI::App& app, CommandLine& line) {
       ->add_option("--certificate", options.certificate,
                    "Also write what is proved, with all that is needed to check it")
       ->option_text("FILE.json");
+  compile->add_option("--proof", options.proof, "Also write what is proved as a theorem that Coq checks")
+      ->option_text("FILE.v");
   compile->add_option("--depfile", options.depfile, "Also write a makefile of what the output depends on")
       ->option_text("FILE");
   compile->add_option("--timings", options.timings, "Say on standard error what each stage took")

@@ -50,6 +50,7 @@ struct Options {
   std::optional<std::string> timings;  // compile: "text" or "json"
   std::optional<std::string> depfile;
   std::optional<std::string> certificate;  // compile: to write; verify: to read
+  std::optional<std::string> proof;        // compile: to write, for Coq
   std::string header;                      // verify
   EmissionOptions emission;
   bool uncertified = false;           // compile: also what lacks damping on its device

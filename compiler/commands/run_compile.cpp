@@ -2,6 +2,7 @@
 #include <iostream>
 #include <utility>
 
+#include "certify/storage_instance.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "compile.hpp"
@@ -98,18 +99,27 @@ bool target_has_all(const Options& options, Diagnostics& diagnostics) {
   return all;
 }
 
+std::string proof_text(const Compilation& c, const std::string& file, Diagnostics& diagnostics) {
+  const std::optional<std::string> text =
+      coq_instance(c.network.name, c.certificate.bound, motor_constants(c.law), c.certificate.loop);
+  if (!text)
+    diagnostics.report<DiagnosticCode::cannot_write_file>({}, file,
+                                                          "no storage function is found for '" + c.network.name + "'");
+  return text.value_or("");
+}
+
 ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& diagnostics, StageTimes& times) {
   if (!target_has_all(options, diagnostics)) return ExitStatus::command_line_wrong;
   times.enter("files");
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   std::vector<OutputFile> outputs;
-  std::string shown, certificate;
+  std::string shown, certificate, proof;
   if (options.name && options.networks.size() > 1) {
     diagnostics.report<DiagnosticCode::name_of_several>({}, options.networks.size());
     return ExitStatus::command_line_wrong;
   }
-  if (options.certificate && options.networks.size() > 1) {
+  if ((options.certificate || options.proof) && options.networks.size() > 1) {
     diagnostics.report<DiagnosticCode::certificate_of_several>({}, options.networks.size());
     return ExitStatus::command_line_wrong;
   }
@@ -129,6 +139,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);
+      if (options.proof) proof = proof_text(*compilation, *options.proof, diagnostics);
     }
   }
   times.enter("files");
@@ -136,6 +147,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   if (options.print) return write_standard_output(shown, diagnostics);
   std::vector<OutputFile> all = placed(std::move(outputs), options);
   if (options.certificate) all.push_back({*options.certificate, certificate});
+  if (options.proof) all.push_back({*options.proof, proof});
   report_same_names(all, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (!spares_inputs(options, all, diagnostics)) return ExitStatus::command_line_wrong;

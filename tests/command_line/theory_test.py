@@ -1,11 +1,13 @@
-"""The theorem behind the storage functions of sampled loops, in Coq."""
+"""The theorem behind the storage functions of sampled loops, in Coq, and instances of it: `compile --proof`."""
 import re
 import subprocess
 import unittest
 
-from dashpot_command import SOURCE, CommandTest
+from dashpot_command import COMMAND_LINE_WRONG, FIG_5, PANTOGRAPH, SOURCE, CommandTest
 
 THEORY = SOURCE / "compiler/certify/proof"
+# Without lag by both inputs of the states, and with delay, lag and filter.
+LAWS = [[FIG_5], [SOURCE / "networks/paper/bridge.json", "--state-input", "velocity"], [FIG_5, "--device", PANTOGRAPH]]
 # Of Coq's real numbers, and no others.
 AXIOMS = {"ClassicalDedekindReals.sig_forall_dec", "ClassicalDedekindReals.sig_not_dec",
           "FunctionalExtensionality.functional_extensionality_dep"}
@@ -27,12 +29,30 @@ class TheoryTest(CommandTest):
         self.assertTrue(found)
         self.assertLessEqual(found, axioms)
 
-    # The theorem would not be proved, or rest on more than it is said to.
-    def test_theory(self):
+    # The theorem would not be proved, or rest on more than it is said to; a law's instance would not be accepted, or one
+    # with a hundred-thousandth less damping would be.
+    def test_theory_and_instances(self):
         for name in ("Forms.v", "Loop.v", "Hold.v"):
             self.coqc(name, (THEORY / name).read_text())
         self.assert_no_more_axioms(self.coqc("Certificates.v", CERTIFICATES), AXIOMS)
         self.assert_no_more_axioms(self.coqc("Holds.v", HOLDS), INTEGRALS)
+        for number, law in enumerate(LAWS):
+            with self.subTest(law=law):
+                self.dashpot("compile", *law, "--proof", "law.v")
+                text = (self.folder / "law.v").read_text()
+                self.assert_no_more_axioms(self.coqc(f"Law{number}.v", text), AXIOMS)
+                if number > 0: continue
+                lowered = re.sub(r"beta := (\d+)", lambda beta: f"beta := {int(beta[1]) * 99999 // 100000}", text)
+                self.assertNotEqual(lowered, text)
+                self.coqc("Lowered.v", lowered, accepted=False)
+
+    # A law without a storage function would leave an empty proof behind.
+    def test_nothing_to_prove(self):
+        self.refused("compile", SOURCE / "networks/paper/visco_elasto_plastic.json", "--proof", "law.v",
+                     code="cannot-write-file")
+        self.refused("compile", FIG_5, SOURCE / "networks/paper/kelvin.json", "--proof", "law.v",
+                     code="certificate-of-several", status=COMMAND_LINE_WRONG)
+        self.assertEqual(self.files(), [])
 
 
 if __name__ == "__main__":

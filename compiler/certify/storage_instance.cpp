@@ -1,0 +1,230 @@
+#include "certify/storage_instance.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "linear/real.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using dashpot_check::Integer;
+using IntegerMatrix = dashpot_check::Matrix;
+using RationalMatrix = std::vector<std::vector<Rational>>;
+
+std::string list_of(const std::vector<std::string>& items) { return fmt::format("[{}]", fmt::join(items, "; ")); }
+
+std::string row_text(const std::vector<Integer>& row) {
+  std::vector<std::string> items;
+  for (const Integer& value : row) items.push_back(value.str());
+  return list_of(items);
+}
+
+std::string rows_text(const IntegerMatrix& rows) {
+  std::vector<std::string> items;
+  for (const std::vector<Integer>& row : rows) items.push_back(row_text(row));
+  return list_of(items);
+}
+
+// Every diagonal entry with what is right of it.
+std::string form_text(const IntegerMatrix& form) {
+  std::vector<std::string> items;
+  for (std::size_t i = 0; i < form.size(); ++i)
+    items.push_back(
+        fmt::format("({}, {})", form[i][i].str(), row_text({form[i].begin() + std::ptrdiff_t(i) + 1, form[i].end()})));
+  return list_of(items);
+}
+
+unsigned digits_of(const RationalMatrix& matrix) {
+  unsigned digits = 0;
+  for (const auto& row : matrix)
+    for (const Rational& value : row) digits = std::max(digits, unsigned(msb(Integer(denominator(value)))));
+  return digits;
+}
+
+Integer scaled(const Rational& value, unsigned digits) { return (numerator(value) << digits) / denominator(value); }
+
+IntegerMatrix scaled(const RationalMatrix& matrix, unsigned digits) {
+  IntegerMatrix result;
+  for (const auto& row : matrix) {
+    result.emplace_back();
+    for (const Rational& value : row) result.back().push_back(scaled(value, digits));
+  }
+  return result;
+}
+
+Rational power_of_two(int exponent) {
+  return exponent >= 0 ? Rational(Integer(1) << exponent) : Rational(1, Integer(1) << -exponent);
+}
+
+// Columns of L and k with M − k L Lᵀ diagonally dominant, tried with smaller and smaller margins.
+std::optional<std::string> witness(const IntegerMatrix& M) {
+  const std::size_t n = M.size();
+  Integer largest = 0;
+  for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, M[i][i]);
+  if (largest == 0) return "([], 1%positive)";
+  constexpr int fraction = 160;  // of the binary digits of Real
+  const int exponent = std::max(0, int(msb(largest)) / 2 - fraction);
+  const Integer k = Integer(1) << (2 * exponent);
+  std::vector<std::vector<Real>> unit(n, std::vector<Real>(n));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) unit[i][j] = Real(M[i][j]) / Real(k);
+  for (int margin = 20; margin <= 120; margin += 4) {
+    std::vector<std::vector<Real>> L(n, std::vector<Real>(n, Real(0)));
+    bool runs = true;
+    for (std::size_t i = 0; runs && i < n; ++i)
+      for (std::size_t j = 0; runs && j <= i; ++j) {
+        Real sum = unit[i][j] * (i == j ? 1 - std::ldexp(1.0, -margin) : 1);
+        for (std::size_t q = 0; q < j; ++q) sum -= L[i][q] * L[j][q];
+        if (unit[j][j] == 0) continue;
+        runs = i != j || sum > 0;
+        L[i][j] = i == j ? Real(sqrt(sum)) : Real(sum / L[j][j]);
+      }
+    if (!runs) continue;
+    IntegerMatrix columns(n, std::vector<Integer>(n));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j) columns[j][i] = Integer(round(L[i][j]));
+    bool dominant = true;
+    for (std::size_t i = 0; i < n && dominant; ++i) {
+      Integer off = 0, own = 0;
+      for (std::size_t j = 0; j < n; ++j) {
+        Integer rest = M[i][j];
+        for (std::size_t q = 0; q < n; ++q) rest -= k * columns[q][i] * columns[q][j];
+        (i == j ? own : off) += i == j ? rest : abs(rest);
+      }
+      dominant = own >= off;
+    }
+    if (dominant) return fmt::format("({}, {}%positive)", rows_text(columns), k.str());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+namespace {
+
+std::optional<std::string> coq_instance(const std::string& name, const dashpot_check::LoopForm& loop,
+                                        const dashpot_check::Device& device, const StorageProof& proof) {
+  const std::size_t n = loop.states.size();
+  const std::vector<dashpot_check::Hold> holds = dashpot_check::holds(device);
+  const bool lags = device.amplifier_lag > 0;
+  const std::size_t corners = lags ? 4 : 1;  // of each part of the holds
+  const Rational stiffest = Rational(proof.damping) / holds.back().longest;
+  // States in units in which P has a diagonal like that of b/T.
+  std::vector<int> unit(n);
+  const double middle = stiffest.convert_to<double>();
+  for (std::size_t i = 0; i < n; ++i) {
+    const double own = proof.storage[i][i];
+    unit[i] = own > 0 && middle > 0 ? int(std::lround(std::log2(middle / own) / 2)) : 0;
+  }
+  RationalMatrix P(n, std::vector<Rational>(n));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j <= i; ++j)
+      P[i][j] = P[j][i] = Rational(proof.storage[i][j]) * power_of_two(unit[i] + unit[j]);
+  std::map<std::string, std::size_t> place = {{"w", n}};
+  for (std::size_t i = 0; i < n; ++i) place[loop.states[i]] = i;
+  const auto recursion = [&](const Rational& decay) {
+    RationalMatrix A(n, std::vector<Rational>(n + 1));
+    for (std::size_t i = 0; i < n; ++i)
+      for (const auto& [state, value] : loop.next.at(loop.states[i]))
+        A[i][place.at(state)] = value * power_of_two((place.at(state) < n ? unit[place.at(state)] : 0) - unit[i]);
+    if (lags) A[n - 1][n - 1] += decay;
+    return A;
+  };
+  const auto answer = [&](const Rational& share) {
+    RationalMatrix C(1, std::vector<Rational>(n));
+    for (const auto& [state, value] : loop.force) C[0][place.at(state)] = value * power_of_two(unit[place.at(state)]);
+    if (lags) C[0][n - 1] += share * power_of_two(unit[n - 1]);
+    return C;
+  };
+  RationalMatrix E(1, std::vector<Rational>(lags ? n : 0));
+  if (lags) E[0][n - 1] = power_of_two(unit[n - 1]);
+  unsigned A_digits = 0, S_digits = std::max(digits_of(E), 200u);
+  for (const dashpot_check::Hold& hold : holds) {
+    A_digits = std::max(A_digits, digits_of(recursion(hold.decay)));
+    S_digits = std::max(S_digits, digits_of(answer(hold.share)));
+  }
+  const unsigned P_digits = digits_of(P) + 200;  // so that whole numbers are fine enough for L
+  const IntegerMatrix stored = scaled(P, P_digits);
+  const std::vector<Integer> lacking = lags ? scaled(E, S_digits)[0] : std::vector<Integer>(n);
+  const Integer stiffness = scaled(loop.stiffness, S_digits);
+  // 2 eA² eP eS (what goes in + V − V⁺), as Loop.v has it
+  const auto balance = [&](const IntegerMatrix& A, const std::vector<Integer>& C, const Integer& beta,
+                           const Integer& gamma) {
+    const Integer s = Integer(1) << (2 * A_digits + P_digits);
+    IntegerMatrix M(n + 2, std::vector<Integer>(n + 2)), PA(n, std::vector<Integer>(n + 1));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t j = 0; j <= n; ++j)
+          if (A[k][j] != 0) PA[i][j] += stored[i][k] * A[k][j];
+    for (std::size_t i = 0; i <= n; ++i)
+      for (std::size_t j = 0; j <= n; ++j) {
+        Integer sum = i < n && j < n ? Integer(stored[i][j] << (2 * A_digits)) : Integer(0);
+        for (std::size_t k = 0; k < n; ++k)
+          if (A[k][i] != 0) sum -= A[k][i] * PA[k][j];
+        M[i][j] = sum << (S_digits + 1);
+      }
+    for (std::size_t i = 0; i < n; ++i) {
+      M[i][n] += s * C[i], M[n][i] += s * C[i];
+      M[i][n + 1] += s * lacking[i], M[n + 1][i] += s * lacking[i];
+    }
+    M[n][n] += s * (2 * beta - stiffness);
+    M[n + 1][n + 1] += s * 2 * gamma;
+    return M;
+  };
+  const std::optional<std::string> of_P = witness(stored);
+  std::vector<std::string> part_texts, witness_texts;
+  for (std::size_t part = 0; part < holds.size(); part += corners) {
+    const dashpot_check::Hold &first = holds[part], &last = holds[part + corners - 1];
+    const Integer beta = scaled(Rational(proof.damping) / first.longest, S_digits);
+    const Integer gamma = lags ? scaled(Rational(proof.damping) / first.longest / first.spread, S_digits) : Integer(0);
+    std::vector<std::string> witnesses;
+    for (std::size_t corner = part; corner < part + corners; ++corner) {
+      const auto found = witness(balance(scaled(recursion(holds[corner].decay), A_digits),
+                                         scaled(answer(holds[corner].share), S_digits)[0], beta, gamma));
+      if (!found) return std::nullopt;
+      witnesses.push_back(*found);
+    }
+    witness_texts.push_back(list_of(witnesses));
+    part_texts.push_back(fmt::format(
+        "{{| A1 := {};\n     A2 := {};\n     C1 := {};\n     C2 := {};\n     beta := {}; gamma := {} |}}",
+        rows_text(scaled(recursion(first.decay), A_digits)), rows_text(scaled(recursion(last.decay), A_digits)),
+        row_text(scaled(answer(first.share), S_digits)[0]), row_text(scaled(answer(last.share), S_digits)[0]),
+        beta.str(), gamma.str()));
+  }
+  if (!of_P) return std::nullopt;
+  const auto power = [](unsigned digits) { return (Integer(1) << digits).str(); };
+  return fmt::format(
+      "(* '{}': whatever the tool does, no energy is taken out of the loop with {} N.s/m of damping (N.m.s/rad of a\n"
+      "   rotation) at holds of up to {} s. Written by dashpot; accepted by coqc -R compiler/certify/proof Dashpot. "
+      "*)\n"
+      "Require Import ZArith List Reals Forms Loop.\nImport ListNotations.\nLocal Open Scope Z_scope.\n\n"
+      "Definition law : loop := {{|\n  states := {}; E := {}; k0 := {};\n  P := {};\n  eP := {}; eA := {}; eS := {};\n"
+      "  parts := {} |}}.\nDefinition of_P : witness := {}.\nDefinition of_parts : list (list witness) := {}.\n\n"
+      "Theorem law_is_sound : sound law.\n"
+      "Proof. apply (sound_if_accepted law of_P of_parts). vm_cast_no_check (eq_refl true). Qed.\n"
+      "Theorem nothing_is_extracted_from_this_law : forall holds, Forall (is_motion law) holds ->\n"
+      "  (0 <= work law 0 (repeat 0 (states law)) holds)%R.\n"
+      "Proof. exact (nothing_is_extracted law law_is_sound). Qed.\nPrint Assumptions "
+      "nothing_is_extracted_from_this_law.\n",
+      name, proof.damping, holds.back().longest.convert_to<double>(), n,
+      row_text(lags ? lacking : std::vector<Integer>{}), stiffness.str(), form_text(stored), power(P_digits),
+      power(A_digits), power(S_digits), list_of(part_texts), *of_P, list_of(witness_texts));
+}
+
+}  // namespace
+
+std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
+                                        const std::optional<MotorConstants>& motor, SampledLoop loop) {
+  if (!motor || bound.proof == Proof::none || loop.motor_slew > 0) return std::nullopt;
+  std::optional<StorageProof> proof = storage_of(bound, motor, loop);
+  if (bound.constant_period_only) loop.jitter = 0;
+  if (!proof && bound.proof == Proof::hold) proof = storage_proof(*motor, loop);
+  if (!proof) return std::nullopt;
+  const dashpot_check::Device device = checked_device(loop);
+  return coq_instance(name, dashpot_check::loop_form(checked_program(*motor), device), device, *proof);
+}
+
+}  // namespace dashpot::compiler

@@ -264,6 +264,15 @@ class StorageSearch {
   double supremum_ = 0, angle_ = 0;
 };
 
+// Empty where the estimator's coefficients, as rounded, are not what the checker derives.
+std::optional<checker::LoopForm> loop_form_of(const MotorConstants& motor, const checker::Device& device) {
+  try {
+    return checker::loop_form(checked_program(motor), device);
+  } catch (const checker::Unknown&) {
+    return std::nullopt;
+  }
+}
+
 // As near above the supremum as one of the steps allows.
 std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::size_t states) {
   for (double slack = 4e-9; slack < 0.1; slack *= 10) {
@@ -350,7 +359,9 @@ std::optional<StorageProof> storage_proof(const MotorConstants& motor, const Sam
       motor.follows_estimate() ? estimator_factors(loop) : EstimatorFactors{};
   if (!factors) return std::nullopt;
   const checker::Device device = checked_device(loop);
-  const checker::LoopForm form = checker::loop_form(checked_program(motor), device);
+  const std::optional<checker::LoopForm> known = loop_form_of(motor, device);
+  if (!known) return std::nullopt;
+  const checker::LoopForm& form = *known;
   const std::size_t n = form.states.size();
   if (n > most_storage_states) return std::nullopt;
   if (form.force.empty() && form.stiffness == 0) {

@@ -18,9 +18,9 @@ Form substituted(const Form& form, const std::map<std::string, Form>& values) {
 // are those of the certificate, which must be what the description says, to the rounding of doubles.
 Form estimate(const Device& device, LoopForm& loop) {
   std::size_t at = 0;
-  const auto coefficient = [&](long double derived) {
+  const auto coefficient = [&](long double derived, long double off = 1e-13L) {
     const double given = device.estimator_coefficients.at(at++);
-    if (!(std::fabs(given - derived) <= 1e-13L * std::fabs(derived)))
+    if (!(std::fabs(given - derived) <= off * std::fabs(derived)))
       throw Unknown("a coefficient of the estimator is not what its description gives");
     return Rational(given);
   };
@@ -32,7 +32,8 @@ Form estimate(const Device& device, LoopForm& loop) {
   const Form arriving = loop.next.at(displacement(device.delay_samples));
   if (device.estimator == "butterworth") {  // sections of two trapezoidal integrators
     const unsigned order = device.order < 4 ? 2 : 4;
-    const long double turn = std::numbers::pi_v<long double>, warped = std::tan(turn * device.cutoff * T);
+    const long double turn = std::numbers::pi_v<long double>,
+                      warped = std::tan(turn * (device.cutoff * device.sample_period));
     Form value = coefficient(1 / T) * arriving;
     const Rational g = coefficient(warped);
     for (unsigned i = 0; i < order / 2; ++i) {
@@ -48,7 +49,8 @@ Form estimate(const Device& device, LoopForm& loop) {
   if (device.estimator == "kalman") {  // e ← Δ + r² e − T v̂, v̂ ← v̂ + (β/T) e
     const long double L = device.acceleration * T * T * std::sqrt(12.0L) / device.joint_encoder_step;
     const long double r = 4 / (4 + L + std::sqrt(8 * L + L * L));
-    const Rational period = coefficient(T), leak = coefficient(r * r), gain = coefficient(2 * (1 - r) * (1 - r) / T);
+    const Rational period = coefficient(T), leak = coefficient(r * r),
+                   gain = coefficient(2 * (1 - r) * (1 - r) / T, 1e-14L / (1 - r));
     const Form innovation = arriving + Form{{"innovation", leak}, {"estimate", -period}};
     return keep("innovation", innovation), keep("estimate", Form{{"estimate", 1}} + gain * innovation);
   }
@@ -69,7 +71,7 @@ Form estimate(const Device& device, LoopForm& loop) {
 
 LoopForm loop_form(Program program, const Device& device) {
   for (auto at = program.next.begin(); at != program.next.end();) {  // what stays at zero is left out
-    if (!at->second.empty() && at->second != Form{{at->first, 1}}) {
+    if (at->second.size() != at->second.count(at->first)) {
       ++at;
       continue;
     }

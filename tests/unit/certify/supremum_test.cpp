@@ -4,6 +4,7 @@
 
 #include <dashpot/estimators/kalman.hpp>
 
+#include "certify/storage_function.hpp"
 #include "linear/real.hpp"
 #include "motors.hpp"
 #include "support/random.hpp"
@@ -156,6 +157,29 @@ TEST(Supremum, IsMetByRandomMotorsToTheEndsOfTheirRanges) {
     expect_supremum_of(motor, loop, 120);
     if (::testing::Test::HasFailure() && seed > 20) return;
   }
+}
+
+// A storage function would prove less damping than some frequency needs, or the statement ask for more than 1e-8 beyond
+// it.
+TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) {
+  const std::uint64_t cases = repetitions(60, 5000);
+  std::uint64_t proved = 0, nearly = 0;
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed + 17000);
+    const SampledLoop loop = extreme_loop(random);
+    const MotorConstants motor = extreme_motor(random, loop.sample_period);
+    const std::optional<StorageProof> proof = estimator_factors(loop) ? storage_proof(motor, loop) : std::nullopt;
+    if (!proof) continue;
+    ++proved;
+    const Real most = highest_in_digits(motor, loop, 120);
+    EXPECT_GE(Real(proof->damping), most);
+    nearly += proof->damping <= most * (1 + 1e-8) ? 1 : 0;
+  }
+  RecordProperty("proved", int(proved));
+  RecordProperty("within 1e-8", int(nearly));
+  EXPECT_GE(proved, cases * 9 / 10);
+  EXPECT_GE(nearly, proved * 9 / 10);
 }
 
 // A pole of the filter next to −1 would keep no digits, and the bound fall below the supremum.

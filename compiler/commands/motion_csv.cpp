@@ -1,6 +1,7 @@
 #include "commands/motion_csv.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "commands/motion_cell.hpp"
@@ -80,8 +81,10 @@ class CsvTable {
     std::vector<Cell> first;
     std::size_t behind_first = 0;
     for (std::size_t i = 0; i < head_lines; ++i) {
-      const std::vector<Cell> line = names_in(next_line());
-      if (line.empty()) break;
+      const Cell text = next_line();
+      if (text.text.empty()) break;
+      const std::vector<Cell> line = names_in(text);
+      if (line.empty()) continue;  // the sign of a comment alone
       if (first.empty()) first = line, behind_first = place_;
       if (is_header(line)) return line;
     }
@@ -187,6 +190,7 @@ class CsvTable {
     if (!value && !failed_) report_cell(cell.span, name, diagnostics_);
     failed_ |= !value;
     values.push_back(value.value_or(0) * column.factor);
+    if (!std::isfinite(values.back()) && !failed_) fail<DiagnosticCode::number_too_large>(cell.span, cell.text);
   }
 
   // "0,5" where decimals stand behind a comma; nothing that is a number where a point stands too.

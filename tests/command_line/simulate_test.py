@@ -210,7 +210,7 @@ class Table(SimulateTest):
         lines = {"time [ms],position [mm]": ",", "t [ms];x_mm": ";", "elapsed time/ms\tdepth (mm)": "\t", "# t[ms] disp[mm]": " "}
         for header, separator in lines.items():
             text = header + "\n" + "".join(f"{t}{separator}{u}\n" for t, u in rows)
-            for before in ["", "rig no. 3\nby hand, twice\n"]:
+            for before in ["", "#\n# rig no. 3\nby hand, twice\n"]:
                 found = self.simulated("kelvin.json", before + text)
                 self.assertEqual([row["position"] for row in found], [row["position"] for row in plain], header)
                 self.assertEqual([row["force"] for row in found], [row["force"] for row in plain], header)
@@ -218,6 +218,7 @@ class Table(SimulateTest):
         self.assertEqual([row["force"] for row in found], [row["force"] for row in plain])
         slow = self.simulated("kelvin.json", table([(n, 0, 60) for n in range(3)], "time [ms],position [mm],velocity [mm/min]"))
         self.assertEqual(slow[0]["velocity"], 60 * (1 / 60000))
+        self.refuses(table([(0, "1e308")], "time,position [Tm]"), "number-too-large")
         self.refuses(table([(0, 0)], "time,position [N]"), "csv-missing-column")
         self.refuses(table([(0, 0)], "time [mm],position"), "csv-missing-column")
         told = self.refuses(table([(0, 0), (0.001, 1)], "time,position [deg]"), "csv-other-motion").stderr

@@ -12,7 +12,10 @@ function motion_of_csv(text, live) {
   const bad = table.rows.findIndex((row) => row.length !== width);
   if (bad >= 0) throw new Error(`row ${table.lines[bad]} has ${table.rows[bad].length} fields; the header has ${width}`);
   const values = (place, name) => Float64Array.from(table.rows, (row, i) => number(row[place], name, table.lines[i], table.dialect));
-  const in_si = (role) => values(columns[role].place, role).map((value) => value * columns[role].factor);
+  const in_si = (role) => values(columns[role].place, role).map((value, i) => {
+    if (!isFinite(value * columns[role].factor)) throw new Error(`row ${table.lines[i]}: ${role} is too large`);
+    return value * columns[role].factor;
+  });
   const time = in_si('time'), position = in_si('position'), velocity = columns.velocity ? in_si('velocity') : null;
   const recorded = { time, position, velocity, values: recorded_values(table, values, live.tunables) };
   if (time.length < 2) return recorded;

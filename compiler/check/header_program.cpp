@@ -21,8 +21,9 @@ const std::regex frame(
     R"(#pragma once (#include <dashpot/\w+\.hpp> )+namespace dashpot::generated \{ class \w+ \{ public: |private: |)"
     R"(using scalar = (double|float); |struct certified_for \{ |struct parameters \{\}; |int \w+_turn_ = 0; |\}; |\} |)"
     R"(bool |static constexpr (bool|dashpot::motion|const char\*) \w+ = [^;{}]*; |)"
-    R"(void reset\(scalar position = 0\) noexcept \{ last_position_ = dashpot::all_finite\(position, position, position\) )"
-    R"(\? position : 0; (\w+_ = 0; |clear\(\w+_\); )*\} |unsigned set\(const parameters&\) noexcept \{ return 0; \} |)"
+    R"(void reset\(scalar position = 0\) noexcept \{ (static_cast<void>\(position\); |last_position_ = )"
+    R"(dashpot::all_finite\(position, position, position\) \? position : 0; )(\w+_ = 0; |clear\(\w+_\); )*\} |)"
+    R"(unsigned set\(const parameters&\) noexcept \{ return 0; \} |)"
     R"(scalar kept_share\(\) const noexcept \{ [^{}]*\} |)"
     R"(template <int size> static void clear\(volatile scalar \(&states\)\[size\]\) noexcept \{ )"
     R"(for \(int i = 0; i < size; \+\+i\) states\[i\] = 0; \} )");

@@ -22,6 +22,7 @@ LAWS = [[FIG_5], [PAPER / "bridge.json", "--rate", "3000"], [FIG_5, "--state-inp
         [FIG_5, "--scalar", "float"], [FIG_5, "--scalar", "float", "--rate", "100000"],
         [PAPER / "generalised_kelvin_two.json", "--scheme", "backward-euler", "--state-input", "nodal"],
         [PAPER / "kelvin.json"], [FIG_5, "--decomposition", "virtual", "--state-input", "velocity"],
+        [PAPER / "maxwell_damper_at_tool.json", "--state-input", "velocity"],
         [TWENTY], [TWENTY, "--vector", "avx512"], [TWENTY, "--scalar", "float"],
         [TWENTY, "--scalar", "float", "--rate", "100000"], [FIG_5, "--device", PANTOGRAPH],
         [TWENTY, "--device", PANTOGRAPH, "--state-input", "velocity"],

@@ -69,6 +69,13 @@ void settle_choice(Compilation& c, const Network& present, const Choices& choice
   c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
 }
 
+Beside what_is_beside_slips(const NormalForm& form) {
+  if (!form.has_slips()) return Beside::no_slips;
+  const LinearForm& linear = form.linear;
+  const bool is_there = linear.static_stiffness > 0 || linear.feedthrough_damping > 0 || !linear.modes.empty();
+  return is_there ? Beside::linear : Beside::nothing;
+}
+
 // The error of the law as it is, with the damping that the certificate has added.
 void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
   if (device.is_ideal()) return;
@@ -77,7 +84,8 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
   choice.largest_error = settler.largest_error(choice, c.certificate.added_damping);
   c.decomposition.in_words =
       choice_in_words(c.decomposition, port_units(c.network.port_motion), device.max_damping().value_or(0),
-                      to_double(zero_frequency_damping(c.form.linear)), to_double(c.form.linear.feedthrough_damping));
+                      to_double(zero_frequency_damping(c.form.linear)), to_double(c.form.linear.feedthrough_damping),
+                      what_is_beside_slips(c.form));
 }
 
 // What the chosen candidate needs is known when the law behind slips is.

@@ -48,13 +48,14 @@ std::string against_paper(const Candidate& choice, const Candidate& paper, const
 
 // Why hardly anything is left to the brake; empty where it has something to do.
 std::string idle_brake(const Candidate& choice, const PortUnits& units, double reach, double viscosity,
-                       double feedthrough) {
+                       double feedthrough, Beside beside) {
+  if (beside == Beside::nothing) return "";
   if (reach == 0) return "The device has no brake.";
   if (choice.damping + choice.minimum_damping.value_or(0) >= next_to_nothing * reach) return "";
   if (viscosity < next_to_nothing * reach)
-    return fmt::format(
-        "The brake has next to nothing to do, because the whole network damps by no more than {:.3g} {}.", viscosity,
-        units.damping);
+    return fmt::format("The brake has next to nothing to do, because {} damps by no more than {:.3g} {}.",
+                       beside == Beside::linear ? "what is beside the slips" : "the whole network", viscosity,
+                       units.damping);
   return fmt::format(
       "The brake has next to nothing to do: of the network's damping only {:.3g} {} act at once, the rest is behind "
       "springs; a brake acts at once, and what it makes too much the motor takes back a sample too late.",
@@ -76,13 +77,19 @@ std::string reason_for_faithful(const Candidate& chosen, const Choices& choices)
 }
 
 std::string choice_in_words(const Decomposition& decomposition, const PortUnits& units, double reach,
-                            double zero_frequency_damping, double feedthrough_damping) {
+                            double zero_frequency_damping, double feedthrough_damping, Beside beside) {
   const Candidate& choice = decomposition.choice();
   if (!choice.faithful) return "";
+  if (beside == Beside::nothing)
+    return fmt::format(
+        "All of the network is behind slips: 'faithful' takes b = {:.4g} of the brake's {:.4g} {} beside them. What is "
+        "felt of the slips depends on the motion: 'dashpot run --motion' measures it.",
+        choice.damping, reach, units.damping);
   std::string text = fmt::format(
-      "'faithful' takes b = {:.4g} of the brake's {:.4g} {}, and the felt force errs by up to {} % in the band ({}){}.",
-      choice.damping, reach, units.damping, in_percent(choice.largest_error),
-      allowance(*choice.faithful, decomposition.tolerance),
+      "'faithful' takes b = {:.4g} of the brake's {:.4g} {}, and the felt force{} errs by up to {} % in the band "
+      "({}){}.",
+      choice.damping, reach, units.damping, beside == Beside::linear ? " of what is beside the slips" : "",
+      in_percent(choice.largest_error), allowance(*choice.faithful, decomposition.tolerance),
       choice.faithful->certified ? "" : "; nothing that errs so little is certified");
   if (const Candidate* paper = named(decomposition, "paper")) text += " " + against_paper(choice, *paper, units);
   if (decomposition.moves)
@@ -93,7 +100,7 @@ std::string choice_in_words(const Decomposition& decomposition, const PortUnits&
   if (zero_frequency_damping > 0 && choice.damping > zero_frequency_damping * (1 + same))
     text += fmt::format(" That is {:.3g} % more than the network damps in steady motion; the motor pushes it back.",
                         100 * (choice.damping / zero_frequency_damping - 1));
-  const std::string idle = idle_brake(choice, units, reach, zero_frequency_damping, feedthrough_damping);
+  const std::string idle = idle_brake(choice, units, reach, zero_frequency_damping, feedthrough_damping, beside);
   return idle.empty() ? text : text + " " + idle;
 }
 

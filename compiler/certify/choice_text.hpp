@@ -8,11 +8,14 @@
 
 namespace dashpot::compiler {
 
+// What a network has beside its slips, of which alone an error over frequency speaks.
+enum class Beside { no_slips, linear, nothing };
+
 // One sentence on `faithful`: its b, what it gains and costs against the paper's rule, how it moves over the device's
 // assumed values, and where the brake has nothing to do, why. Empty for another choice, and without a device. `reach`:
 // of the brake [N·s/m]; `zero_frequency_damping`: Z_d(0) [N·s/m].
 std::string choice_in_words(const Decomposition& decomposition, const PortUnits& units, double reach,
-                            double zero_frequency_damping, double feedthrough_damping);
+                            double zero_frequency_damping, double feedthrough_damping, Beside beside);
 
 // Which state input `faithful` came with.
 std::string reason_for_faithful(const Candidate& chosen, const Choices& choices);

@@ -21,7 +21,7 @@ BEYOND_THE_SCHEMAS = {
     # devices: values and units
     "devices/band_reversed", "devices/brake_safe_damping_too_large", "devices/brake_unit_of_the_other_motion",
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
-    "devices/rate_is_a_period",
+    "devices/rate_is_a_period", "devices/units_run_together",
     # names
     "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
     # JSON that Python reads all the same

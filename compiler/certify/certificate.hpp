@@ -32,6 +32,8 @@ struct PassivityBound {
   bool any_value = false;   // with tunables: wherever they are in their ranges
   // Proved for punctual samples alone: the amplifier lags. Else it holds under any jitter up to the device's.
   bool constant_period_only = false;
+  // P, by rows up to the diagonal, of the storage function that proves `needed`; empty where that rests on another one.
+  std::optional<std::vector<std::vector<double>>> storage = {};
 };
 
 struct Certificate {

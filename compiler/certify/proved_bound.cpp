@@ -19,17 +19,11 @@ PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const Sa
   PassivityBound bound = passivity_bound(motor, loop);
   const std::optional<SampledLoop> spoken_of = loop_of(bound, motor, loop);
   if (!spoken_of) return bound;
-  const std::optional<StorageProof> proof = storage_proof(*motor, *spoken_of);
-  if (proof && proof->damping <= bound.needed * (1 + most_storage_excess)) bound.needed = proof->damping;
+  std::optional<StorageProof> proof = storage_proof(*motor, *spoken_of);
+  if (!proof || proof->damping > bound.needed * (1 + most_storage_excess)) return bound;
+  bound.needed = proof->damping;
+  bound.storage = std::move(proof->storage);
   return bound;
-}
-
-std::optional<StorageProof> storage_of(const PassivityBound& bound, const std::optional<MotorConstants>& motor,
-                                       const SampledLoop& loop) {
-  const std::optional<SampledLoop> spoken_of = loop_of(bound, motor, loop);
-  if (!spoken_of) return std::nullopt;
-  std::optional<StorageProof> proof = storage_proof(*motor, *spoken_of, bound.needed);
-  return proof && proof->damping <= bound.needed ? std::move(proof) : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

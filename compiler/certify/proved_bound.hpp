@@ -13,11 +13,7 @@ namespace dashpot::compiler {
 inline constexpr double most_storage_excess = 1e-8;
 
 // `passivity_bound`, but where it is one over frequencies and nothing stands beside it, the damping that a storage
-// function proves; behind an amplifier's lag for punctual samples.
+// function proves, with its P; behind an amplifier's lag for punctual samples.
 PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop);
-
-// The storage function of a bound that `proved_bound` has given; empty where that does not rest on one.
-std::optional<StorageProof> storage_of(const PassivityBound& bound, const std::optional<MotorConstants>& motor,
-                                       const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -219,9 +219,10 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
 std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
                                         const std::optional<MotorConstants>& motor, SampledLoop loop) {
   if (!motor || bound.proof == Proof::none || loop.motor_slew > 0) return std::nullopt;
-  std::optional<StorageProof> proof = storage_of(bound, motor, loop);
   if (bound.constant_period_only) loop.jitter = 0;
-  if (!proof && bound.proof == Proof::hold) proof = storage_proof(*motor, loop);
+  std::optional<StorageProof> proof;
+  if (bound.storage) proof = {bound.needed, *bound.storage};
+  else if (bound.proof == Proof::hold) proof = storage_proof(*motor, loop);
   if (!proof) return std::nullopt;
   const dashpot_check::Device device = checked_device(loop);
   return coq_instance(name, dashpot_check::loop_form(checked_program(*motor), device), device, *proof);

@@ -3,7 +3,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <nlohmann/json.hpp>
 
-#include "certify/proved_bound.hpp"
+#include "certify/storage_function.hpp"
 #include "verify/header_constants.hpp"
 
 namespace dashpot::compiler {
@@ -77,9 +77,8 @@ Json json_of(const Certificate& c) {
 }
 
 // P of the storage function that proves the needed damping; null where the statement rests on something else.
-Json json_of_storage(const Compilation& c) {
-  const std::optional<StorageProof> proof = storage_of(c.certificate.bound, motor_constants(c.law), c.certificate.loop);
-  return proof ? Json{{"matrix", proof->storage}} : Json(nullptr);
+Json json_of_storage(const PassivityBound& bound) {
+  return bound.storage ? Json{{"matrix", *bound.storage}} : Json(nullptr);
 }
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
@@ -149,7 +148,7 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
                     {"constants", constants},
                     {"loop", json_of(c.certificate.loop)},
                     {"passivity", json_of(c.certificate)},
-                    {"storage", json_of_storage(c)},
+                    {"storage", json_of_storage(c.certificate.bound)},
                     {"energy", json_of(c.certificate.energy)},
                     {"motor_limits", json_of(c.certificate.limits, c.certificate.loop)},
                     {"network_file", network_text},

@@ -218,16 +218,20 @@ TEST(MotorLimits, SheddingSlipsNeedTheirDamping) {
   EXPECT_GT(gained, tried / 10) << gained << " of " << tried;
 }
 
-// 1 kN/m on a motor of limited slew, by a law that sheds or by one that does not know: pressed fast, held, and slowly
-// let go of. The motor goes to what it is told as fast as it can. Out: the energy that has gone in [J].
-double pressed_and_let_go(const std::string& structure, bool sheds) {
-  const SourceFile source("pressed.json", R"({ "dashpot": 1, "name": "pressed", )" + structure + " }");
+// A network on an ideal device, without an estimate of the velocity.
+UpdateLaw velocity_free_law(const std::string& structure) {
+  const SourceFile source("structure.json", R"({ "dashpot": 1, "name": "structure", )" + structure + " }");
   Diagnostics diagnostics;
   Choices choices;
   choices.decomposition = std::string("velocity-free");
-  std::optional<Compilation> wall = compile(source, choices, std::nullopt, diagnostics);
+  return compile(source, choices, std::nullopt, diagnostics).value().law;
+}
+
+// 1 kN/m on a motor of limited slew, by a law that sheds or by one that does not know: pressed fast, held, and slowly
+// let go of. The motor goes to what it is told as fast as it can. Out: the energy that has gone in [J].
+double pressed_and_let_go(const std::string& structure, bool sheds) {
   const double period = 1e-3, slew = 2000;
-  UpdateLaw update = wall->law;
+  UpdateLaw update = velocity_free_law(structure);
   if (sheds) update = with_shedding(std::move(update), {0, slew * period}, motion::translation);
   Evaluation<double> law(update);
   law.reset(0);
@@ -270,13 +274,9 @@ TEST(MotorLimits, SlewGivesNothingBackThatItDidNotTake) {
 // 1 kN/m on a motor of 2 N: pressed in by 100 mm, made ten times softer there, and let go of until nothing pushes any
 // more, before offsets are home. Out: the energy that has gone in [J].
 double pressed_softened_and_let_go(const std::string& structure, bool sheds) {
-  const SourceFile source("softened.json", R"({ "dashpot": 1, "name": "softened", )" + structure + " }");
-  Diagnostics diagnostics;
-  Choices choices;
-  choices.decomposition = std::string("velocity-free");
-  std::optional<Compilation> wall = compile(source, choices, std::nullopt, diagnostics);
   const double limit = 2;
-  const UpdateLaw update = sheds ? with_shedding(wall->law, {limit, 0}, motion::translation) : wall->law;
+  UpdateLaw update = velocity_free_law(structure);
+  if (sheds) update = with_shedding(std::move(update), {limit, 0}, motion::translation);
   Evaluation<double> law(update);
   law.reset(0);
   double energy = 0, position = 0, force = 0, beta = 500;

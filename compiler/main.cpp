@@ -280,13 +280,15 @@ void describe(CLI::App& app, CommandLine& line) {
       ->check(CLI::IsMember({"kelvin", "maxwell", "prony"}))
       ->option_text("kelvin|maxwell|prony");
 
-  CLI::App* compile = add_command(app, line, "compile", "Write the update law as C++ or C99");
+  CLI::App* compile =
+      add_command(app, line, "compile", "Write the update law as C++, C99 or what else a target makes of it");
   add_networks(*compile, line, true);
   add_choices(*compile, line);
   compile->add_option("-o,--output", options.output, "Folder to write to, default the current one")->option_text("DIR");
-  compile->add_option("--target", line.target, "Language to write")
-      ->check(CLI::IsMember({"cpp", "c99"}))
-      ->option_text("cpp|c99");
+  compile->add_option("--target", line.target, "What to write, default cpp; all are listed below")
+      ->check(check_target)
+      ->option_text("NAME");
+  compile->footer(help_on_targets());
   compile->add_flag("--constant-time", options.emission.constant_time,
                     "No jump, division or call in a step depends on its values");
   compile->add_flag("--batch", options.emission.batch,
@@ -395,7 +397,7 @@ void take_over_words(CommandLine& line) {
        {VectorRegisters::none, VectorRegisters::avx2, VectorRegisters::avx512, VectorRegisters::neon})
     if (line.vector == name_of(registers)) choices.registers = registers;
   choices.guards_each_sample = line.options.emission.batch;
-  if (line.target == "c99") line.options.emission.target = Target::c99;
+  line.options.target = find_target(line.target);
   if (line.state_input == "position") choices.state_input = StateInput::position;
   if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
   if (line.state_input == "nodal") choices.state_input = StateInput::nodal;

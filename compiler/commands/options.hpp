@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands/fit_words.hpp"
+#include "commands/targets.hpp"
 #include "decompose/choices.hpp"
 #include "emit/emission.hpp"
 #include "exchange/prony_format.hpp"
@@ -49,9 +50,10 @@ struct Options {
   std::optional<std::string> print;    // compile: the stage to show instead of writing
   std::optional<std::string> timings;  // compile: "text" or "json"
   std::optional<std::string> depfile;
-  std::optional<std::string> certificate;  // compile: to write; verify: to read
-  std::optional<std::string> proof;        // compile: to write, for Coq
-  std::string header;                      // verify
+  std::optional<std::string> certificate;     // compile: to write; verify: to read
+  std::optional<std::string> proof;           // compile: to write, for Coq
+  std::string header;                         // verify
+  const Target* target = &targets().front();  // compile
   EmissionOptions emission;
   bool uncertified = false;           // compile: also what lacks damping on its device
   bool legend = false;                // explain: what the columns mean

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <utility>
@@ -37,10 +38,9 @@ std::string escaped(const std::string& path) {
   return text;
 }
 
-std::vector<std::string> templates_of(const EmissionOptions& options) {
-  if (options.target == Target::c99) return {"network.h.in"};
-  std::vector<std::string> names = {"network.hpp.in", "network_test.cpp.in"};
-  if (options.batch) names.push_back("batch.hpp.in");
+std::vector<std::string> templates_of(const Options& options) {
+  std::vector<std::string> names(options.target->templates.begin(), options.target->templates.end());
+  if (options.emission.batch) names.push_back("batch.hpp.in");
   return names;
 }
 
@@ -52,7 +52,7 @@ std::string dependencies(const Options& options, const std::vector<OutputFile>& 
   for (const std::string& network : options.networks) text += " \\\n  " + escaped(network);
   if (options.device) text += " \\\n  " + escaped(*options.device);
   if (options.emission.templates)
-    for (const std::string& name : templates_of(options.emission))
+    for (const std::string& name : templates_of(options))
       text += " \\\n  " + escaped((std::filesystem::path(*options.emission.templates) / name).string());
   return text + "\n";
 }
@@ -78,22 +78,16 @@ bool spares_inputs(const Options& options, const std::vector<OutputFile>& files,
   return spares_inputs(options, names, diagnostics);
 }
 
-std::optional<std::vector<OutputFile>> emitted_files(const Compilation& compilation, const EmissionOptions& options,
-                                                     Diagnostics& diagnostics) {
-  return options.target == Target::c99 ? emit_c99(compilation, options, diagnostics)
-                                       : emit_cpp(compilation, options, diagnostics);
-}
-
 // False, with a diagnostic each, where an option is asked for that the target has nothing for.
 bool target_has_all(const Options& options, Diagnostics& diagnostics) {
-  if (options.emission.target != Target::c99) return true;
+  const std::vector<std::string_view>& known = options.target->options;
   bool all = true;
   for (const auto& [is_asked, name] : {std::pair(options.emission.constant_time, "--constant-time"),
                                        {options.emission.batch, "--batch"},
                                        {options.emission.with_test, "--with-test"},
                                        {options.certificate.has_value(), "--certificate"}})
-    if (is_asked) {
-      diagnostics.report<DiagnosticCode::target_lacks_option>({}, "c99", name);
+    if (is_asked && std::find(known.begin(), known.end(), name) == known.end()) {
+      diagnostics.report<DiagnosticCode::target_lacks_option>({}, std::string(options.target->name), name);
       all = false;
     }
   return all;
@@ -134,7 +128,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       shown += stage_text(*compilation, *options.print);
     } else if (!options.uncertified && !insist_on_certificate(*compilation, options.choices, diagnostics)) {
       continue;
-    } else if (const auto emitted = emitted_files(*compilation, options.emission, diagnostics)) {
+    } else if (const auto emitted = options.target->emit(*compilation, options.emission, diagnostics)) {
       if (options.uncertified) warn_of_uncertified(*compilation, diagnostics);
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)

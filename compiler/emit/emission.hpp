@@ -26,10 +26,7 @@ struct Compilation {
   PortDevice port = PortDevice::ideal();  // the device as the network sees it
 };
 
-enum class Target : unsigned char { cpp, c99 };
-
 struct EmissionOptions {
-  Target target = Target::cpp;
   bool constant_time = false;  // no value decides how long output() and update() take
   bool batch = false;          // also a class for many points of the same network
   bool with_test = false;

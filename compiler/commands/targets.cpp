@@ -1,0 +1,56 @@
+#include "commands/targets.hpp"
+
+#include <fmt/format.h>
+
+#include "source/nearest_name.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+const std::vector<Target>& table() {
+  static const std::vector<Target> all = {
+      {"cpp",
+       "a class in C++17",
+       "NAME.hpp",
+       {"network.hpp.in", "network_test.cpp.in"},
+       {"--constant-time", "--batch", "--with-test", "--certificate"},
+       emit_cpp},
+      {"c99", "a struct and its functions in C99", "NAME.h", {"network.h.in"}, {}, emit_c99},
+  };
+  return all;
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> all;
+  for (const Target& target : table()) all.emplace_back(target.name);
+  return all;
+}
+
+}  // namespace
+
+std::span<const Target> targets() { return table(); }
+
+const Target* find_target(std::string_view name) {
+  for (const Target& target : table())
+    if (target.name == name) return &target;
+  return nullptr;
+}
+
+std::string check_target(const std::string& name) {
+  if (find_target(name) != nullptr) return "";
+  const std::vector<std::string> known = names();
+  const std::optional<std::string> nearest = nearest_name(name, known);
+  std::string list;
+  for (const std::string& one : known) list += (list.empty() ? "" : ", ") + one;
+  return fmt::format("there is no target '{}'; {}targets are {}", name,
+                     nearest ? "'" + *nearest + "' is the nearest; " : "", list);
+}
+
+std::string help_on_targets() {
+  std::string text = "Targets:";
+  for (const Target& target : table())
+    text += fmt::format("\n  {:<8} {:<16} {}", target.name, target.files, target.what);
+  return text;
+}
+
+}  // namespace dashpot::compiler

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <set>
-#include <stdexcept>
+#include <string_view>
 
+#include "emit/c99_parts.hpp"
+#include "emit/c99_tunable.hpp"
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
+#include "emit/cpp_slips.hpp"
 #include "law/expression_text.hpp"
 #include "law/walk.hpp"
 
@@ -22,16 +25,20 @@ void append_all(Lines& lines, const Lines& more, const std::string& indentation 
 
 class C99Printer {
  public:
-  explicit C99Printer(const UpdateLaw& law) : law_(law), suffix_(law.scalar == ScalarType::float32 ? "f" : "") {}
+  C99Printer(const UpdateLaw& law, std::string name)
+      : law_(law), name_(std::move(name)), suffix_(law.scalar == ScalarType::float32 ? "f" : "") {}
 
   C99Program print() {
     C99Program program;
+    program.before = before();
     program.states = states();
+    program.begin = {fmt::format("{}_reset(self, 0);", name_)};
     program.reset = reset();
     program.output = output();
     program.update = update();
     program.energy = with_constants({&law_.energy}, lines_of(law_.energy));
     if (!reads_states(law_.energy)) program.energy.insert(program.energy.begin(), "(void)self;");
+    if (law_.sheds()) program.kept_share = "self->" + law_.variables[law_.share].name;
     return program;
   }
 
@@ -127,11 +134,127 @@ class C99Printer {
   }
 
   void print_straight(const Statement& statement, Lines& lines) {
-    if (!statement.assigns()) throw std::logic_error("C99 of coupled slips");
     const Variable& target = law_.variables[statement.target];
     if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
+    if (const auto* tree = std::get_if<SolveTree>(&statement.step))
+      return print_step(statement, law_.couplings[tree->coupling], lines);
+    if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
+      return print_step(statement, law_.networks[network->network], lines);
     for (place_ = 0; place_ < target.size; ++place_)
       append(lines, declaration(target) + name(statement.target, place_) + " = " + expression(statement.value) + ";");
+  }
+
+  // Slips that meet at inner nodes: the tables of the law, the step of templates/c99/.
+  Lines before() const {
+    C99Words words;
+    words.name = name_;
+    words.scalar = law_.scalar;
+    words.has = {{"STEP", false}, {"PUSH", false}, {"BRAKE", false}};
+    for (const Coupling& coupling : law_.couplings) words.has[coupling.is_pushed() ? "PUSH" : "STEP"] = true;
+    Lines lines;
+    if (!law_.couplings.empty()) append_all(lines, c99_part("slip_tree.h", words));
+    if (!law_.networks.empty()) append_all(lines, c99_part("slip_network.h", words));
+    for (const Coupling& coupling : law_.couplings) append_table(coupling, lines);
+    for (const SlipNetwork& network : law_.networks) append_tables(network, lines);
+    return lines;
+  }
+
+  void append_table(const Coupling& coupling, Lines& lines) const {
+    lines.push_back("// kind, children, slips, place, first corner, stiffness, compliance, yield force");
+    lines.push_back(
+        fmt::format("static const {0}_node {0}_{1}[{2}] = {{", name_, coupling.name, coupling.nodes.size()));
+    for (const slip_node<double>& node : coupling.nodes)
+      lines.push_back(fmt::format("    {{{}_{}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_, part_name(node.kind),
+                                  node.first_child, node.child_count, node.slips, node.place, node.first_corner,
+                                  number(node.stiffness), number(node.compliance), number(node.yield)));
+    append_all(lines, {"};", ""});
+  }
+
+  void append_tables(const SlipNetwork& network, Lines& lines) const {
+    const std::string owner = name_ + "_" + network.name;
+    lines.push_back("// ends, lowest and highest force of each slip; inner ends come first, then tool and ground");
+    lines.push_back(fmt::format("static const {}_link {}_links[{}] = {{", name_, owner, network.slip_count()));
+    for (const slip_link<double>& link : network.links)
+      lines.push_back(
+          fmt::format("    {{{}, {}, {}, {}}},", link.a, link.b, number(link.lowest), number(link.highest)));
+    lines.push_back("};");
+    lines.push_back(
+        "// stiffness over one sample between inner ends, to the tool and to the ground [N/m] or [N·m/rad]");
+    for (const auto& [what, values] : {std::pair("between", &network.between), std::pair("to_tool", &network.to_tool),
+                                       std::pair("to_ground", &network.to_ground)}) {
+      std::string table = fmt::format("static const {} {}_{}[{}] = {{", scalar(), owner, what, values->size());
+      for (std::size_t i = 0; i < values->size(); ++i) table += (i == 0 ? "" : ", ") + number((*values)[i]);
+      append(lines, table + "};");
+    }
+    lines.push_back("");
+  }
+
+  std::string held_forces(const std::vector<VariableId>& held) const {
+    std::string text;
+    for (VariableId id : held) text += (text.empty() ? "" : ", ") + (id == no_variable ? number(0) : name(id, 0));
+    return text;
+  }
+
+  void print_step(const Statement& statement, const Coupling& coupling, Lines& lines) {
+    const std::string& own = coupling.name;
+    append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), own, coupling.held.size(),
+                              held_forces(coupling.held)));
+    lines.push_back(fmt::format("{} {}_elongation[{}] = {{0}};", scalar(), own, coupling.elongation.size()));
+    lines.push_back(fmt::format("int {}_sign[{}] = {{0}};", own, coupling.slips.size()));
+    lines.push_back(fmt::format("{}_part_state {}_parts[{}];", name_, own, coupling.nodes.size()));
+    lines.push_back(fmt::format("{0}_corner {1}_corners[{2}], {1}_merged[{3}];", name_, own, coupling.corners(),
+                                slip_curve_room(int(coupling.slips.size()))));
+    lines.push_back(fmt::format("const {0}_tree {1}_tree = {{{0}_{1}, {2}, {1}_parts, {1}_corners, {1}_merged}};",
+                                name_, own, coupling.nodes.size()));
+    if (coupling.is_pushed()) lines.push_back(fmt::format("{} {}_change = 0;", scalar(), own));
+    append(lines, declaration(law_.variables[statement.target]) + name(statement.target, 0) +
+                      fmt::format(" = {0}_tree_{1}(&{2}_tree, {3}, {2}_held, {2}_elongation, {2}_sign{4});", name_,
+                                  coupling.is_pushed() ? "push" : "step", own, expression(statement.value),
+                                  coupling.is_pushed() ? fmt::format(", &{}_change", own) : ""));
+    if (coupling.is_pushed()) assign(coupling.surface_change, own + "_change", lines);
+    for (std::size_t i = 0; i < coupling.elongation.size(); ++i)
+      assign(coupling.elongation[i], fmt::format("{}_elongation[{}]", own, i), lines);
+    for (std::size_t i = 0; i < coupling.sign.size(); ++i)
+      assign(coupling.sign[i], fmt::format("({}){}_sign[{}]", scalar(), own, i), lines);
+  }
+
+  void print_step(const Statement& statement, const SlipNetwork& network, Lines& lines) {
+    const std::string& own = network.name;
+    std::string sign;
+    for (VariableId id : network.last_sign) sign += (sign.empty() ? "(int)" : ", (int)") + name(id, 0);
+    append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), own, network.held.size(),
+                              held_forces(network.held)));
+    lines.push_back(fmt::format("{0} {1}_moved[{2}], {1}_joined[{3}], {1}_numbers[{4}];", scalar(), own,
+                                network.node_count, network.node_count * network.node_count, 8 * network.node_count));
+    append(lines, fmt::format("int {0}_group[{1}], {0}_sign[{2}] = {{{3}}};", own, network.node_count + 2,
+                              network.slip_count(), sign));
+    lines.push_back(fmt::format("{}_network {};", name_, own));
+    for (const auto& [member, value] : std::initializer_list<std::pair<const char*, std::string>>{
+             {"links", fmt::format("{}_{}_links", name_, own)},
+             {"slips", std::to_string(network.slip_count())},
+             {"nodes", std::to_string(network.node_count)},
+             {"between", fmt::format("{}_{}_between", name_, own)},
+             {"to_tool", fmt::format("{}_{}_to_tool", name_, own)},
+             {"to_ground", fmt::format("{}_{}_to_ground", name_, own)},
+             {"through", number(network.through)},
+             {"change", expression(statement.value)},
+             {"held", own + "_held"},
+             {"moved", own + "_moved"},
+             {"sign", own + "_sign"},
+             {"group", own + "_group"},
+             {"joined", own + "_joined"}})
+      lines.push_back(fmt::format("{}.{} = {};", own, member, value));
+    append(lines, declaration(law_.variables[statement.target]) + name(statement.target, 0) +
+                      fmt::format(" = {0}_network_step(&{1}, {1}_numbers);", name_, own));
+    for (std::size_t i = 0; i < network.moved.size(); ++i)
+      assign(network.moved[i], fmt::format("{}_moved[{}]", own, i), lines);
+    for (std::size_t i = 0; i < network.sign.size(); ++i)
+      assign(network.sign[i], fmt::format("({}){}_sign[{}]", scalar(), own, i), lines);
+  }
+
+  void assign(VariableId target, const std::string& value, Lines& lines) const {
+    if (target == no_variable) return;
+    lines.push_back(declaration(law_.variables[target]) + name(target, 0) + " = " + value + ";");
   }
 
   // Elementwise statements of vectors of one size, with the partial sums of those that are added up later.
@@ -287,6 +410,7 @@ class C99Printer {
   std::string number(double value) const { return cpp_literal(value, law_.scalar); }
 
   const UpdateLaw& law_;
+  std::string name_;  // of the network
   std::string suffix_;
   std::size_t place_ = 0;         // of the straight statement at hand
   std::set<VariableId> in_loop_;  // locals of the loop at hand that need no array
@@ -294,6 +418,8 @@ class C99Printer {
 
 }  // namespace
 
-C99Program c99_program(const UpdateLaw& law) { return C99Printer(law).print(); }
+C99Program c99_program(const UpdateLaw& law, const std::string& name) {
+  return law.tunable ? c99_tunable_program(law, name) : C99Printer(law, name).print();
+}
 
 }  // namespace dashpot::compiler

@@ -1,21 +1,114 @@
+#include <fmt/format.h>
+
 #include "emit/banner.hpp"
+#include "emit/c99_parts.hpp"
 #include "emit/c99_program.hpp"
 #include "emit/emission.hpp"
+#include "emit/cpp_program.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
+using Lines = std::vector<std::string>;
+
+// A function of the number of a parameter.
+Lines by_number(const std::string& type, const std::string& name, const char* what, const Lines& values,
+                const char* beyond) {
+  Lines lines = {fmt::format("static inline {} {}_parameter_{}(int i) {{", type, name, what)};
+  if (values.empty()) lines.push_back("  (void)i;");
+  for (std::size_t i = 0; i < values.size(); ++i)
+    lines.push_back(fmt::format("  if (i == {}) return {};", i, values[i]));
+  lines.push_back(fmt::format("  return {};", beyond));
+  lines.push_back("}");
+  return lines;
+}
+
+Lines parameter_lines(const UpdateLaw& law, const std::string& name) {
+  const std::string scalar(name_of(law.scalar));
+  Lines names, units, values, least, most;
+  if (law.tunable)
+    for (const Tunable& t : law.tunable->tunables) {
+      names.push_back(fmt::format("\"{}\"", t.name));
+      units.push_back(fmt::format("\"{}\"", t.unit));
+      values.push_back(cpp_literal(t.range.value, law.scalar));
+      least.push_back(cpp_literal(t.range.min, law.scalar));
+      most.push_back(cpp_literal(t.range.max, law.scalar));
+    }
+  Lines lines = {fmt::format("static inline int {}_parameter_count(void) {{ return {}; }}", name, names.size())};
+  for (const Lines& more :
+       {by_number("const char *", name, "name", names, "\"\""), by_number("const char *", name, "unit", units, "\"\""),
+        by_number(scalar, name, "value", values, "0"), by_number(scalar, name, "min", least, "0"),
+        by_number(scalar, name, "max", most, "0")})
+    lines.insert(lines.end(), more.begin(), more.end());
+  return lines;
+}
+
+Lines parameter_struct(const UpdateLaw& law, const std::string& name) {
+  if (!law.tunable) return {};
+  Lines lines = {"// What may change while the law runs, to begin with as in the network's file.",
+                 fmt::format("typedef struct {}_parameters {{", name)};
+  for (const Tunable& t : law.tunable->tunables)
+    lines.push_back(
+        fmt::format("  {} {};  // {} to {} [{}]", name_of(law.scalar), t.name, t.range.min, t.range.max, t.unit));
+  lines.push_back(fmt::format("}} {}_parameters;", name));
+  lines.push_back("");
+  return lines;
+}
+
+// set() of the struct, beside that of numbers in turn.
+Lines set_of_struct(const UpdateLaw& law, const std::string& name) {
+  if (!law.tunable) return {};
+  std::string first, wanted;
+  for (const Tunable& t : law.tunable->tunables) {
+    first += (first.empty() ? "" : ", ") + cpp_literal(t.range.value, law.scalar);
+    wanted += (wanted.empty() ? "" : ", ") + ("wanted->" + t.name);
+  }
+  return {fmt::format("static inline {0}_parameters {0}_parameters_at_first(void) {{", name),
+          fmt::format("  const {}_parameters first = {{{}}};", name, first),
+          "  return first;",
+          "}",
+          "",
+          fmt::format("static inline unsigned {0}_set({0} *self, const {0}_parameters *wanted) {{", name),
+          fmt::format("  const {} values[{}] = {{{}}};", name_of(law.scalar), law.tunable->tunables.size(), wanted),
+          fmt::format("  return {}_set_values(self, values);", name),
+          "}",
+          ""};
+}
+
+Lines set_lines(const UpdateLaw& law, const std::string& name) {
+  if (!law.tunable) return {"(void)self;", "(void)wanted;", "return 0u;"};
+  return {"int is_new = 0;", fmt::format("{}_update(self);", name),
+          fmt::format("const unsigned clamped = {}_take_values(self, wanted, &is_new);", name),
+          fmt::format("if (is_new != 0) {}_change_over(self);", name), "return clamped;"};
+}
+
 CodeModel c_header_model(const Compilation& c) {
-  const C99Program program = c99_program(c.law);
+  const std::string& name = c.network.name;
+  const C99Program program = c99_program(c.law, name);
   CodeModel model;
   describe_file(c, model.fields);
   describe_device(c, model.fields);
   model.fields.erase("any_device");
   model.fields.erase("motion");
   model.fields["is_rotation"] = c.network.port_motion == motion::rotation ? "1" : "0";
-  model.fields["energy_contract"] = "In the springs after the last update() [J].";
+  model.fields["energy_contract"] =
+      c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
+                    : "In the springs after the last update() [J].";
+  model.lists["command"] = as_list(c99_command_header());
+  model.lists["before"] = as_list(program.before);
+  model.lists["functions"] = as_list(program.functions);
+  model.lists["begin"] = as_list(program.begin);
+  model.lists["parameters"] = as_list(parameter_lines(c.law, name));
+  model.lists["parameter_struct"] = as_list(parameter_struct(c.law, name));
+  model.lists["value"] = as_list(
+      c.law.tunable ? Lines{fmt::format("return ((i >= 0) && (i < {}_parameters_room)) ? self->value[i] : 0;", name)}
+                    : Lines{"(void)self;", "(void)i;", "return 0;"});
+  model.lists["set"] = as_list(set_lines(c.law, name));
+  model.lists["set_of_struct"] = as_list(set_of_struct(c.law, name));
+  model.lists["share"] = as_list(program.kept_share.empty() ? Lines{"(void)self;", "return 1;"}
+                                                            : Lines{fmt::format("return {};", program.kept_share)});
   model.lists["banner"] = as_list(banner(c, Timing::any));
   model.lists["states"] = as_list(program.states);
   model.lists["reset"] = as_list(program.reset);

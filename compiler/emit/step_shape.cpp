@@ -42,7 +42,7 @@ bool can_be_emitted(const Compilation& c, const EmissionOptions& options, Diagno
 bool can_be_c99(const Compilation& c, Diagnostics& diagnostics) {
   const bool is_taken = c.network.name == "restrict" || c.network.name.starts_with("dashpot_");
   if (is_taken) diagnostics.report<DiagnosticCode::name_is_word_of_c>(c.network.name_span, c.network.name);
-  return !refuses(c, "--target c99", diagnostics) && !is_taken;
+  return !is_taken;
 }
 
 }  // namespace dashpot::compiler

@@ -9,11 +9,14 @@
 #include "compile.hpp"
 #include "emit/emission.hpp"
 #include "law/evaluate.hpp"
+#include "network/device.hpp"
 #include "source/render.hpp"
 #include "support/random.hpp"
 #include "support/random_network.hpp"
 #include "support/shell_command.hpp"
 #include "support/shrink.hpp"
+#include "support/tunable_run.hpp"
+#include "syntax/parse_device.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -65,56 +68,152 @@ compiler::Network many_branches(std::uint64_t seed) {
   return network;
 }
 
-// Trees and graphs without slips and with one, contacts, and loops.
+// Trees and graphs without slips, with one and with several that meet at inner nodes, contacts, and loops.
 compiler::Network network_of(std::uint64_t seed) {
   if (seed % 8 == 0) return many_branches(seed / 8);
   NetworkRecipe recipe;
   recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;
   recipe.most_nodes = 8;
-  recipe.most_slips = seed % 4 == 2 ? 1 : 0;
+  recipe.most_slips = seed % 4 == 2 ? 1 : seed % 4 == 3 ? 4 : seed % 8 == 4 ? 6 : 0;
   compiler::Network network = random_network(seed, recipe);
-  if (seed % 4 == 1) network.contact = compiler::Contact{seed % 3 == 0 ? 0 : 1e-3, {}};
+  if (seed % 4 == 1 || seed % 16 == 3 || seed % 16 == 12)
+    network.contact = compiler::Contact{seed % 3 == 0 ? 0 : 1e-3, {}};
   return network;
 }
 
 struct Emitted {
   compiler::Compilation compilation;
   std::string header;
+  std::vector<std::vector<double>> schedule;  // values of parameters before every row, where there are any
+
+  const std::string& name() const { return compilation.network.name; }
+  std::size_t parameters() const { return compilation.law.tunable ? compilation.law.tunable->tunables.size() : 0; }
 };
+
+// A motor that gives little of what is asked for, so that laws shed.
+std::optional<compiler::Device> weak_device(bool has_slew) {
+  const compiler::SourceFile file("weak.json",
+                                  fmt::format(R"({{ "dashpot_device": 1, "name": "weak", "motion": "translation",
+                                     "loop": {{ "rate": 1000 }}, "encoder": {{ "resolution": 1e-5 }},
+                                     "motor": {{ "max_torque": 0.05{} }},
+                                     "velocity": {{ "estimator": "backward_difference", "window": 1 }} }})",
+                                              has_slew ? R"(, "slew": 20)" : ""));
+  compiler::Diagnostics diagnostics;
+  const auto decl = compiler::parse_device(file, diagnostics);
+  auto device = decl ? compiler::build_device(*decl, diagnostics) : std::nullopt;
+  if (!device) throw std::runtime_error(compiler::render_text(diagnostics));
+  return device;
+}
+
+// Steps within the ranges and beyond them, and now and then no number.
+std::vector<std::vector<double>> schedule_of(const compiler::UpdateLaw& law, std::uint64_t seed) {
+  if (!law.tunable) return {};
+  Random random(seed);
+  const std::vector<compiler::Tunable>& tunables = law.tunable->tunables;
+  std::vector<double> values;
+  for (const compiler::Tunable& tunable : tunables) values.push_back(tunable.range.value);
+  std::vector<std::vector<double>> schedule;
+  for (int n = 0; n < rows; ++n) {
+    if (random.chance(0.3)) values = next_values(tunables, values, random);
+    schedule.push_back(values);
+    if (n % 17 == 16) schedule.back()[0] = n % 2 == 0 ? double(NAN) : 2 * tunables[0].range.max;
+    for (double& value : schedule.back()) value = float(value);
+  }
+  return schedule;
+}
+
+Emitted emitted(const compiler::SourceFile& source, compiler::ScalarType scalar, std::uint64_t seed,
+                const std::string& name) {
+  compiler::Choices choices;
+  choices.scalar = scalar;
+  choices.scheme = seed % 3 == 0 ? compiler::Scheme::backward_euler : compiler::Scheme::exact;
+  const bool is_limited = seed % 2 == 0;
+  if (is_limited) choices.decomposition = "paper";
+  compiler::Diagnostics diagnostics;
+  auto compilation =
+      compiler::compile(source, choices, is_limited ? weak_device(seed % 4 == 0) : std::nullopt, diagnostics);
+  if (!compilation) throw std::runtime_error(compiler::render_text(diagnostics));
+  compilation->network.name = name;
+  const auto files = compiler::emit_c99(*compilation, {}, diagnostics);
+  if (!files) throw std::runtime_error(compiler::render_text(diagnostics));
+  auto schedule = schedule_of(compilation->law, seed);
+  return {std::move(*compilation), files->front().text, std::move(schedule)};
+}
+
+Emitted emitted(compiler::Network network, compiler::ScalarType scalar, std::uint64_t seed) {
+  network.name = fmt::format("random_{}", seed);
+  compiler::Choices choices;
+  choices.scalar = scalar;
+  choices.scheme = seed % 3 == 0 ? compiler::Scheme::backward_euler : compiler::Scheme::exact;
+  const bool is_limited = seed % 5 == 0;
+  if (is_limited) choices.decomposition = "paper";
+  compiler::StageTimes times;
+  compiler::Diagnostics diagnostics;
+  auto compilation = compiler::compile(std::move(network), choices,
+                                       is_limited ? weak_device(seed % 2 == 0) : std::nullopt, diagnostics, times);
+  if (!compilation) throw std::runtime_error(compiler::render_text(diagnostics));
+  const auto files = compiler::emit_c99(*compilation, {}, diagnostics);
+  if (!files) throw std::runtime_error(compiler::render_text(diagnostics));
+  return {std::move(*compilation), files->front().text, {}};
+}
+
+// Those that dashpot brings along, but for the measured ones, which are as many more of the same kinds.
+std::vector<fs::path> network_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(DASHPOT_NETWORKS)) {
+    const std::string path = entry.path().generic_string();
+    if (path.ends_with(".json") && !path.ends_with("schema.json") && path.find("/measured/") == path.npos)
+      files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
 
 std::vector<Emitted> all_emitted(compiler::ScalarType scalar) {
   std::vector<Emitted> all;
-  for (std::uint64_t seed = 1; seed <= repetitions(40, 400); ++seed) {
-    compiler::Network network = network_of(seed);
-    network.name = fmt::format("random_{}", seed);
-    compiler::Choices choices;
-    choices.scalar = scalar;
-    choices.scheme = seed % 3 == 0 ? compiler::Scheme::backward_euler : compiler::Scheme::exact;
-    compiler::StageTimes times;
-    compiler::Diagnostics diagnostics;
-    auto compilation = compiler::compile(std::move(network), choices, std::nullopt, diagnostics, times);
-    if (!compilation) throw std::runtime_error(compiler::render_text(diagnostics));
-    const auto files = compiler::emit_c99(*compilation, {}, diagnostics);
-    if (!files) throw std::runtime_error(compiler::render_text(diagnostics));
-    all.push_back({std::move(*compilation), files->front().text});
+  for (std::uint64_t seed = 1; seed <= repetitions(24, 400); ++seed)
+    all.push_back(emitted(network_of(seed), scalar, seed));
+  for (std::uint64_t seed = 1; seed <= repetitions(16, 320); ++seed) {
+    const compiler::SourceFile source("tunable.json", tunable_network(seed, Kind((seed + seed / 8) % kinds)));
+    all.push_back(emitted(source, scalar, seed, fmt::format("tunable_{}", seed)));
+  }
+  for (const fs::path& file : network_files()) {
+    const compiler::SourceFile source(file.string(), text_of(file));
+    all.push_back(emitted(source, scalar, 1, file.stem().string()));
   }
   return all;
 }
 
-// Each law over the motion; damping and force of every row, and the energy in the end.
+// Each law over the motion; damping, force and kept share of every row, what set() said before, and the energy in the
+// end.
 std::string program_of(const std::vector<Emitted>& all) {
-  std::string text = "#include <stdio.h>\n#include <stdlib.h>\n";
-  for (const Emitted& one : all) text += fmt::format("#include \"{}.h\"\n", one.compilation.network.name);
+  std::string text = "#include <stdio.h>\n#include <stdlib.h>\n#include <string.h>\n";
+  for (const Emitted& one : all) text += fmt::format("#include \"{}.h\"\n", one.name());
   text +=
       "int main(void) {\n  double position[1000], velocity[1000];\n  int rows = 0;\n"
-      "  while (scanf(\"%la %la\", &position[rows], &velocity[rows]) == 2) ++rows;\n";
-  for (const Emitted& one : all)
+      "  while (scanf(\"%la %la\", &position[rows], &velocity[rows]) == 2) ++rows;\n"
+      "  if (scanf(\" values\") != 0) return 1;\n";
+  for (const Emitted& one : all) {
+    const auto& law = one.compilation.law;
     text += fmt::format(
-        "  {{\n    {0} law;\n    {0}_reset(&law, ({1})0.002);\n    for (int n = 0; n < rows; ++n) {{\n"
+        "  {{\n    {0} law;\n    {0}_init(&law);\n    {0}_reset(&law, ({1})0.002);\n"
+        "    for (int n = 0; n < rows; ++n) {{\n",
+        one.name(), name_of(law.scalar));
+    if (one.parameters() > 0)
+      text += fmt::format(
+          "      {1} values[{2}];\n      for (int i = 0; i < {0}_parameter_count(); ++i) {{\n"
+          "        double value;\n        if (scanf(\"%la\", &value) != 1) return 1;\n"
+          "        values[i] = ({1})value;\n      }}\n"
+          "      {0}_parameters wanted = {0}_parameters_at_first();\n"
+          "      memcpy(&wanted, values, sizeof wanted);\n"
+          "      printf(\"%x\\n\", n % 2 == 0 ? {0}_set(&law, &wanted) : {0}_set_values(&law, values));\n",
+          one.name(), name_of(law.scalar), one.parameters());
+    text += fmt::format(
         "      const dashpot_command now = {0}_step(&law, ({1})position[n], ({1})velocity[n]);\n"
-        "      printf(\"%a %a\\n\", now.damping, now.force);\n    }}\n"
+        "      printf(\"%a %a %a\\n\", now.damping, now.force, (double){0}_kept_share(&law));\n    }}\n"
         "    printf(\"%a\\n\", (double){0}_stored_energy(&law));\n  }}\n",
-        one.compilation.network.name, name_of(one.compilation.law.scalar));
+        one.name(), name_of(law.scalar));
+  }
   return text + "  return 0;\n}\n";
 }
 
@@ -126,13 +225,18 @@ std::string printed(const char* format, Numbers... numbers) {
 }
 
 template <class Scalar>
-std::string simulated(const compiler::UpdateLaw& law) {
-  compiler::Evaluation<Scalar> run(law);
+std::string simulated(const Emitted& one) {
+  compiler::Evaluation<Scalar> run(one.compilation.law);
   run.reset(Scalar(0.002));
   std::string text;
+  std::size_t n = 0;
   for (const Row& row : motion()) {
+    if (one.parameters() > 0) {
+      const std::vector<double>& wanted = one.schedule[n++];
+      text += printed("%x\n", run.set(std::vector<Scalar>(wanted.begin(), wanted.end())));
+    }
     const auto now = run.step(Scalar(row.position), Scalar(row.velocity));
-    text += printed("%a %a\n", double(now.damping), double(now.force));
+    text += printed("%a %a %a\n", double(now.damping), double(now.force), double(run.kept_share()));
   }
   return text + printed("%a\n", double(run.stored_energy()));
 }
@@ -145,22 +249,37 @@ std::string first_difference(const std::string& one, const std::string& other) {
                      other.substr(from, 120));
 }
 
+// Fails if a part that is written once for all laws is in none of these.
+void expect_all_parts(const std::vector<Emitted>& all) {
+  for (const char* part :
+       {"_tree_step(", "_tree_push(", "_network_step(", "_mean_decay(", "_mesh_eliminate(",
+        "_eliminate_to_first_order(", "_regime_feedthrough(", "_graph_feedthrough(", "_follow_slides(", "_push_slips(",
+        "_step_slips(", "_limited(", "self->dent", "_make_up_for(", "_network_step(&network", "_shares["})
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Emitted& one) {
+      return one.header.find(part) != std::string::npos;
+    })) << part;
+}
+
 void expect_same_bits(compiler::ScalarType scalar) {
   const std::vector<Emitted> all = all_emitted(scalar);
+  expect_all_parts(all);
   const TemporaryFolder folder;
-  for (const Emitted& one : all) write_text(folder.path() / (one.compilation.network.name + ".h"), one.header);
+  for (const Emitted& one : all) write_text(folder.path() / (one.name() + ".h"), one.header);
   write_text(folder.path() / "laws.c", program_of(all));
   std::string input, expected;
   for (const Row& row : motion()) input += printed("%a %a\n", row.position, row.velocity);
+  input += "values\n";
+  for (const Emitted& one : all)
+    for (const std::vector<double>& values : one.schedule)
+      for (const double value : values) input += printed("%a\n", value);
   write_text(folder.path() / "input", input);
   for (const Emitted& one : all)
-    expected += scalar == compiler::ScalarType::float64 ? simulated<double>(one.compilation.law)
-                                                        : simulated<float>(one.compilation.law);
+    expected += scalar == compiler::ScalarType::float64 ? simulated<double>(one) : simulated<float>(one);
   const char* const strict =
       "-pedantic -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror -O1 -ffp-contract=off";
   for (const char* compiler : {DASHPOT_GCC " -std=c99", DASHPOT_CLANG " -std=c99", DASHPOT_GXX " -x c++ -std=c++17"}) {
-    const Finished done = run_command(fmt::format("cd '{}' && {} {} -I'{}' laws.c -o laws && ./laws < input",
-                                                  folder.path().string(), compiler, strict, DASHPOT_RUNTIME_INCLUDE));
+    const Finished done = run_command(
+        fmt::format("cd '{}' && {} {} laws.c -o laws && ./laws < input", folder.path().string(), compiler, strict));
     ASSERT_EQ(done.status, 0) << compiler << "\n" << done.output.substr(0, 4000);
     EXPECT_EQ(first_difference(done.output, expected), "") << compiler;
   }

@@ -99,10 +99,12 @@ class Files(CommandTest):
                          "static inline dashpot_command kelvin_step(kelvin *self, double position, double velocity) {",
                          "static inline double kelvin_stored_energy(const kelvin *self) {"]:
             self.assertIn(declared, header)
-        self.write("coupled.json", network(COUPLED, "coupled"))
-        for file, code in [("coupled.json", "step-of-coupled-slips"),
-                           (SOURCE / "networks/tunable/standard_solid_tunable.json", "step-of-tunables")]:
-            self.assertIn("--target c99 takes", self.refused("compile", file, "--target", "c99", code=code).stderr)
+        self.assertNotIn("#include", header)
+        for file in ["standard_solid_tunable", "friction_tunable", "layers_tunable"]:
+            self.dashpot("compile", SOURCE / f"networks/tunable/{file}.json", "--target", "c99", "-o", "out")
+            header = (self.folder / f"out/{file}.h").read_text()
+            self.assertIn(f"unsigned {file}_set({file} *self, const {file}_parameters *wanted) {{", header)
+            self.assertEqual(header.count("#if"), 3, "two include guards, and the check for IEEE arithmetic")
         self.write("restrict.json", network('{ "spring": 1 }', "restrict"))
         self.refused("compile", "restrict.json", "--target", "c99", code="name-is-word-of-c")
         self.dashpot("compile", "restrict.json")

@@ -49,7 +49,10 @@ std::vector<Recording> recordings() {
       {"forms/rolled", "", {source / "tests/responses/networks/twenty_branches.json"}},
       {"forms/rolled_avx512", "--vector avx512", {source / "tests/responses/networks/twenty_branches.json"}},
       {"forms/constant_time", "--constant-time", {paper / "visco_elasto_plastic.json"}},
-      {"forms/c99", "--target c99", {paper / "second_order_maxwell.json", paper / "visco_elasto_plastic.json"}},
+      {"forms/c99",
+       "--target c99",
+       {paper / "second_order_maxwell.json", paper / "visco_elasto_plastic.json",
+        source / "networks/tunable/friction_tunable.json"}},
       {"forms/batch", "--batch", {paper / "second_order_maxwell.json"}},
   };
 }

@@ -29,7 +29,57 @@
 #ifndef DASHPOT_GENERATED_visco_elasto_plastic_H
 #define DASHPOT_GENERATED_visco_elasto_plastic_H
 
-#include <dashpot/command.h>
+// <dashpot/command.h>, so that this file is all that is needed.
+// What an update law in C returns every sample, and the arithmetic that it shares with the law in C++. C99 and C++;
+// includes nothing. The sign convention is that of <dashpot/command.hpp>: the network opposes the tool with the force
+// f = damping·u̇ + force, positive against +u.
+#ifndef DASHPOT_COMMAND_H
+#define DASHPOT_COMMAND_H
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "dashpot needs IEEE arithmetic: finite checks and compensated sums do not survive -ffast-math"
+#endif
+
+// Of a law in float both numbers are floats, widened without rounding.
+typedef struct dashpot_command {
+  double damping;  // brake damping [N·s/m], or [N·m·s/rad] in rotation; never negative
+  double force;    // motor force opposing +u [N], or torque [N·m] in rotation
+} dashpot_command;
+
+// 1 where all three are finite, else 0: x − x is 0 for a finite x and NaN for the others, and NaN alone differs from
+// itself.
+static inline int dashpot_all_finite(double a, double b, double c) {
+  const double nothing = ((a - a) + (b - b)) + (c - c);
+  return (nothing == nothing) ? 1 : 0;
+}
+static inline int dashpot_all_finitef(float a, float b, float c) {
+  const float nothing = ((a - a) + (b - b)) + (c - c);
+  return (nothing == nothing) ? 1 : 0;
+}
+
+// Zero for a magnitude below `threshold`, the value itself otherwise: keeps decaying states out of the subnormal range.
+static inline double dashpot_flush_below(double threshold, double value) {
+  return ((value > threshold) || (value < -threshold)) ? value : 0.0;
+}
+static inline float dashpot_flush_belowf(float threshold, float value) {
+  return ((value > threshold) || (value < -threshold)) ? value : 0.0f;
+}
+
+// `value` within ± `limit`, which is not negative: what a slip holds of the force that acts on it.
+static inline double dashpot_clamp_to(double limit, double value) {
+  const double below = (value < limit) ? value : limit;
+  return (below > -limit) ? below : -limit;
+}
+static inline float dashpot_clamp_tof(float limit, float value) {
+  const float below = (value < limit) ? value : limit;
+  return (below > -limit) ? below : -limit;
+}
+
+// How far a tool at `position` has pushed in a surface that lies at `at`, unloaded; 0 before it.
+static inline double dashpot_pushed_in(double at, double position) { return (position > at) ? (position - at) : 0.0; }
+static inline float dashpot_pushed_inf(float at, float position) { return (position > at) ? (position - at) : 0.0f; }
+
+#endif
 
 typedef struct visco_elasto_plastic {
   double last_position;  // u of the sample before [m]
@@ -52,8 +102,31 @@ static inline unsigned visco_elasto_plastic_loop_delay(void) { return 0u; }  // 
 // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
 static inline double visco_elasto_plastic_added_damping(void) { return 0.0; }
 
+static inline int visco_elasto_plastic_parameter_count(void) { return 0; }
+static inline const char * visco_elasto_plastic_parameter_name(int i) {
+  (void)i;
+  return "";
+}
+static inline const char * visco_elasto_plastic_parameter_unit(int i) {
+  (void)i;
+  return "";
+}
+static inline double visco_elasto_plastic_parameter_value(int i) {
+  (void)i;
+  return 0;
+}
+static inline double visco_elasto_plastic_parameter_min(int i) {
+  (void)i;
+  return 0;
+}
+static inline double visco_elasto_plastic_parameter_max(int i) {
+  (void)i;
+  return 0;
+}
+
+
 // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
-// treated as 0. To be called before all others.
+// treated as 0. Parameters stay as they are.
 static inline void visco_elasto_plastic_reset(visco_elasto_plastic *self, double position) {
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
   self->K_spring_force = 0.0;
@@ -61,6 +134,12 @@ static inline void visco_elasto_plastic_reset(visco_elasto_plastic *self, double
   self->sampled_Y_trial = 0.0;
   self->sampled_Y_excess = 0.0;
   self->sampled_position = 0.0;
+  self->sampled = 0;
+}
+
+// At rest at 0, with the parameters' values of the network's file. To be called before all others.
+static inline void visco_elasto_plastic_init(visco_elasto_plastic *self) {
+  visco_elasto_plastic_reset(self, 0);
   self->sampled = 0;
 }
 
@@ -117,6 +196,27 @@ static inline dashpot_command visco_elasto_plastic_step(visco_elasto_plastic *se
   const dashpot_command command = visco_elasto_plastic_output(self, position, velocity);
   visco_elasto_plastic_update(self);
   return command;
+}
+
+// The value of a parameter now, counted from 0.
+static inline double visco_elasto_plastic_parameter(const visco_elasto_plastic *self, int i) {
+  (void)self;
+  (void)i;
+  return 0;
+}
+
+// Parameters in turn, between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at
+// its bound now, or it was no number and is as it was. What waits for visco_elasto_plastic_update() belongs to the parameters before.
+static inline unsigned visco_elasto_plastic_set_values(visco_elasto_plastic *self, const double *wanted) {
+  (void)self;
+  (void)wanted;
+  return 0u;
+}
+
+// The share of all forces in the network that the last output kept, for the motor to be able to follow.
+static inline double visco_elasto_plastic_kept_share(const visco_elasto_plastic *self) {
+  (void)self;
+  return 1;
 }
 
 // In the springs after the last update() [J].

@@ -1,0 +1,294 @@
+#include "emit/c99_tunable.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <dashpot/slip_tree.hpp>
+
+#include "emit/c99_parts.hpp"
+#include "emit/cpp_lines.hpp"
+#include "emit/cpp_program.hpp"
+#include "emit/cpp_slips.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+const char* name_of(tunable_kind kind) {
+  switch (kind) {
+    case tunable_kind::spring: return "spring";
+    case tunable_kind::damper: return "damper";
+    case tunable_kind::relaxation: return "relaxation";
+    case tunable_kind::fixed_relaxation: return "fixed_relaxation";
+    case tunable_kind::mesh: return "mesh";
+  }
+  return "";
+}
+
+bool takes_zero_frequency(brake_rule rule) {
+  return rule == brake_rule::zero_frequency || rule == brake_rule::half_zero_frequency ||
+         rule == brake_rule::within_viscosity;
+}
+
+void append_all(Lines& lines, const Lines& more) { lines.insert(lines.end(), more.begin(), more.end()); }
+
+class C99TunablePrinter {
+ public:
+  C99TunablePrinter(const UpdateLaw& law, const std::string& name)
+      : law_(law), tables_(*law.tunable), head_(tables_.head), name_(name) {}
+
+  C99Program print() const {
+    const C99Words words = wording();
+    C99Program program;
+    append_all(program.before, c99_part("numbers.h", words));
+    if (!tables_.couplings.empty()) append_all(program.before, c99_part("slip_tree.h", words));
+    if (!tables_.graphs.empty()) append_all(program.before, c99_part("slip_network.h", words));
+    append_all(program.before, sizes());
+    append_all(program.before, c99_part("tunable_types.h", words));
+    append_all(program.before, tables());
+    program.states = c99_part("tunable_states.h", words);
+    program.functions = c99_part("tunable.h", words);
+    program.begin = {fmt::format("{}_begin(self);", name_)};
+    program.reset = reset();
+    program.output = output();
+    program.update = {fmt::format("{}_advance_all(self);", name_), "self->last_position = self->sampled_position;"};
+    program.energy = energy();
+    if (law_.sheds()) program.kept_share = "self->kept_share";
+    return program;
+  }
+
+ private:
+  std::string number(double value) const { return cpp_literal(value, law_.scalar); }
+  std::string_view scalar() const { return compiler::name_of(law_.scalar); }
+  const char* suffix() const { return law_.scalar == ScalarType::float32 ? "f" : ""; }
+
+  bool has(tunable_kind kind) const {
+    return std::any_of(tables_.parts.begin(), tables_.parts.end(),
+                       [kind](const tunable_part<double>& part) { return part.kind == kind; });
+  }
+
+  C99Words wording() const {
+    const bool mesh = has(tunable_kind::mesh), graph = !tables_.graphs.empty(), tree = !tables_.couplings.empty();
+    const bool brake = head_.slip_rule.takes_part, contact = head_.contact.is_there;
+    const bool is_static = head_.static_spring != no_index, slips = !tables_.yields.empty();
+    const bool relaxes = has(tunable_kind::relaxation), zero_frequency = takes_zero_frequency(head_.rule);
+    C99Words words;
+    words.name = name_;
+    words.scalar = law_.scalar;
+    words.has = {{"ROOTS", true},
+                 {"DECAYS", relaxes && head_.is_exact},
+                 {"RELAXES", relaxes},
+                 {"EXACT", head_.is_exact},
+                 {"SHARES", !tables_.shares.empty()},
+                 {"MESH", mesh},
+                 {"MESHES", mesh || (graph && brake)},
+                 {"VISCOSITY", mesh && zero_frequency},
+                 {"ZERO_FREQUENCY", zero_frequency},
+                 {"STATIC", is_static},
+                 {"SLIPS", slips},
+                 {"TREE", tree},
+                 {"GRAPH", graph},
+                 {"STEP", !contact},
+                 {"PUSH", contact},
+                 {"BRAKE", brake},
+                 {"CONTACT", contact},
+                 {"LIMITS", law_.sheds()},
+                 {"RETURNS", contact && (is_static || !slips)}};
+    words.text = {{"BRAKE_RULE", brake_rule_text()},
+                  {"LEFT_IN_RELAXATION", head_.is_exact ? fmt::format("{}_mean_decay(x)", name_) : "1 / (1 + x)"}};
+    return words;
+  }
+
+  std::string brake_rule_text() const {
+    const std::string constant = name_ + "_wanted_damping";
+    switch (head_.rule) {
+      case brake_rule::constant: return constant;
+      case brake_rule::observed: return fmt::format("{}_number(self, {})", name_, head_.observed);
+      case brake_rule::zero_frequency: return "zero_frequency";
+      case brake_rule::half_zero_frequency:
+        return "((zero_frequency / 2) > self->feedthrough) ? (zero_frequency / 2) : self->feedthrough";
+      case brake_rule::feedthrough: return "self->feedthrough";
+      case brake_rule::within_viscosity: return fmt::format("(zero_frequency < {0}) ? zero_frequency : {0}", constant);
+    }
+    return constant;
+  }
+
+  // Room for at least one of each, since C has no empty arrays.
+  Lines sizes() const {
+    int slips = 0;
+    for (const slip_node<double>& node : tables_.nodes) slips = std::max(slips, node.slips);
+    const auto room = [](auto count) { return std::max(int(count), 1); };
+    const std::vector<std::pair<const char*, int>> all = {
+        {"parameters_room", room(tables_.tunables.size())},
+        {"spring_count", head_.spring_count},
+        {"springs", room(tables_.springs.size())},
+        {"part_count", head_.part_count},
+        {"block_count", head_.block_count},
+        {"blocks_room", room(tables_.blocks.size())},
+        {"mesh_nodes", room(std::max(tables_.mesh_nodes, tables_.ends))},
+        {"slips", head_.slip_count},
+        {"coupling_count", head_.coupling_count},
+        {"tree_nodes_room", room(tables_.nodes.size())},
+        {"corners", room(tables_.corners)},
+        {"merged", slip_curve_room(room(tables_.yields.size()))},
+        {"graph_count", head_.graph_count},
+        {"ends_room", room(tables_.ends)},
+        {"static_spring", head_.static_spring}};
+    Lines lines = {"enum {"};
+    for (const auto& [what, size] : all)
+      lines.push_back(fmt::format("  {}_{} = {}{}", name_, what, size, what == all.back().first ? "" : ","));
+    lines.push_back("};");
+    lines.push_back("");
+    return lines;
+  }
+
+  Lines tables() const {
+    Lines lines;
+    append_constants(lines);
+    list(lines, "range_of_parameter", "ranges", tables_.tunables, [this](const Tunable& t) {
+      return fmt::format("{{{}, {}, {}}},  // {} [{}]", number(t.range.value), number(t.range.min), number(t.range.max),
+                         t.name, t.unit);
+    });
+    row(lines, "terms", tables_.terms);
+    if (!tables_.shares.empty()) scalars(lines, "shares", tables_.shares);
+    list(lines, "sum", "numbers", tables_.numbers, [this](const tunable_number<double>& n) {
+      return fmt::format("{{{}, {}, {}}},", number(n.base), n.first, n.count);
+    });
+    row(lines, "spring_numbers", tables_.springs);
+    list(lines, "part", "parts", tables_.parts, [this](const tunable_part<double>& p) {
+      return fmt::format("{{{}_{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_, name_of(p.kind), p.spring, p.damping,
+                         p.first_node, p.node_count, p.first_edge, p.edge_count, int(p.is_loose), number(p.share),
+                         number(p.loss));
+    });
+    if (has(tunable_kind::mesh))
+      list(lines, "edge", "edges", tables_.edges,
+           [](const tunable_edge& e) { return fmt::format("{{{}, {}, {}, {}}},", e.from, e.to, e.spring, e.damping); });
+    list(lines, "block_parts", "block_table", tables_.blocks,
+         [](const tunable_block& b) { return fmt::format("{{{}, {}}},", b.first_part, b.part_count); });
+    append_slips(lines);
+    lines.push_back("");
+    return lines;
+  }
+
+  void append_constants(Lines& lines) const {
+    const std::vector<std::tuple<const char*, double, const char*>> all = {
+        {"period", head_.period, "h [s]"},
+        {"rate", head_.rate, "1/h [Hz]"},
+        {"retention", head_.retention, "what an offset keeps in a sample where the tank pays [1]"},
+        {"threshold", head_.threshold, "magnitudes of states below are zero"},
+        {"least_share", head_.least_share, "of its greatest value, that a part behind a slip keeps [1]"},
+        {"wanted_damping", head_.damping, "b, or the most of it [N·s/m]"},
+        {"max_damping", head_.max_damping, "what the brake can give [N·s/m]"},
+        {"surface_at", head_.contact.at, "where the surface lies unloaded [m]"},
+        {"encoder_step", head_.contact.encoder_step, "how far the gap may open before the command lets go [m]"},
+        {"hysteresis", head_.slip_rule.hysteresis, "before a slide has ended for the command [m]"},
+        {"coil_share", head_.slip_rule.coil_share, "of what is missing from √b, in a sample [1]"},
+        {"assured_share", head_.slip_rule.assured_share, "of b, that the motor may make up by an estimate [1]"},
+        {"motor_limit", head_.motor_limit, "of its force; 0: none [N]"},
+        {"motor_step", head_.motor_step, "of its change in a period; 0: none [N]"}};
+    for (const auto& [what, value, meaning] : all)
+      lines.push_back(fmt::format("static const {} {}_{} = {};  // {}", scalar(), name_, what, number(value), meaning));
+  }
+
+  void append_slips(Lines& lines) const {
+    const auto ends = [](const tunable_ends& e) { return fmt::format("{{{}, {}}},", e.from, e.to); };
+    if (tables_.yields.empty()) return;
+    row(lines, "cuts", tables_.cuts);
+    list(lines, "yield", "yields", tables_.yields,
+         [](const tunable_yield& y) { return fmt::format("{{{}, {}}},", y.first_cut, y.cut_count); });
+    if (!tables_.couplings.empty()) {
+      list(lines, "coupling", "couplings", tables_.couplings, [](const tunable_coupling& c) {
+        return fmt::format("{{{}, {}, {}, {}, {}}},", c.first_node, c.node_count, c.first_block, c.first_slip,
+                           c.first_corner);
+      });
+      list(lines, "node", "tree_nodes", tables_.nodes, [this](const slip_node<double>& n) {
+        return fmt::format("{{{}_{}, {}, {}, {}, {}, {}, 0, 0, 0}},", name_, part_name(n.kind), n.first_child,
+                           n.child_count, n.slips, n.place, n.first_corner);
+      });
+    }
+    if (tables_.graphs.empty()) return;
+    list(lines, "graph", "graphs", tables_.graphs, [](const tunable_graph& g) {
+      return fmt::format("{{{}, {}, {}, {}, {}, {}}},", g.end_count, g.link_count, g.first_slip, g.tie_count,
+                         g.first_tie, g.first_block);
+    });
+    list(lines, "ends", "slip_ends", tables_.links, ends);
+    list(lines, "ends", "ties", tables_.ties, ends);
+  }
+
+  // An entry of zeros where there is none: nothing reads it.
+  template <class Entry, class Text>
+  void list(Lines& lines, const char* type, const char* what, const std::vector<Entry>& entries, Text text) const {
+    lines.push_back(fmt::format("static const {0}_{1} {0}_{2}[{3}] = {{", name_, type, what,
+                                std::max<std::size_t>(entries.size(), 1)));
+    for (const Entry& entry : entries) lines.push_back("    " + text(entry));
+    if (entries.empty()) lines.push_back("    " + text(Entry{}));
+    lines.push_back("};");
+  }
+
+  void row(Lines& lines, const char* what, const std::vector<int>& entries) const {
+    std::string text;
+    for (int entry : entries) text += (text.empty() ? "" : ", ") + std::to_string(entry);
+    append(lines, fmt::format("static const int {}_{}[{}] = {{{}}};", name_, what,
+                              std::max<std::size_t>(entries.size(), 1), entries.empty() ? "0" : text));
+  }
+
+  void scalars(Lines& lines, const char* what, const std::vector<double>& entries) const {
+    std::string text;
+    for (double entry : entries) text += (text.empty() ? "" : ", ") + number(entry);
+    append(lines, fmt::format("static const {} {}_{}[{}] = {{{}}};", scalar(), name_, what, entries.size(), text));
+  }
+
+  Lines reset() const {
+    const std::string there = head_.contact.is_there
+                                  ? fmt::format("dashpot_pushed_in{}({}_surface_at, position)", suffix(), name_)
+                                  : "position";
+    return {fmt::format("{}_rest_at(self, (dashpot_all_finite{}(position, position, position) != 0) ? {} : 0);", name_,
+                        suffix(), there)};
+  }
+
+  std::string with_added(const char* damping) const {
+    return tables_.added_damping > 0 ? fmt::format("{} + {}_added_damping()", damping, name_) : damping;
+  }
+
+  std::string widened(const std::string& value) const {
+    return law_.scalar == ScalarType::float32 ? fmt::format("(double)({})", value) : value;
+  }
+
+  Lines output() const {
+    return {fmt::format("const {0}_sample sample = {0}_answer_to(self, position, velocity);", name_),
+            fmt::format("self->sampled = dashpot_all_finite{}(position, velocity, sample.wanted);", suffix()),
+            "if (self->sampled != 0) {",
+            "  self->sampled_position_change = sample.change;",
+            "  self->sampled_position = sample.position;",
+            "  self->last_damping = sample.damping;",
+            fmt::format("  command.damping = {};", widened(with_added("sample.damping"))),
+            fmt::format("  command.force = {};", widened("sample.force")),
+            "} else {",
+            fmt::format("  command.damping = {};", widened(with_added("self->last_damping"))),
+            "  command.force = 0;",
+            "}"};
+  }
+
+  Lines energy() const {
+    return {"// V + T: in the springs, and what changes of parameters have set free",
+            fmt::format("{} stored = self->tank;", scalar()),
+            fmt::format("for (int i = 0; i < {}_spring_count; ++i) {{", name_),
+            fmt::format("  stored += {}_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * {};", name_,
+                        number(0.5)),
+            "}"};
+  }
+
+  const UpdateLaw& law_;
+  const TunableTables& tables_;
+  const tunable_tables<double>& head_;
+  std::string name_;
+};
+
+}  // namespace
+
+C99Program c99_tunable_program(const UpdateLaw& law, const std::string& name) {
+  return C99TunablePrinter(law, name).print();
+}
+
+}  // namespace dashpot::compiler

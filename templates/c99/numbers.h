@@ -1,0 +1,52 @@
+#if ROOTS
+// √x, and 0 for x ≤ 0. Infinity stays infinity. The same steps for every x.
+static inline scalar law_square_root(scalar x) {
+  // Powers of two that take any number to between 1 and 4.
+  static const scalar halves[] = {HALVES};
+  scalar scale = 1;
+  if (!(x > 0)) return 0;
+  if ((x - x) != 0) return x;
+  for (int i = 0; i < (int)(sizeof halves / sizeof halves[0]); ++i) {
+    const scalar half = halves[i];
+    const int is_large = (x / half) >= half, is_small = !is_large && ((x * half) < (4 / half));
+    if (is_large) x = x / half / half;
+    if (is_small) x = x * half * half;
+    scale = is_large ? scale * half : (is_small ? scale / half : scale);
+  }
+  // The chord through (1, 1) and (4, 2) is at most 6 % wrong; each of Newton's steps squares the relative error.
+  scalar root = (x + 2) / 3;
+  for (int step = 0; step < 4; ++step) root = (root + x / root) / 2;
+  return scale * root;
+}
+
+#endif
+#if DECAYS
+// 1/n at [n]
+static const scalar law_reciprocal[18] = {
+    0,       1,        ONE / 2,  ONE / 3,  ONE / 4,  ONE / 5,  ONE / 6,  ONE / 7,  ONE / 8,
+    ONE / 9, ONE / 10, ONE / 11, ONE / 12, ONE / 13, ONE / 14, ONE / 15, ONE / 16, ONE / 17};
+
+// e^(−x) for x ≥ 0. Zero from x = 40 on, where 1 − e^(−x) rounds to 1.
+static inline scalar law_decay(scalar x) {
+  const scalar ln2_high = NUMBER(0.693359375), ln2_low = NUMBER(-2.12194440054690583e-4);
+  if (!(x < 40)) return 0;
+  const int halvings = (int)(x * NUMBER(1.4426950408889634) + NUMBER(0.5));
+  const scalar rest = (scalar)halvings * ln2_low - (x - (scalar)halvings * ln2_high);
+  // Taylor's series to rest¹³/13!, below the last place for |rest| ≤ ln 2/2.
+  scalar sum = 1;
+  for (int n = 13; n > 0; --n) sum = 1 + rest * law_reciprocal[n] * sum;
+  return sum / (scalar)(1ull << halvings);
+}
+
+// φ(x) = (1 − e^(−x))/x: what is left in a spring behind a damper, at the end of a sample, of a displacement that grows
+// evenly over it, x being the sample over the relaxation time.
+static inline scalar law_mean_decay(scalar x) {
+  if (x <= 0) return 1;
+  if (x >= NUMBER(0.6875)) return (1 - law_decay(x)) / x;
+  // φ = 1 − x/2 (1 − x/3 (1 − x/4 (…))) to x¹⁶/17!, below a tenth of the last place for x ≤ 11/16.
+  scalar sum = 1;
+  for (int n = 17; n > 1; --n) sum = 1 - x * law_reciprocal[n] * sum;
+  return sum;
+}
+
+#endif

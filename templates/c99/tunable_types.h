@@ -1,0 +1,134 @@
+typedef struct law_range_of_parameter {
+  scalar value;  // to begin with
+  scalar min;
+  scalar max;
+} law_range_of_parameter;
+
+// base + Σ of the parameters terms[first] … terms[first + count − 1], each times its share where there are shares
+typedef struct law_sum {
+  scalar base;
+  int first;
+  int count;
+} law_sum;
+
+// What a part of a block is. Parts stand in parallel.
+enum {
+  law_spring,            // p = k (z − r)
+  law_damper,            // p = B ż
+  law_relaxation,        // a spring and a damper in series, with k and B from numbers
+  law_fixed_relaxation,  // one that no parameter touches: constants worked out beforehand
+  law_mesh               // springs and dampers between inner nodes
+};
+
+enum { law_none = -1, law_mesh_port = -1, law_mesh_held = -2 };  // the ends of a mesh, in the place of a node
+
+typedef struct law_part {
+  int kind;
+  int spring;      // into the springs; of a mesh none
+  int damping;     // number of a damper or relaxation [N·s/m]
+  int first_node;  // of a mesh, as are those below
+  int node_count;
+  int first_edge;
+  int edge_count;
+  int is_loose;  // a spring in series with a slip, so that its rest length means nothing
+  scalar share;  // of a fixed relaxation: what a displacement within a sample leaves in its spring [1]
+  scalar loss;   // of a fixed relaxation: what is lost in a sample [1]
+} law_part;
+
+#if MESH
+// A spring or a damper of a mesh between two of its nodes, counted from the mesh's first; `from` is the end at the
+// port's side.
+typedef struct law_edge {
+  int from;
+  int to;
+  int spring;   // into the springs, or none
+  int damping;  // a number, or none
+} law_edge;
+
+#endif
+#if MESHES
+// Springs and dampers between inner nodes, eliminated node after node from star to mesh: g_jk += g_ij g_ik / Σ g_i.
+// Conductances are only added, multiplied and divided, never subtracted.
+typedef struct law_mesh_room {
+  scalar weight[law_mesh_nodes][law_mesh_nodes];  // above the diagonal; g_ij, then g_ij/Σ g_i
+  scalar to_port[law_mesh_nodes], to_held[law_mesh_nodes];
+  scalar inverse[law_mesh_nodes];  // 1/Σ g_i, 0 where nothing holds the node
+  scalar through;
+#if MESH
+  scalar push[law_mesh_nodes];   // forces on the nodes [N]
+  scalar moved[law_mesh_nodes];  // [m]
+#endif
+#if VISCOSITY
+  scalar next[law_mesh_nodes][law_mesh_nodes];  // what a conductance grows by with s
+  scalar next_to_port[law_mesh_nodes], next_to_held[law_mesh_nodes], next_through;
+#endif
+} law_mesh_room;
+
+#endif
+typedef struct law_block_parts {
+  int first_part;
+  int part_count;
+} law_block_parts;
+
+// One spring across a change of its stiffness.
+typedef struct law_spring_change {
+  scalar stiffness;      // before [N/m]
+  scalar new_stiffness;  // after
+  scalar force;          // before [N]
+  scalar new_force;      // after
+} law_spring_change;
+
+#if SLIPS
+// Yield force of a slip: the least of numbers[cuts[first]] …, one number for each way to cut it through.
+typedef struct law_yield {
+  int first_cut;
+  int cut_count;
+} law_yield;
+
+#endif
+#if TREE
+// Slips that are stepped together: nodes of the tree, blocks in the order of their places, slips likewise.
+typedef struct law_coupling {
+  int first_node;
+  int node_count;
+  int first_block;
+  int first_slip;
+  int first_corner;
+} law_coupling;
+
+#endif
+#if GRAPH
+// What a block or a slip is between where slips meet in no tree: inner ends by their number from 0, then the tool, then
+// the ground.
+typedef struct law_ends {
+  int from;
+  int to;
+} law_ends;
+
+// Slips that are stepped together and meet in no tree, and the blocks between their ends, one a tie. With a contact the
+// last inner end is the surface.
+typedef struct law_graph {
+  int end_count;  // inner ones
+  int link_count;
+  int first_slip;  // into slips and links
+  int tie_count;
+  int first_tie;
+  int first_block;
+} law_graph;
+
+#endif
+// What the tool and the network know of each other in a sample.
+typedef struct law_answer {
+  scalar opposing;  // f′ = f − b∞ Δu/h, also without what slips leave to the brake [N]
+  scalar gain;      // b∞ − b of it, and what the motor makes up for a coil on its way [N·s/m]
+  scalar damping;   // b of it, and of the slips [N·s/m]
+} law_answer;
+
+typedef struct law_sample {
+  scalar change;    // Δu; of a contact Δs, of its surface [m]
+  scalar position;  // u; s, of the surface from where it lies unloaded [m]
+  scalar damping;   // b [N·s/m]
+  scalar force;     // m, within what the motor can make [N]
+  scalar wanted;    // m, were there no limit [N]
+} law_sample;
+

@@ -16,6 +16,7 @@ const std::vector<Target>& table() {
        {"--constant-time", "--batch", "--with-test", "--certificate"},
        emit_cpp},
       {"c99", "a struct and its functions in C99", "NAME.h", {"network.h.in"}, {}, emit_c99},
+      {"hal", "a component of LinuxCNC, for halcompile", "NAME.comp", {"hal.comp.in", "network.h.in"}, {}, emit_hal},
   };
   return all;
 }

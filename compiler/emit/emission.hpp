@@ -49,4 +49,9 @@ std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, 
 std::optional<std::vector<OutputFile>> emit_c99(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 
+// <name>.comp, a component of LinuxCNC. Refuses: what emit_c99() refuses, but no name that C keeps; names that LinuxCNC
+// keeps or that are too long for it.
+std::optional<std::vector<OutputFile>> emit_hal(const Compilation& compilation, const EmissionOptions& options,
+                                                Diagnostics& diagnostics);
+
 }  // namespace dashpot::compiler

@@ -112,6 +112,29 @@ class Files(CommandTest):
             done = self.dashpot("compile", "kelvin.json", "--target", "c99", *option, status=COMMAND_LINE_WRONG)
             self.assertIn(f"--target c99 knows no {option[0]}", done.stderr)
 
+    def test_hal(self):
+        """Fails if --target hal writes anything but one component, or one that takes the place of another or has no room for its pins."""
+        self.dashpot("compile", "kelvin.json", "--target", "hal", "-o", "out")
+        self.assertEqual(self.files("out"), ["kelvin.comp"])
+        component = (self.folder / "out/kelvin.comp").read_text()
+        for declared in ['component kelvin "kelvin";', "pin in float position", "pin out float damping", "pin out float force",
+                         "pin in bit enable = 0", "pin out bit fault", "typedef struct law_kelvin {"]:
+            self.assertIn(declared, component)
+        self.dashpot("compile", "kelvin.json", "--target", "hal", "--name", "restrict")
+        told = self.refused("compile", "kelvin.json", "--target", "hal", "--name", "siggen", code="name-kept-by")
+        self.assertIn("'siggen' is kept by a component of LinuxCNC", told.stderr)
+        longest = "k" * (47 - len(".0.safe-damping"))
+        self.dashpot("compile", "kelvin.json", "--target", "hal", "--name", longest)
+        self.assertIn("HAL takes at most 47",
+                      self.refused("compile", "kelvin.json", "--target", "hal", "--name", longest + "k", code="name-too-long-for").stderr)
+
+    def test_parameters_with_names_of_a_target(self):
+        """Fails if a tunable parameter passes for a pin or a variable that is there already."""
+        for name in ["fault", "enable"]:
+            tunable = f'"parameters": {{ "{name}": {{ "value": "100 N/m", "tunable": true, "min": "50 N/m", "max": "200 N/m" }} }},'
+            self.write("tunable.json", network(f'{{ "spring": "{name}" }}', "soft", tunable))
+            self.refused("compile", "tunable.json", "--target", "hal", code="parameter-name-kept-by")
+
     def test_the_timings(self):
         """Fails if --timings leaves a stage out, changes what is written, or is printed where output belongs."""
         stages = ["files", "front end", "normal form", "decomposition", "discretisation", "certificate", "emission", "total"]

@@ -1,0 +1,27 @@
+// The law in C99 as a part of a longer source, for targets that put something around it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emit/code_model.hpp"
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// What the struct is called and its functions begin with: no name of a header or of a tool, whatever the network's
+// name.
+std::string c99_name(const Compilation& compilation);
+
+// Of <name>.h, all of it, including nothing. Refuses what emit_c99() refuses.
+std::optional<std::string> c99_source(const Compilation& compilation, const EmissionOptions& options,
+                                      Diagnostics& diagnostics);
+
+// An entry for each tunable: tunable, unit, value, min, max and index.
+std::vector<Fields> tunable_fields(const Compilation& compilation);
+
+// The text without its last end of line, as one entry of a list for a template.
+std::vector<Fields> as_one_entry(std::string text);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,345 @@
+component second_order_maxwell "General viscoelastic solid, Fig. 2e";
+description """
+The force of a network of springs, dampers and slips, written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587.
+
+Once a period take position and velocity of the tool from the encoder, and give \\fBdamping\\fR to the brake and minus \\fBforce\\fR
+to the motor: the network opposes the tool with damping * velocity + force.
+
+While \\fBenable\\fR is false, and after a fault until it has been false, the force is 0 and the damping \\fBsafe-damping\\fR. The law
+begins at rest where the tool is when \\fBenable\\fR becomes true. It runs in a thread of 1000000 ns and in no other.""";
+examples """
+addf encoder.update-position servo
+
+addf second-order-maxwell.0.output servo
+
+addf the motor's and the brake's outputs, servo
+
+addf second-order-maxwell.0.update servo""";
+notes """source: Gosline & Hayward 2009, Fig. 5
+.br
+scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+.br
+brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series B1
+  dissipates 100 % at low frequency and is observed; in series B2 dissipates 100 % at low frequency and is
+  observed
+.br
+states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
+  tells the inputs apart)
+.br
+late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+.br
+passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
+  N·s/m is there
+  on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+.br
+energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-13 of the sum of
+  the force's terms
+.br
+device: none is named: exact brake, exact velocity, no delay
+.br
+cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
+.br
+cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers are kept between
+  samples
+.br
+rounding: the force of a mode is off by at most 2e-13 of its peak
+.br
+words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+  mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+  the motor makes what the spring behind it changes of that""";
+pin in float position "of the tool [m]";
+pin in float velocity "of the tool [m/s], as the estimator 'exact' tells it";
+pin in bit enable = 0 "false: safe, at rest where the tool is; clears a fault";
+pin out float damping "for the brake [N s/m], never negative";
+pin out float force "of the network, against positive motion [N]: the motor makes minus this";
+pin out bit fault "true after a fault, until enable is false";
+pin out unsigned fault_code "0 none, 1 a thread of another period, 2 a position or velocity that is no finite number";
+param rw float safe_damping = 0.0 "for the brake, without enable and after a fault [N s/m]";
+function output fp "the command of this sample, from position and velocity; between reading the encoder and writing the outputs";
+function update fp "what remains to be computed when the outputs are written; output does it where this is left out";
+option no_convenience_defines yes;
+option data law_second_order_maxwell_instance;
+author "whoever had it written";
+license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
+;;
+// The bits are those of separate multiplications and additions, on processors that have both in one as well.
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC optimize("fp-contract=off")
+#endif
+
+// General viscoelastic solid, Fig. 2e
+//
+// source: Gosline & Hayward 2009, Fig. 5
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series B1
+//   dissipates 100 % at low frequency and is observed; in series B2 dissipates 100 % at low frequency and is
+//   observed
+// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
+//   tells the inputs apart)
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+// passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
+//   N·s/m is there
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-13 of the sum of
+//   the force's terms
+// device: none is named: exact brake, exact velocity, no delay
+// cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
+// cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers are kept between
+//   samples
+// rounding: the force of a mode is off by at most 2e-13 of its peak
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
+//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
+//   the motor makes what the spring behind it changes of that
+//
+// Written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587. It belongs to whoever had it written. C99, and
+// C++; compile it with -ffp-contract=off where results are compared bit for bit.
+#ifndef DASHPOT_GENERATED_law_second_order_maxwell_H
+#define DASHPOT_GENERATED_law_second_order_maxwell_H
+
+// <dashpot/command.h>, so that this file is all that is needed.
+// What an update law in C returns every sample, and the arithmetic that it shares with the law in C++. C99 and C++;
+// includes nothing. The sign convention is that of <dashpot/command.hpp>: the network opposes the tool with the force
+// f = damping·u̇ + force, positive against +u.
+#ifndef DASHPOT_COMMAND_H
+#define DASHPOT_COMMAND_H
+
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "dashpot needs IEEE arithmetic: finite checks and compensated sums do not survive -ffast-math"
+#endif
+
+// Of a law in float both numbers are floats, widened without rounding.
+typedef struct dashpot_command {
+  double damping;  // brake damping [N·s/m], or [N·m·s/rad] in rotation; never negative
+  double force;    // motor force opposing +u [N], or torque [N·m] in rotation
+} dashpot_command;
+
+// 1 where all three are finite, else 0: x − x is 0 for a finite x and NaN for the others, and NaN alone differs from
+// itself.
+static inline int dashpot_all_finite(double a, double b, double c) {
+  const double nothing = ((a - a) + (b - b)) + (c - c);
+  return (nothing == nothing) ? 1 : 0;
+}
+static inline int dashpot_all_finitef(float a, float b, float c) {
+  const float nothing = ((a - a) + (b - b)) + (c - c);
+  return (nothing == nothing) ? 1 : 0;
+}
+
+// Zero for a magnitude below `threshold`, the value itself otherwise: keeps decaying states out of the subnormal range.
+static inline double dashpot_flush_below(double threshold, double value) {
+  return ((value > threshold) || (value < -threshold)) ? value : 0.0;
+}
+static inline float dashpot_flush_belowf(float threshold, float value) {
+  return ((value > threshold) || (value < -threshold)) ? value : 0.0f;
+}
+
+// `value` within ± `limit`, which is not negative: what a slip holds of the force that acts on it.
+static inline double dashpot_clamp_to(double limit, double value) {
+  const double below = (value < limit) ? value : limit;
+  return (below > -limit) ? below : -limit;
+}
+static inline float dashpot_clamp_tof(float limit, float value) {
+  const float below = (value < limit) ? value : limit;
+  return (below > -limit) ? below : -limit;
+}
+
+// How far a tool at `position` has pushed in a surface that lies at `at`, unloaded; 0 before it.
+static inline double dashpot_pushed_in(double at, double position) { return (position > at) ? (position - at) : 0.0; }
+static inline float dashpot_pushed_inf(float at, float position) { return (position > at) ? (position - at) : 0.0f; }
+
+#endif
+
+typedef struct law_second_order_maxwell {
+  double last_position;  // u of the sample before [m]
+  double relaxed_force;  // sum of the modes' forces, decayed to the next sample [N]
+  double B2_K2_force;  // force of the mode, decayed to the next sample [N]
+  double B1_K1_force;  // force of the mode, decayed to the next sample [N]
+  double sampled_position_change;  // Δu since the sample before, at this sample [m]
+  double sampled_position;  // port displacement u, at this sample [m]
+  int sampled;  // 1 while a finite sample waits for law_second_order_maxwell_update()
+} law_second_order_maxwell;
+
+// What a servo loop compares with the device that it drives. An empty digest: no device was named, any will do.
+static inline double law_second_order_maxwell_sample_period(void) { return 0.001; }  // [s]
+static inline int law_second_order_maxwell_is_rotation(void) { return 0; }
+static inline const char *law_second_order_maxwell_device(void) { return "ideal"; }
+static inline const char *law_second_order_maxwell_device_digest(void) { return ""; }
+static inline const char *law_second_order_maxwell_estimator(void) { return "exact"; }
+static inline unsigned law_second_order_maxwell_loop_delay(void) { return 0u; }  // [samples]
+
+// The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+static inline double law_second_order_maxwell_added_damping(void) { return 0.0; }
+
+static inline int law_second_order_maxwell_parameter_count(void) { return 0; }
+static inline const char * law_second_order_maxwell_parameter_name(int i) {
+  (void)i;
+  return "";
+}
+static inline const char * law_second_order_maxwell_parameter_unit(int i) {
+  (void)i;
+  return "";
+}
+static inline double law_second_order_maxwell_parameter_value(int i) {
+  (void)i;
+  return 0;
+}
+static inline double law_second_order_maxwell_parameter_min(int i) {
+  (void)i;
+  return 0;
+}
+static inline double law_second_order_maxwell_parameter_max(int i) {
+  (void)i;
+  return 0;
+}
+
+
+// At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
+// treated as 0. Parameters stay as they are.
+static inline void law_second_order_maxwell_reset(law_second_order_maxwell *self, double position) {
+  self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
+  self->relaxed_force = 0.0;
+  self->B2_K2_force = 0.0;
+  self->B1_K1_force = 0.0;
+  self->sampled_position_change = 0.0;
+  self->sampled_position = 0.0;
+  self->sampled = 0;
+}
+
+// At rest at 0, with the parameters' values of the network's file. To be called before all others.
+static inline void law_second_order_maxwell_init(law_second_order_maxwell *self) {
+  law_second_order_maxwell_reset(self, 0);
+  self->sampled = 0;
+}
+
+// The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+// non-finite input the states stay as they were and the motor's force is 0.
+static inline dashpot_command law_second_order_maxwell_output(law_second_order_maxwell *self, double position, double velocity) {
+  dashpot_command command;
+  const double damping = 11.0;  // b, the brake's part
+  const double static_stiffness = 5.0;  // k0 [N/m]
+  const double step_stiffness = 21.977282807459243;  // Σ c_i, answer of all modes within a sample [N/m]
+  const double velocity_gain = -11.0;  // b∞ − b [N·s/m]
+  // Δu = u − u₋
+  const double position_change = position - self->last_position;
+  // m = f − b u̇
+  const double force = self->relaxed_force + static_stiffness * position + (step_stiffness * position_change +
+      velocity_gain * velocity);
+  self->sampled = dashpot_all_finite(position, velocity, force);
+  if (self->sampled != 0) {
+    self->sampled_position_change = position_change;
+    self->sampled_position = position;
+    command.damping = damping;
+    command.force = force;
+  } else {
+    command.damping = damping;
+    command.force = 0.0;
+  }
+  return command;
+}
+
+// Takes the states to the next sample; to be called once after each law_second_order_maxwell_output(), when the command has left.
+static inline void law_second_order_maxwell_update(law_second_order_maxwell *self) {
+  if (self->sampled != 0) {
+    const double threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+    const double B2_K2_gain = 9.975032378492145;  // a c [N/m]
+    const double B1_K1_gain = 11.956880536422767;  // a c [N/m]
+    const double B2_K2_decay = 0.9983347214509387;  // a = e^{−λh} [1]
+    const double B1_K1_decay = 0.9976028776973818;  // a = e^{−λh} [1]
+    // F ← a (F + c Δu)
+    self->B2_K2_force = B2_K2_gain * self->sampled_position_change +
+        B2_K2_decay * dashpot_flush_below(threshold, self->B2_K2_force);
+    self->B1_K1_force = B1_K1_gain * self->sampled_position_change +
+        B1_K1_decay * dashpot_flush_below(threshold, self->B1_K1_force);
+    // S = Σ a_i F_i
+    self->relaxed_force = self->B2_K2_force + self->B1_K1_force;
+    // u₋ = u
+    self->last_position = self->sampled_position;
+    self->sampled = 0;
+  }
+}
+
+// output() and then update(), where nothing else has to happen in between.
+static inline dashpot_command law_second_order_maxwell_step(law_second_order_maxwell *self, double position, double velocity) {
+  const dashpot_command command = law_second_order_maxwell_output(self, position, velocity);
+  law_second_order_maxwell_update(self);
+  return command;
+}
+
+// The value of a parameter now, counted from 0.
+static inline double law_second_order_maxwell_parameter(const law_second_order_maxwell *self, int i) {
+  (void)self;
+  (void)i;
+  return 0;
+}
+
+// Parameters in turn, between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at
+// its bound now, or it was no number and is as it was. What waits for law_second_order_maxwell_update() belongs to the parameters before.
+static inline unsigned law_second_order_maxwell_set_values(law_second_order_maxwell *self, const double *wanted) {
+  (void)self;
+  (void)wanted;
+  return 0u;
+}
+
+// The share of all forces in the network that the last output kept, for the motor to be able to follow.
+static inline double law_second_order_maxwell_kept_share(const law_second_order_maxwell *self) {
+  (void)self;
+  return 1;
+}
+
+// In the springs after the last update() [J].
+static inline double law_second_order_maxwell_stored_energy(const law_second_order_maxwell *self) {
+  const double half_static_stiffness = 2.5;  // ½ k0 [N/m]
+  const double B2_K2_energy_weight = 0.050166944753343795;  // 1/(2 k a²) [m/N]
+  const double B1_K1_energy_weight = 0.041867147435589155;  // 1/(2 k a²) [m/N]
+  // F²/(2k)
+  const double B2_K2_energy = B2_K2_energy_weight * self->B2_K2_force * self->B2_K2_force;
+  const double B1_K1_energy = B1_K1_energy_weight * self->B1_K1_force * self->B1_K1_force;
+  // V = ½ k0 u² + Σ F_i²/(2 k_i)
+  const double stored = half_static_stiffness * self->last_position * self->last_position + (B2_K2_energy +
+      B1_K1_energy);
+  return stored;
+}
+
+#endif
+
+typedef struct {
+  law_second_order_maxwell law;
+  int has_begun;
+} law_second_order_maxwell_instance;
+
+#undef FUNCTION
+#define FUNCTION(name) static void name(struct __comp_state *__comp_inst, long period)
+
+FUNCTION(output) {
+  law_second_order_maxwell_instance *here = __comp_inst->_data;
+  const double position = (double)*__comp_inst->position, velocity = (double)*__comp_inst->velocity;
+  const int is_first = here->has_begun == 0;
+  dashpot_command command = {__comp_inst->safe_damping, 0.0};
+  if (is_first) law_second_order_maxwell_init(&here->law);
+  here->has_begun = 1;
+  law_second_order_maxwell_update(&here->law);  // where the function of that name has not run
+  if (is_first || !*__comp_inst->enable) law_second_order_maxwell_reset(&here->law, position);
+  if (!*__comp_inst->enable) {
+    *__comp_inst->fault_code = 0;
+  } else if (*__comp_inst->fault_code == 0) {
+    if (period < 1000000 - 1 || period > 1000000 + 1) {
+      *__comp_inst->fault_code = 1;
+      rtapi_print_msg(RTAPI_MSG_ERR, "second_order_maxwell: the thread's period is %ld ns; the law is one for 1000000 ns\n", period);
+    } else if (!(position - position == 0) || !(velocity - velocity == 0)) {
+      *__comp_inst->fault_code = 2;
+      rtapi_print_msg(RTAPI_MSG_ERR, "second_order_maxwell: position or velocity is no finite number\n");
+    } else {
+      command = law_second_order_maxwell_output(&here->law, position, velocity);
+    }
+  }
+  *__comp_inst->damping = command.damping;
+  *__comp_inst->force = command.force;
+  *__comp_inst->fault = *__comp_inst->fault_code != 0;
+}
+
+FUNCTION(update) {
+  law_second_order_maxwell_instance *here = __comp_inst->_data;
+  (void)period;
+  if (here->has_begun != 0) law_second_order_maxwell_update(&here->law);
+}

@@ -1,0 +1,190 @@
+"""Runs emitted components in LinuxCNC's HAL as a normal user, on threads of this machine, without its real time.
+
+The environment names DASHPOT (the executable), DASHPOT_SOURCE (this repository) and CC. Modules can be loaded from LinuxCNC's own
+folder only: root puts them there for the time of the test; anybody else sees a folder of their own there, in a namespace.
+"""
+import os
+import pathlib
+import re
+import shutil
+import struct
+import subprocess
+import tempfile
+import unittest
+
+DASHPOT, CC = os.environ["DASHPOT"], os.environ["CC"]
+SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
+MODULES = pathlib.Path("/usr/lib/linuxcnc/modules")
+ROWS = 3000
+
+# Networks, options, and what they are called here, where nothing else is called so.
+RIG = SOURCE / "examples/linuxcnc"
+LAWS = [("paper/second_order_maxwell", [], "dp_test_maxwell"),
+        ("paper/second_order_maxwell", ["--scalar", "float"], "dp_test_float"),
+        ("paper/visco_elasto_plastic", [], "dp_test_slips"),
+        ("tunable/standard_solid_tunable", [], "dp_test_tunable")]
+LAWS += [(f"paper/{path.stem}", [], f"dp_test_paper_{i}") for i, path in enumerate(sorted((SOURCE / "networks/paper").glob("*.json")))]
+AT_ONCE = 8  # as many as one sampler has pins for
+BRAKE = "dp_test_brake"
+
+
+def told(*command, **more):
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=120, **more)
+    if done.returncode != 0:
+        raise AssertionError(f"{command}\n{done.stdout}{done.stderr}")
+    return done.stdout + done.stderr
+
+
+def as_float(number):
+    return struct.unpack("f", struct.pack("f", number))[0]
+
+
+class Hal(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(temporary.cleanup)
+        cls.folder = pathlib.Path(temporary.name)
+        cls.folder.chmod(0o777)
+        (cls.folder / f"{BRAKE}.comp").write_text((RIG / "brake_current.comp").read_text().replace("brake_current", BRAKE))
+        told("halcompile", "--compile", f"{BRAKE}.comp", cwd=cls.folder)
+        for network, options, name in LAWS:
+            told(DASHPOT, "compile", SOURCE / f"networks/{network}.json", "--name", name, "--target", "hal", *options, cwd=cls.folder)
+            told("halcompile", "--compile", f"{name}.comp", cwd=cls.folder)
+        told(CC, "-DULAPI", "-D_GNU_SOURCE", "-I/usr/include/linuxcnc", SOURCE / "tests/hal/read_samples.c", "-llinuxcnchal", "-o",
+             "read_samples", cwd=cls.folder)
+        (cls.folder / "read_samples").chmod(0o755)
+        modules = [BRAKE] + [name for _, _, name in LAWS]
+        if os.geteuid() == 0:
+            for name in modules:
+                cls.addClassCleanup((MODULES / f"{name}.so").unlink)
+                shutil.copy(cls.folder / f"{name}.so", MODULES)
+        else:
+            shutil.copytree(MODULES, cls.folder / "modules")
+            for name in modules:
+                shutil.copy(cls.folder / f"{name}.so", cls.folder / "modules")
+
+    def run_hal(self, lines):
+        (self.folder / "test.hal").write_text("\n".join(lines) + "\n")
+        variables = [f"HOME={self.folder}", f"RTAPI_FIFO_PATH={self.folder}/fifo"]
+        run = ["env", "-C", str(self.folder), *variables, "halrun", "-f", "test.hal"]
+        if os.geteuid() == 0:
+            return told("runuser", "-u", "nobody", "--", *run)
+        bind = f"mount --bind '{self.folder}/modules' {MODULES} && exec unshare --user --map-user=1000 \"$@\""
+        return told("unshare", "--user", "--map-root-user", "--mount", "sh", "-c", bind, "sh", *run)
+
+    def simulated(self, network, options, motion):
+        told(DASHPOT, "simulate", SOURCE / f"networks/{network}.json", "--input", motion, "-o", "simulated.csv", *options, cwd=self.folder)
+        text = (self.folder / "simulated.csv").read_text()
+        header, *rows = [line.split(",") for line in text.splitlines()]
+        damping, force = header.index("damping"), header.index("motor_force")
+        return [(float(row[damping]), float(row[force])) for row in rows]
+
+    def test_same_bits_as_simulate(self):
+        """Fails if one of 3000 consecutive samples of siggen, ddt and the laws on one thread differs from `simulate` in a bit."""
+        for first in range(0, len(LAWS), AT_ONCE):
+            self.expect_same_bits(LAWS[first:first + AT_ONCE])
+
+    def expect_same_bits(self, laws):
+        pin_count = 3 + 2 * len(laws)  # position, velocity, a parameter, and the commands
+        lines = ["loadrt threads name1=servo period1=1000000", "loadrt siggen num_chan=2", "loadrt ddt",
+                 f"loadrt sampler depth=8000 cfg={'f' * pin_count}",
+                 "net u siggen.0.sine => ddt.0.in sampler.0.pin.0", "net v ddt.0.out => sampler.0.pin.1",
+                 "net k siggen.1.sine => sampler.0.pin.2", "setp siggen.1.offset 400", "setp siggen.1.amplitude 300", "setp siggen.1.frequency 0.9",
+                 "addf siggen.0.update servo", "addf siggen.1.update servo", "addf ddt.0 servo"]
+        for i, (_, _, name) in enumerate(laws):
+            pins = name.replace("_", "-") + ".0"
+            lines += [f"loadrt {name}", f"net u => {pins}.position", f"net v => {pins}.velocity",
+                      f"net b{i} {pins}.damping => sampler.0.pin.{3 + 2 * i}", f"net f{i} {pins}.force => sampler.0.pin.{4 + 2 * i}",
+                      f"addf {pins}.output servo", f"setp {pins}.enable 1"]
+            if name.endswith("tunable"):
+                lines.append(f"net k => {pins}.K1")
+            if i != 1:  # the other leaves to output() what it would do
+                lines.append(f"addf {pins}.update servo")
+        lines += ["addf sampler.0 servo", "setp siggen.0.amplitude 0", "setp siggen.0.frequency 1.7", "start", "loadusr -w sleep 0.1",
+                  "setp siggen.0.amplitude 0.004", f"loadusr -w ./read_samples samples.txt {ROWS} {'f' * pin_count}"]
+        self.run_hal(lines)
+        rows = [line.split() for line in (self.folder / "samples.txt").read_text().splitlines()]
+        numbers = [int(row[0]) for row in rows]
+        self.assertEqual(numbers, list(range(numbers[0], numbers[0] + ROWS)))
+        samples = [[float.fromhex(word) for word in row[1:]] for row in rows]
+        self.assertGreater(max(row[0] for row in samples), 0.0039)
+        self.assertGreater(max(row[1] for row in samples), 0.04)
+        self.assertGreater(max(row[2] for row in samples), 690)
+        (self.folder / "motion.csv").write_text(
+            "time,position,velocity,K1\n" + "".join(f"{k / 1000!r},{row[0]!r},{row[1]!r},{row[2]!r}\n" for k, row in enumerate(samples)))
+        for i, (network, options, name) in enumerate(laws):
+            narrowed = as_float if "float" in options else float
+            expected = [tuple(map(narrowed, row)) for row in self.simulated(network, options, "motion.csv")]
+            found = [tuple(row[3 + 2 * i:5 + 2 * i]) for row in samples]
+            self.assertEqual(sum(a == b for a, b in zip(found, expected, strict=True)), ROWS, name)
+            self.assertGreater(max(abs(force) + damping for damping, force in found), 0.01)
+
+    def outputs(self, name, *pins):
+        return [f"getp {name.replace('_', '-')}.0.{pin}" for pin in pins]
+
+    def values(self, told):
+        """What getp has printed: bits as they are, numbers as numbers."""
+        found = []
+        for line in told.splitlines():
+            if line in ("TRUE", "FALSE"):
+                found.append(line)
+            elif re.fullmatch(r"0x[0-9A-Fa-f]+", line):
+                found.append(int(line, 16))
+            elif re.fullmatch(r"-?[0-9.]+(e[-+]?[0-9]+)?|-?inf|-?nan", line):
+                found.append(float(line))
+        return found
+
+    def test_faults(self):
+        """Fails if a thread of another period, or what is no number, moves the motor, or a fault goes while enable holds."""
+        name = LAWS[0][2]
+        pins = name.replace("_", "-") + ".0"
+        watched = ("fault", "fault-code", "force", "damping")
+        for period, position, code in [(500000, "0.001", 1), (1000000, "nan", 2), (1000000, "0.001", 0)]:
+            out = self.run_hal(
+                [f"loadrt threads name1=servo period1={period}", f"loadrt {name}", f"addf {pins}.output servo", f"addf {pins}.update servo",
+                 f"setp {pins}.safe-damping 3", f"setp {pins}.position {position}", "start", "loadusr -w sleep 0.1", *self.outputs(name, *watched),
+                 f"setp {pins}.enable 1", "loadusr -w sleep 0.1", *self.outputs(name, *watched),
+                 f"setp {pins}.position 0.002", "loadusr -w sleep 0.1", *self.outputs(name, "fault-code"),
+                 f"setp {pins}.enable 0", "loadusr -w sleep 0.1", *self.outputs(name, *watched)])
+            words = self.values(out)
+            safe = ["FALSE", 0, 0, 3]
+            self.assertEqual(words[:4], safe, out)
+            if code:
+                self.assertEqual(words[4:9], ["TRUE", code, 0, 3, code], out)
+                self.assertIn({1: f"period is {period} ns; the law is one for 1000000 ns", 2: "is no finite number"}[code], out)
+            else:
+                self.assertEqual(words[4:6] + [words[7]], ["FALSE", 0, 11], out)
+                self.assertGreater(words[6], 0.001)
+            self.assertEqual(words[-4:], safe, out)
+
+    def test_the_example(self):
+        """Fails if the rig of examples/linuxcnc does not start, its tool rests, or its currents are not those of force and damping."""
+        rig = (RIG / "rig.hal").read_text()
+        for old, new in [("second_order_maxwell", LAWS[0][2]), ("brake_current", BRAKE)]:
+            self.assertIn(f"loadrt {old}", rig)
+            rig = rig.replace(old, new).replace(old.replace("_", "-"), new.replace("_", "-"))
+        watched = ["gets tool-position", "gets wanted-force", "gets motor-current", "gets wanted-damping", "gets brake-coil"]
+        lines = [rig, "loadusr -w sleep 0.4", "stop", *watched, *self.outputs(LAWS[0][2], "fault", "enable"),
+                 *self.outputs(BRAKE, "saturated"), "start", f"setp {BRAKE.replace('_', '-')}.0.max-current 0.5", "loadusr -w sleep 0.1",
+                 "stop", "gets brake-coil", *self.outputs(BRAKE, "saturated")]
+        position, force, current, damping, coil, *rest = self.values(self.run_hal(lines))
+        self.assertGreater(position, 1e-4)
+        self.assertGreater(abs(force), 1e-4)
+        self.assertLessEqual(abs(current + force / 4), 2e-6)  # six digits are printed
+        self.assertEqual(damping, 11)
+        self.assertLessEqual(abs(coil - (11 / 12) ** 0.5), 1e-6)
+        self.assertEqual(rest, ["FALSE", "TRUE", "FALSE", 0.5, "TRUE"])
+
+    def test_the_manual_page_names_every_pin(self):
+        """Fails if the component's manual page cannot be made, or says nothing of a pin."""
+        name = LAWS[0][2]
+        told("halcompile", "--document", "-o", "page.9", f"{name}.comp", cwd=self.folder)
+        page = (self.folder / "page.9").read_text()
+        for pin in ["position", "velocity", "enable", "damping", "force", "fault", "fault-code", "safe-damping", "output", "update"]:
+            self.assertIn(pin, page)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "commands/fmu.hpp"
 #include "source/nearest_name.hpp"
 
 namespace dashpot::compiler {
@@ -17,6 +18,18 @@ const std::vector<Target>& table() {
        emit_cpp},
       {"c99", "a struct and its functions in C99", "NAME.h", {"network.h.in"}, {}, emit_c99},
       {"hal", "a component of LinuxCNC, for halcompile", "NAME.comp", {"hal.comp.in", "network.h.in"}, {}, emit_hal},
+      {"fmi2",
+       "a unit for co-simulation, FMI 2.0",
+       "NAME.fmu",
+       {"fmi_core.c.in", "fmi2.c.in", "fmi2.xml.in", "network.h.in"},
+       {},
+       emit_fmi2},
+      {"fmi3",
+       "a unit for co-simulation, FMI 3.0",
+       "NAME.fmu",
+       {"fmi_core.c.in", "fmi3.c.in", "fmi3.xml.in", "network.h.in"},
+       {},
+       emit_fmi3},
   };
   return all;
 }

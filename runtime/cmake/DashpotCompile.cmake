@@ -1,5 +1,6 @@
 # dashpot_compile(TARGET NETWORK FILE [DEVICE FILE] [RATE HZ] [SCHEME NAME] [STATE_INPUT NAME] [DECOMPOSITION NAME|DAMPING]
-#                 [SCALAR double|float] [VECTOR none|sse2|avx2|avx512|neon] [TEMPLATES FOLDER] [CONSTANT_TIME] [BATCH] [WITH_TEST])
+#                 [SCALAR double|float] [VECTOR none|sse2|avx2|avx512|neon] [TEMPLATES FOLDER] [CONSTANT_TIME] [BATCH] [WITH_TEST]
+#                 [FMU 2|3])
 #
 # Makes TARGET, an INTERFACE library: what links it includes <NAME.hpp>, the update law of the network called NAME in FILE,
 # and is built after it. The law is compiled again when the network, the device, the compiler or a template changes, and
@@ -8,13 +9,16 @@
 #
 # BATCH also makes <NAME_batch.hpp>, a class for many points of the network.
 #
+# FMU also makes NAME.fmu, the law as a unit for co-simulation of FMI 2.0 or 3.0, for the machine that builds; the property
+# DASHPOT_FMU of TARGET is its path.
+#
 # WITH_TEST also makes TARGET_test, GoogleTest cases of the law against closed forms, and registers them with CTest.
 #
 # Relative paths start from the current source folder. One folder of output for each target: two targets may hold laws of
 # one network, but one program can link only one of them, because both are the same class.
 function(dashpot_compile target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_TEST;CONSTANT_TIME;BATCH"
-    "NETWORK;DEVICE;RATE;SCHEME;STATE_INPUT;DECOMPOSITION;SCALAR;VECTOR;TEMPLATES" "")
+    "NETWORK;DEVICE;RATE;SCHEME;STATE_INPUT;DECOMPOSITION;SCALAR;VECTOR;TEMPLATES;FMU" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES OR NOT arg_NETWORK)
     message(FATAL_ERROR "dashpot_compile(${target}): NETWORK FILE is needed, and each of its options has one value; not "
                         "understood: '${arg_UNPARSED_ARGUMENTS}' '${arg_KEYWORDS_MISSING_VALUES}'")
@@ -36,6 +40,14 @@ function(dashpot_compile target)
       list(APPEND options ${flag} ${arg_${option}})
     endif()
   endforeach()
+  set(fmu)
+  if(DEFINED arg_FMU)
+    if(NOT arg_FMU MATCHES "^[23]$")
+      message(FATAL_ERROR "dashpot_compile(${target}): FMU is '${arg_FMU}'; 2 or 3 is expected, the version of the standard")
+    endif()
+    list(APPEND outputs ${folder}/${name}.fmu)
+    set(fmu COMMAND dashpot::dashpot compile ${arg_NETWORK} ${options} --target fmi${arg_FMU} -o ${folder})
+  endif()
   if(arg_CONSTANT_TIME)
     list(APPEND options --constant-time)
   endif()
@@ -54,6 +66,7 @@ function(dashpot_compile target)
     # A network under a new name leaves no header of the old one.
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
     COMMAND dashpot::dashpot compile ${arg_NETWORK} ${options} -o ${folder} --depfile ${folder}/${name}.d
+    ${fmu}
     DEPENDS ${arg_NETWORK} ${arg_DEVICE} dashpot::dashpot
     DEPFILE ${folder}/${name}.d
     COMMENT "Compiling network ${name} for ${target}"
@@ -66,6 +79,9 @@ function(dashpot_compile target)
   target_link_libraries(${target} INTERFACE dashpot::runtime)
   # The bits that `dashpot simulate` prints are those of code without fused multiply-add.
   target_compile_options(${target} INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+  if(DEFINED arg_FMU)
+    set_target_properties(${target} PROPERTIES DASHPOT_FMU ${folder}/${name}.fmu)
+  endif()
   if(arg_WITH_TEST)
     _dashpot_add_test(${target} ${folder}/${name}_test.cpp)
   endif()

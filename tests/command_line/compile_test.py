@@ -134,6 +134,9 @@ class Files(CommandTest):
             tunable = f'"parameters": {{ "{name}": {{ "value": "100 N/m", "tunable": true, "min": "50 N/m", "max": "200 N/m" }} }},'
             self.write("tunable.json", network(f'{{ "spring": "{name}" }}', "soft", tunable))
             self.refused("compile", "tunable.json", "--target", "hal", code="parameter-name-kept-by")
+        self.write("tunable.json", network('{ "spring": "time" }', "soft", tunable.replace("enable", "time")))
+        for target in ["fmi2", "fmi3"]:
+            self.refused("compile", "tunable.json", "--target", target, code="parameter-name-kept-by")
 
     def test_the_timings(self):
         """Fails if --timings leaves a stage out, changes what is written, or is printed where output belongs."""

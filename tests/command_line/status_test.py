@@ -102,7 +102,7 @@ class WrongCommandLine(CommandTest):
         self.wrong("check", FIG_5, "--state-input", "force", mentions="force")
         self.wrong("check", FIG_5, "--scalar", "half", mentions="half")
         self.wrong("check", FIG_5, "--diagnostics", "xml", mentions="xml")
-        self.wrong("compile", FIG_5, "--target", "cobol", mentions="there is no target 'cobol'; targets are cpp, c99, hal")
+        self.wrong("compile", FIG_5, "--target", "cobol", mentions="there is no target 'cobol'; targets are cpp, c99, hal, fmi2, fmi3")
         self.wrong("compile", FIG_5, "--target", "c98", mentions="'c99' is the nearest")
         self.wrong("compile", FIG_5, "--print", "everything", mentions="everything")
 

@@ -13,6 +13,7 @@ import struct
 import subprocess
 import tempfile
 import unittest
+import zipfile
 
 CMAKE = os.environ["CMAKE_COMMAND"]
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
@@ -105,6 +106,13 @@ class Consumer:
         self.assertEqual([row[:2] for row in rows], fine)
         self.assertEqual([row[2:] for row in rows], [tuple(map(single, row)) for row in coarse])
 
+    # Fails if FMU leaves out the unit, makes one of another law, or says that it is elsewhere.
+    def check_unit(self):
+        with zipfile.ZipFile((self.project.build_folder / "unit.txt").read_text()) as unit:
+            self.assertIn("sources/coarse_tissue.c", unit.namelist())
+            self.assertIn('fixedInternalStepSize="0.005"', unit.read("modelDescription.xml").decode())
+            self.assertIn("scheme: backward-euler at 200 Hz, float", unit.read("sources/coarse_tissue.c").decode())
+
     # Fails if a build with nothing to do does something.
     def check_rest(self):
         self.assertEqual(self.first_build.count(COMPILING_A_LAW), 2)
@@ -122,6 +130,7 @@ class InTree(Consumer, unittest.TestCase):
 
     def test_commands_and_rest(self):
         self.check_commands()
+        self.check_unit()
         self.check_rest()
 
     # Fails if a compiler that is not there is found out by a build that stops at the first law.
@@ -188,6 +197,7 @@ class Installed(Consumer, unittest.TestCase):
 
     def test_commands(self):
         self.check_commands()
+        self.check_unit()
 
     def test_rest(self):
         self.check_rest()

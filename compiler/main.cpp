@@ -12,6 +12,8 @@
 #include <sstream>
 
 #include "commands/commands.hpp"
+#include "commands/completion.hpp"
+#include "commands/manual.hpp"
 #include "network/rate_limits.hpp"
 #include "source/nearest_name.hpp"
 #include "source/render.hpp"
@@ -21,6 +23,8 @@ namespace {
 using namespace dashpot::compiler;
 
 using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
+
+const std::string command_of_completion = "completion", command_of_manual = "manual";
 
 const std::vector<std::string> decompositions = {
     "faithful", "paper",  "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
@@ -37,6 +41,8 @@ struct CommandLine {
   std::string tolerance = "5 %";
   std::string diagnostics = "text";
   std::string target = "cpp";
+  std::string shell;       // completion
+  std::string page_about;  // manual; empty: dashpot itself
 };
 
 // The whole text as a number in decimal notation.
@@ -386,6 +392,15 @@ void describe(CLI::App& app, CommandLine& line) {
                   "what is felt with the network")
       ->option_text("FILE.csv");
   run->add_flag("--json", options.json, "With --motion: the errors as JSON, SI units");
+
+  CLI::App* shell = app.add_subcommand(command_of_completion, "Print a script that completes command lines in a shell");
+  shell->add_option("SHELL", line.shell, "That the script is for")
+      ->required()
+      ->check(CLI::IsMember(shells))
+      ->option_text(CLI::detail::join(shells, "|"));
+  app.add_subcommand(command_of_manual, "Print a manual page, for man -l -")
+      ->add_option("COMMAND", line.page_about, "That the page is about, default dashpot itself")
+      ->option_text("COMMAND");
 }
 
 void take_over_words(CommandLine& line) {
@@ -406,6 +421,23 @@ void take_over_words(CommandLine& line) {
   else choices.decomposition = line.decomposition;
 }
 
+// What dashpot says of itself.
+std::string text_about_itself(const CLI::App& app, const CommandLine& line) {
+  const std::vector<CommandWords> words = command_words(app);
+  return line.shell.empty() ? manual_page(words, line.page_about) : completion(words, line.shell);
+}
+
+// With the formats of the files that it takes and makes; a number is that which such a file states.
+std::string version_text() {
+  std::string series, names;
+  for (const auto& [name, format] : prony_formats) series += ", " + name;
+  for (const Target& target : targets()) names += (names.empty() ? "" : ", ") + std::string(target.name);
+  return fmt::format(
+      "dashpot {}\nreads:   network 1, device 1, certificate 1, CSV; Prony series{}\n"
+      "writes:  network 1, device 1, certificate 1, CSV, HTML, JSON; Prony series{}\ntargets: {}",
+      DASHPOT_VERSION, series.substr(1), series.substr(1), names);
+}
+
 const std::map<std::string, Command> commands = {
     {"check", run_check},   {"explain", run_explain}, {"compile", run_compile}, {"simulate", run_simulate},
     {"report", run_report}, {"device", run_device},   {"run", run_run},         {"verify", run_verify},
@@ -422,9 +454,11 @@ std::vector<std::string> with_help_as_option(std::vector<std::string> arguments)
 
 // Of what stands where a command should; empty where it is one, or an option.
 std::string complaint_about_command(const std::vector<std::string>& arguments) {
-  if (arguments.empty() || arguments[0].starts_with('-') || commands.contains(arguments[0])) return "";
+  if (arguments.empty() || arguments[0].starts_with('-')) return "";
   std::vector<std::string> names;
   for (const auto& [name, command] : commands) names.push_back(name);
+  names.insert(names.end(), {command_of_completion, command_of_manual});
+  if (std::find(names.begin(), names.end(), arguments[0]) != names.end()) return "";
   const std::optional<std::string> nearest = nearest_name(arguments[0], names);
   return "there is no command '" + arguments[0] + "'" +
          (nearest ? "; '" + *nearest + "' is the nearest" : "; commands are " + CLI::detail::join(names, ", ")) + "\n";
@@ -435,6 +469,13 @@ ExitStatus run(const CLI::App& app, const CommandLine& line) {
   Diagnostics diagnostics;
   ExitStatus status = ExitStatus::command_line_wrong;
   const std::string command = app.get_subcommands().front()->get_name();
+  if (command == command_of_completion || command == command_of_manual) {
+    const std::string text = text_about_itself(app, line);
+    if (!text.empty()) status = write_standard_output(text, diagnostics);
+    else std::cerr << complaint_about_command({line.page_about});
+    tell(line.options, diagnostics);
+    return status;
+  }
   std::vector<std::string> outputs;
   for (const std::optional<std::string>& output : {line.options.output, line.options.depfile, line.options.fit.report})
     if (output && command != "device") outputs.push_back(*output);  // `device` may fill in its own file
@@ -471,7 +512,7 @@ ExitStatus answer(const CLI::App& app, const CLI::ParseError& error, bool in_jso
 
 int main(int argc, char** argv) {
   CLI::App app("Compiles networks of springs, dampers and slips into update laws for haptic devices", "dashpot");
-  app.set_version_flag("--version", "dashpot " DASHPOT_VERSION);
+  app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   CommandLine line;
   line.options.fit.arguments.assign(argv + 1, argv + argc);

@@ -51,8 +51,9 @@ class Help(CommandTest):
             self.assertEqual(self.dashpot("explain", FIG_5, "--rate", rate).stdout, plain)
 
     def test_version(self):
-        """Fails if the program does not say what it is."""
-        self.assertRegex(self.dashpot("--version").stdout, r"^dashpot \d+\.\d+\.\d+\n$")
+        """Fails if the program does not say what it is, and which formats and targets it knows."""
+        self.assertRegex(self.dashpot("--version").stdout, r"^dashpot \d+\.\d+\.\d+\nreads:   network 1, device 1, [^\n]*"
+                         r"abaqus[^\n]*\nwrites:  network 1, [^\n]*\ntargets: cpp, c99[^\n]*\n$")
 
 
 class Check(CommandTest):

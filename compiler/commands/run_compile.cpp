@@ -6,6 +6,7 @@
 #include "certify/storage_instance.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
+#include "commands/explain.hpp"
 #include "compile.hpp"
 #include "emit/write_files.hpp"
 #include "insist.hpp"
@@ -93,6 +94,15 @@ bool target_has_all(const Options& options, Diagnostics& diagnostics) {
   return all;
 }
 
+EmissionOptions emission_of(const Compilation& compilation, const Options& options) {
+  EmissionOptions emission = options.emission;
+  if (!options.target->explains) return emission;
+  Compilation weighed = compilation;
+  weigh_all_candidates(weighed, options.choices);
+  emission.explanation = explain_json(weighed);
+  return emission;
+}
+
 std::string proof_text(const Compilation& c, const std::string& file, Diagnostics& diagnostics) {
   const std::optional<std::string> text =
       coq_instance(c.network.name, c.certificate.bound, motor_constants(c.law), c.certificate.loop);
@@ -128,7 +138,8 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       shown += stage_text(*compilation, *options.print);
     } else if (!options.uncertified && !insist_on_certificate(*compilation, options.choices, diagnostics)) {
       continue;
-    } else if (const auto emitted = options.target->emit(*compilation, options.emission, diagnostics)) {
+    } else if (const auto emitted =
+                   options.target->emit(*compilation, emission_of(*compilation, options), diagnostics)) {
       if (options.uncertified) warn_of_uncertified(*compilation, diagnostics);
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)

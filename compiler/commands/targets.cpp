@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "commands/fmu.hpp"
+#include "commands/python_package.hpp"
 #include "source/nearest_name.hpp"
 
 namespace dashpot::compiler {
@@ -30,6 +31,13 @@ const std::vector<Target>& table() {
        {"fmi_core.c.in", "fmi3.c.in", "fmi3.xml.in", "network.h.in"},
        {},
        emit_fmi3},
+      {"python",
+       "a package for Python, built by cc",
+       "NAME/",
+       {"network.h.in", "python_law.c.in", "python_package.py.in"},
+       {},
+       emit_python,
+       true},
   };
   return all;
 }

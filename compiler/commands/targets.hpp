@@ -18,6 +18,7 @@ struct Target {
   std::vector<std::string_view> templates;
   std::vector<std::string_view> options;  // beyond those that every target takes
   std::optional<std::vector<OutputFile>> (*emit)(const Compilation&, const EmissionOptions&, Diagnostics&);
+  bool explains = false;  // takes EmissionOptions::explanation
 };
 
 std::span<const Target> targets();  // the default first

@@ -33,6 +33,7 @@ struct EmissionOptions {
   bool with_library = false;             // a source that makes the class loadable at run time
   bool with_live = false;                // a source for WebAssembly, the same behind the functions that a page calls
   std::optional<std::string> templates;  // folder in place of the built-in ones
+  std::string explanation;               // what explain --json says of the network, for targets that carry it
 };
 
 struct OutputFile {

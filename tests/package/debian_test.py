@@ -142,7 +142,7 @@ class Debian(unittest.TestCase):
         for path, shell in [("bash-completion/completions/dashpot", "bash"), ("zsh/vendor-completions/_dashpot", "zsh"),
                             ("fish/vendor_completions.d/dashpot.fish", "fish")]:
             self.assertEqual((share / path).read_text(), root.within("dashpot", "completion", shell))
-        for path in ["usr/share/doc/dashpot/CHANGELOG.md",
+        for path in ["usr/lib/python3/dist-packages/dashpot/__init__.py", "usr/share/doc/dashpot/CHANGELOG.md",
                      "usr/share/doc/dashpot/LICENSE", "usr/include/dashpot/command.hpp"]:
             self.assertTrue((root.folder / path).is_file(), path)
         self.assertTrue(list((root.folder / "usr").rglob("dashpotConfig.cmake")))

@@ -1,0 +1,221 @@
+"""The compiler of networks of springs, dampers and slips, from Python.
+
+    tissue = dashpot.compile("networks/paper/second_order_maxwell.json")
+    response = tissue.simulate(t, u)
+
+Each function starts the command `dashpot`: the one that was installed with this package, or $DASHPOT, or the one on the path.
+A network or a device is a path, or a dictionary with what its file would hold. Options are those of the command line, with
+underscores: `compile(network, rate=4000, set={"K1": "200 N/m"}, uncertified=True)`. What the command refuses is raised as
+`Refusal`, in its own words; what it warns of is a `Warned` warning.
+"""
+import importlib.util
+import itertools
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import warnings
+import weakref
+from typing import NamedTuple
+
+import numpy
+
+__all__ = ["Fit", "Network", "Refusal", "Simulated", "Warned", "compile", "explain", "fit"]
+
+_SAME_RATE = 1e-6  # relative, that a motion may differ by from the rate it is for, as in `dashpot simulate`
+_numbers = itertools.count()
+
+
+class Refusal(ValueError):
+    """What the command says of a network, device, recording or option that it does not take."""
+
+
+class Warned(UserWarning):
+    """What the command warns of."""
+
+
+def _command() -> str:
+    installed = pathlib.Path(__file__).resolve().parents[4:5]
+    named = os.environ.get("DASHPOT")
+    for candidate in [named] if named else [str(prefix / "bin" / "dashpot") for prefix in installed] + ["dashpot"]:
+        found = shutil.which(candidate)
+        if found:
+            return found
+    raise FileNotFoundError(f"there is no command '{named or 'dashpot'}'; install dashpot, or name it in the variable DASHPOT")
+
+
+def _words(options) -> list:
+    words = []
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if isinstance(value, dict):
+            value = [f"{key}={number}" for key, number in value.items()]
+        if value is True:
+            words.append(option)
+        elif value is not None and value is not False:
+            for one in value if isinstance(value, (list, tuple)) else [value]:
+                words += [option, os.fspath(one) if isinstance(one, os.PathLike) else str(one)]
+    return words
+
+
+def _call(*words) -> str:
+    done = subprocess.run([_command(), *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
+    said = done.stderr.strip()
+    if done.returncode != 0:
+        raise Refusal(said or f"dashpot ended with {done.returncode}")
+    if said:
+        warnings.warn(said, Warned, stacklevel=5)
+    return done.stdout
+
+
+class _Folder:
+    """A folder of its own, for as long as something refers to it."""
+
+    def __init__(self):
+        self.path = pathlib.Path(tempfile.mkdtemp(prefix="dashpot-"))
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+
+    def file(self, what, name) -> str:
+        """The path of a network or a device."""
+        if not isinstance(what, dict):
+            return os.fspath(what)
+        path = self.path / name
+        path.write_text(json.dumps(what, default=lambda number: number.item()), encoding="utf-8")
+        return str(path)
+
+    def choices(self, device, options) -> list:
+        return _words(options if device is None else dict(options, device=self.file(device, "device.json")))
+
+
+class Simulated(NamedTuple):
+    """A row for each sample, as numpy arrays; what `dashpot simulate` prints."""
+    time: numpy.ndarray
+    position: numpy.ndarray
+    velocity: numpy.ndarray
+    force: numpy.ndarray
+    damping: numpy.ndarray
+    motor_force: numpy.ndarray
+
+
+def _rate_of(time) -> float:
+    """Of times at one period [Hz]."""
+    steps = numpy.diff(time)
+    if time.ndim != 1 or len(steps) == 0 or not numpy.all(steps > 0):
+        raise ValueError("t is no array of two rising times or more")
+    median = numpy.median(steps)
+    rounding = 2 * numpy.finfo(time.dtype).eps * numpy.max(numpy.abs(time))
+    wrong = numpy.abs(steps - median) > _SAME_RATE * median + rounding
+    if numpy.any(wrong):
+        row = int(numpy.argmax(wrong)) + 1
+        raise ValueError(f"t has steps of {median:g} s but for row {row}, {steps[row - 1]:g} s after the one before; one period "
+                         "throughout is expected")
+    period = (time[-1] - time[0]) / len(steps)
+    rate = 1 / period
+    return float(round(rate)) if round(rate) and abs(rate - round(rate)) <= _SAME_RATE * rate else 1 / float(f"{period:.7g}")
+
+
+class Network:
+    """A compiled network. `law()` is its law for a loop at `rate`; `simulate()` compiles it again for a motion at another
+    rate, where neither `rate` nor a device was asked for."""
+
+    def __init__(self, network, device=None, **options):
+        self._folder = _Folder()
+        self._fixed = device is not None or options.get("rate") is not None
+        self._words = [self._folder.file(network, "network.json"), *self._folder.choices(device, options)]
+        self._packages = {}
+        self.package = self._compiled([])
+        self._packages[self.package.RATE] = self.package
+        self.rate = self.package.RATE
+
+    def _compiled(self, more):
+        folder = self._folder.path / f"law{len(self._packages)}"
+        _call("compile", *self._words, *more, "--target", "python", "-o", str(folder))
+        (package,) = folder.iterdir()
+        name = f"_dashpot_{next(_numbers)}_{package.name}"  # two networks may be called alike
+        spec = importlib.util.spec_from_file_location(name, package / "__init__.py")
+        module = importlib.util.module_from_spec(spec)
+        sys.modules[name] = module
+        try:
+            spec.loader.exec_module(module)
+        finally:
+            del sys.modules[name]
+        self.name = package.name
+        return module
+
+    def _at(self, rate):
+        for known, package in self._packages.items():
+            if abs(known / rate - 1) <= _SAME_RATE:
+                return package
+        if self._fixed:
+            raise ValueError(f"t is at {rate:g} Hz, and the law is for a loop at {self.rate:g} Hz")
+        package = self._packages[rate] = self._compiled(["--rate", repr(rate)])
+        return package
+
+    def law(self):
+        """A law at rest, for step() and set()."""
+        return self.package.Law()
+
+    @property
+    def parameters(self) -> dict:
+        """That may be set while the law runs: unit, value, min, max of each."""
+        return self.package.parameters
+
+    def explain(self) -> dict:
+        """What `dashpot explain --json` says."""
+        return self.package.explain()
+
+    def simulate(self, t, u, velocity=None, values=None) -> Simulated:
+        """The law, at rest at 0, led along the positions `u` at the times `t`, all at one period. Without velocities each is the
+        difference to the row before over the period. `values` has arrays of parameters by name."""
+        time = numpy.asarray(t, dtype=numpy.float64)
+        law = self._at(_rate_of(time)).Law()
+        position = numpy.asarray(u)
+        if position.shape != time.shape:
+            raise ValueError(f"u has the shape {position.shape}, and t {time.shape}")
+        response = law.simulate(position, velocity, values=values)
+        return Simulated(time, position, *response)
+
+
+def compile(network, *, device=None, **options) -> Network:
+    """A network, ready to run. With a `device`, for that device: at its rate, and certified."""
+    return Network(network, device, **options)
+
+
+def explain(network, *, device=None, **options) -> dict:
+    """What `dashpot explain --json` says of a network: its canonical form, the candidates, and the choice."""
+    folder = _Folder()
+    return json.loads(_call("explain", folder.file(network, "network.json"), *folder.choices(device, options), "--json"))
+
+
+class Fit(NamedTuple):
+    """What was fitted."""
+    network: dict  # as a file would hold it: for compile(), or json.dump()
+    report: dict  # what `dashpot fit --json` says
+
+
+def _recording(recording, folder, number) -> str:
+    """The path of a recording; columns by name, in SI units, are written into a table first."""
+    if not hasattr(recording, "items"):
+        return os.fspath(recording)
+    path = folder.path / f"recording{number}.csv"
+    columns = dict((name, numpy.asarray(values, dtype=numpy.float64)) for name, values in recording.items())
+    if len(set(values.shape for values in columns.values())) != 1:
+        raise ValueError("the columns of a recording have different lengths")
+    with open(path, "w", encoding="utf-8") as table:
+        table.write(",".join(columns) + "\n")
+        for row in zip(*(values.tolist() for values in columns.values())):
+            table.write(",".join(map(repr, row)) + "\n")
+    return str(path)
+
+
+def fit(*recordings, **options) -> Fit:
+    """A network fitted to recordings: paths of tables, or dictionaries of arrays whose names say what they are, with units,
+    as {"time [s]": t, "position [m]": u, "force [N]": f}."""
+    folder = _Folder()
+    tables = [_recording(recording, folder, number) for number, recording in enumerate(recordings)]
+    output = folder.path / "fitted.json"
+    report = json.loads(_call("fit", *tables, *_words(dict({"name": "fitted"}, **options)), "--json", "-o", str(output)))
+    return Fit(json.loads(output.read_text(encoding="utf-8")), report)

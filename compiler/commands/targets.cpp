@@ -4,6 +4,7 @@
 
 #include "commands/fmu.hpp"
 #include "commands/python_package.hpp"
+#include "commands/wasm_package.hpp"
 #include "source/nearest_name.hpp"
 
 namespace dashpot::compiler {
@@ -38,6 +39,12 @@ const std::vector<Target>& table() {
        {},
        emit_python,
        true},
+      {"wasm",
+       "a module for JavaScript, built by clang++",
+       "NAME/",
+       {"network.hpp.in", "live.cpp.in", "wasm_package.js.in", "wasm_package.d.ts.in"},
+       {},
+       emit_wasm},
   };
   return all;
 }

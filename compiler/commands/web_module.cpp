@@ -27,22 +27,20 @@ int compile_to_wasm(const std::string& compiler, const std::filesystem::path& fo
       (folder / "compiler.log").string());
 }
 
-}  // namespace
-
-std::optional<std::string> web_module(const Compilation& compilation, Diagnostics& diagnostics) {
+// Empty, with a diagnostic, where the templates do not fit; empty, with reasons, where nothing makes WebAssembly.
+std::optional<std::string> module_or_reasons(const Compilation& compilation, const EmissionOptions& wanted,
+                                             std::string& reasons, Diagnostics& diagnostics) {
   EmissionOptions options;
   options.with_live = true;
+  options.templates = wanted.templates;
   auto files = emit_cpp(compilation, options, diagnostics);
   if (files) files->push_back({"cstdint", cstdint});
   const TemporaryFolder folder;
   if (folder.path().empty()) {
-    diagnostics.report<DiagnosticCode::no_live_response>(
-        {}, "no folder can be made in '" + folder.above() + "': " + folder.refusal());
-    diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
+    reasons = "no folder can be made in '" + folder.above() + "': " + folder.refusal();
     return std::nullopt;
   }
   if (!files || !write_files(folder.path().string(), *files, diagnostics)) return std::nullopt;
-  std::string reasons;
   for (const std::string& compiler : compilers()) {
     const int status = compile_to_wasm(compiler, folder.path(), compilation.network.name);
     if (status == 0) return contents_of(folder.path() / "live.wasm");
@@ -50,9 +48,35 @@ std::optional<std::string> web_module(const Compilation& compilation, Diagnostic
         (reasons.empty() ? "'" : "; '") + compiler + "' " +
         (status == program_not_found ? "cannot be started" : "says: " + contents_of(folder.path() / "compiler.log"));
   }
-  diagnostics.report<DiagnosticCode::no_live_response>({}, reasons);
-  diagnostics.note<DiagnosticCode::clang_remedy>({});
   return std::nullopt;
+}
+
+void note_remedy(const std::string& reasons, Diagnostics& diagnostics) {
+  if (reasons.starts_with('\'')) diagnostics.note<DiagnosticCode::clang_remedy>({});
+  else diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
+}
+
+}  // namespace
+
+std::optional<std::string> web_module(const Compilation& compilation, Diagnostics& diagnostics) {
+  std::string reasons;
+  std::optional<std::string> module = module_or_reasons(compilation, {}, reasons, diagnostics);
+  if (!reasons.empty() && !module) {
+    diagnostics.report<DiagnosticCode::no_live_response>({}, reasons);
+    note_remedy(reasons, diagnostics);
+  }
+  return module;
+}
+
+std::optional<std::string> web_module_for_target(const Compilation& compilation, const EmissionOptions& options,
+                                                 Diagnostics& diagnostics) {
+  std::string reasons;
+  std::optional<std::string> module = module_or_reasons(compilation, options, reasons, diagnostics);
+  if (!reasons.empty() && !module) {
+    diagnostics.report<DiagnosticCode::no_web_module>({}, compilation.network.name, reasons);
+    note_remedy(reasons, diagnostics);
+  }
+  return module;
 }
 
 }  // namespace dashpot::compiler

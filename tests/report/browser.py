@@ -58,8 +58,11 @@ class Browser:
 
     def open(self, path):
         """The file, after its scripts have set themselves up; what was logged before is forgotten."""
+        self.visit(path.resolve().as_uri())
+
+    def visit(self, address):
         self.log("browser"), self.log("performance")
-        self._request("POST", "/url", {"url": path.resolve().as_uri()})
+        self._request("POST", "/url", {"url": address})
 
     def run(self, script, *arguments):
         """What the body of a function returns; promises are waited for."""

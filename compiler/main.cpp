@@ -273,6 +273,8 @@ void describe(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
   CLI::App* check =
       add_command(app, line, "check", "Report errors and warnings of networks, devices, motions and recordings");
+  check->footer(
+      "The program dashpot-check, with a hyphen, is another: it decides what a certificate states of a header.");
   check->add_option("FILE", options.networks, "Network or device files, or tables")->required()->expected(-1);
   add_choices(*check, line);
 

@@ -71,6 +71,7 @@ class Root:
             shutil.copy(path, self.folder / "var/lib/dpkg/info")
             for file in path.read_text().splitlines():
                 self._copy(pathlib.Path(file))
+        self._choose_alternatives()
 
     def _copy(self, file):
         there = self.folder / file.relative_to("/")
@@ -78,6 +79,15 @@ class Root:
             there.parent.mkdir(parents=True, exist_ok=True)
             if not os.path.lexists(there):
                 shutil.copy2(file, there, follow_symlinks=False)
+
+    def _choose_alternatives(self):
+        """Links that packages make when they are installed, where one of several serves: libblas.so.3 for instance."""
+        for record in pathlib.Path("/var/lib/dpkg/alternatives").iterdir():
+            choice = pathlib.Path("/etc/alternatives") / record.name
+            link = pathlib.Path(record.read_text().splitlines()[1])
+            if choice.is_symlink() and os.path.lexists(self.folder / os.readlink(choice).lstrip("/")):
+                self._copy(choice)
+                self._copy(link)
 
     def dpkg(self, *words, **more):
         """Of the machine outside, as if that root were all there is. It must find nothing to run in there."""
@@ -128,6 +138,8 @@ class Debian(unittest.TestCase):
         device = "/usr/share/dashpot/devices/pantograph_brake_2009.json"
         fig_5 = "/usr/share/dashpot/networks/paper/second_order_maxwell.json"
         self.assertIn("brake", root.within("dashpot", "explain", fig_5, "--device", device))
+        says = f"import dashpot; print(dashpot.explain('{fig_5}')['chosen'])"
+        self.assertEqual(root.within("python3", "-B", "-c", says), "paper\n")
         # There is no compiler in there, and that is what is said.
         self.assertIn("'c++' does not compile the emitted code: cannot be started",
                       root.within("dashpot", "run", fig_5, "--device", device, "--fast", "--for", "1", status=1))
@@ -142,8 +154,8 @@ class Debian(unittest.TestCase):
         for path, shell in [("bash-completion/completions/dashpot", "bash"), ("zsh/vendor-completions/_dashpot", "zsh"),
                             ("fish/vendor_completions.d/dashpot.fish", "fish")]:
             self.assertEqual((share / path).read_text(), root.within("dashpot", "completion", shell))
-        for path in ["usr/lib/python3/dist-packages/dashpot/__init__.py", "usr/share/doc/dashpot/CHANGELOG.md",
-                     "usr/share/doc/dashpot/LICENSE", "usr/include/dashpot/command.hpp"]:
+        for path in ["usr/lib/python3/dist-packages/dashpot/__init__.py", "usr/share/doc/dashpot/changelog.gz",
+                     "usr/share/doc/dashpot/copyright", "usr/include/dashpot/command.hpp"]:
             self.assertTrue((root.folder / path).is_file(), path)
         self.assertTrue(list((root.folder / "usr").rglob("dashpotConfig.cmake")))
 

@@ -70,7 +70,7 @@ class WasmTest(unittest.TestCase):
 
     def motion(self, rows=300, seed=4):
         chance = random.Random(seed)
-        position = [0.0]
+        position = [1e-4]  # the first row has no row before it
         while len(position) < rows:
             step = chance.gauss(0, 1) * 10 ** chance.uniform(-7, -4) if len(position) % 50 < 40 else 0
             position.append(position[-1] + step)

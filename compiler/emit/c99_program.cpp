@@ -201,9 +201,10 @@ class C99Printer {
                               held_forces(coupling.held)));
     lines.push_back(fmt::format("{} {}_elongation[{}] = {{0}};", scalar(), own, coupling.elongation.size()));
     lines.push_back(fmt::format("int {}_sign[{}] = {{0}};", own, coupling.slips.size()));
-    lines.push_back(fmt::format("{}_part_state {}_parts[{}];", name_, own, coupling.nodes.size()));
-    lines.push_back(fmt::format("{0}_corner {1}_corners[{2}], {1}_merged[{3}];", name_, own, coupling.corners(),
-                                slip_curve_room(int(coupling.slips.size()))));
+    lines.push_back(
+        fmt::format("{}_part_state {}_parts[{}] = {{{{0, 0, 0, 0, 0, 0, 0, 0}}}};", name_, own, coupling.nodes.size()));
+    lines.push_back(fmt::format("{0}_corner {1}_corners[{2}] = {{{{0, 0, 0}}}}, {1}_merged[{3}] = {{{{0, 0, 0}}}};",
+                                name_, own, coupling.corners(), slip_curve_room(int(coupling.slips.size()))));
     lines.push_back(fmt::format("const {0}_tree {1}_tree = {{{0}_{1}, {2}, {1}_parts, {1}_corners, {1}_merged}};",
                                 name_, own, coupling.nodes.size()));
     if (coupling.is_pushed()) lines.push_back(fmt::format("{} {}_change = 0;", scalar(), own));
@@ -224,9 +225,10 @@ class C99Printer {
     for (VariableId id : network.last_sign) sign += (sign.empty() ? "(int)" : ", (int)") + name(id, 0);
     append(lines, fmt::format("const {} {}_held[{}] = {{{}}};", scalar(), own, network.held.size(),
                               held_forces(network.held)));
-    lines.push_back(fmt::format("{0} {1}_moved[{2}], {1}_joined[{3}], {1}_numbers[{4}];", scalar(), own,
-                                network.node_count, network.node_count * network.node_count, 8 * network.node_count));
-    append(lines, fmt::format("int {0}_group[{1}], {0}_sign[{2}] = {{{3}}};", own, network.node_count + 2,
+    lines.push_back(fmt::format("{0} {1}_moved[{2}] = {{0}}, {1}_joined[{3}] = {{0}}, {1}_numbers[{4}] = {{0}};",
+                                scalar(), own, network.node_count, network.node_count * network.node_count,
+                                8 * network.node_count));
+    append(lines, fmt::format("int {0}_group[{1}] = {{0}}, {0}_sign[{2}] = {{{3}}};", own, network.node_count + 2,
                               network.slip_count(), sign));
     lines.push_back(fmt::format("{}_network {};", name_, own));
     for (const auto& [member, value] : std::initializer_list<std::pair<const char*, std::string>>{

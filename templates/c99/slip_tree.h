@@ -63,8 +63,13 @@ typedef struct law_tree {
   int count;
   law_part_state *parts;
   law_corner *corners;
-  law_corner *merged;  // room for the sum of two curves
+  law_corner *merged;  // room for the sum of two curves, as large as the root's
 } law_tree;
+
+// Corners that a part's curve needs: two a slip, and of each of the curves that are added up in it, and of a block, the
+// point where that part rests. No more are ever written, whatever the numbers are.
+static inline int law_corner_room(const law_node *node) { return 3 * node->slips + 1; }
+static inline int law_at_most(int count, int room) { return (count < room) ? count : room; }
 
 static inline scalar law_corner_at(const law_corner *corner, int by_force) {
   return by_force ? corner->force : corner->elongation;
@@ -97,7 +102,7 @@ static inline scalar law_beyond(const law_curve *curve, const law_corner *end, s
 
 // Where no corner is: between two, or beyond the ends.
 static inline law_range law_beside(const law_curve *curve, int next, scalar at) {
-  const int is_end = (next == 0) || (next == curve->count);
+  const int is_end = (next == 0) || (next >= curve->count);
   const scalar value = is_end ? law_beyond(curve, &curve->corners[(next == 0) ? 0 : (next - 1)], at)
                               : law_between(&curve->corners[next - 1], &curve->corners[next], curve->by_force, at);
   const int is_open = is_end && curve->is_open;
@@ -130,17 +135,19 @@ static inline law_range law_curve_at(const law_curve *curve, scalar at) {
 }
 
 // Behind `count` corners in `to`. Rounding must not bend a curve back.
-static inline int law_append_corner(law_corner *to, int count, int by_force, scalar at, scalar value, int is_kink) {
+static inline int law_append_corner(law_corner *to, int count, int room, int by_force, scalar at, scalar value,
+                                    int is_kink) {
+  if (count >= room) return room;
   const int falls = (count > 0) && (value < law_corner_value(&to[count - 1], by_force));
   to[count] = law_make_corner(by_force, at, falls ? law_corner_value(&to[count - 1], by_force) : value, is_kink);
   return count + 1;
 }
 
-// The sum of two curves; `to` has room for the corners of both. Returns how many there are.
-static inline int law_merge_curves(const law_curve *a, const law_curve *b, law_corner *to) {
-  const int room = a->count + b->count, by_force = a->by_force;
+// The sum of two curves; `to` has `room` for it. Returns how many corners there are.
+static inline int law_merge_curves(const law_curve *a, const law_curve *b, law_corner *to, int room) {
+  const int most = law_at_most(a->count + b->count, room), by_force = a->by_force;
   int count = 0, next_a = 0, next_b = 0;
-  for (int i = 0; (i < room) && ((next_a < a->count) || (next_b < b->count)); ++i) {
+  for (int i = 0; (i < most) && ((next_a < a->count) || (next_b < b->count)); ++i) {
     const int takes_b =
         (next_a == a->count) || ((next_b < b->count) && (law_corner_at(&b->corners[next_b], by_force) <
                                                          law_corner_at(&a->corners[next_a], by_force)));
@@ -149,16 +156,17 @@ static inline int law_merge_curves(const law_curve *a, const law_curve *b, law_c
     const law_range in_a = law_read(a, &next_a, at), in_b = law_read(b, &next_b, at);
     if (!in_a.exists || !in_b.exists) continue;
     const int is_kink = in_a.is_kink || in_b.is_kink;
-    count = law_append_corner(to, count, by_force, at, in_a.low + in_b.low, is_kink);
-    if ((count < room) && ((in_a.low < in_a.high) || (in_b.low < in_b.high)))
-      count = law_append_corner(to, count, by_force, at, in_a.high + in_b.high, is_kink);
+    count = law_append_corner(to, count, most, by_force, at, in_a.low + in_b.low, is_kink);
+    if ((in_a.low < in_a.high) || (in_b.low < in_b.high))
+      count = law_append_corner(to, count, most, by_force, at, in_a.high + in_b.high, is_kink);
   }
   return count;
 }
 
 // Puts a point of the curve where it belongs, `count` being how many corners there are. Returns how many there then are.
-static inline int law_insert_corner(law_corner *corners, int count, int by_force, law_corner corner) {
+static inline int law_insert_corner(law_corner *corners, int count, int room, int by_force, law_corner corner) {
   int place = count;
+  if (count >= room) return room;
   for (; (place > 0) && (law_corner_at(&corners[place - 1], by_force) > law_corner_at(&corner, by_force)); --place)
     corners[place] = corners[place - 1];
   corners[place] = corner;
@@ -166,15 +174,16 @@ static inline int law_insert_corner(law_corner *corners, int count, int by_force
 }
 
 // Leaves the kinks and the point at δ = 0; on a flat end nothing is gained by it. Returns how many there are.
-static inline int law_mark_rest(const law_curve *curve, law_corner *corners) {
+static inline int law_mark_rest(const law_curve *curve, law_corner *corners, int room) {
   const law_range rest = law_curve_at(curve, 0);
   int count = 0;
   for (int i = 0; i < curve->count; ++i)
-    if (corners[i].is_kink) corners[count++] = corners[i];
+    if (corners[i].is_kink && (count < room)) corners[count++] = corners[i];
+  if (count == 0) return 0;
   const int is_flat =
       (curve->end_slope == 0) && ((corners[0].elongation > 0) || (corners[count - 1].elongation < 0));
   if (rest.is_kink || is_flat) return count;
-  return law_insert_corner(corners, count, 0, law_make_corner(0, 0, rest.low, 0));
+  return law_insert_corner(corners, count, room, 0, law_make_corner(0, 0, rest.low, 0));
 }
 
 static inline law_curve law_curve_of(const law_tree *tree, int k, int by_force) {
@@ -202,20 +211,21 @@ static inline void law_draw_slip(const law_tree *tree, int k) {
 }
 
 // The sum of two curves, `to` being where the first one lies and the sum shall.
-static inline law_curve law_with(const law_tree *tree, law_curve sum, const law_curve *other, law_corner *to) {
+static inline law_curve law_with(const law_tree *tree, law_curve sum, const law_curve *other, law_corner *to, int room) {
   const law_corner *from = (sum.count == 0) ? other->corners : tree->merged;
-  const int count = (sum.count == 0) ? other->count : law_merge_curves(&sum, other, tree->merged);
+  const int count =
+      (sum.count == 0) ? law_at_most(other->count, room) : law_merge_curves(&sum, other, tree->merged, room);
   for (int i = 0; i < count; ++i) to[i] = from[i];
   const law_curve both = {to, count, sum.by_force, sum.end_slope + other->end_slope, sum.is_open || other->is_open};
   return both;
 }
 
 // In series the point where the block rests is one of the curve too.
-static inline law_curve law_with_block(law_curve sum, const law_node *block, scalar held, law_corner *corners) {
+static inline law_curve law_with_block(law_curve sum, const law_node *block, scalar held, law_corner *corners, int room) {
   if (sum.by_force) {
     const law_range rest = law_curve_at(&sum, held);
     if (rest.exists && !rest.is_kink)
-      sum.count = law_insert_corner(corners, sum.count, 1, law_make_corner(1, held, rest.low, 0));
+      sum.count = law_insert_corner(corners, sum.count, room, 1, law_make_corner(1, held, rest.low, 0));
   }
   for (int i = 0; i < sum.count; ++i) {
     const scalar at = law_corner_at(&corners[i], sum.by_force);
@@ -228,20 +238,21 @@ static inline law_curve law_with_block(law_curve sum, const law_node *block, sca
 
 static inline void law_draw(const law_tree *tree, int k, const scalar *held) {
   const law_node *node = &tree->nodes[k];
+  const int room = law_corner_room(node);
   law_corner *corners = tree->corners + node->first_corner;
   law_curve sum = {corners, 0, node->kind == law_series, 0, 0};
   for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
     if (tree->nodes[i].kind != law_block) {
       const law_curve other = law_curve_of(tree, i, sum.by_force);
-      sum = law_with(tree, sum, &other, corners);
+      sum = law_with(tree, sum, &other, corners, room);
     }
   for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
     if (tree->nodes[i].kind == law_block)
-      sum = law_with_block(sum, &tree->nodes[i], held[tree->nodes[i].place], corners);
+      sum = law_with_block(sum, &tree->nodes[i], held[tree->nodes[i].place], corners, room);
   tree->parts[k].corners = sum.count;
   if (node->kind == law_series) {
     const law_curve curve = law_curve_of(tree, k, 0);
-    tree->parts[k].corners = law_mark_rest(&curve, corners);
+    tree->parts[k].corners = law_mark_rest(&curve, corners, room);
   }
 }
 

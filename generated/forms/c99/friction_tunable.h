@@ -168,8 +168,13 @@ typedef struct friction_tunable_tree {
   int count;
   friction_tunable_part_state *parts;
   friction_tunable_corner *corners;
-  friction_tunable_corner *merged;  // room for the sum of two curves
+  friction_tunable_corner *merged;  // room for the sum of two curves, as large as the root's
 } friction_tunable_tree;
+
+// Corners that a part's curve needs: two a slip, and of each of the curves that are added up in it, and of a block, the
+// point where that part rests. No more are ever written, whatever the numbers are.
+static inline int friction_tunable_corner_room(const friction_tunable_node *node) { return 3 * node->slips + 1; }
+static inline int friction_tunable_at_most(int count, int room) { return (count < room) ? count : room; }
 
 static inline double friction_tunable_corner_at(const friction_tunable_corner *corner, int by_force) {
   return by_force ? corner->force : corner->elongation;
@@ -202,7 +207,7 @@ static inline double friction_tunable_beyond(const friction_tunable_curve *curve
 
 // Where no corner is: between two, or beyond the ends.
 static inline friction_tunable_range friction_tunable_beside(const friction_tunable_curve *curve, int next, double at) {
-  const int is_end = (next == 0) || (next == curve->count);
+  const int is_end = (next == 0) || (next >= curve->count);
   const double value = is_end ? friction_tunable_beyond(curve, &curve->corners[(next == 0) ? 0 : (next - 1)], at)
                               : friction_tunable_between(&curve->corners[next - 1], &curve->corners[next], curve->by_force, at);
   const int is_open = is_end && curve->is_open;
@@ -235,17 +240,19 @@ static inline friction_tunable_range friction_tunable_curve_at(const friction_tu
 }
 
 // Behind `count` corners in `to`. Rounding must not bend a curve back.
-static inline int friction_tunable_append_corner(friction_tunable_corner *to, int count, int by_force, double at, double value, int is_kink) {
+static inline int friction_tunable_append_corner(friction_tunable_corner *to, int count, int room, int by_force, double at, double value,
+                                    int is_kink) {
+  if (count >= room) return room;
   const int falls = (count > 0) && (value < friction_tunable_corner_value(&to[count - 1], by_force));
   to[count] = friction_tunable_make_corner(by_force, at, falls ? friction_tunable_corner_value(&to[count - 1], by_force) : value, is_kink);
   return count + 1;
 }
 
-// The sum of two curves; `to` has room for the corners of both. Returns how many there are.
-static inline int friction_tunable_merge_curves(const friction_tunable_curve *a, const friction_tunable_curve *b, friction_tunable_corner *to) {
-  const int room = a->count + b->count, by_force = a->by_force;
+// The sum of two curves; `to` has `room` for it. Returns how many corners there are.
+static inline int friction_tunable_merge_curves(const friction_tunable_curve *a, const friction_tunable_curve *b, friction_tunable_corner *to, int room) {
+  const int most = friction_tunable_at_most(a->count + b->count, room), by_force = a->by_force;
   int count = 0, next_a = 0, next_b = 0;
-  for (int i = 0; (i < room) && ((next_a < a->count) || (next_b < b->count)); ++i) {
+  for (int i = 0; (i < most) && ((next_a < a->count) || (next_b < b->count)); ++i) {
     const int takes_b =
         (next_a == a->count) || ((next_b < b->count) && (friction_tunable_corner_at(&b->corners[next_b], by_force) <
                                                          friction_tunable_corner_at(&a->corners[next_a], by_force)));
@@ -254,16 +261,17 @@ static inline int friction_tunable_merge_curves(const friction_tunable_curve *a,
     const friction_tunable_range in_a = friction_tunable_read(a, &next_a, at), in_b = friction_tunable_read(b, &next_b, at);
     if (!in_a.exists || !in_b.exists) continue;
     const int is_kink = in_a.is_kink || in_b.is_kink;
-    count = friction_tunable_append_corner(to, count, by_force, at, in_a.low + in_b.low, is_kink);
-    if ((count < room) && ((in_a.low < in_a.high) || (in_b.low < in_b.high)))
-      count = friction_tunable_append_corner(to, count, by_force, at, in_a.high + in_b.high, is_kink);
+    count = friction_tunable_append_corner(to, count, most, by_force, at, in_a.low + in_b.low, is_kink);
+    if ((in_a.low < in_a.high) || (in_b.low < in_b.high))
+      count = friction_tunable_append_corner(to, count, most, by_force, at, in_a.high + in_b.high, is_kink);
   }
   return count;
 }
 
 // Puts a point of the curve where it belongs, `count` being how many corners there are. Returns how many there then are.
-static inline int friction_tunable_insert_corner(friction_tunable_corner *corners, int count, int by_force, friction_tunable_corner corner) {
+static inline int friction_tunable_insert_corner(friction_tunable_corner *corners, int count, int room, int by_force, friction_tunable_corner corner) {
   int place = count;
+  if (count >= room) return room;
   for (; (place > 0) && (friction_tunable_corner_at(&corners[place - 1], by_force) > friction_tunable_corner_at(&corner, by_force)); --place)
     corners[place] = corners[place - 1];
   corners[place] = corner;
@@ -271,15 +279,16 @@ static inline int friction_tunable_insert_corner(friction_tunable_corner *corner
 }
 
 // Leaves the kinks and the point at δ = 0; on a flat end nothing is gained by it. Returns how many there are.
-static inline int friction_tunable_mark_rest(const friction_tunable_curve *curve, friction_tunable_corner *corners) {
+static inline int friction_tunable_mark_rest(const friction_tunable_curve *curve, friction_tunable_corner *corners, int room) {
   const friction_tunable_range rest = friction_tunable_curve_at(curve, 0);
   int count = 0;
   for (int i = 0; i < curve->count; ++i)
-    if (corners[i].is_kink) corners[count++] = corners[i];
+    if (corners[i].is_kink && (count < room)) corners[count++] = corners[i];
+  if (count == 0) return 0;
   const int is_flat =
       (curve->end_slope == 0) && ((corners[0].elongation > 0) || (corners[count - 1].elongation < 0));
   if (rest.is_kink || is_flat) return count;
-  return friction_tunable_insert_corner(corners, count, 0, friction_tunable_make_corner(0, 0, rest.low, 0));
+  return friction_tunable_insert_corner(corners, count, room, 0, friction_tunable_make_corner(0, 0, rest.low, 0));
 }
 
 static inline friction_tunable_curve friction_tunable_curve_of(const friction_tunable_tree *tree, int k, int by_force) {
@@ -307,20 +316,21 @@ static inline void friction_tunable_draw_slip(const friction_tunable_tree *tree,
 }
 
 // The sum of two curves, `to` being where the first one lies and the sum shall.
-static inline friction_tunable_curve friction_tunable_with(const friction_tunable_tree *tree, friction_tunable_curve sum, const friction_tunable_curve *other, friction_tunable_corner *to) {
+static inline friction_tunable_curve friction_tunable_with(const friction_tunable_tree *tree, friction_tunable_curve sum, const friction_tunable_curve *other, friction_tunable_corner *to, int room) {
   const friction_tunable_corner *from = (sum.count == 0) ? other->corners : tree->merged;
-  const int count = (sum.count == 0) ? other->count : friction_tunable_merge_curves(&sum, other, tree->merged);
+  const int count =
+      (sum.count == 0) ? friction_tunable_at_most(other->count, room) : friction_tunable_merge_curves(&sum, other, tree->merged, room);
   for (int i = 0; i < count; ++i) to[i] = from[i];
   const friction_tunable_curve both = {to, count, sum.by_force, sum.end_slope + other->end_slope, sum.is_open || other->is_open};
   return both;
 }
 
 // In series the point where the block rests is one of the curve too.
-static inline friction_tunable_curve friction_tunable_with_block(friction_tunable_curve sum, const friction_tunable_node *block, double held, friction_tunable_corner *corners) {
+static inline friction_tunable_curve friction_tunable_with_block(friction_tunable_curve sum, const friction_tunable_node *block, double held, friction_tunable_corner *corners, int room) {
   if (sum.by_force) {
     const friction_tunable_range rest = friction_tunable_curve_at(&sum, held);
     if (rest.exists && !rest.is_kink)
-      sum.count = friction_tunable_insert_corner(corners, sum.count, 1, friction_tunable_make_corner(1, held, rest.low, 0));
+      sum.count = friction_tunable_insert_corner(corners, sum.count, room, 1, friction_tunable_make_corner(1, held, rest.low, 0));
   }
   for (int i = 0; i < sum.count; ++i) {
     const double at = friction_tunable_corner_at(&corners[i], sum.by_force);
@@ -333,20 +343,21 @@ static inline friction_tunable_curve friction_tunable_with_block(friction_tunabl
 
 static inline void friction_tunable_draw(const friction_tunable_tree *tree, int k, const double *held) {
   const friction_tunable_node *node = &tree->nodes[k];
+  const int room = friction_tunable_corner_room(node);
   friction_tunable_corner *corners = tree->corners + node->first_corner;
   friction_tunable_curve sum = {corners, 0, node->kind == friction_tunable_series, 0, 0};
   for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
     if (tree->nodes[i].kind != friction_tunable_block) {
       const friction_tunable_curve other = friction_tunable_curve_of(tree, i, sum.by_force);
-      sum = friction_tunable_with(tree, sum, &other, corners);
+      sum = friction_tunable_with(tree, sum, &other, corners, room);
     }
   for (int i = node->first_child; i < (node->first_child + node->child_count); ++i)
     if (tree->nodes[i].kind == friction_tunable_block)
-      sum = friction_tunable_with_block(sum, &tree->nodes[i], held[tree->nodes[i].place], corners);
+      sum = friction_tunable_with_block(sum, &tree->nodes[i], held[tree->nodes[i].place], corners, room);
   tree->parts[k].corners = sum.count;
   if (node->kind == friction_tunable_series) {
     const friction_tunable_curve curve = friction_tunable_curve_of(tree, k, 0);
-    tree->parts[k].corners = friction_tunable_mark_rest(&curve, corners);
+    tree->parts[k].corners = friction_tunable_mark_rest(&curve, corners, room);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 #include <string_view>
 
+#include "certify/state_box.hpp"
 #include "emit/c99_parts.hpp"
 #include "emit/c99_tunable.hpp"
 #include "emit/cpp_lines.hpp"
@@ -25,13 +26,14 @@ void append_all(Lines& lines, const Lines& more, const std::string& indentation 
 
 class C99Printer {
  public:
-  C99Printer(const UpdateLaw& law, std::string name)
-      : law_(law), name_(std::move(name)), suffix_(law.scalar == ScalarType::float32 ? "f" : "") {}
+  C99Printer(const UpdateLaw& law, std::string name, const StateBox& box)
+      : law_(law), box_(box), name_(std::move(name)), suffix_(law.scalar == ScalarType::float32 ? "f" : "") {}
 
   C99Program print() {
     C99Program program;
     program.before = before();
     program.states = states();
+    program.bounds = bounds();
     program.begin = {fmt::format("{}_reset(self, 0);", name_)};
     program.reset = reset();
     program.output = output();
@@ -378,6 +380,20 @@ class C99Printer {
     return lines;
   }
 
+  // One comparison a line, joined by &&.
+  Lines bounds() const {
+    Lines lines;
+    for (const Variable& variable : law_.variables)
+      for (std::size_t place = 0; variable.role == Role::state && place < variable.size && !box_.empty(); ++place) {
+        const std::string there =
+            law_.is_rolled(variable.size) ? fmt::format("{}[{}]", variable.name, place) : member(variable, place);
+        const std::string bound = number(box_.at(state_name(variable, place)));
+        lines.push_back(
+            fmt::format("{2}(self->{0} >= -{1}) && (self->{0} <= {1})", there, bound, lines.empty() ? "" : "&& "));
+      }
+    return lines;
+  }
+
   Lines reset() const {
     Lines lines;
     if (law_.rest_position == no_variable) lines.push_back("(void)position;");
@@ -412,6 +428,7 @@ class C99Printer {
   std::string number(double value) const { return cpp_literal(value, law_.scalar); }
 
   const UpdateLaw& law_;
+  const StateBox& box_;
   std::string name_;  // of the network
   std::string suffix_;
   std::size_t place_ = 0;         // of the straight statement at hand
@@ -420,8 +437,8 @@ class C99Printer {
 
 }  // namespace
 
-C99Program c99_program(const UpdateLaw& law, const std::string& name) {
-  return law.tunable ? c99_tunable_program(law, name) : C99Printer(law, name).print();
+C99Program c99_program(const UpdateLaw& law, const std::string& name, const StateBox& box) {
+  return law.tunable ? c99_tunable_program(law, name) : C99Printer(law, name, box).print();
 }
 
 }  // namespace dashpot::compiler

@@ -2,6 +2,7 @@
 // many. States are members of `self`; constants stand in the function that reads them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace dashpot::compiler {
 struct C99Program {
   std::vector<std::string> before;     // types, constants and functions that know nothing of the struct
   std::vector<std::string> states;     // members of the struct
+  std::vector<std::string> bounds;     // comparisons of them with a box, joined; none where none is known
   std::vector<std::string> functions;  // that the lines below call
   std::vector<std::string> begin;      // before everything else
   std::vector<std::string> reset;
@@ -21,7 +23,10 @@ struct C99Program {
   std::string kept_share;           // of all forces, by the last output; empty where a law never sheds
 };
 
+// Bounds of states by state_name().
+using StateBox = std::map<std::string, double>;
+
 // `name` is the network's.
-C99Program c99_program(const UpdateLaw& law, const std::string& name);
+C99Program c99_program(const UpdateLaw& law, const std::string& name, const StateBox& box = {});
 
 }  // namespace dashpot::compiler

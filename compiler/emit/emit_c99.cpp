@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "certify/state_box.hpp"
 #include "emit/banner.hpp"
 #include "emit/c99_parts.hpp"
 #include "emit/c99_program.hpp"
@@ -45,13 +46,16 @@ Lines parameter_lines(const UpdateLaw& law, const std::string& name) {
   return lines;
 }
 
+// The one word that C keeps and C++ does not.
+std::string member_name(const Tunable& tunable) { return tunable.name == "restrict" ? "restrict_" : tunable.name; }
+
 Lines parameter_struct(const UpdateLaw& law, const std::string& name) {
   if (!law.tunable) return {};
   Lines lines = {"// What may change while the law runs, to begin with as in the network's file.",
                  fmt::format("typedef struct {}_parameters {{", name)};
   for (const Tunable& t : law.tunable->tunables)
-    lines.push_back(
-        fmt::format("  {} {};  // {} to {} [{}]", name_of(law.scalar), t.name, t.range.min, t.range.max, t.unit));
+    lines.push_back(fmt::format("  {} {};  // {} to {} [{}]", name_of(law.scalar), member_name(t), t.range.min,
+                                t.range.max, t.unit));
   lines.push_back(fmt::format("}} {}_parameters;", name));
   lines.push_back("");
   return lines;
@@ -63,7 +67,7 @@ Lines set_of_struct(const UpdateLaw& law, const std::string& name) {
   std::string first, wanted;
   for (const Tunable& t : law.tunable->tunables) {
     first += (first.empty() ? "" : ", ") + cpp_literal(t.range.value, law.scalar);
-    wanted += (wanted.empty() ? "" : ", ") + ("wanted->" + t.name);
+    wanted += (wanted.empty() ? "" : ", ") + ("wanted->" + member_name(t));
   }
   return {fmt::format("static inline {0}_parameters {0}_parameters_at_first(void) {{", name),
           fmt::format("  const {}_parameters first = {{{}}};", name, first),
@@ -84,9 +88,27 @@ Lines set_lines(const UpdateLaw& law, const std::string& name) {
           fmt::format("if (is_new != 0) {}_change_over(self);", name), "return clamped;"};
 }
 
+// The box of states as a function of the law, where magnitudes show one.
+Lines box_lines(const Compilation& c, const InputRange& range, const Lines& bounds) {
+  if (bounds.empty()) return {};
+  const bool turns = c.network.port_motion == motion::rotation;
+  Lines lines = {fmt::format("// While positions stay within ± {:.6g} {} and velocities within ± {:.6g} {}, a law that "
+                             "starts at rest at 0",
+                             range.position, turns ? "rad" : "m", range.velocity, turns ? "rad/s" : "m/s"),
+                 "// keeps to this box, and from it no operation overflows: 1 where its states are there.",
+                 fmt::format("static inline int {0}_is_within(const {0} *self) {{", c.network.name), "  return"};
+  for (const std::string& bound : bounds) lines.push_back("      " + bound);
+  lines.back() += ";";
+  lines.push_back("}");
+  lines.push_back("");
+  return lines;
+}
+
 CodeModel c_header_model(const Compilation& c) {
   const std::string& name = c.network.name;
-  const C99Program program = c99_program(c.law, name);
+  const InputRange range = input_range(c.port);
+  const std::optional<StateBox> box = state_box(c.law, range);
+  const C99Program program = c99_program(c.law, name, box.value_or(StateBox{}));
   CodeModel model;
   describe_file(c, model.fields);
   describe_device(c, model.fields);
@@ -105,6 +127,7 @@ CodeModel c_header_model(const Compilation& c) {
   model.lists["value"] = as_list(
       c.law.tunable ? Lines{fmt::format("return ((i >= 0) && (i < {}_parameters_room)) ? self->value[i] : 0;", name)}
                     : Lines{"(void)self;", "(void)i;", "return 0;"});
+  model.lists["box"] = as_list(box_lines(c, range, program.bounds));
   model.lists["set"] = as_list(set_lines(c.law, name));
   model.lists["set_of_struct"] = as_list(set_of_struct(c.law, name));
   model.lists["share"] = as_list(program.kept_share.empty() ? Lines{"(void)self;", "return 1;"}

@@ -291,5 +291,36 @@ TEST(C99, AgreesInDouble) { expect_same_bits(compiler::ScalarType::float64); }
 // Fails likewise in float.
 TEST(C99, AgreesInFloat) { expect_same_bits(compiler::ScalarType::float32); }
 
+// What the object file of a law would be linked with.
+std::string undefined_symbols(const Emitted& one, const std::string& compiler) {
+  const TemporaryFolder folder;
+  write_text(folder.path() / "law.h", one.header);
+  std::string text = fmt::format(
+      "#include \"law.h\"\nvoid begin({0} *law) {{ {0}_init(law); {0}_reset(law, 0); }}\n"
+      "dashpot_command first({0} *law, {1} u, {1} v) {{ return {0}_output(law, u, v); }}\n"
+      "void then({0} *law) {{ {0}_update(law); }}\n"
+      "dashpot_command both({0} *law, {1} u, {1} v) {{ return {0}_step(law, u, v); }}\n"
+      "unsigned set({0} *law, const {1} *values) {{ return {0}_set_values(law, values); }}\n"
+      "{1} energy(const {0} *law) {{ return {0}_stored_energy(law) + {0}_kept_share(law); }}\n",
+      one.name(), name_of(one.compilation.law.scalar));
+  write_text(folder.path() / "law.c", text);
+  const Finished done = run_command(fmt::format(
+      "cd '{}' && {} -std=c99 -O2 -fno-stack-protector -c law.c && nm -u law.o | awk '{{ print $2 }}' | sort -u",
+      folder.path().string(), compiler));
+  return done.status == 0 ? done.output : "does not compile: " + done.output;
+}
+
+// Fails if a law in C needs a library.
+TEST(C99, NeedsNothingButToCopyAndToClear) {
+  const std::vector<Emitted> all = all_emitted(compiler::ScalarType::float64);
+  for (std::size_t i = 0; i < all.size(); i += 6)
+    for (const char* compiler : {DASHPOT_GCC, DASHPOT_CLANG}) {
+      std::string left = undefined_symbols(all[i], compiler);
+      for (const char* known : {"memcpy\n", "memset\n"})
+        if (const std::size_t at = left.find(known); at != left.npos) left.erase(at, std::string(known).size());
+      EXPECT_EQ(left, "") << all[i].name() << " by " << compiler;
+    }
+}
+
 }  // namespace
 }  // namespace dashpot::testing

@@ -105,6 +105,13 @@ class Files(CommandTest):
             header = (self.folder / f"out/{file}.h").read_text()
             self.assertIn(f"unsigned {file}_set({file} *self, const {file}_parameters *wanted) {{", header)
             self.assertEqual(header.count("#if"), 3, "two include guards, and the check for IEEE arithmetic")
+        self.write("word.json", json.dumps({
+            "dashpot": 1, "name": "word", "network": {"spring": "restrict"},
+            "parameters": {"restrict": {"value": "2 N/m", "tunable": True, "min": "1 N/m", "max": "3 N/m"}}}))
+        self.dashpot("compile", "word.json", "--target", "c99", "-o", "out")
+        header = (self.folder / "out/word.h").read_text()
+        self.assertIn("  double restrict_;  // 1 to 3 [N/m]", header)
+        self.assertIn('if (i == 0) return "restrict";', header)
         self.write("restrict.json", network('{ "spring": 1 }', "restrict"))
         self.refused("compile", "restrict.json", "--target", "c99", code="name-is-word-of-c")
         self.dashpot("compile", "restrict.json")

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "compile.hpp"
-#include "state_box.hpp"
+#include "certify/state_box.hpp"
 
 namespace dashpot::testing {
 
 // What the main program of the proof starts from: each state within ± its bound, in so many slices one after the other.
 struct ProvenBox {
-  InputRange range;
+  compiler::InputRange range;
   std::map<std::string, double> states;
   std::map<std::string, int> slices;  // of states that need a distinction of cases
 };

@@ -48,7 +48,8 @@ std::string with_ending(std::string text, const std::set<std::string>& names, co
 
 class Script {
  public:
-  Script(const compiler::Compilation& compilation, const InputRange& range, const std::map<std::string, double>& box)
+  Script(const compiler::Compilation& compilation, const compiler::InputRange& range,
+         const std::map<std::string, double>& box)
       : c_(compilation), law_(compilation.law), range_(range), box_(box) {}
 
   std::string text() {
@@ -125,7 +126,8 @@ class Script {
     const double share =
         8 * compiler::unit_roundoff(law_.scalar);  // of the certificate's, which has one more for every mode
     const std::string force = scalar_name(law_.variables[law_.force], 0);
-    goals_.push_back(fmt::format("|{0} - {0}_real| <= {1}", force, exact(share * sum_of_terms(law_, range_, box_))));
+    goals_.push_back(
+        fmt::format("|{0} - {0}_real| <= {1}", force, exact(share * compiler::sum_of_terms(law_, range_, box_))));
   }
 
   // An error decays at the rate α: what a step may add is α of what the banner states for all of them.
@@ -154,7 +156,7 @@ class Script {
 
   const compiler::Compilation& c_;
   const UpdateLaw& law_;
-  const InputRange& range_;
+  const compiler::InputRange& range_;
   const std::map<std::string, double>& box_;
   std::set<std::string> outputs_, nexts_;
   std::vector<std::string> floats_, assumptions_, goals_;
@@ -164,7 +166,7 @@ class Script {
 
 }  // namespace
 
-std::string gappa_script(const compiler::Compilation& compilation, const InputRange& range,
+std::string gappa_script(const compiler::Compilation& compilation, const compiler::InputRange& range,
                          const std::map<std::string, double>& box) {
   return Script(compilation, range, box).text();
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "emit/emission.hpp"
-#include "state_box.hpp"
+#include "certify/state_box.hpp"
 
 namespace dashpot::testing {
 
@@ -13,7 +13,7 @@ namespace dashpot::testing {
 // share of what the header's banner states, be its constants rounded as they may; the force by no more than the
 // certificate adds for the sum of its terms; and the states are in the box again. Gappa's `rnd=` rounds every operation
 // of an expression; flushing, which adds less than 2⁻²⁰⁰ N (2⁻⁶⁰ N in float), is left out.
-std::string gappa_script(const compiler::Compilation& compilation, const InputRange& range,
+std::string gappa_script(const compiler::Compilation& compilation, const compiler::InputRange& range,
                          const std::map<std::string, double>& box);
 
 }  // namespace dashpot::testing

@@ -195,6 +195,18 @@ static inline dashpot_command second_order_maxwell_step(second_order_maxwell *se
   return command;
 }
 
+// While positions stay within ± 10 m and velocities within ± 100 m/s, a law that starts at rest at 0
+// keeps to this box, and from it no operation overflows: 1 where its states are there.
+static inline int second_order_maxwell_is_within(const second_order_maxwell *self) {
+  return
+      (self->last_position >= -10.00001) && (self->last_position <= 10.00001)
+      && (self->relaxed_force >= -219560.89280751947) && (self->relaxed_force <= 219560.89280751947)
+      && (self->B2_K2_force >= -119800.40587550664) && (self->B2_K2_force <= 119800.40587550664)
+      && (self->B1_K1_force >= -99760.4869320128) && (self->B1_K1_force <= 99760.4869320128)
+      && (self->sampled_position_change >= -20.00002) && (self->sampled_position_change <= 20.00002)
+      && (self->sampled_position >= -10.00001) && (self->sampled_position <= 10.00001);
+}
+
 // The value of a parameter now, counted from 0.
 static inline double second_order_maxwell_parameter(const second_order_maxwell *self, int i) {
   (void)self;

@@ -198,6 +198,18 @@ static inline dashpot_command visco_elasto_plastic_step(visco_elasto_plastic *se
   return command;
 }
 
+// While positions stay within ± 10 m and velocities within ± 100 m/s, a law that starts at rest at 0
+// keeps to this box, and from it no operation overflows: 1 where its states are there.
+static inline int visco_elasto_plastic_is_within(const visco_elasto_plastic *self) {
+  return
+      (self->last_position >= -10.00001) && (self->last_position <= 10.00001)
+      && (self->K_spring_force >= -16000.521136406403) && (self->K_spring_force <= 16000.521136406403)
+      && (self->sampled_position_change >= -20.00002) && (self->sampled_position_change <= 20.00002)
+      && (self->sampled_Y_trial >= -36000.54755628937) && (self->sampled_Y_trial <= 36000.54755628937)
+      && (self->sampled_Y_excess >= -36001.04755678938) && (self->sampled_Y_excess <= 36001.04755678938)
+      && (self->sampled_position >= -10.00001) && (self->sampled_position <= 10.00001);
+}
+
 // The value of a parameter now, counted from 0.
 static inline double visco_elasto_plastic_parameter(const visco_elasto_plastic *self, int i) {
   (void)self;

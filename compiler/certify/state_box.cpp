@@ -1,4 +1,4 @@
-#include "state_box.hpp"
+#include "certify/state_box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,16 +6,9 @@
 #include <vector>
 
 #include "discretise/rounding.hpp"
-#include "scalar_program.hpp"
 
-namespace dashpot::testing {
+namespace dashpot::compiler {
 namespace {
-
-using compiler::ExpressionId;
-using compiler::Operation;
-using compiler::Role;
-using compiler::Statement;
-using compiler::UpdateLaw;
 
 // Σ c_i x_i over the states and inputs at the beginning of a step, and a rest of which the magnitude alone is known:
 // roundings, and what a slip or a contact decides.
@@ -27,9 +20,8 @@ struct Affine {
 // What every variable is in terms of the step's beginning, and how large that can be.
 class Magnitudes {
  public:
-  Magnitudes(const UpdateLaw& law, const InputRange& range)
-      : law_(law), roundoff_(compiler::unit_roundoff(law.scalar)) {
-    for (const compiler::Variable& v : law.variables) {
+  Magnitudes(const UpdateLaw& law, const InputRange& range) : law_(law), roundoff_(unit_roundoff(law.scalar)) {
+    for (const Variable& v : law.variables) {
       starts_.push_back(bounds_.size());
       for (std::size_t place = 0; place < v.size; ++place)
         bounds_.push_back(v.role == Role::state ? std::abs(v.rest_value) : 0.0);
@@ -66,7 +58,7 @@ class Magnitudes {
  private:
   template <class Action>
   void for_each_state(Action action) const {
-    for (const compiler::Variable& v : law_.variables)
+    for (const Variable& v : law_.variables)
       for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)
         action(first(law_.variables.id_of(v)) + place);
   }
@@ -111,14 +103,14 @@ class Magnitudes {
   }
 
   Affine product(ExpressionId left, ExpressionId right, std::size_t place) const {
-    const compiler::Expression& factor = law_.expressions[left];
+    const Expression& factor = law_.expressions[left];
     if (factor.operation != Operation::constant) return {{}, magnitude(of(left, place)) * magnitude(of(right, place))};
     const std::vector<double>& values = law_.coefficients[factor.coefficient].values;
     return scaled(of(right, place), values[values.size() == 1 ? 0 : place]);
   }
 
   Affine of(ExpressionId id, std::size_t place) const {
-    const compiler::Expression& e = law_.expressions[id];
+    const Expression& e = law_.expressions[id];
     const auto part = [&](std::size_t i) { return of(e.operands[i], place); };
     const auto size = [&](std::size_t i) { return magnitude(part(i)); };
     const auto at = [&](const std::vector<double>& values) { return values[values.size() == 1 ? 0 : place]; };
@@ -141,7 +133,7 @@ class Magnitudes {
     return all;
   }
 
-  std::size_t first(compiler::VariableId id) const { return starts_[id.place()]; }
+  std::size_t first(VariableId id) const { return starts_[id.place()]; }
 
   const UpdateLaw& law_;
   double roundoff_;
@@ -169,7 +161,21 @@ std::vector<double> extrapolated(const std::vector<double>& x0, const std::vecto
 
 }  // namespace
 
+std::string state_name(const Variable& state, std::size_t place) {
+  return (state.element_names.empty() ? state.name : state.element_names[place]) + "_";
+}
+
+InputRange input_range(const PortDevice& port) {
+  const InputRange range = {10, 100};
+  if (port.is_ideal()) return range;
+  const encoder_description& encoder = port.description().encoder;
+  const double reach = std::max(std::abs(encoder.range_low), std::abs(encoder.range_high)) * port.position_scale();
+  const double speed = encoder.max_speed * port.position_scale();
+  return {reach > 0 ? reach : range.position, speed > 0 ? speed : range.velocity};
+}
+
 std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, const InputRange& range) {
+  if (!law.couplings.empty() || !law.networks.empty() || law.tunable) return std::nullopt;
   constexpr double room = 1 + 1e-6;  // of which a step of the slowest mode takes less than its loss, 1e-6 at least
   Magnitudes run(law, range);
   std::vector<double> states = run.states();
@@ -183,11 +189,12 @@ std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, con
     for (double& value : wide) value *= room;
     const std::vector<double> then = after_steps(run, wide, 1);
     if (!std::equal(then.begin(), then.end(), wide.begin(), [](double a, double b) { return a <= b; })) continue;
+    if (!std::all_of(wide.begin(), wide.end(), [](double bound) { return std::isfinite(bound); })) return std::nullopt;
     std::map<std::string, double> box;
     auto value = wide.begin();
-    for (const compiler::Variable& v : law.variables)
+    for (const Variable& v : law.variables)
       for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)
-        box[scalar_name(v, place)] = *value++;
+        box[state_name(v, place)] = *value++;
     return box;
   }
   return std::nullopt;
@@ -196,11 +203,11 @@ std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, con
 double sum_of_terms(const UpdateLaw& law, const InputRange& range, const std::map<std::string, double>& box) {
   Magnitudes run(law, range);
   std::vector<double> states;
-  for (const compiler::Variable& v : law.variables)
+  for (const Variable& v : law.variables)
     for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)
-      states.push_back(box.at(scalar_name(v, place)));
+      states.push_back(box.at(state_name(v, place)));
   run.set_states(states);
   return run.force();
 }
 
-}  // namespace dashpot::testing
+}  // namespace dashpot::compiler

@@ -43,6 +43,7 @@ struct CommandLine {
   std::string target = "cpp";
   std::string shell;       // completion
   std::string page_about;  // manual; empty: dashpot itself
+  std::string device_target;
 };
 
 // The whole text as a number in decimal notation.
@@ -269,6 +270,46 @@ void describe_exchange(CLI::App& app, CommandLine& line) {
   out->add_option("-o,--output", line.options.output, "File to write to, default standard output")->option_text("FILE");
 }
 
+void describe_device(CLI::App& app, CommandLine& line) {
+  Options& options = line.options;
+  CLI::App* device = add_command(
+      app, line, "device", "Write a device as code for its loop, or fill in its brake from the geometry of its blade");
+  BladeWords& blade = options.blade;
+  device->add_option("DEVICE", options.device, "Device file")->required();
+  CLI::Option* target =
+      device->add_option("--target", line.device_target, "Write what a loop has to know of the device")
+          ->check(CLI::IsMember({"cpp", "c99"}))
+          ->option_text("cpp|c99");
+  const std::vector<CLI::Option*> needed = {
+      device->add_option("--blade", blade.thickness, "Thickness of the blade, as \"1.59 mm\""),
+      device->add_option("--pole-length", blade.pole_length, "Pole across the motion"),
+      device->add_option("--pole-width", blade.pole_width, "Pole along the motion"),
+      device->add_option("--field", blade.field, "Magnetic field in the gap, as \"1 T\"")};
+  device->add_option("--resistivity", blade.resistivity, "Of the blade, default that of aluminium, \"28.2 nohm m\"")
+      ->needs(needed[0]);
+  device
+      ->add_option("--correction", blade.correction,
+                   "Alpha of the eddy currents' return path, default by the pole's shape")
+      ->needs(needed[0])
+      ->check(CLI::Range(0.0, 1.0));
+  device->add_option("--radius", blade.radius, "Of the blade's middle, default the device's arm_radius")
+      ->needs(needed[0]);
+  device
+      ->add_option("--current", blade.current,
+                   "Coil current that makes the field: also fills in damping_per_current_squared")
+      ->needs(needed[0]);
+  for (CLI::Option* one : needed) {
+    one->excludes(target);
+    for (CLI::Option* other : needed)
+      if (one != other) one->needs(other);
+  }
+  device->add_option("-o,--output", options.output, "File to write to, default standard output")->option_text("FILE");
+  device->callback([target, needed] {
+    if (target->count() == 0 && needed[0]->count() == 0)
+      throw CLI::RequiredError("--target, or --blade with --pole-length, --pole-width and --field,");
+  });
+}
+
 void describe(CLI::App& app, CommandLine& line) {
   Options& options = line.options;
   CLI::App* check =
@@ -350,24 +391,7 @@ void describe(CLI::App& app, CommandLine& line) {
   verify->add_flag("--allow-uncertified", options.allow_uncertified,
                    "Also accept a sound header of a law that is not certified");
 
-  CLI::App* device = add_command(app, line, "device", "Fill in a device file's brake from the geometry of its blade");
-  BladeWords& blade = options.blade;
-  device->add_option("DEVICE", options.device, "Device file")->required();
-  device->add_option("--blade", blade.thickness, "Thickness of the blade, as \"1.59 mm\"")->required();
-  device->add_option("--pole-length", blade.pole_length, "Pole across the motion")->required();
-  device->add_option("--pole-width", blade.pole_width, "Pole along the motion")->required();
-  device->add_option("--field", blade.field, "Magnetic field in the gap, as \"1 T\"")->required();
-  device->add_option("--resistivity", blade.resistivity, "Of the blade, default that of aluminium, \"28.2 nohm m\"");
-  device
-      ->add_option("--correction", blade.correction,
-                   "Alpha of the eddy currents' return path, default by the pole's shape")
-      ->check(CLI::Range(0.0, 1.0));
-  device->add_option("--radius", blade.radius, "Of the blade's middle, default the device's arm_radius");
-  device->add_option("--current", blade.current,
-                     "Coil current that makes the field: also fills in damping_per_current_squared");
-  device->add_option("-o,--output", options.output, "File to write to, default standard output")
-      ->option_text("FILE.json");
-
+  describe_device(app, line);
   describe_exchange(app, line);
 
   CLI::App* run =
@@ -415,6 +439,8 @@ void take_over_words(CommandLine& line) {
     if (line.vector == name_of(registers)) choices.registers = registers;
   choices.guards_each_sample = line.options.emission.batch;
   line.options.target = find_target(line.target);
+  if (line.device_target == "cpp") line.options.device_language = DeviceLanguage::cpp;
+  if (line.device_target == "c99") line.options.device_language = DeviceLanguage::c99;
   if (line.state_input == "position") choices.state_input = StateInput::position;
   if (line.state_input == "velocity") choices.state_input = StateInput::velocity;
   if (line.state_input == "nodal") choices.state_input = StateInput::nodal;

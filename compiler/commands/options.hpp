@@ -9,6 +9,7 @@
 #include "commands/fit_words.hpp"
 #include "commands/targets.hpp"
 #include "decompose/choices.hpp"
+#include "emit/device_facts.hpp"
 #include "emit/emission.hpp"
 #include "exchange/prony_format.hpp"
 
@@ -55,20 +56,21 @@ struct Options {
   std::string header;                         // verify
   const Target* target = &targets().front();  // compile
   EmissionOptions emission;
-  bool uncertified = false;           // compile: also what lacks damping on its device
-  bool legend = false;                // explain: what the columns mean
-  bool allow_uncertified = false;     // verify: also what is sound and not certified
-  bool json = false;                  // explain, run --motion
-  std::optional<double> duration;     // run [s]; without end where empty
-  std::optional<std::string> port;    // run: the board's; empty: the simulated device
-  std::optional<std::string> hand;    // run: who holds the simulated device; empty: relaxed
-  std::optional<std::uint64_t> seed;  // run: of the simulated device; empty: 0
-  std::optional<std::string> motion;  // run: recorded, for the simulated device to be led along
-  BladeWords blade;                   // device
-  FitWords fit;                       // fit
-  ExchangeWords exchange;             // import, export
-  std::optional<std::string> as;      // explain: the form to print as a network file
-  bool fast = false;                  // run: simulated time instead of real time
+  bool uncertified = false;                       // compile: also what lacks damping on its device
+  bool legend = false;                            // explain: what the columns mean
+  bool allow_uncertified = false;                 // verify: also what is sound and not certified
+  bool json = false;                              // explain, run --motion
+  std::optional<double> duration;                 // run [s]; without end where empty
+  std::optional<std::string> port;                // run: the board's; empty: the simulated device
+  std::optional<std::string> hand;                // run: who holds the simulated device; empty: relaxed
+  std::optional<std::uint64_t> seed;              // run: of the simulated device; empty: 0
+  std::optional<std::string> motion;              // run: recorded, for the simulated device to be led along
+  BladeWords blade;                               // device
+  std::optional<DeviceLanguage> device_language;  // device: to write its description in; empty: fill in its brake
+  FitWords fit;                                   // fit
+  ExchangeWords exchange;                         // import, export
+  std::optional<std::string> as;                  // explain: the form to print as a network file
+  bool fast = false;                              // run: simulated time instead of real time
   bool json_diagnostics = false;
 };
 

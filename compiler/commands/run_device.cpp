@@ -6,6 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/eddy_brake.hpp"
+#include "emit/emit_device.hpp"
 #include "emit/write_files.hpp"
 #include "network/read_value.hpp"
 
@@ -88,11 +89,23 @@ std::string filled_text(const SourceFile& file, const FilledBrake& brake, bool r
   return json.dump(2) + "\n";
 }
 
+ExitStatus write(const std::string& text, const Options& options, Diagnostics& diagnostics) {
+  if (!options.output) return write_standard_output(text, diagnostics);
+  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+}
+
+ExitStatus write_as_code(const Device& device, const Options& options, Diagnostics& diagnostics) {
+  if (options.output && !spares_inputs(options, {*options.output}, diagnostics)) return ExitStatus::command_line_wrong;
+  const std::optional<std::string> text = emit_device(device, *options.device_language, diagnostics);
+  return text ? write(*text, options, diagnostics) : ExitStatus::input_refused;
+}
+
 }  // namespace
 
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
+  if (options.device_language) return write_as_code(*device.device, options, diagnostics);
   Words words(diagnostics);
   const std::optional<FilledBrake> brake = fill_in(*device.device, options.blade, words, diagnostics);
   files.keep(words.take_sources());
@@ -102,8 +115,7 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
   // All other commands have to take it.
   if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics))
     return ExitStatus::input_refused;
-  if (!options.output) return write_standard_output(text, diagnostics);
-  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+  return write(text, options, diagnostics);
 }
 
 }  // namespace dashpot::compiler

@@ -39,27 +39,6 @@ bool turns_direction(std::string_view text) {
              : text.starts_with("\xE2\x81") && text.size() > 2 && text[2] >= '\xA6' && text[2] <= '\xA9';
 }
 
-// The author's words stay in the comment that they are put in: they hold no end of line, and no backslash at one.
-std::string comment_text(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (turns_direction(std::string_view(text).substr(i))) text.replace(i, 3, "?");
-  return text.ends_with('\\') || text.ends_with("\?\?/") ? text + "." : text;
-}
-
-// What stands between the quotes of a C++ string.
-std::string string_text(const std::string& text) {
-  std::string result;
-  for (char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte == 0x7F) result += fmt::format("\\{:03o}", byte);
-    else if (c == '"' || c == '\\' || c == '?') result += {'\\', c};
-    else result += c;
-  }
-  return result;
-}
-
 std::string brake_line(const SlipLikes& likes, const std::string& unit) {
   const std::vector<BrakeShare>& shares = likes.first->shares;
   if (shares.size() != 2) return to_text(likes);
@@ -140,6 +119,25 @@ std::string loops_line(const UpdateLaw& law) {
 }
 
 }  // namespace
+
+std::string comment_text(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (turns_direction(std::string_view(text).substr(i))) text.replace(i, 3, "?");
+  return text.ends_with('\\') || text.ends_with("\?\?/") ? text + "." : text;
+}
+
+std::string string_text(const std::string& text) {
+  std::string result;
+  for (char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) result += fmt::format("\\{:03o}", byte);
+    else if (c == '"' || c == '\\' || c == '?') result += {'\\', c};
+    else result += c;
+  }
+  return result;
+}
 
 std::vector<Fields> as_list(const std::vector<std::string>& lines) {
   std::vector<Fields> list;

@@ -10,6 +10,12 @@
 
 namespace dashpot::compiler {
 
+// The author's words stay in the comment that they are put in: they hold no end of line, and no backslash at one.
+std::string comment_text(std::string text);
+
+// What stands between the quotes of a string in C and C++.
+std::string string_text(const std::string& text);
+
 // An entry a line, as templates take it.
 std::vector<Fields> as_list(const std::vector<std::string>& lines);
 

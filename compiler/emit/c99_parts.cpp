@@ -157,4 +157,6 @@ std::vector<std::string> c99_part(const std::string& part, const C99Words& words
 
 std::vector<std::string> c99_command_header() { return lines_of(embedded("command.h")); }
 
+std::vector<std::string> c99_device_header() { return lines_of(embedded("device_description.h")); }
+
 }  // namespace dashpot::compiler

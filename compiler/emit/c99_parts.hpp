@@ -23,4 +23,7 @@ std::vector<std::string> c99_part(const std::string& part, const C99Words& words
 // <dashpot/command.h>, as it stands.
 std::vector<std::string> c99_command_header();
 
+// <dashpot/device_description.h>, as it stands.
+std::vector<std::string> c99_device_header();
+
 }  // namespace dashpot::compiler

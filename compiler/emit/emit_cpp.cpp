@@ -8,6 +8,7 @@
 #include "emit/banner.hpp"
 #include "emit/cpp_batch.hpp"
 #include "emit/cpp_program.hpp"
+#include "emit/device_facts.hpp"
 #include "emit/emission.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
@@ -124,49 +125,14 @@ CodeModel test_model(const Compilation& c) {
   return model;
 }
 
-// A device's description as assignments, but for what takes no part where a motion is known.
-std::vector<std::string> assignments(const device_description& d) {
-  std::vector<std::string> facts;
-  const auto number = [&](const char* name, double value) {
-    facts.push_back(fmt::format("{} = {}", name, cpp_literal(value, ScalarType::float64)));
-  };
-  const auto choice = [&](const char* name, const char* type, int value) {
-    facts.push_back(fmt::format("{} = static_cast<dashpot::{}>({})", name, type, value));
-  };
-  choice("motion", "motion", int(d.motion));
-  number("arm_radius", d.arm_radius);
-  number("loop.sample_period", d.loop.sample_period);
-  facts.push_back(fmt::format("loop.delay_samples = {}", d.loop.delay_samples));
-  number("encoder.step", d.encoder.step);
-  choice("encoder.rounding", "quantiser", int(d.encoder.rounding));
-  choice("velocity.estimator", "estimator_kind", int(d.velocity.estimator));
-  facts.push_back(fmt::format("velocity.window = {}", d.velocity.window));
-  facts.push_back(fmt::format("velocity.order = {}", d.velocity.order));
-  facts.push_back(fmt::format("velocity.best_fit = {}", d.velocity.best_fit));
-  number("velocity.cutoff", d.velocity.cutoff);
-  number("velocity.acceleration", d.velocity.acceleration);
-  number("velocity.filter_factor", d.velocity.filter_factor);
-  number("velocity.bandwidth", d.velocity.bandwidth);
-  number("motor.max_torque", d.motor.max_torque);
-  number("motor.amplifier_lag", d.motor.amplifier_lag);
-  if (d.motor.slew > 0) number("motor.slew", d.motor.slew);
-  choice("brake.kind", "brake_kind", int(d.brake.kind));
-  number("brake.max_damping", d.brake.max_damping);
-  number("brake.damping_per_current_squared", d.brake.damping_per_current_squared);
-  number("brake.residual_damping", d.brake.residual_damping);
-  number("brake.coil_lag", d.brake.coil_lag);
-  number("brake.slew", d.brake.slew);
-  number("brake.critical_speed", d.brake.critical_speed);
-  return facts;
-}
-
 CodeModel live_model(const Compilation& c) {
   CodeModel model;
   model.fields["name"] = c.network.name;
   for (const char* list : {"settable", "tunables", "device", "facts"}) model.lists[list];
   if (c.device) {
     model.lists["device"].push_back({});
-    for (const std::string& fact : assignments(c.device->description)) model.lists["facts"].push_back({{"fact", fact}});
+    for (const DeviceFact& fact : facts_of_led_device(c.device->description))
+      model.lists["facts"].push_back({{"fact", fact.field + " = " + fact.value}});
   }
   if (!c.law.tunable) return model;
   model.lists["settable"].push_back({});

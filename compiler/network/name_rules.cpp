@@ -86,6 +86,10 @@ bool check_name(const Text& name, std::string_view owner, Diagnostics& diagnosti
   return false;
 }
 
+std::string legal_name(std::string_view name) {
+  return is_legal(name) ? std::string(name) : legal_proposal(name).value_or("unnamed");
+}
+
 std::string folded(std::string_view name) {
   std::string text(name);
   for (char& byte : text)

@@ -14,6 +14,9 @@ namespace dashpot::compiler {
 // keyword or macro, or a member of the emitted class. `owner` is "the network", "parameter", "element", "node".
 bool check_name(const Text& name, std::string_view owner, Diagnostics& diagnostics);
 
+// The name itself where it is legal, else one that is like it; "unnamed" where nothing of it is left.
+std::string legal_name(std::string_view name);
+
 // Names compared without regard to case.
 std::string folded(std::string_view name);
 

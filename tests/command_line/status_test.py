@@ -247,6 +247,37 @@ class Diagnostics(CommandTest):
             self.assertTrue(found["message"])
 
 
+class DeviceAsCode(CommandTest):
+    def test_a_file_or_standard_output(self):
+        """Fails if a law and the description that is written of its device do not carry one digest."""
+        self.dashpot("compile", FIG_5, "--device", PANTOGRAPH, "--uncertified", "-o", ".")
+        digest, = re.findall(r'device_digest = "([0-9a-f]+)"', (self.folder / "second_order_maxwell.hpp").read_text())
+        for target, name in [("cpp", "device.hpp"), ("c99", "device.h")]:
+            printed = self.dashpot("device", PANTOGRAPH, "--target", target).stdout
+            self.dashpot("device", PANTOGRAPH, "--target", target, "-o", name)
+            self.assertEqual((self.folder / name).read_text(), printed)
+            self.assertIn(f'digest = "{digest}"', printed)
+
+    def test_what_contradicts(self):
+        """Fails if half of what a blade needs is taken, or a device both written and filled in, or nothing said."""
+        blade = ["--blade", "1 mm", "--pole-length", "20 mm", "--pole-width", "20 mm", "--field", "1 T"]
+        for words, said in [([], "--target, or --blade with --pole-length, --pole-width and --field, is required"),
+                            (blade[:-2], "requires --field"), (["--radius", "1 mm"], "--radius requires --blade"),
+                            (["--target", "cpp", *blade], "excludes"), (["--target", "c89"], "c89 not in {cpp,c99}")]:
+            done = self.dashpot("device", PANTOGRAPH, *words, "-o", "out.hpp", status=COMMAND_LINE_WRONG)
+            self.assertIn(said, done.stderr)
+            self.assertFalse((self.folder / "out.hpp").exists())
+
+    def test_its_own_file_is_spared(self):
+        """Fails if a device file can be lost to the code that is written of it, or half a file is left."""
+        self.write("slide.json", LINEAR_DEVICE)
+        done = self.dashpot("device", "slide.json", "--target", "cpp", "-o", "slide.json", status=COMMAND_LINE_WRONG)
+        self.assertIn("[would-overwrite-input]", done.stderr)
+        self.assertEqual((self.folder / "slide.json").read_text(), LINEAR_DEVICE)
+        done = self.dashpot("device", "slide.json", "--target", "cpp", "-o", "slide.json/x.hpp", status=INPUT_REFUSED)
+        self.assertIn("[cannot-write-file]", done.stderr)
+
+
 class StandardOutput(CommandTest):
     def test_a_full_disk_is_reported(self):
         """Fails if results are lost without a word when standard output cannot take them."""

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include <dashpot/device_description.h>
 #include <dashpot/servo/servo_loop.hpp>
 
 #include "log_text.hpp"
@@ -35,6 +36,60 @@ TEST_P(Admission, RefusesAndSaysWhatDiffers) {
   EXPECT_EQ(verdict, GetParam().verdict);
   EXPECT_FALSE(is_admitted(verdict));
   EXPECT_EQ(to_text(verdict, model, loop), GetParam().text);
+}
+
+dashpot_device device_in_c(const loop_facts& loop) {
+  dashpot_device device{};
+  device.name = loop.identity.name;
+  device.digest = loop.identity.digest;
+  device.estimator = loop.estimator;
+  device.motion = loop.device.motion == motion::rotation ? dashpot_motion_rotation : dashpot_motion_translation;
+  device.arm_radius = loop.device.arm_radius;
+  device.loop.sample_period = loop.device.loop.sample_period;
+  device.loop.delay_samples = loop.device.loop.delay_samples;
+  return device;
+}
+
+std::string refusal_in_c(const model_facts& model, const loop_facts& loop) {
+  const dashpot_device device = device_in_c(loop);
+  return dashpot_refusal_of(&device, model.sample_period, model.port_motion == motion::rotation ? 1 : 0,
+                            model.any_device ? "ideal" : model.device, model.any_device ? "" : model.device_digest,
+                            model.estimator, model.loop_delay);
+}
+
+const char* text_in_c(admission verdict) {
+  switch (verdict) {
+    case admission::no_period: return "the device states no sample period";
+    case admission::other_rate: return "the law is made for another rate";
+    case admission::other_motion: return "the law is made for another motion, and no arm radius converts it";
+    case admission::other_device: return "the law is certified for another device";
+    case admission::other_digest: return "the law is certified for another file of this device";
+    case admission::other_estimator: return "the law is certified with another estimator";
+    case admission::other_delay: return "the law is certified for another delay";
+    default: return "";
+  }
+}
+
+// Broken, a loop in C would run a law that the loop in C++ refuses, or refuse one that it runs.
+TEST_P(Admission, IsTheSameInC) {
+  for (const bool any_device : {false, true}) {
+    model_facts model = certified;
+    loop_facts loop = fitting_loop();
+    GetParam().change(model, loop);
+    model.any_device = any_device;
+    EXPECT_EQ(refusal_in_c(model, loop), text_in_c(admit(model, loop, false)));
+  }
+  EXPECT_EQ(refusal_in_c(certified, fitting_loop()), "");
+}
+
+// Broken, a rotary device with an arm would be refused in C, or one whose period differs in its last bits.
+TEST(AdmissionInC, TakesWhatFits) {
+  loop_facts loop = fitting_loop();
+  loop.device.motion = motion::rotation;
+  loop.device.arm_radius = 0.05;
+  loop.device.loop.sample_period = 1 / 999.9999999;
+  EXPECT_TRUE(is_admitted(admit(certified, loop, true)));
+  EXPECT_EQ(refusal_in_c(certified, loop), "");
 }
 
 constexpr mismatch mismatches[] = {

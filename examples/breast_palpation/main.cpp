@@ -10,8 +10,9 @@
 
 #include <breast_with_lump.hpp>
 #include <breast_without_lump.hpp>
+#include <palpation_trainer_device.hpp>
 
-#include "device.hpp"
+using described = dashpot::devices::palpation_trainer;
 
 using records = std::vector<dashpot::telemetry_record>;
 
@@ -27,14 +28,14 @@ double force_of(const dashpot::telemetry_record& r) { return r.motor_force + r.d
 template <class Law>
 dashpot::servo_summary palpate(records& felt) {
   Law phantom;
-  const dashpot::device_description facts = palpation_trainer();
+  const dashpot::device_description facts = described::description();
   dashpot::simulated::scenario scene;
   scene.user = dashpot::simulated::firm_hand();
   scene.intended = dashpot::simulated::smoothly_through({{0, 0}, {0.8, 18e-3}, {2.2, 18e-3}, {3, 0}});
   dashpot::simulated_device device(facts, scene);
   dashpot::any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   dashpot::servo_options options;
-  options.identity = {Law::certified_for::device, Law::certified_for::device_digest};
+  options.identity = {described::name, described::digest};
   options.require_certified = true;
   options.duration = 3.4;  // [s]
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };

@@ -9,8 +9,9 @@
 #include <dashpot/simulated/simulated_device.hpp>
 
 #include <knee_ligament.hpp>
+#include <knee_rig_device.hpp>
 
-#include "device.hpp"
+using described = dashpot::devices::knee_rig;
 
 using ligament = dashpot::generated::knee_ligament;
 
@@ -34,7 +35,7 @@ double torque_of(const dashpot::telemetry_record& r) { return r.motor_force + r.
 
 int main(int, char** arguments) {
   ligament law;
-  const dashpot::device_description facts = knee_rig();
+  const dashpot::device_description facts = described::description();
   dashpot::simulated::scenario scene;
   scene.prescribed = true;  // the rig turns the joint, whatever torque that takes
   scene.intended = dashpot::simulated::through({{0, 0}, {ramp, angle}});
@@ -42,7 +43,7 @@ int main(int, char** arguments) {
   dashpot::any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   std::vector<dashpot::telemetry_record> felt;
   dashpot::servo_options options;
-  options.identity = {ligament::certified_for::device, ligament::certified_for::device_digest};
+  options.identity = {described::name, described::digest};
   options.require_certified = true;
   options.duration = end;
   options.telemetry_capacity = 1u << 10;

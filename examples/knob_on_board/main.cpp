@@ -13,8 +13,9 @@
 #include <dashpot/servo/servo_loop.hpp>
 
 #include <knob.hpp>
+#include <knob_board_device.hpp>
 
-#include "device.hpp"
+using described = dashpot::devices::knob_board;
 
 using knob = dashpot::generated::knob;
 
@@ -36,7 +37,7 @@ int main(int count, char** arguments) {
   std::string error;
   auto stream = dashpot::board::open_transport(arguments[1], error);
   if (!stream) return std::fprintf(stderr, "%s\n", error.c_str()), 1;
-  const dashpot::device_description facts = knob_board();
+  const dashpot::device_description facts = described::description();
   dashpot::board_options patient;
   patient.start_time = 30'000;  // [ms]: an emulator may have to wait for the computer
   dashpot::board_device device(std::move(*stream), facts, patient);
@@ -46,7 +47,7 @@ int main(int count, char** arguments) {
   dashpot::any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   std::vector<dashpot::telemetry_record> felt;
   dashpot::servo_options options;
-  options.identity = {knob::certified_for::device, knob::certified_for::device_digest};
+  options.identity = {described::name, described::digest};
   options.require_certified = true;
   options.duration = 2.5;  // [s]
   options.farewell = 30;   // [s]

@@ -10,8 +10,9 @@
 #include <dashpot/simulated/simulated_device.hpp>
 
 #include <needle_in_layers.hpp>
+#include <needle_trainer_device.hpp>
 
-#include "device.hpp"
+using described = dashpot::devices::needle_trainer;
 
 using needle = dashpot::generated::needle_in_layers;
 
@@ -29,7 +30,7 @@ double force_of(const dashpot::telemetry_record& r) { return r.motor_force + r.d
 
 int main(int, char** arguments) {
   needle law;
-  const dashpot::device_description facts = needle_trainer();
+  const dashpot::device_description facts = described::description();
   dashpot::simulated::scenario scene;
   scene.prescribed = true;  // a machine pushes
   scene.intended = dashpot::simulated::through({{0, 0}, {reversal, speed * reversal}, {end, 0}});
@@ -37,7 +38,7 @@ int main(int, char** arguments) {
   dashpot::any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   std::vector<dashpot::telemetry_record> felt;
   dashpot::servo_options options;
-  options.identity = {needle::certified_for::device, needle::certified_for::device_digest};
+  options.identity = {described::name, described::digest};
   options.require_certified = true;
   options.duration = end;
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };

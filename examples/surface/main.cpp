@@ -10,8 +10,9 @@
 #include <dashpot/simulated/simulated_device.hpp>
 
 #include <surface_point_batch.hpp>
+#include <probe_device.hpp>
 
-#include "device.hpp"
+using described = dashpot::devices::probe;
 
 constexpr int columns = 80, rows = 50, points = columns * rows;
 constexpr double patch = 1e-3, ball = 15e-3;  // [m]
@@ -68,7 +69,7 @@ class surface {
 
 int main(int, char** arguments) {
   static surface liver;
-  const dashpot::device_description facts = probe();
+  const dashpot::device_description facts = described::description();
   dashpot::simulated::scenario scene;
   scene.prescribed = true;
   scene.intended = dashpot::simulated::smoothly_through({{0, 0}, {0.5, 5e-3}});
@@ -76,7 +77,7 @@ int main(int, char** arguments) {
   dashpot::any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
   std::vector<dashpot::telemetry_record> felt;
   dashpot::servo_options options;
-  options.identity.name = "probe";
+  options.identity = {described::name, described::digest};
   options.duration = 0.7;  // [s]
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };
   const auto run = dashpot::servo_loop(liver, device, estimator, options, dashpot::simulated_clock{}).run();

@@ -11,9 +11,10 @@
 #include <dashpot/simulated/simulated_device.hpp>
 
 #include <tunable_wall.hpp>
-
-#include "device.hpp"
+#include <wall_trainer_device.hpp>
 #include "newest.hpp"
+
+using described = dashpot::devices::wall_trainer;
 
 using wall = dashpot::generated::tunable_wall;
 
@@ -65,7 +66,7 @@ class wall_with_sliders : public wall {
 int main(int, char** arguments) {
   newest<setting> sliders;
   wall_with_sliders law(sliders);
-  const dashpot::device_description facts = wall_trainer();
+  const dashpot::device_description facts = described::description();
   dashpot::simulated::scenario scene;
   scene.user = dashpot::simulated::firm_hand();
   scene.intended = dashpot::simulated::smoothly_through({{0, 0}, {0.5, 25e-3}});
@@ -74,7 +75,7 @@ int main(int, char** arguments) {
   std::vector<dashpot::telemetry_record> felt;
   felt.reserve(4000);
   dashpot::servo_options options;
-  options.identity = {wall::certified_for::device, wall::certified_for::device_digest};
+  options.identity = {described::name, described::digest};
   options.duration = 2;  // [s]
   options.outputs.observe = [&](const dashpot::telemetry_record& record) { felt.push_back(record); };
   dashpot::servo_loop loop(law, device, estimator, options);

@@ -1,6 +1,6 @@
 """Builds a user's project against dashpot, as a user would: in the source tree, and from an installed one.
 
-    python3 package_test.py InTree|InTreeWithCompiler|Installed [-v]
+    python3 package_test.py InTree|InTreeWithCompiler|Installed|Cross [-v]
 
 The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_BUILD (where it is built), DASHPOT_PREFIX (where
 it is installed), CMAKE_COMMAND, and the compiler to use in CXX.
@@ -46,8 +46,8 @@ class Project:
     def build(self, target="press"):
         return self.run(CMAKE, "--build", self.build_folder, "--target", target)
 
-    def refused_build(self):
-        done = subprocess.run([CMAKE, "--build", self.build_folder], capture_output=True, text=True)
+    def refused_build(self, target="all"):
+        done = subprocess.run([CMAKE, "--build", self.build_folder, "--target", target], capture_output=True, text=True)
         assert done.returncode != 0, f"built what cannot be built:\n{done.stdout}"
         return done.stdout + done.stderr
 
@@ -205,7 +205,7 @@ class Installed(Consumer, unittest.TestCase):
     # Fails if fused multiply-add could change the bits of a law in a user's build.
     def test_no_contraction(self):
         commands = (self.project.build_folder / "compile_commands.json").read_text()
-        self.assertEqual(commands.count("-ffp-contract=off"), 4)  # press, press_surface, tissue_test, own_loop
+        self.assertEqual(commands.count("-ffp-contract=off"), 5)  # press, press_surface, press_in_c, tissue_test, own_loop
 
     # Fails if a servo loop cannot be linked, or if emitted tests are not built, not registered, or do not pass.
     def test_everything_else(self):
@@ -220,6 +220,48 @@ class Installed(Consumer, unittest.TestCase):
         self.assertIn("#include <dashpot/branch_free.hpp>", law)
         self.assertIn("class surface_batch", (self.project.build_folder / "surface/surface_batch.hpp").read_text())
         self.project.run(self.project.build_folder / "press_surface")
+
+    # Fails if a law in C is another, or does not know the device that it was compiled for.
+    def test_law_in_c(self):
+        self.project.build("press_in_c")
+        told, *rows = self.project.run(self.project.build_folder / "press_in_c", input=motion(1)).splitlines()
+        self.assertEqual(told, "# training_arm: certified")
+        fine = simulate(self.dashpot(), self.project, "tissue", 2000, "--device", self.project.folder / "arm.json")
+        self.assertEqual([tuple(float(number) for number in row.split(",")) for row in rows], fine)
+
+    # Fails if a law that lacks damping is made unasked, or not though asked; or if its certificate is not that of its header.
+    def test_uncertified(self):
+        self.project.build("hard_law")
+        folder = self.project.build_folder
+        verify = [self.dashpot(), "verify", folder / "hard_certificate.json", folder / "hard/hard.hpp"]
+        self.assertEqual(subprocess.run(verify, capture_output=True).returncode, 1)
+        self.project.run(*verify, "--allow-uncertified")
+        self.project.replace("CMakeLists.txt", "UNCERTIFIED ", "")
+        self.assertIn("[not-certified]", self.project.refused_build("hard_law"))
+        self.assertFalse((folder / "hard").exists())
+
+    # Fails if a target or a name that cannot be is taken.
+    def test_what_cannot_be_made(self):
+        for old, new, said in [("TARGET c99", "TARGET c89", "TARGET is 'c89'; cpp or c99 is expected"),
+                               ("NAME tissue_in_c", "NAME 2nd", "NAME is '2nd'; a name that a class can have is expected")]:
+            self.project.replace("CMakeLists.txt", old, new)
+            self.assertIn(said, " ".join(self.project.refused_build().split()))
+            self.project.replace("CMakeLists.txt", new, old)
+
+    # Fails if who builds without CMake does not find the headers, the loop, or the networks.
+    def test_pkg_config(self):
+        places = [path.parent for path in self.prefix.rglob("dashpot.pc")]
+        self.assertEqual(len(places), 1)
+        environment = dict(os.environ, PKG_CONFIG_PATH=str(places[0]))
+        ask = lambda *words: self.project.run("pkg-config", *words, env=environment).split()
+        self.project.build("paper_solid_law")
+        program = self.project.folder / "without_cmake"
+        self.project.run(os.environ.get("CXX", "c++"), "-std=c++17", "-I", self.project.build_folder / "paper_solid",
+                         SOURCE / "runtime/examples/own_loop.cpp", *ask("--cflags", "--libs", "dashpot-servo"), "-o", program)
+        self.project.run(program)
+        for room, file in [("networks", "paper/kelvin.json"), ("devices", "board_mps2.json"), ("firmware", "main.cpp")]:
+            folder, = ask(f"--variable={room}dir", "dashpot")
+            self.assertTrue((pathlib.Path(folder) / file).exists(), folder)
 
     # Fails if a change of the network's values does not reach the program.
     def test_changed_network(self):
@@ -277,6 +319,57 @@ class Installed(Consumer, unittest.TestCase):
         for path in self.prefix.rglob("*"):
             if path.suffix in {".cmake", ".hpp", ".json"}:
                 self.assertNotRegex(path.read_text(), re.escape(str(SOURCE)), path)
+
+
+class Cross(unittest.TestCase):
+    """A project for a 32-bit board without an operating system, with the installed dashpot or with its sources."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="cross")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        shutil.copytree(SOURCE / "tests/package/cross", self.folder, dirs_exist_ok=True)
+        for file in ("tissue.json", "arm.json"):
+            shutil.copy(CONSUMER / file, self.folder)
+
+    def run_cmake(self, *words, path=os.environ["PATH"]):
+        return subprocess.run([CMAKE, *map(str, words)], capture_output=True, text=True, env=dict(os.environ, PATH=path))
+
+    def configure(self, *options, path=os.environ["PATH"]):
+        return self.run_cmake("-G", "Ninja", "-S", self.folder, "-B", self.folder / "build",
+                              f"-DCMAKE_TOOLCHAIN_FILE={self.folder / 'toolchain.cmake'}", *options, path=path)
+
+    def check_built(self):
+        done = self.run_cmake("--build", self.folder / "build")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with open(self.folder / "build/firmware.elf", "rb") as file:
+            header = file.read(20)
+        self.assertEqual((header[:5], header[18]), (b"\x7fELF\x01", 40))  # 32 bits, Arm
+        undefined = subprocess.run(["arm-none-eabi-nm", "-u", str(self.folder / "build/libsteps.a")], capture_output=True,
+                                   text=True, check=True).stdout.split()
+        self.assertEqual({name for name in undefined if name.startswith("dashpot")}, set())
+
+    # Fails if what is installed for this machine cannot be found where a build is for a board.
+    def test_installed(self):
+        done = self.configure(f"-DCMAKE_PREFIX_PATH={PREFIX}")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.check_built()
+
+    # Fails if the sources need a compiler for the board that makes a compiler, where one for this machine is at hand.
+    def test_sources(self):
+        done = self.configure(f"-DDASHPOT_SOURCE={SOURCE}", path=f"{PREFIX / 'bin'}:{os.environ['PATH']}")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.check_built()
+
+    # Fails if a build without any dashpot for this machine is not told what is missing.
+    def test_no_compiler_for_this_machine(self):
+        tools = self.folder / "tools"
+        tools.mkdir()
+        for tool in ("ninja", "arm-none-eabi-gcc", "arm-none-eabi-g++", "arm-none-eabi-ar", "arm-none-eabi-ranlib"):
+            (tools / tool).symlink_to(shutil.which(tool))
+        done = self.configure(f"-DDASHPOT_SOURCE={SOURCE}", "-DCMAKE_FIND_USE_CMAKE_SYSTEM_PATH=OFF", path=str(tools))
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("no dashpot that runs on this one is found: name it with", " ".join(done.stderr.split()))
 
 
 if __name__ == "__main__":

@@ -3,9 +3,8 @@
     python3 run_blocks.py PAGE.md PREFIX
 
 PREFIX is where dashpot is installed. The scratch folder looks like a clone in which `./try --install ~/dashpot` has run: it has
-`networks/`, `runtime/` and `examples/`, a `try` that builds nothing, since PREFIX is built, and a home with `dashpot/` in it. Where
-DASHPOT_BOARD_FIRMWARE names the board's firmware, it stands where its target leaves it. What happens to a block depends on its
-language:
+`networks/`, `runtime/` and `examples/`, a `try` that builds nothing, since PREFIX is built, and a home with `dashpot/` in it. What
+happens to a block depends on its language:
 
     json   a network or a device: saved under its name and compiled, without warnings passing for errors
     sh     run by bash, dashpot on the path; a command that fails fails the test
@@ -26,7 +25,6 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-FIRMWARE = "build/quick/tests/realtime/board/board_firmware.elf"
 TRY = """#!/usr/bin/env bash
 # Takes the options of the real one.
 [[ $# == 0 || ( $# == 1 && $1 == --figures ) || ( $# == 2 && $1 == --install && -n $2 ) ]] || exit 2
@@ -59,9 +57,6 @@ class Scratch:
         self.home = self.folder / "home"
         self.home.mkdir()
         (self.home / "dashpot").symlink_to(self.prefix.resolve())
-        if firmware := os.environ.get("DASHPOT_BOARD_FIRMWARE"):
-            (self.folder / FIRMWARE).parent.mkdir(parents=True)
-            (self.folder / FIRMWARE).symlink_to(firmware)
 
     def run(self, *command, **variables):
         done = subprocess.run([str(part) for part in command], cwd=self.folder, env={**self.environment, **variables}, text=True,

@@ -48,7 +48,7 @@ std::string evidence(const fault_report& report, motion joint) {
                      with_unit(report.limit, position));
     case fault::velocity_not_finite: return "the estimator returns " + digits_of(report.seen);
     case fault::overspeed: return at_most(with_unit(report.seen, velocity), with_unit(report.limit, velocity));
-    case fault::command_not_finite: return "the model returns " + digits_of(report.seen);
+    case fault::command_not_finite: return "the device would get " + digits_of(report.seen);
     case fault::suspended: return "the machine was asleep for " + with_unit(report.seen, "s");
     case fault::motor_saturated: return at_most("for " + with_unit(report.seen, "s"), with_unit(report.limit, "s"));
   }

@@ -52,6 +52,22 @@ TEST_F(ServoRestart, ResetAndStartTogetherRunAgainWithTheNextSample) {
   for (std::size_t k = 0; k < 30; ++k) EXPECT_EQ(is_safe(k), k >= 10 && k <= 15) << k;
 }
 
+// Broken, a motor of which no limit is known would be asked for an infinite torque: the force is finite, and so is what
+// the motor is to make up for the coil; their sum is not.
+TEST_F(ServoRestart, AFiniteForceThatOverflowsOnItsWayToTheDeviceIsAFault) {
+  device_description unlimited = scripted_description();
+  unlimited.motor.max_torque = 0;
+  unlimited.encoder.max_speed = 0;
+  unlimited.brake.coil_lag = 0.002;
+  device = scripted_device(unlimited);
+  options.command.actuator.make_up_with_motor = true;
+  model.on_output([](std::size_t, command<double>& given) { given = {20, 1e308}; });
+  estimator.on_update([](std::size_t update, double) { return update == 1 ? 1e308 : 0; });
+  const servo_summary summary = run(20);
+  EXPECT_EQ(summary.faults.of(fault::command_not_finite), 1u);
+  for (std::size_t k = 0; k < 20; ++k) EXPECT_EQ(is_safe(k), k >= 1) << k;
+}
+
 // Broken, the history before a fault would leak into the run after it.
 TEST_F(ServoRestart, RunAfterARestartIsThatOfAFreshModel) {
   make_position_nan_at(10);

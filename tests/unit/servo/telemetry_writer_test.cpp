@@ -164,7 +164,7 @@ TEST(ServoEvent, NamesEveryFaultWithItsEvidence) {
       {{fault::encoder_jump, 0.3, 0.0033}, "encoder jump: moved 0.3 rad between two samples, at most 0.0033 rad"},
       {{fault::velocity_not_finite, 1.0 / 0.0, 2}, "velocity not finite: the estimator returns inf"},
       {{fault::overspeed, -31, 30}, "overspeed: -31 rad/s, at most 30 rad/s"},
-      {{fault::command_not_finite, 1.0 / 0.0, 0}, "command not finite: the model returns inf"},
+      {{fault::command_not_finite, 1.0 / 0.0, 0}, "command not finite: the device would get inf"},
       {{fault::motor_saturated, 0.2001, 0.2}, "motor saturated: for 0.2001 s, at most 0.2 s"},
       {{fault::suspended, 12.5, 0}, "suspended: the machine was asleep for 12.5 s"},
   };

@@ -106,6 +106,8 @@ class command_path {
     if (const fault_report found = monitor_.check_command(wanted_.damping, wanted_.force)) return found;
     sent_ = energy_.control(wanted_, position_, velocity_, hold_time());
     output_ = actuator_.drive(sent_, velocity_);
+    const fault_report overflow = monitor_.check_command(output_.brake_damping, output_.motor_torque);
+    if (overflow) return overflow;  // a finite force may be too large for a device without limits
     kept_share_ = kept_share_of(model_);
     const bool saturated = output_.motor_saturated() || motor_falls_short_ || kept_share_ < 1;
     if (const fault_report found = monitor_.check_saturation(saturated)) return found;

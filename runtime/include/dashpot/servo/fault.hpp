@@ -15,7 +15,7 @@ enum class fault : unsigned char {
   encoder_jump,           // further from the sample before than the speed limit permits
   velocity_not_finite,    // from the estimator
   overspeed,              // estimated velocity above the speed limit
-  command_not_finite,     // from the model
+  command_not_finite,     // from the model, or on its way to the device
   motor_saturated,        // without interruption for longer than the device allows
   suspended,              // the machine was asleep between two periods
 };

@@ -64,10 +64,12 @@ class InputLine {
   }
   double added(double damping) { return added_for(lack(damping)); }
 
-  // By how much b and what is added are beyond the brake: convex as long as something is proved, and never infinite.
+  // By how much b, what is added and a reserve are beyond the brake: convex as long as something is proved, and never
+  // infinite.
   double excess(double damping) {
     const double room = reach_.adds ? reach_.most - reach_.besides - damping : 0;
-    return lack(damping) - reach_.assured_share * std::max(room, 0.0);
+    const double needed = lack(damping) + reach_.assured_share * damping + reach_.assured_besides;
+    return lack(damping) + reach_.reserve * needed - reach_.assured_share * std::max(room, 0.0);
   }
   bool fits(double damping) { return excess(damping) <= 0; }
 

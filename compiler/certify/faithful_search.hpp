@@ -37,6 +37,7 @@ struct SearchReach {
   double assured_share;    // of b and what is added, that is certain [1]
   double assured_besides;  // what is certain at b = 0
   bool adds = true;        // false behind a contact, where nothing is added
+  double reserve = 0;      // share of what is needed that its proof may need beyond it [1]
 };
 
 struct FoundOption {

@@ -15,6 +15,10 @@ namespace {
 // A search asks for some hundred bounds. Each lies above the supremum however soon it is left, so what fits it fits.
 constexpr std::size_t search_terms = most_terms / 10;
 
+// Share of the bound over frequencies by which the storage function that proves it may be above it, and as much again
+// for the search for that function, which is a search.
+constexpr double proof_reserve = 2 * most_storage_excess;
+
 // Beyond the precision of the bounds.
 bool is_noticeably_less(double x, double y) { return x < y * (1 - 1e-6); }
 
@@ -81,7 +85,8 @@ SearchReach CandidateSettler::reach() const {
                     0,
                     assured_share(loop_).convert_to<double>(),
                     assured_damping(loop_, Rational(slips_ ? slips_->least_brake : 0)).convert_to<double>(),
-                    true};
+                    true,
+                    proof_reserve};
   if (slips_ && !network_.contact) reach.besides = slips_->largest_brake;
   if (network_.contact) {
     reach.most = std::min(reach.most, feedthrough);
@@ -118,10 +123,9 @@ const FeltError& CandidateSettler::felt(StateInput input) {
 }
 
 // What the emitted law adds: all that is lacking, or nothing.
-double CandidateSettler::added_in(const Candidate& candidate, const StateInputMerit& merit) const {
+double CandidateSettler::added_in(const StateInputMerit& merit) const {
   if (!merit.minimum_damping || network_.contact) return 0;
-  const double largest_brake = candidate.damping + (slips_ ? slips_->largest_brake : 0);
-  return largest_brake + *merit.minimum_damping <= loop_.max_damping ? *merit.minimum_damping : 0;
+  return merit.is_within_brake ? *merit.minimum_damping : 0;
 }
 
 double CandidateSettler::largest_error(const Candidate& candidate, double added) {
@@ -133,7 +137,7 @@ CandidateSettler::ErrorOverBand CandidateSettler::error_over_band(const Candidat
   for (const StateInputMerit& merit : candidate.state_inputs)
     if (merit.state_input == candidate.state_input)
       return {felt(merit.state_input).frequencies(),
-              felt(merit.state_input).over_band(candidate.damping, added_in(candidate, merit))};
+              felt(merit.state_input).over_band(candidate.damping, added_in(merit))};
   return {};
 }
 
@@ -163,9 +167,22 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
   merit.binding_frequency = needed.frequency;
   merit.minimum_damping.reset();
   const double least_brake = candidate.damping + (slips_ ? slips_->least_brake : 0);
-  if (needed.proof != Proof::none) merit.minimum_damping = missing_damping(needed, loop_, least_brake);
-  if (!device_.is_ideal())
-    merit.largest_error = felt(merit.state_input).largest(candidate.damping, added_in(candidate, merit));
+  merit.is_within_brake = false;
+  if (needed.proof != Proof::none) {
+    merit.minimum_damping = missing_damping(needed, loop_, least_brake);
+    merit.is_within_brake = is_within_brake(candidate.damping, needed);
+  }
+  if (!device_.is_ideal()) merit.largest_error = felt(merit.state_input).largest(candidate.damping, added_in(merit));
+}
+
+// With what the storage function may need beyond the bound over frequencies, which at the end of the brake's reach
+// decides whether there is a certificate.
+bool CandidateSettler::is_within_brake(double damping, PassivityBound needed) const {
+  const double largest_brake = damping + (slips_ ? slips_->largest_brake : 0);
+  const double least_brake = damping + (slips_ ? slips_->least_brake : 0);
+  const double reach = device_.is_ideal() ? largest_brake : loop_.max_damping;
+  if (!device_.is_ideal() && needed.proof == Proof::sampled) needed.needed *= 1 + proof_reserve;
+  return largest_brake + missing_damping(needed, loop_, least_brake) <= reach;
 }
 
 void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) {
@@ -174,11 +191,7 @@ void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) 
   candidate.extra_damping_any_delay = merit.extra_damping_any_delay;
   candidate.minimum_damping = merit.minimum_damping;
   candidate.certified.reset();
-  if (!merit.minimum_damping) return;
-  const double reach =
-      device_.is_ideal() ? candidate.damping + (slips_ ? slips_->largest_brake : 0) : loop_.max_damping;
-  const double largest_brake = candidate.damping + (slips_ ? slips_->largest_brake : 0);
-  candidate.certified = largest_brake + *merit.minimum_damping <= reach;
+  if (merit.minimum_damping) candidate.certified = merit.is_within_brake;
 }
 
 void CandidateSettler::make_room(Candidate& candidate) {
@@ -196,8 +209,7 @@ void CandidateSettler::make_room(Candidate& candidate) {
 
 // The need is a convex function of b: each frequency's is, and the largest of convex functions.
 std::optional<double> CandidateSettler::largest_fitting(StateInput input, double most) {
-  const double available =
-      assured_damping(loop_, loop_.max_damping).convert_to<double>() * (1 - 2 * most_storage_excess);
+  const double available = assured_damping(loop_, loop_.max_damping).convert_to<double>() / (1 + proof_reserve);
   const auto lack = [&](double damping) { return bound(input, damping, search_terms).needed - available; };
   const auto fits = [&](double damping) { return lack(damping) <= 0; };
   const double place = golden_section(lack, 0, most, 0, 1e-8).place;

@@ -37,7 +37,8 @@ class CandidateSettler {
   void settle_faithful(Candidate& candidate);
   void settle_named(Candidate& candidate);
   const FeltError& felt(StateInput input);
-  double added_in(const Candidate& candidate, const StateInputMerit& merit) const;
+  double added_in(const StateInputMerit& merit) const;
+  bool is_within_brake(double damping, PassivityBound needed) const;
   SearchReach reach() const;
   const std::optional<MotorConstants>& without_brake(StateInput input);
   PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);

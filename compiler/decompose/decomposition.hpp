@@ -21,6 +21,7 @@ struct StateInputMerit {
   std::optional<double> extra_damping_any_delay;  // [N·s/m]; empty: not computed
   std::optional<double> minimum_damping = {};     // [N·s/m]; filled by certify/; empty: nothing is proved
   std::string proof = "";                         // what the minimum damping rests on, "hold" or "sampled"
+  bool is_within_brake = false;                   // b, the minimum damping and what its proof may need beyond it
   double binding_frequency = 0;                   // where the sampled loop needs most [Hz]
 };
 

@@ -122,7 +122,7 @@ FeltError::Place FeltError::place(const MotorConstants& motor, Complex rendered,
 double FeltError::at(const Place& place, double damping, double added) const {
   const Complex exact = place.without_brake + damping * place.of_motor + (damping + added) * place.of_brake;
   const Complex off = tolerance_ * (damping + added) * place.of_brake;
-  const double error = std::max(std::abs(exact + off), std::abs(exact - off));
+  const double error = std::sqrt(std::max(std::norm(exact + off), std::norm(exact - off)));
   return error < beyond_measure ? error : beyond_measure;  // also of what is not finite
 }
 

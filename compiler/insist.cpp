@@ -43,6 +43,14 @@ double rounded_down(double value, int digits) {
   return as_told(std::floor(value / unit * (1 + 1e-12)) * unit, digits);
 }
 
+// In as many digits as it takes to see which is larger, four at least.
+std::pair<std::string, std::string> told_apart(double x, double y) {
+  std::pair<std::string, std::string> told;
+  for (int digits = 4; digits <= 17 && told.first == told.second; ++digits)
+    told = {fmt::format("{:.{}g}", x, digits), fmt::format("{:.{}g}", y, digits)};
+  return told;
+}
+
 // `damping` in the device's own unit. One without a brake gets one.
 Device with_brake(Device device, double damping) {
   if (device.description.brake.kind == brake_kind::none) device.description.brake.kind = brake_kind::eddy_current;
@@ -60,6 +68,33 @@ class Remedies {
     if (const std::optional<double> told = brake_as_told(enough)) return told;
     const std::optional<Compilation> unlimited = compiled(c_.network, choices_, with_brake_at_tool(1e30));
     return unlimited && unlimited->certificate.certified ? brake_as_told(unlimited->law.largest_damping) : std::nullopt;
+  }
+
+  // In the device's own unit, of a damping at the tool.
+  double at_joint(double damping) const { return damping / scale_; }
+  double at_tool(double damping) const { return damping * scale_; }
+
+  // At the tool, in four digits: of the device itself, whatever the brake does; `loop` in place of the device's own.
+  std::optional<double> own_damping(const loop_description& loop, double amplifier_lag) const {
+    Device device = *c_.device;
+    device.description.loop = loop;
+    device.description.motor.amplifier_lag = amplifier_lag;
+    mechanics_description& mechanics = device.description.mechanics;
+    const double own = mechanics.damping;
+    mechanics.damping = own + 1e9;  // more than any network needs
+    std::optional<Compilation> again = compiled(c_.network, choices_, device);
+    if (!again || !again->certificate.certified) return std::nullopt;
+    mechanics.damping = own;
+    constexpr double some_more = 1 + 1e-9;
+    // With less damping another b may be chosen, which needs more.
+    for (int attempt = 0; attempt < 4; ++attempt) {
+      mechanics.damping =
+          std::max(mechanics.damping, rounded_up(again->certificate.bound.needed * some_more, 4) / scale_);
+      again = compiled(c_.network, choices_, device);
+      if (again && again->certificate.certified) return mechanics.damping * scale_;
+      if (!again) break;
+    }
+    return std::nullopt;
   }
 
   // Of all springs and dampers, in three digits.
@@ -126,7 +161,32 @@ class Remedies {
 
 }  // namespace
 
-void warn_of_uncertified(const Compilation& c, Diagnostics& diagnostics) {
+namespace {
+
+// What the device itself would have to be like: with more friction of the kind that a brake cannot replace, or a loop
+// that is not late.
+void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  const device_description& device = c.device->description;
+  const Remedies remedies(c, choices);
+  const std::string at_tool = port_units(c.network.port_motion).damping, at_joint = port_units(device.motion).damping;
+  const double own = device.mechanics.damping;
+  loop_description prompt = device.loop;
+  prompt.delay_samples = 0;
+  const bool is_late = device.loop.delay_samples > 0 || device.motor.amplifier_lag > 0;
+  const auto tell = [&](double damping, const char* besides) {
+    diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping, at_tool, remedies.at_tool(own), besides,
+                                                                remedies.at_joint(damping), at_joint);
+  };
+  if (const auto damping = remedies.own_damping(device.loop, device.motor.amplifier_lag)) return tell(*damping, "");
+  const auto damping = is_late ? remedies.own_damping(prompt, 0) : std::nullopt;
+  if (!damping) return;
+  if (remedies.at_joint(*damping) > own) return tell(*damping, " with no \"delay_samples\" and no \"amplifier_lag\"");
+  diagnostics.note<DiagnosticCode::prompt_loop_that_would_do>({});
+}
+
+}  // namespace
+
+void warn_of_uncertified(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const Certificate& certificate = c.certificate;
   if (certificate.certified) return;
   const std::string device = c.device ? fmt::format("device '{}'", c.device->name) : "an ideal device";
@@ -134,12 +194,13 @@ void warn_of_uncertified(const Compilation& c, Diagnostics& diagnostics) {
   if (certificate.bound.proof == Proof::none)
     diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, reason);
   else diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, reason);
+  if (c.device) tell_of_other_devices(c, choices, diagnostics);
 }
 
 bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const Certificate& certificate = c.certificate;
   if (!c.device || certificate.certified || certificate.bound.proof == Proof::none) {
-    warn_of_uncertified(c, diagnostics);
+    warn_of_uncertified(c, choices, diagnostics);
     return true;
   }
   const std::string& name = c.network.name;
@@ -149,10 +210,14 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   const double available =
       c.law.tunable ? certificate.assured : assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
   const double needed = certificate.bound.needed;
-  diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed, unit, c.device->name, available);
+  const auto [needed_words, available_words] = told_apart(needed, available);
+  diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed_words, unit, c.device->name,
+                                                    available_words);
   const Remedies remedies(c, choices);
   const std::optional<double> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
-  if (brake) diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping);
+  if (brake)
+    diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping, remedies.at_joint(*brake),
+                                                          port_units(c.device->description.motion).damping);
   if (const std::optional<double> share = remedies.share({available / needed, loop.max_damping / brake.value_or(0)}))
     diagnostics.note<DiagnosticCode::scale_that_would_do>({}, *share);
   if (const std::optional<double> rate = remedies.rate())
@@ -209,11 +274,11 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
   }
 }
 
-void warn_of_driving_uncertified(const Compilation& c, Diagnostics& diagnostics) {
+void warn_of_driving_uncertified(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const Certificate& certificate = c.certificate;
   if (!c.device || certificate.certified) return;
   const Span place = c.network.name_span;
-  if (certificate.bound.proof == Proof::none) return warn_of_uncertified(c, diagnostics);
+  if (certificate.bound.proof == Proof::none) return warn_of_uncertified(c, choices, diagnostics);
   diagnostics.report<DiagnosticCode::drives_uncertified>(
       place, c.network.name, c.device->name, certificate.bound.needed, port_units(c.network.port_motion).damping,
       certificate.assured);

@@ -5,8 +5,9 @@
 
 namespace dashpot::compiler {
 
-// Warns of a law that is not certified, on a device or an ideal one, with the damping that is missing.
-void warn_of_uncertified(const Compilation& compilation, Diagnostics& diagnostics);
+// Warns of a law that is not certified, on a device or an ideal one, with the damping that is missing, and with what
+// the device would have to be like.
+void warn_of_uncertified(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 
 // True where the law is certified, and, with that warning, where nothing can be proved or there is no device. Refuses
 // where a device lacks damping, with what brake, what share of the network or what rate would do.
@@ -17,6 +18,6 @@ bool insist_on_certificate(const Compilation& compilation, const Choices& choice
 void warn_of_felt_error(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 
 // For those who drive it all the same: warns of a law that is not certified on its device.
-void warn_of_driving_uncertified(const Compilation& compilation, Diagnostics& diagnostics);
+void warn_of_driving_uncertified(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

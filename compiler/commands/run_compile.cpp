@@ -140,7 +140,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       continue;
     } else if (const auto emitted =
                    options.target->emit(*compilation, emission_of(*compilation, options), diagnostics)) {
-      if (options.uncertified) warn_of_uncertified(*compilation, diagnostics);
+      if (options.uncertified) warn_of_uncertified(*compilation, options.choices, diagnostics);
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);

@@ -172,7 +172,7 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   const std::optional<Compilation> compilation =
       file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
-  warn_of_driving_uncertified(*compilation, diagnostics);
+  warn_of_driving_uncertified(*compilation, options.choices, diagnostics);
   warn_of_felt_error(*compilation, options.choices, diagnostics);
   if (options.motion) return play_motion(options, *compilation, files, diagnostics);
   std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);

@@ -37,6 +37,7 @@ bool settle_rate(const Motion& motion, const std::optional<Device>& device, Choi
   if (!choices.rate) choices.rate = rate_meant(motion);
   if (std::abs(*choices.rate * *motion.period - 1) <= same_rate_of(motion)) return true;
   diagnostics.report<DiagnosticCode::csv_rate_contradicts>({&file, 0, 0}, 1 / *motion.period, *choices.rate);
+  if (device) diagnostics.note<DiagnosticCode::played_at_any_rate>({}, device->name);
   return false;
 }
 

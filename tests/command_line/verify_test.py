@@ -565,6 +565,49 @@ class Certified(CommandTest):
         self.assertEqual({kind for _, kind in found}, {"brake", "share", "rate"})
         self.assertEqual({name for name, kind in found if kind == "brake"}, set(layers))
 
+    def test_what_is_not_written_by_default_is_written_by_no_other_choice(self):
+        """Fails if the default choice, which uses what a brake has to its end, is refused where a choice with less damping is
+        certified: the proof needs a little more than the search has asked for."""
+        compiled = 0
+        for device in ["pantograph_brake_2009", "phantom_shorted_motor"]:
+            for stiffness in [500, 700, 1000, 1500, 2000, 3000, 4000, 4500, 5000, 5500, 6000, 6500, 7000]:
+                net = self.write("hard.json", network(f'{{ "spring": {stiffness} }}', "hard"))
+                run = ["compile", net, "--device", SOURCE / f"runtime/devices/{device}.json"]
+                virtual = self.dashpot(*run, "--decomposition", "virtual", status=None)
+                if virtual.returncode == 0:
+                    compiled += 1
+                    self.assertEqual(self.dashpot(*run).stderr, "")
+        self.assertGreater(compiled, 10)
+
+    def test_what_a_device_file_would_have_to_say(self):
+        """Fails if what a note tells to write into a device file does not do there: a stronger brake at a joint, more damping of the
+        device itself, and a loop that is not late."""
+        def compiled(device, net, status=0):
+            self.write("device.json", json.dumps(device))
+            return self.dashpot("compile", net, "--device", "device.json", status=status).stderr
+
+        hard = self.write("hard.json", network('{ "spring": 9000 }', "hard"))
+        arm = json.loads((SOURCE / "runtime/devices/pantograph_brake_2009.json").read_text())
+        told = compiled(arm, hard, INPUT_REFUSED)
+        arm["brake"]["max_damping"] = re.search(r'"max_damping": "(\S+ N m s/rad)" in "brake"', told).group(1)
+        self.assertEqual(compiled(arm, hard), "")
+
+        wall = self.write("wall.json", network('{ "parallel": [ { "spring": 600 }, { "damper": 2 } ] }', "wall", '"contact": { "at": 0 },'))
+        tip = json.loads((SOURCE / "runtime/devices/phantom_shorted_motor.json").read_text())
+        told = compiled(tip, wall)
+        self.assertIn("[nothing-proved]", told)
+        self.assertIn('with no "delay_samples" and no "amplifier_lag"', told)
+        damping = re.search(r'"damping": "(\S+ N s/m)" in "mechanics"', told).group(1)
+        del tip["motor"]["amplifier_lag"]
+        tip["assumed"].remove("motor.amplifier_lag")
+        told = compiled(tip, wall)
+        self.assertIn(f'"damping": "{damping}" in "mechanics"', told)
+        self.assertNotIn("with no", told)
+        tip["mechanics"]["damping"] = damping
+        self.assertEqual(compiled(tip, wall), "")
+        tip["motor"]["amplifier_lag"] = "0.2 ms"
+        self.assertIn("note: the same device would do without a loop delay and an amplifier lag", compiled(tip, wall))
+
     def test_a_faster_loop_as_a_remedy(self):
         """Fails if a rate is not offered where it would do."""
         self.write("stiff.json", network('{ "parallel": [ { "spring": 30000 }, { "damper": 5 } ] }', "stiff"))

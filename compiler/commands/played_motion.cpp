@@ -189,6 +189,9 @@ class DevicePlayer {
     const command<Scalar> wanted = law_.step(position, velocity);
     device_.write(actuator_.drive({double(wanted.damping), double(wanted.force)}, double(velocity)).demand());
     if (time < 0) return std::nullopt;
+    const simulated::energy_ledger& ledger = device_.ledger();
+    if (!taken_before_) taken_before_ = ledger.brake - ledger.motor;
+    energy_ = ledger.brake - ledger.motor - *taken_before_;
     const auto felt = [&](const simulated::plant_view& view) {
       return gear.tool_force(view.brake_damping * view.velocity - view.motor_torque);
     };
@@ -200,6 +203,8 @@ class DevicePlayer {
                         double(wanted.damping),
                         double(wanted.force)};
   }
+
+  double energy() const { return energy_; }  // taken from the tool since the motion began [J]
 
  private:
   simulated::scenario scene(std::uint64_t seed) const {
@@ -220,6 +225,8 @@ class DevicePlayer {
   any_estimator<double> estimator_;
   actuator<double> actuator_;
   Evaluation<Scalar> law_;
+  std::optional<double> taken_before_;
+  double energy_ = 0;
 };
 
 void sum_up(PlayedMotion& played) {
@@ -245,6 +252,8 @@ PlayedMotion played_by(DevicePlayer<Scalar> player, Reference reference, double 
     if (!sample) continue;
     sample->closed_form = reference.force_at(sample->time);
     played.samples.push_back(*sample);
+    played.energy = player.energy();
+    played.lowest_energy = std::min(played.lowest_energy, played.energy);
   }
   sum_up(played);
   return played;
@@ -290,9 +299,12 @@ std::string to_text(const PlayedMotion& p, const Compilation& c) {
                                  c.device->name, p.samples.size(), c.rate, choice.name, choice.damping, units.damping);
   text += fmt::format("the network's force: rms {:.4g} {}, peak {:.4g} {}\n", p.rms_force, units.force, p.peak_force,
                       units.force);
-  return text + fmt::format("error of what is felt: rms {:.4g} {} ({:.3g} %), peak {:.4g} {} ({:.3g} %)\n", p.rms_error,
-                            units.force, share(p.rms_error, p.rms_force), p.peak_error, units.force,
-                            share(p.peak_error, p.peak_force));
+  return text +
+         fmt::format("error of what is felt: rms {:.4g} {} ({:.3g} %), peak {:.4g} {} ({:.3g} %)\n", p.rms_error,
+                     units.force, share(p.rms_error, p.rms_force), p.peak_error, units.force,
+                     share(p.peak_error, p.peak_force)) +
+         fmt::format("energy: {:.4g} J that motor and brake took from the tool, never below {:.4g} J\n", p.energy,
+                     p.lowest_energy);
 }
 
 std::string to_json(const PlayedMotion& p, const Compilation& c, const std::string& file) {
@@ -309,6 +321,7 @@ std::string to_json(const PlayedMotion& p, const Compilation& c, const std::stri
                                         {"peak", p.peak_error},
                                         {"rms_share", p.rms_force > 0 ? p.rms_error / p.rms_force : 0},
                                         {"peak_share", p.peak_force > 0 ? p.peak_error / p.peak_force : 0}}},
+                                      {"energy", {{"taken", p.energy}, {"lowest", p.lowest_energy}}},
                                       {"file", file}};
   return all.dump(2) + "\n";
 }

@@ -26,6 +26,8 @@ struct PlayedMotion {
   std::vector<PlayedSample> samples;
   double rms_error = 0, peak_error = 0;  // of the felt force [N] or [N·m]
   double rms_force = 0, peak_force = 0;  // of the closed form
+  double energy = 0;                     // that motor and brake took from the tool since the motion began [J]
+  double lowest_energy = 0;              // the least of it at any sample; below 0: they had given more than taken [J]
 };
 
 // In: a compiled network and its device, a motion of any uniform rate, straight between its rows. The tool is led along

@@ -130,13 +130,28 @@ class Motion(CommandTest):
         """Fails if the errors are not told, the file is not where it is said to be, or a run is not the same from the same seed."""
         self.write("motion.csv", table(sine(250)))
         done = self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv")
-        for words in ["10001 samples at 10000 Hz", "error of what is felt: rms ", "log: second_order_maxwell_run.csv"]:
+        for words in ["10001 samples at 10000 Hz", "error of what is felt: rms ", "energy: ", "log: second_order_maxwell_run.csv"]:
             self.assertIn(words, done.stdout)
         first = (self.folder / "second_order_maxwell_run.csv").read_text()
         self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv", "-o", "again.csv")
         self.assertEqual(first, (self.folder / "again.csv").read_text())
         self.dashpot("run", FIG_5, "--device", PANTOGRAPH, "--motion", "motion.csv", "-o", "again.csv", "--seed", "7")
         self.assertNotEqual(first, (self.folder / "again.csv").read_text())
+
+    def test_energy(self):
+        """Fails if the energy that is told is not what the device has taken: a spring whose force is held for a period gives back
+        k Δu²/2 in each more than it took, and a damper takes what it takes."""
+        rows = sine(2000)
+        travel = sum((b[1] - a[1]) ** 2 for a, b in zip(rows, rows[1:]))
+        net = self.write("spring.json", network('{ "spring": 3000 }', "spring"))
+        _, told = self.played(net, self.device(), table(rows), "--decomposition", "velocity-free")
+        self.assertAlmostEqual(told["energy"]["taken"] / (-1500 * travel), 1, delta=1e-6)
+        self.assertLess(told["energy"]["lowest"], -1499 * travel)
+        net = self.write("damper.json", network('{ "damper": 4 }', "damper"))
+        _, told = self.played(net, self.device(), table(rows))
+        # The simulated shaft takes steps of its own, which round the corners between rows.
+        self.assertAlmostEqual(told["energy"]["taken"] / (4 * travel * 2000), 1, delta=1e-4)
+        self.assertEqual(told["energy"]["lowest"], 0)
 
     def test_refusals(self):
         """Fails if a command line that means nothing is taken, a bad recording played, or a motion out of reach not warned of."""
@@ -159,6 +174,9 @@ class Motion(CommandTest):
         net = self.write("kelvin.json", KELVIN)
         self.assertIn("'dashpot run --motion' shows what is felt", self.dashpot("simulate", net, "--device", self.device(), "--input", "motion.csv").stderr)
         self.assertEqual(self.dashpot("simulate", net, "--input", "motion.csv").stderr, "")
+        self.write("slow.csv", table(sine(250)))
+        told = self.refused("simulate", net, "--device", self.device(), "--input", "slow.csv", code="csv-rate-contradicts", status=COMMAND_LINE_WRONG)
+        self.assertIn("'dashpot run --motion' plays a recording of any rate", told.stderr)
 
 
 if __name__ == "__main__":

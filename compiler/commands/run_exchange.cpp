@@ -9,6 +9,7 @@
 #include "exchange/network_text.hpp"
 #include "exchange/prony_format.hpp"
 #include "network/name_rules.hpp"
+#include "network/port_units.hpp"
 #include "network/read_value.hpp"
 
 namespace dashpot::compiler {
@@ -71,6 +72,22 @@ PronySeries scaled(PronySeries series, double stiffness, double time) {
   return series;
 }
 
+// What the command line leaves open, a generic table may say.
+ExchangeWords words_for(const SourceFile& file, ExchangeWords words) {
+  if (words.format != PronyFormat::generic) return words;
+  const TableRemarks remarks = remarks_of_table(file);
+  if (!words.of) words.of = remarks.of;
+  if (!words.stiffness && words.of == remarks.of) words.stiffness = remarks.stiffness;
+  return words;
+}
+
+// What the weights are of, as the network's file tells it.
+std::string convention_in(PronyFormat format, PronyOf of) {
+  if (format != PronyFormat::generic) return std::string(convention_of(format));
+  return of == PronyOf::absolute ? "the weights are stiffnesses"
+                                 : fmt::format("the weights are shares of the {} stiffness", name_of(of));
+}
+
 ExitStatus write_text(const Options& options, const std::string& text, Diagnostics& diagnostics) {
   if (!options.output) return write_standard_output(text, diagnostics);
   return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
@@ -96,9 +113,9 @@ bool is_prony_series(const Compilation& c, Diagnostics& diagnostics) {
 }
 
 ExitStatus run_import(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  const ExchangeWords& words = options.exchange;
   const SourceFile* file = files.open(options.input, diagnostics);
   if (file == nullptr) return ExitStatus::input_refused;
+  const ExchangeWords words = words_for(*file, options.exchange);
   const PronyFormat format = words.format;
   auto series = read_prony(*file, {format, words.material, words.of}, diagnostics);
   if (!series) return ExitStatus::input_refused;
@@ -108,7 +125,7 @@ ExitStatus run_import(const Options& options, SourceFiles& files, Diagnostics& d
   if (!time || !stiffness) return ExitStatus::command_line_wrong;
   const std::string file_name = std::filesystem::path(options.input).filename().string();
   const std::string source = fmt::format("imported from {} ({}: {}; times in {})", file_name, name_of(format),
-                                         convention_of(format), words.time_unit);
+                                         convention_in(format, series->of), words.time_unit);
   const std::string text =
       prony_network({words.name.value_or(name_from(options.input)), source}, scaled(*series, *stiffness, *time));
   // A series that creates energy is refused here, with the nearest one that does not.
@@ -122,7 +139,8 @@ ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& d
   const auto c = compile(*file, options.choices, std::nullopt, diagnostics);
   if (!c) return ExitStatus::input_refused;
   if (!is_prony_series(*c, diagnostics)) return ExitStatus::input_refused;
-  const std::string text = write_prony(prony_series(c->form.linear), options.exchange.format, c->network.name);
+  const std::string text = write_prony(prony_series(c->form.linear), options.exchange.format, c->network.name,
+                                       port_units(c->network.port_motion).stiffness);
   return write_text(options, text, diagnostics);
 }
 

@@ -43,9 +43,7 @@ std::string pair(const char* kind, const std::string& first, const std::string& 
 
 std::string prony_network(const NetworkHead& head, const PronySeries& series) {
   const std::string unit = stiffness_unit(head.port_motion);
-  const char* of = series.of == PronyOf::instantaneous ? "instantaneous"
-                   : series.of == PronyOf::long_term   ? "long-term"
-                                                       : "absolute";
+  const std::string_view of = name_of(series.of);
   std::string terms;
   for (const PronyTerm& term : series.terms) {
     const std::string weight =

@@ -28,9 +28,18 @@ struct PronyQuestion {
 // zero or less, a generic table that does not say what its weights are shares of.
 std::optional<PronySeries> read_prony(const SourceFile& file, const PronyQuestion& question, Diagnostics& diagnostics);
 
+// What a generic table says of itself in its remarks, as export writes them.
+struct TableRemarks {
+  std::optional<PronyOf> of;             // "# of: instantaneous"
+  std::optional<std::string> stiffness;  // "# stiffness: 27 N/m": of which the weights are shares
+};
+TableRemarks remarks_of_table(const SourceFile& file);
+
 // The text of a file, or of the part of an input deck, in the format's own convention. Ensures: read_prony gives the
 // same series, to the rounding of one division by a stiffness. In: a series that is passive and relaxes.
-std::string write_prony(const PronySeries& series, PronyFormat format, const std::string& name);
+// `unit`: of the series' stiffness.
+std::string write_prony(const PronySeries& series, PronyFormat format, const std::string& name,
+                        const std::string& unit);
 
 // The series with weights that are shares of another stiffness; the same relaxation function.
 PronySeries in_convention(const PronySeries& series, PronyOf of);

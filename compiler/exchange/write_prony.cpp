@@ -40,8 +40,8 @@ std::string ls_dyna(const PronySeries& series, const std::string& name) {
   return text;
 }
 
-std::string table(const PronySeries& series) {
-  std::string text = fmt::format("# of: instantaneous; G(0) = {:#}\nweight,time\n", series.stiffness);
+std::string table(const PronySeries& series, const std::string& unit) {
+  std::string text = fmt::format("# of: instantaneous\n# stiffness: {:#} {}\nweight,time\n", series.stiffness, unit);
   for (const PronyTerm& term : series.terms) text += fmt::format("{:#},{:#}\n", term.weight, term.time);
   return text;
 }
@@ -61,7 +61,8 @@ PronySeries in_convention(const PronySeries& series, PronyOf of) {
   return result;
 }
 
-std::string write_prony(const PronySeries& series, PronyFormat format, const std::string& name) {
+std::string write_prony(const PronySeries& series, PronyFormat format, const std::string& name,
+                        const std::string& unit) {
   const bool is_absolute = format == PronyFormat::ls_dyna;
   const PronySeries own = in_convention(series, is_absolute ? PronyOf::absolute : PronyOf::instantaneous);
   switch (format) {
@@ -69,7 +70,7 @@ std::string write_prony(const PronySeries& series, PronyFormat format, const std
     case PronyFormat::ansys: return ansys(own, name);
     case PronyFormat::febio: return febio(own, name);
     case PronyFormat::ls_dyna: return ls_dyna(own, name);
-    case PronyFormat::generic: return table(own);
+    case PronyFormat::generic: return table(own, unit);
   }
   return "";
 }

@@ -170,9 +170,7 @@ class LadderReader {
 
   std::optional<PronyOf> read_of(const std::optional<Text>& of) {
     if (!of) return std::nullopt;
-    if (of->text == "instantaneous") return PronyOf::instantaneous;
-    if (of->text == "long-term") return PronyOf::long_term;
-    if (of->text == "absolute") return PronyOf::absolute;
+    if (const std::optional<PronyOf> known = prony_of(of->text)) return known;
     diagnostics_.report<DiagnosticCode::unknown_word>(of->span, "'of'", excerpt(of->text),
                                                       "'instantaneous', 'long-term', 'absolute'");
     return std::nullopt;

@@ -59,6 +59,21 @@ std::vector<double> solve(const std::vector<std::vector<double>>& gram, const st
 
 }  // namespace
 
+std::string_view name_of(PronyOf of) {
+  switch (of) {
+    case PronyOf::instantaneous: return "instantaneous";
+    case PronyOf::long_term: return "long-term";
+    case PronyOf::absolute: return "absolute";
+  }
+  return "";
+}
+
+std::optional<PronyOf> prony_of(std::string_view name) {
+  for (const PronyOf of : {PronyOf::instantaneous, PronyOf::long_term, PronyOf::absolute})
+    if (name_of(of) == name) return of;
+  return std::nullopt;
+}
+
 double PronySeries::sum_of_weights() const {
   double sum = 0;
   for (const PronyTerm& term : terms) sum += term.weight;

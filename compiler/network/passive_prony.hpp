@@ -1,7 +1,9 @@
 // Prony series: which of them a network of springs and dampers can be, and the nearest one that is.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dashpot::compiler {
@@ -13,6 +15,9 @@ struct PronyTerm {
 
 // What `stiffness` is: the relaxation function at once, after long, or after long with weights that are stiffnesses.
 enum class PronyOf { instantaneous, long_term, absolute };
+
+std::string_view name_of(PronyOf of);                    // "instantaneous", "long-term", "absolute"
+std::optional<PronyOf> prony_of(std::string_view name);  // empty: none of these
 
 struct PronySeries {
   PronyOf of = PronyOf::long_term;

@@ -33,6 +33,19 @@ class Exchange(CommandTest):
             self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
             self.dashpot("compile", f"{name}.json", "-o", "emitted")
 
+    def test_a_table_says_itself_what_it_is(self):
+        """Fails if what is exported as a table can be imported only by who remembers what its weights are shares of, or if what the
+        table says is taken against the command line."""
+        given = form(self, self.write("liver.json", SERIES))
+        self.dashpot("export", "liver.json", "--to", "generic", "-o", "liver.csv")
+        self.dashpot("import", "liver.csv", "--from", "generic", "-o", "again.json")
+        self.expect_close(form(self, "again.json"), given, 1e-12, "as the table says")
+        self.dashpot("import", "liver.csv", "--from", "generic", "--stiffness", "2.4 kN/m", "-o", "twice.json")
+        self.expect_close(form(self, "twice.json")[0:1], [2 * given[0]], 1e-12, "with another stiffness")
+        self.refused("import", "liver.csv", "--from", "generic", "--of", "long-term", code="prony-scale-missing", status=COMMAND_LINE_WRONG)
+        self.write("odd.csv", "# of: instantaneous\n# stiffness: 3 s\nweight,time\n0.4,0.1\n")
+        self.refused("import", "odd.csv", "--from", "generic", code="wrong-unit", status=COMMAND_LINE_WRONG)
+
     def test_units_of_the_file(self):
         """Fails if times in milliseconds are taken for seconds, or a modulus for a stiffness."""
         self.write("deck.k", "*MAT_GENERAL_VISCOELASTIC\n7,1e-6,2.19\n,\n120.,0.\n40.,0.01\n")

@@ -51,7 +51,7 @@ TEST(PronyFormats, GiveBackWhatTheyWereGiven) {
     for (const PronyTerm& term : series.terms) at_once += term.weight;
     for (const PronyFormat format :
          {PronyFormat::abaqus, PronyFormat::ansys, PronyFormat::febio, PronyFormat::ls_dyna, PronyFormat::generic}) {
-      const std::string text = write_prony(series, format, "tissue");
+      const std::string text = write_prony(series, format, "tissue", "N/m");
       const Read read(text, {format, {}, PronyOf::instantaneous});
       ASSERT_TRUE(read.series) << name_of(format) << "\n" << text << read.said();
       const PronySeries back = with_stiffness(*read.series, format, at_once);

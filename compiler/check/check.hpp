@@ -69,7 +69,7 @@ bool proves(const LoopForm& loop, const Device& device, const Storage& storage, 
 Rational hold_stiffness(const LoopForm& loop, const Device& device);
 
 struct Verdict {
-  bool proved = false;
+  bool proved = false, is_known = true;  // is_known: of a law and a certificate of which something is known here
   std::string words;
 };
 Verdict verdict(const std::string& header, const std::string& certificate);

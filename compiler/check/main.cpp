@@ -1,4 +1,5 @@
-// dashpot-check HEADER CERTIFICATE: 0 if what the certificate states is proved, 1 if not, 2 for a wrong command line.
+// dashpot-check HEADER CERTIFICATE: 0 if what the certificate states is proved, 1 if it is not true of this header or
+// cannot be proved with what is there, 2 for a wrong command line, 3 if nothing is known of such a law here.
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -15,5 +16,5 @@ int main(int count, char** words) {
   }
   const dashpot_check::Verdict verdict = dashpot_check::verdict(texts[0], texts[1]);
   std::cout << verdict.words;
-  return verdict.proved ? 0 : 1;
+  return verdict.proved ? 0 : verdict.is_known ? 1 : 3;
 }

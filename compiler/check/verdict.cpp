@@ -11,8 +11,12 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Device, sample_period, jitter, amplifier_lag,
 
 namespace {
 
+struct Refuted : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
 void require(bool holds, const char* otherwise) {
-  if (!holds) throw Unknown(otherwise);
+  if (!holds) throw Refuted(otherwise);
 }
 
 // Of what the brake gives, the share that is left at the largest speed.
@@ -28,8 +32,8 @@ Verdict verdict(const std::string& header, const std::string& certificate) {
   try {
     const auto stated = nlohmann::json::parse(certificate);
     const auto &passivity = stated.at("passivity"), &storage = stated.at("storage");
-    require(!passivity.at("any_regime").get<bool>() && !passivity.at("any_value").get<bool>(),
-            "the law has slips, a contact or values that change, and only linear laws are known here");
+    if (passivity.at("any_regime").get<bool>() || passivity.at("any_value").get<bool>())
+      throw Unknown("the law has slips, a contact or values that change, and only linear laws are known here");
     const Program program = program_of(header);
     Device device = stated.at("loop");
     const double needed = passivity.at("needed_damping");
@@ -63,11 +67,13 @@ Verdict verdict(const std::string& header, const std::string& certificate) {
            "within its\n  limits; delay, lag, estimator and damping of the device as the certificate states them\n"
         << "not proved here: that the constants are those of the network, the remarks and the other functions of the "
            "header,\n  what the encoder's steps, rounding and the motor's limits add\n";
-    return {true, words.str()};
+    return {true, true, words.str()};
+  } catch (const Refuted& refusal) {
+    return {false, true, std::string("not proved: ") + refusal.what() + "\n"};
   } catch (const std::out_of_range&) {
-    return {false, "not proved here: a name or a place is used that is not there\n"};
+    return {false, false, "not proved here: a name or a place is used that is not there\n"};
   } catch (const std::exception& refusal) {
-    return {false, std::string("not proved here: ") + refusal.what() + "\n"};
+    return {false, false, std::string("not proved here: ") + refusal.what() + "\n"};
   }
 }
 

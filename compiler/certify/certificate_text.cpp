@@ -70,15 +70,21 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
   if (!c.energy.applies) return lines;
   std::string energy = "energy: ";
   if (!c.energy.holds)
-    energy += fmt::format("the law may give {:.3g} N/m times Δu² a sample more than it stores", c.energy.shortfall);
-  else if (c.energy.over_box) energy += "no values within their ranges ever give more work than stored_energy() falls";
+    energy += fmt::format(
+        "the law may give more than it stores: up to {:.3g} N/m times the square of the travel in each sample",
+        c.energy.shortfall);
+  else if (c.energy.over_box)
+    energy +=
+        "whatever the values within their ranges, no motion gets more work out of the law than stored_energy() falls";
   else if (c.energy.with_slips)
-    energy += "no part's constants ever give more work than it stores, and what slips or touches only takes";
+    energy += "no motion gets more work out of any part than the part has stored, and what slips or touches only takes";
   else if (c.energy.storage == EnergyStorage::emitted)
-    energy += "the constants never give more work than stored_energy() falls";
+    energy += "no motion gets more work out of the law than stored_energy() falls";
   else
-    energy += fmt::format("the constants never give more work than is stored, with the weight 1/(2 a d) in {} modes",
-                          c.energy.reweighted_modes);
+    energy += fmt::format(
+        "no motion gets more work out of the law than is stored, which in {} modes is counted with the weight 1/(2 a "
+        "d)",
+        c.energy.reweighted_modes);
   lines.push_back(
       energy + fmt::format("; rounding adds at most {:.2g} of the sum of the force's terms", c.energy.rounding_share));
   return lines;

@@ -94,10 +94,6 @@ bool is_same_statement(const Gains& gains, const MotorConstants& linear, const s
   return loop.amplifier_lag == 0 && (gains.estimate == 0 || (slips && is_prompt));
 }
 
-std::string too_little(double needed, double assured) {
-  return fmt::format("it needs {:.6g} of damping in all, and {:.6g} is there", needed, assured);
-}
-
 }  // namespace
 
 std::string_view name_of(LimitRule rule) {
@@ -164,10 +160,9 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
     // Behind a contact the brake leaves a free tool alone, which touches late.
     const bool is_alone = slips && slips->behind_contact && (loop.delay_samples > 0 || loop.amplifier_lag > 0);
     const Rational there = is_alone ? assured_damping(loop, 0) : assured;
-    if (!std::isfinite(limits.needed) || Rational(limits.needed) > there)
-      limits.reason = too_little(limits.needed, there.convert_to<double>());
+    if (!std::isfinite(limits.needed) || Rational(limits.needed) > there) limits.available = there.convert_to<double>();
   }
-  limits.is_covered = limits.reason.empty();
+  limits.is_covered = limits.reason.empty() && !limits.available;
   return limits;
 }
 
@@ -181,9 +176,15 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
   else if (loop.motor_slew > 0) limits.reason = "its force may have to fall faster than the motor's slew";
   else if (is_late) limits.reason = "its parameters change while it runs, and the loop is late";
   else limits.needed = *needed;
-  if (Rational(limits.needed) > assured) limits.reason = too_little(limits.needed, assured.convert_to<double>());
-  limits.is_covered = limits.reason.empty();
+  if (Rational(limits.needed) > assured) limits.available = assured.convert_to<double>();
+  limits.is_covered = limits.reason.empty() && !limits.available;
   return limits;
+}
+
+std::string why_not_covered(const MotorLimits& limits, const std::string& unit) {
+  if (!limits.available) return limits.reason;
+  return fmt::format("it needs {:.6g} {} of damping in all, and {:.6g} is there", limits.needed, unit,
+                     *limits.available);
 }
 
 std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& loop, const PortUnits& units) {
@@ -210,11 +211,11 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
   if (limits.rule == LimitRule::none) return lines;
   const char* does =
       limits.rule == LimitRule::sheds ? "the law sheds, which shrinks all its forces by one share" : "the motor clips";
-  lines.push_back(
-      limits.is_covered
-          ? fmt::format("at the limit: {}, and no energy comes of it with the {:.6g} {} that it needs", does,
-                        limits.needed, units.damping)
-          : fmt::format("at the limit: {}; that no energy comes of it is not proved: {}", does, limits.reason));
+  lines.push_back(limits.is_covered
+                      ? fmt::format("at the limit: {}, and no energy comes of it with the {:.6g} {} that it needs",
+                                    does, limits.needed, units.damping)
+                      : fmt::format("at the limit: {}; that no energy comes of it is not proved: {}", does,
+                                    why_not_covered(limits, units.damping)));
   return lines;
 }
 

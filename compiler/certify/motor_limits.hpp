@@ -43,7 +43,8 @@ struct MotorLimits {
   LimitRule rule = LimitRule::none;
   bool is_covered = true;               // with the damping that is there, whatever the motor clips or the law sheds
   double needed = 0;                    // for that, all in all [N·s/m]; 0 where none is, or where nothing is known
-  std::string reason;                   // why it is not covered; empty where it is
+  std::optional<double> available;      // of the damping, where that is less than needed [N·s/m]
+  std::string reason;                   // why it is not covered whatever damping there is; else empty
   std::optional<double> largest_force;  // asked for within the encoder's range [N]; empty: not bounded
   std::optional<double> slew_needed;    // to follow at any speed that is stated [N/s]; empty: not bounded
   std::optional<double> largest_discontinuity;  // of the force that the slew covers [N]; empty where no slew is stated
@@ -59,6 +60,9 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
 // as above, empty where nothing is proved.
 MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<double>& needed,
                                   const Rational& assured);
+
+// In words, with the unit of damping; empty where it is covered.
+std::string why_not_covered(const MotorLimits& limits, const std::string& unit);
 
 // (k0 + Σ c_i) v T/(h − j) + Σ |F_i| (1 − a_i)/(h − j), not below it, of a linear law; empty where it is not bounded.
 std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop& loop);

@@ -180,13 +180,13 @@ Json json_of(const Certificate& c) {
 }
 
 // null: unlimited, or not bounded beforehand.
-Json json_of(const MotorLimits& limits, const SampledLoop& loop) {
+Json json_of(const MotorLimits& limits, const SampledLoop& loop, const std::string& unit) {
   return {{"max_force", loop.max_force > 0 ? Json(loop.max_force) : Json(nullptr)},
           {"slew", loop.motor_slew > 0 ? Json(loop.motor_slew) : Json(nullptr)},
           {"rule", name_of(limits.rule)},
           {"covered", limits.is_covered},
           {"needed_damping", limits.needed > 0 ? Json(limits.needed) : Json(nullptr)},
-          {"reason", limits.reason},
+          {"reason", why_not_covered(limits, unit)},
           {"largest_force", or_null(limits.largest_force)},
           {"slew_needed", or_null(limits.slew_needed)},
           {"largest_discontinuity", or_null(limits.largest_discontinuity)}};
@@ -251,7 +251,9 @@ std::string explain_json(const Compilation& c) {
               {"regimes", regimes_of(c)},
               {"slip_laws", slip_laws_of(c)},
               {"certificate", json_of(c.certificate)},
-              {"motor_limits", c.device ? json_of(c.certificate.limits, c.certificate.loop) : Json(nullptr)},
+              {"motor_limits",
+               c.device ? json_of(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion).damping)
+                        : Json(nullptr)},
               {"notes", notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)},
               {"chosen", choice.name},
               {"choice", json_of_choice(c.decomposition)},

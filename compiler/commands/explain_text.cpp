@@ -125,6 +125,34 @@ std::string why_no_brake(const Compilation& c, const PortUnits& units) {
   return text + "\n";
 }
 
+// What the lines say that begin so, of those that are there.
+std::string legend_of_lines(const std::string& text) {
+  const std::pair<const char*, const char*> lines[] = {
+      {"static stiffness", "of the spring that is left when everything has relaxed"},
+      {"feedthrough damping", "of the damper that is felt at once, however fast the motion"},
+      {"mode", "a spring and a damper in series that relax together, and the elements that make them"},
+      {"zero-frequency damping", "of the whole network in a slow and steady motion"},
+      {"behind friction", "what happens to damping while a slip slides, and why that was chosen"},
+      {"any delay", "the damping to add to b so that a late velocity estimate cannot make the law give energy"},
+      {"contact", "where the tissue begins, and what is commanded in front of it"},
+      {"passivity",
+       "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
+       "the device has for certain"},
+      {"energy", "what the law itself can give back, and what rounding may add to it"},
+      {"largest force", "what the law may ask of the motor, and what the motor can make"},
+      {"slew", "how fast the motor's force has to change, and how fast it can"},
+      {"sudden loss", "of what force the motor may lag behind without giving energy"},
+      {"at the limit", "what happens where the motor cannot follow, and whether energy comes of it"},
+      {"quantisation", "what the encoder's steps do: friction has to take what they give"},
+      {"cost", "of one sample: additions, multiplications, comparisons, and the numbers that are kept"}};
+  std::string all;
+  for (const auto& [label, meaning] : lines) {
+    const bool begins = text.starts_with(label) || text.find(std::string("\n") + label) != std::string::npos;
+    if (begins) all += fmt::format("{:<22}{}{}\n", label, std::string(label).size() >= 22 ? " " : "", meaning);
+  }
+  return all + fmt::format("{:<22}{}\n", "a | b, a - b", "elements beside each other, elements in series");
+}
+
 }  // namespace
 
 std::string explain_text(const Compilation& c, bool with_legend) {
@@ -134,6 +162,7 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   text += calculations_text(c.network);
   for (const Springpot& springpot : c.network.springpots)
     text += "springpot             " + to_text(springpot, c.network.port_motion) + "\n";
+  if (c.form.has_slips()) text += "beside the slips:\n";
   text += to_text(c.form.linear, c.network);
   text += fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)),
                       units.damping);
@@ -147,7 +176,9 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   if (c.network.contact)
     text += "contact               " + contact_text(c.decomposition, c.network) + "\n" + why_no_brake(c, units);
   text += to_text(c.certificate, c.network.port_motion) + notes_text(c);
-  return fitted(text + (c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c)));
+  text += c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c);
+  if (with_legend) text += "\n" + legend_of_lines(text);
+  return fitted(text);
 }
 
 }  // namespace dashpot::compiler

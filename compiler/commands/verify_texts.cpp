@@ -33,12 +33,12 @@ std::string with_version_of(std::string_view header, std::string text) {
   return to == 0 || end == 0 ? text : text.replace(from, to - from, header.substr(start, end - start));
 }
 
-// What stands there, with some of its line in front of it.
+// What stands there, with some words of its line in front of it.
 std::string excerpt_at(std::string_view text, std::size_t at) {
   constexpr std::size_t most_in_front = 30;
   const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
   std::size_t start = std::max(line, at - std::min(at, most_in_front));
-  while (start > line && (text[start] & 0xC0) == 0x80) --start;  // within a character
+  while (start > line && text[start - 1] != ' ') --start;
   return excerpt(text.substr(start, std::min(text.find('\n', at), text.size()) - start));
 }
 
@@ -146,7 +146,8 @@ class TextsVerification {
   // What is left open at the motor's limits, before the grade; empty where nothing is.
   std::string at_limits() const {
     const MotorLimits& limits = compiled_->certificate.limits;
-    return limits.is_covered ? "" : "that no energy comes of the motor's limits is not proved: " + limits.reason + "; ";
+    const std::string reason = why_not_covered(limits, port_units(network_->port_motion).damping);
+    return limits.is_covered ? "" : "that no energy comes of the motor's limits is not proved: " + reason + "; ";
   }
   std::string why_uncertified() const { return why_not_certified(compiled_->certificate, network_->port_motion); }
 

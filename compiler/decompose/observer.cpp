@@ -162,8 +162,9 @@ class Observer {
     else if (rule_ == ObserverRule::largest)
       clauses_.push_back(fmt::format("in series the largest damping, {:.6g}, is that of {}", damping, names));
     else
-      clauses_.push_back(fmt::format("in series {} dissipates {:.4g} % at {} and is observed", names,
-                                     share_of(observed, groups), where()));
+      clauses_.push_back(
+          fmt::format("in series, {} turns {:.4g} % of the energy into heat at {}, and the brake follows it", names,
+                      share_of(observed, groups), where()));
   }
 
   std::string where() const {

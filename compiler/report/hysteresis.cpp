@@ -13,8 +13,8 @@ namespace dashpot::compiler {
 namespace {
 
 using std::numbers::pi;
-constexpr std::size_t cycles = 3;                            // the last one is drawn
-constexpr double least_samples = 40, most_samples = 20'000;  // a cycle
+constexpr std::size_t cycles = 3;                             // the last one is drawn
+constexpr double least_samples = 40, most_samples = 100'000;  // a cycle
 constexpr std::size_t drawn_points = 180, drawn_dots = 30;
 
 struct Oscillation {
@@ -88,10 +88,21 @@ Curve total(const std::string& name, const Oscillation& motion, const LawRun& al
   return loop(name, Channel::total, motion, all, points, [&](std::size_t k) { return all.force(k); });
 }
 
-// In the geometric middle of what the network does, but slow enough for the loop.
+// The frequency, or the nearest that the network is valid for, at which a motion of this size is no faster than that
+// either.
+double within_valid(const Network& network, double amplitude, double frequency) {
+  const auto& [band, rate] = std::pair(network.valid.frequency, network.valid.rate);
+  if (band) frequency = std::clamp(frequency, band->low, band->high);
+  const double fastest = rate ? std::max(std::abs(rate->low), std::abs(rate->high)) : 0;
+  return fastest > 0 ? std::min(frequency, fastest / (2 * pi * amplitude)) : frequency;
+}
+
+// In the geometric middle of what the network does, but slow enough for the loop and for what the network is valid for.
 std::string linear_loop(const Compilation& c) {
   const Interval range = frequencies_of_interest(c.form.linear);
-  const Oscillation motion = oscillation(c, default_amplitude(c.network), std::sqrt(range.low * range.high));
+  const double amplitude = default_amplitude(c.network);
+  const double frequency = within_valid(c.network, amplitude, std::sqrt(range.low * range.high));
+  const Oscillation motion = oscillation(c, amplitude, frequency);
   const LawRun all = run(c, motion);
   const PortUnits units = page_units(c.network.port_motion);
   Plot plot = empty_plot("Hysteresis at " + number_text(motion.frequency, 3) + " Hz", units);
@@ -126,16 +137,16 @@ double usual_frequency(const Compilation& c) {
 }
 
 std::string three_loops(const Compilation& c, double middle) {
-  const double frequency = usual_frequency(c);
+  constexpr double smallest = 0.5, largest = 2;
+  const double frequency = within_valid(c.network, largest * middle, usual_frequency(c));
   const PortUnits units = page_units(c.network.port_motion);
   Plot plot = empty_plot("", units);
-  for (const double size : {0.5, 1.0, 2.0}) {
+  for (const double size : {smallest, 1.0, largest}) {
     const Oscillation motion = oscillation(c, size * middle, frequency);
     const LawRun all = run(c, motion);
     plot.title = "Hysteresis at " + number_text(motion.frequency, 3) + " Hz, three amplitudes";
-    const bool largest = size > 1;
-    if (largest) add_shares(motion, all, plot);
-    plot.curves.push_back(total(largest ? "force" : "", motion, all, drawn_points));
+    if (size == largest) add_shares(motion, all, plot);
+    plot.curves.push_back(total(size == largest ? "force" : "", motion, all, drawn_points));
   }
   plot.note = "Shares of brake and motor in the largest loop.";
   return plot_figure(plot);

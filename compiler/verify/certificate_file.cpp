@@ -83,13 +83,13 @@ Json json_of_storage(const PassivityBound& bound) {
 
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-Json json_of(const MotorLimits& limits, const SampledLoop& loop) {
+Json json_of(const MotorLimits& limits, const SampledLoop& loop, const std::string& unit) {
   return {{"max_force", loop.max_force},
           {"slew", loop.motor_slew},
           {"rule", name_of(limits.rule)},
           {"covered", limits.is_covered},
           {"needed_damping", limits.needed},
-          {"reason", limits.reason},
+          {"reason", why_not_covered(limits, unit)},
           {"largest_force", or_null(limits.largest_force)},
           {"slew_needed", or_null(limits.slew_needed)},
           {"largest_discontinuity", or_null(limits.largest_discontinuity)}};
@@ -138,21 +138,22 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
   Json constants = Json::object();
   if (const auto found = header_constants(header))
     for (const HeaderConstant& constant : found->all) constants[constant.name] = constant.values;
-  const Json all = {{"dashpot_certificate", 1},
-                    {"version", DASHPOT_VERSION},
-                    {"name", c.network.name},
-                    {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
-                    {"law", json_of_choices(c, choices)},
-                    {"elements", json_of(c.network)},
-                    {"canonical_form", json_of(nodal ? c.decomposition.realisation : c.form.linear)},
-                    {"constants", constants},
-                    {"loop", json_of(c.certificate.loop)},
-                    {"passivity", json_of(c.certificate)},
-                    {"storage", json_of_storage(c.certificate.bound)},
-                    {"energy", json_of(c.certificate.energy)},
-                    {"motor_limits", json_of(c.certificate.limits, c.certificate.loop)},
-                    {"network_file", network_text},
-                    {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
+  const Json all = {
+      {"dashpot_certificate", 1},
+      {"version", DASHPOT_VERSION},
+      {"name", c.network.name},
+      {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
+      {"law", json_of_choices(c, choices)},
+      {"elements", json_of(c.network)},
+      {"canonical_form", json_of(nodal ? c.decomposition.realisation : c.form.linear)},
+      {"constants", constants},
+      {"loop", json_of(c.certificate.loop)},
+      {"passivity", json_of(c.certificate)},
+      {"storage", json_of_storage(c.certificate.bound)},
+      {"energy", json_of(c.certificate.energy)},
+      {"motor_limits", json_of(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion).damping)},
+      {"network_file", network_text},
+      {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
   return all.dump(2) + "\n";
 }
 

@@ -10,8 +10,8 @@
 // passivity: certified for any motion, samples at 1000 Hz: needs 5.93552 N·s/m, most at 38.8226 Hz, at least
 //   6.1716 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-14 of the sum of
-//   the force's terms
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-14 of the
+//   sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers are kept between

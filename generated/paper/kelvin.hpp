@@ -10,8 +10,8 @@
 // passivity: certified for any motion, any switching of the brake above its command: needs 0.05 N·s/m over the
 //   longest hold of 0.001 s, at least 2 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: the constants never give more work than stored_energy() falls; rounding adds at most 8.9e-16 of the sum
-//   of the force's terms
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.9e-16 of the
+//   sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 0 additions, 1 multiplications, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers are kept between

@@ -2,16 +2,16 @@
 //
 // source: Gosline & Hayward 2009, Fig. 4b and (16)-(19); values of Fig. 6
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
-// brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series B
-//   dissipates 100 % at low frequency and is observed
+// brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B
+//   turns 100 % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
 //   tells the inputs apart)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 4.95449 N·s/m, most at 18.8943 Hz, at least 5
 //   N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: the constants never give more work than stored_energy() falls; rounding adds at most 3.5e-14 of the sum
-//   of the force's terms
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 3.5e-14 of the
+//   sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 2 multiplications, 1 guards against subnormal numbers; 4 numbers are kept between

@@ -14,8 +14,8 @@
 //   above its least command: needs 0.775 N·s/m over the longest hold of 0.001 s, at least 0 N·s/m is there, 0.775
 //   N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
-//   adds at most 3.9e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
+//   rounding adds at most 3.9e-15 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 20 additions, 10 multiplications, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 10 guards against subnormal numbers; 23 numbers are kept

@@ -11,8 +11,8 @@
 // passivity: not certified: a free tool, which the brake leaves alone, touches late, and the device itself has
 //   less damping than that needs: 10.25 N·s/m
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
-//   adds at most 1.1e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
+//   rounding adds at most 1.1e-15 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 6 additions, 4 multiplications, 1 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 3 numbers are kept between

@@ -5,16 +5,16 @@
 //   = 5 mm on an incompressible half-space: f = 8 G a u, so 0.04 m times each modulus and viscosity
 // valid: frequency 25 to 62.5 Hz
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
-// brake: makes b = 0.576 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series B2
-//   dissipates 100 % at low frequency and is observed
+// brake: makes b = 0.576 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B2
+//   turns 100 % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
 //   tells the inputs apart)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 0.481064 N·s/m, most at 103.517 Hz, at least
 //   0.576 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: the constants never give more work than stored_energy() falls; rounding adds at most 2.4e-15 of the sum
-//   of the force's terms
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2.4e-15 of the
+//   sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 2 multiplications, 1 guards against subnormal numbers; 4 numbers are kept between

@@ -9,9 +9,9 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
 // brake: makes b = 5 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
-//   rule 'faithful': no device to be faithful on, so the paper's rule: in series B2 dissipates 100 % at low
-//   frequency and is observed; with the contact no more than the feedthrough damping, so that the motor
-//   compensates nothing
+//   rule 'faithful': no device to be faithful on, so the paper's rule: in series, B2 turns 100 % of the energy
+//   into heat at low frequency, and the brake follows it; with the contact no more than the feedthrough damping,
+//   so that the motor compensates nothing
 // behind friction: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck, 0 sliding
 // states: what is kept of the past follows the measured position (position driven by definition)
 // contact: at 0 m; brake and motor 0 while the tool is free
@@ -19,8 +19,8 @@
 // passivity: not certified: a free tool, which the brake leaves alone, touches late, and the device itself has
 //   less damping than that needs: 10.5838 N·s/m
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
-//   adds at most 9.5e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
+//   rounding adds at most 9.5e-15 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 7 additions, 3 multiplications, 1 guards against subnormal numbers
 //   and at most 61 additions, multiplications and divisions for the coupled slips

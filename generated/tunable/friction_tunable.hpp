@@ -13,8 +13,8 @@
 //   ranges between changes, any switching of the brake above its least command: needs 2.5 N·s/m over the longest
 //   hold of 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
-//   1.2e-14 of the sum of the force's terms
+// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
+//   falls; rounding adds at most 1.2e-14 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay

@@ -13,8 +13,8 @@
 //   ranges between changes, any switching of the brake above its least command: needs 3 N·s/m over the longest
 //   hold of 0.001 s, at least 3 N·s/m is there, 2.66454e-15 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
-//   1.3e-12 of the sum of the force's terms
+// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
+//   falls; rounding adds at most 1.3e-12 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay

@@ -2,9 +2,9 @@
 //
 // source: Gosline & Hayward 2009, Fig. 5; the ranges are ours
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
-// brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series B1
-//   dissipates 100 % at low frequency and is observed; in series damper_3 dissipates 100 % at low frequency and is
-//   observed
+// brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
+//   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_3 turns 100
+//   % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
@@ -12,8 +12,8 @@
 //   brake above its least command: needs 5.5652 N·s/m over the longest hold of 0.001 s, at least 5.5 N·s/m is
 //   there, 0.0652 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
-//   7e-15 of the sum of the force's terms
+// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
+//   falls; rounding adds at most 7e-15 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay

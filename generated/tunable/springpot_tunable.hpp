@@ -2,10 +2,11 @@
 //
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 1625.577561857746 N·s/m of damping, and the motor the rest of the force; by the rule 'paper':
-//   in series muscle_damper_1 dissipates 100 % at low frequency and is observed; in series muscle_damper_2
-//   dissipates 100 % at low frequency and is observed; in series muscle_damper_3 dissipates 100 % at low frequency
-//   and is observed; in series muscle_damper_4 dissipates 100 % at low frequency and is observed; and 1 more
-//   series connections likewise
+//   in series, muscle_damper_1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
+//   series, muscle_damper_2 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
+//   series, muscle_damper_3 turns 100 % of the energy into heat at low frequency, and the brake follows it; in
+//   series, muscle_damper_4 turns 100 % of the energy into heat at low frequency, and the brake follows it; and 1
+//   more series connections likewise
 // states: what is kept of the past follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
@@ -13,8 +14,8 @@
 //   brake above its least command: needs 1.78601 N·s/m over the longest hold of 0.001 s, at least 0 N·s/m is
 //   there, 1.78601 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
-//   1.3e-14 of the sum of the force's terms
+// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
+//   falls; rounding adds at most 1.3e-14 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: K (0 to 400 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay

@@ -1,8 +1,8 @@
 // A Kelvin element in series with a spring: a tunable that mixes with its relaxation
 //
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
-// brake: makes b = 8 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series
-//   (spring_1 | B1) dissipates 100 % at low frequency and is observed
+// brake: makes b = 8 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
+//   (spring_1 | B1) turns 100 % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven, so that a change of parameters
 //   injects no energy)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
@@ -10,8 +10,8 @@
 //   brake above its least command: needs 16.4 N·s/m over the longest hold of 0.001 s, at least 8 N·s/m is there,
 //   8.4 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
-//   5.8e-15 of the sum of the force's terms
+// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
+//   falls; rounding adds at most 5.8e-15 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: K1 (50 to 800 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay

@@ -13,8 +13,8 @@
 // passivity: certified for any motion, whatever slides, sticks, touches or lets go, any switching of the brake
 //   above its least command: needs 1.3 N·s/m over the longest hold of 0.001 s, at least 3.3 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no part's constants ever give more work than it stores, and what slips or touches only takes; rounding
-//   adds at most 1.4e-15 of the sum of the force's terms
+// energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
+//   rounding adds at most 1.4e-15 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 5 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 6 numbers are kept between

@@ -2,8 +2,8 @@
 //
 // source: Gosline & Hayward 2009, Fig. 3 and (10)-(11); the paper prints no values, these are chosen here
 // scheme: backward-euler at 1000 Hz, double: the paper's own, whose error falls in proportion to the period
-// brake: makes b = 6 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series (K2 |
-//   B2) dissipates 90.36 % at low frequency and is observed
+// brake: makes b = 6 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, (K2 |
+//   B2) turns 90.36 % of the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows position and velocity, as the network's nodes have it (nodal driven as
 //   asked)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity

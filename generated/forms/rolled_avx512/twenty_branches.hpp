@@ -1,18 +1,19 @@
 // More branches than straight-line code is written for
 //
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
-// brake: makes b = 6.629 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series
-//   damper_2 dissipates 100 % at low frequency and is observed; in series damper_4 dissipates 100 % at low
-//   frequency and is observed; in series damper_6 dissipates 100 % at low frequency and is observed; in series
-//   damper_8 dissipates 100 % at low frequency and is observed; and 16 more series connections likewise
+// brake: makes b = 6.629 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series,
+//   damper_2 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_4
+//   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_6 turns 100
+//   % of the energy into heat at low frequency, and the brake follows it; in series, damper_8 turns 100 % of the
+//   energy into heat at low frequency, and the brake follows it; and 16 more series connections likewise
 // states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
 //   tells the inputs apart)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 6.24683 N·s/m, most at 40.8013 Hz, at least 6.629
 //   N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: the constants never give more work than stored_energy() falls; rounding adds at most 5.6e-13 of the sum
-//   of the force's terms
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 5.6e-13 of the
+//   sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 39 additions, 40 multiplications, 20 guards against subnormal numbers; 24 numbers are kept

@@ -90,12 +90,13 @@ struct Emitted {
   std::size_t parameters() const { return compilation.law.tunable ? compilation.law.tunable->tunables.size() : 0; }
 };
 
-// A motor that gives little of what is asked for, so that laws shed.
+// A motor that gives little of what is asked for, so that laws shed, and a brake that takes its time.
 std::optional<compiler::Device> weak_device(bool has_slew) {
   const compiler::SourceFile file("weak.json",
                                   fmt::format(R"({{ "dashpot_device": 1, "name": "weak", "motion": "translation",
-                                     "loop": {{ "rate": 1000 }}, "encoder": {{ "resolution": 1e-5 }},
+                                     "loop": {{ "rate": 1000 }}, "encoder": {{ "resolution": 1e-3 }},
                                      "motor": {{ "max_torque": 0.05{} }},
+                                     "brake": {{ "kind": "eddy_current", "max_damping": 40, "coil_lag": 0.002 }},
                                      "velocity": {{ "estimator": "backward_difference", "window": 1 }} }})",
                                               has_slew ? R"(, "slew": 20)" : ""));
   compiler::Diagnostics diagnostics;

@@ -19,7 +19,7 @@ constexpr std::string_view opening_of_code = "#pragma once";
 
 // Where a header names the version of the dashpot that wrote it; nothing where there is none.
 std::pair<std::size_t, std::size_t> version_in(std::string_view header) {
-  constexpr std::string_view before = "\n// Written by dashpot ", behind = " from a network with digest ";
+  constexpr std::string_view before = "\n// Written by dashpot ", behind = " from a network with digest";
   const std::size_t line = header.find(before), start = line == header.npos ? 0 : line + before.size();
   const std::size_t end = start == 0 ? 0 : header.find_first_not_of("0123456789.", start);
   const bool is_one = end != header.npos && end > start && header.substr(end).starts_with(behind);

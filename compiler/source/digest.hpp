@@ -1,23 +1,30 @@
-// A short fingerprint of a file, so that emitted code can tell which input it came from. Not cryptographic.
+// A fingerprint of a file, so that emitted code can tell which input it came from, and a loop whether a law was
+// compiled for the very file of its device. Cryptographic: nobody can write another file with the same one.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
+struct evp_md_ctx_st;
+
 namespace dashpot::compiler {
 
-// 64-bit FNV-1a (Fowler, Noll & Vo; draft-eastlake-fnv) of the bytes, as 16 lower-case hexadecimal digits.
+// SHA-256 (FIPS 180-4) of the bytes, as 64 lower-case hexadecimal digits.
 std::string digest_of(std::string_view bytes);
 
 // The same of bytes that come piece by piece.
 class RunningDigest {
  public:
+  RunningDigest();
   void add(std::string_view bytes);
   std::string text() const;
 
  private:
-  std::uint64_t hash_ = 0xcbf29ce484222325;
+  struct Free {
+    void operator()(evp_md_ctx_st* context) const;
+  };
+  std::unique_ptr<evp_md_ctx_st, Free> context_;
 };
 
 }  // namespace dashpot::compiler

@@ -22,8 +22,9 @@
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest 893a76975b25672e. It belongs to whoever had it written. Compile it
-// with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// d7e04f955bf5006349797937a45de7632f2ae13bf14789e19ff630b1c2e0e118. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

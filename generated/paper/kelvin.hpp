@@ -20,8 +20,9 @@
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest 0ef59836b87efe91. It belongs to whoever had it written. Compile it
-// with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// 9aecd8330c16bc1f8db99fe113a12b9686f6967f2a43f88b7d2d7f4cb1ed394d. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

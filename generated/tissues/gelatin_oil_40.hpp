@@ -22,8 +22,9 @@
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest 2a53f7d910a2efd2. It belongs to whoever had it written. Compile it
-// with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// c44588cbfef7ccd37befa9845f2bf6f0d7d9931c4cac581682915a6856f263b1. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

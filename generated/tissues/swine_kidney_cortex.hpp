@@ -23,8 +23,9 @@
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest eaaffec4b9497ddf. It belongs to whoever had it written. Compile it
-// with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// 07664a020f0874ad99e58b2c5c9f3fc29f1cf354dcf841d1d0d98d0feb823afb. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

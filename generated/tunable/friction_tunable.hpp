@@ -26,8 +26,9 @@
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest f771aaa0034c9e10. It belongs to whoever had it written. Compile it
-// with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// c86fcb8b7c393e3b623d21078d88e80af59e3eaf3833b10700b69af0c86379ba. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
 #include <dashpot/command.hpp>

@@ -92,7 +92,7 @@ int main() {
         file = json.loads((self.folder / "zener.json").read_text())
         self.assertIn("zener.csv", file["source"])
         self.assertEqual(file["fit"]["recordings"][0]["rows"], 400)
-        self.assertRegex(file["fit"]["recordings"][0]["digest"], "^[0-9a-f]{16}$")
+        self.assertRegex(file["fit"]["recordings"][0]["digest"], "^[0-9a-f]{64}$")
         self.assertEqual(set(file["valid"]), {"rate", "displacement", "frequency"})
         again = (self.folder / "zener.json").read_bytes()
         self.fit("zener.csv", "-o", "zener.json")

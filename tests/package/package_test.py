@@ -20,7 +20,7 @@ SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
 BUILD = pathlib.Path(os.environ["DASHPOT_BUILD"])
 PREFIX = pathlib.Path(os.environ["DASHPOT_PREFIX"])
 CONSUMER = SOURCE / "tests/package/consumer"
-OWN_DEPENDENCIES = ["Eigen3", "nlohmann_json", "fmt", "CLI11", "Boost"]
+OWN_DEPENDENCIES = ["Eigen3", "nlohmann_json", "fmt", "CLI11", "Boost", "OpenSSL"]
 COMPILING_A_LAW = "Compiling network"
 
 

@@ -22,8 +22,9 @@
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587. It belongs to whoever had it written. C99, and
-// C++; compile it with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af. It belongs to whoever had it
+// written. C99, and C++; compile it with -ffp-contract=off where results are compared bit for bit.
 #ifndef DASHPOT_GENERATED_second_order_maxwell_H
 #define DASHPOT_GENERATED_second_order_maxwell_H
 

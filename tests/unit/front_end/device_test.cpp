@@ -37,7 +37,7 @@ TEST(Device, IsReadIntoSi) {
   EXPECT_EQ(run.device->name, "rig");
   EXPECT_EQ(run.device->source, "made up");
   EXPECT_EQ(run.device->assumed, (std::vector<std::string>{"brake.coil_lag", "arm_radius", "mechanics.mode.mass"}));
-  EXPECT_EQ(run.device->digest.size(), 16u);
+  EXPECT_EQ(run.device->digest.size(), 64u);
   EXPECT_EQ(d.motion, motion::rotation);
   EXPECT_EQ(d.arm_radius, 0.05);
   EXPECT_EQ(d.loop.sample_period, 0.0001);

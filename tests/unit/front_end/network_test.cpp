@@ -126,7 +126,7 @@ TEST(Network, CarriesTheDigestOfItsFile) {
   const NetworkRun run(second_order_maxwell);
   const NetworkRun other(second_order_maxwell + " ");
   ASSERT_TRUE(run.network && other.network);
-  EXPECT_EQ(run.network->digest.size(), 16u);
+  EXPECT_EQ(run.network->digest.size(), 64u);
   EXPECT_NE(run.network->digest, other.network->digest);
 }
 

@@ -92,11 +92,13 @@ TEST_F(SourceFiles, AreReadUpTo16MiB) {
             "error: '" + path("larger") + "' is larger than 16 MiB, the most that is read [file-too-large]\n");
 }
 
-// If this fails, the digest in emitted code is not the one that other FNV-1a programs compute (vectors of its authors).
-TEST(Digest, IsFnv1a) {
-  EXPECT_EQ(digest_of(""), "cbf29ce484222325");
-  EXPECT_EQ(digest_of("a"), "af63dc4c8601ec8c");
-  EXPECT_EQ(digest_of("foobar"), "85944171f73967e8");
+// If this fails, the digest in emitted code is not the one that other SHA-256 programs compute (FIPS 180-4, its
+// examples).
+TEST(Digest, IsSha256) {
+  EXPECT_EQ(digest_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  EXPECT_EQ(digest_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(digest_of("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
 
 // If this fails, malformed UTF-8 is taken for text, or text for malformed (boundaries of RFC 3629).

@@ -13,8 +13,8 @@
 //   ranges between changes, any switching of the brake above its least command: needs 2.5 N·s/m over the longest
 //   hold of 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: no values within their ranges ever give more work than stored_energy() falls; rounding adds at most
-//   1.2e-14 of the sum of the force's terms
+// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
+//   falls; rounding adds at most 1.2e-14 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
@@ -26,8 +26,9 @@
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest f771aaa0034c9e10. It belongs to whoever had it written. C99, and
-// C++; compile it with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// c86fcb8b7c393e3b623d21078d88e80af59e3eaf3833b10700b69af0c86379ba. It belongs to whoever had it
+// written. C99, and C++; compile it with -ffp-contract=off where results are compared bit for bit.
 #ifndef DASHPOT_GENERATED_friction_tunable_H
 #define DASHPOT_GENERATED_friction_tunable_H
 

@@ -1,6 +1,6 @@
 component second_order_maxwell "General viscoelastic solid, Fig. 2e";
 description """
-The force of a network of springs, dampers and slips, written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587.
+The force of a network of springs, dampers and slips, written by dashpot 0.1.0 from a network with digest af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af.
 
 Once a period take position and velocity of the tool from the encoder, and give \\fBdamping\\fR to the brake and minus \\fBforce\\fR
 to the motor: the network opposes the tool with damping * velocity + force.
@@ -19,9 +19,9 @@ notes """source: Gosline & Hayward 2009, Fig. 5
 .br
 scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 .br
-brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series B1
-  dissipates 100 % at low frequency and is observed; in series B2 dissipates 100 % at low frequency and is
-  observed
+brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
+  turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
+  the energy into heat at low frequency, and the brake follows it
 .br
 states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
   tells the inputs apart)
@@ -32,8 +32,8 @@ passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, m
   N·s/m is there
   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 .br
-energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-13 of the sum of
-  the force's terms
+energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
+  sum of the force's terms
 .br
 device: none is named: exact brake, exact velocity, no delay
 .br
@@ -73,17 +73,17 @@ license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 //
 // source: Gosline & Hayward 2009, Fig. 5
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
-// brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series B1
-//   dissipates 100 % at low frequency and is observed; in series B2 dissipates 100 % at low frequency and is
-//   observed
+// brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
+//   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
+//   the energy into heat at low frequency, and the brake follows it
 // states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
 //   tells the inputs apart)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
 //   N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// energy: the constants never give more work than stored_energy() falls; rounding adds at most 2e-13 of the sum of
-//   the force's terms
+// energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
+//   sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers are kept between
@@ -93,8 +93,9 @@ license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
 //
-// Written by dashpot 0.1.0 from a network with digest 3d4efd70645f8587. It belongs to whoever had it written. C99, and
-// C++; compile it with -ffp-contract=off where results are compared bit for bit.
+// Written by dashpot 0.1.0 from a network with digest
+// af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af. It belongs to whoever had it
+// written. C99, and C++; compile it with -ffp-contract=off where results are compared bit for bit.
 #ifndef DASHPOT_GENERATED_law_second_order_maxwell_H
 #define DASHPOT_GENERATED_law_second_order_maxwell_H
 
@@ -264,6 +265,18 @@ static inline dashpot_command law_second_order_maxwell_step(law_second_order_max
   const dashpot_command command = law_second_order_maxwell_output(self, position, velocity);
   law_second_order_maxwell_update(self);
   return command;
+}
+
+// While positions stay within ± 10 m and velocities within ± 100 m/s, a law that starts at rest at 0
+// keeps to this box, and from it no operation overflows: 1 where its states are there.
+static inline int law_second_order_maxwell_is_within(const law_second_order_maxwell *self) {
+  return
+      (self->last_position >= -10.00001) && (self->last_position <= 10.00001)
+      && (self->relaxed_force >= -219560.89280751947) && (self->relaxed_force <= 219560.89280751947)
+      && (self->B2_K2_force >= -119800.40587550664) && (self->B2_K2_force <= 119800.40587550664)
+      && (self->B1_K1_force >= -99760.4869320128) && (self->B1_K1_force <= 99760.4869320128)
+      && (self->sampled_position_change >= -20.00002) && (self->sampled_position_change <= 20.00002)
+      && (self->sampled_position >= -10.00001) && (self->sampled_position <= 10.00001);
 }
 
 // The value of a parameter now, counted from 0.

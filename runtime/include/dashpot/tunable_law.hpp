@@ -122,7 +122,8 @@ class tunable_law {
     if (t.slip_count == 0) answer.opposing = step_stiffness_ * change + curves_.held[0];
     if constexpr (Slips > 0)
       if (t.slip_count > 0) {
-        answer.opposing = slips_.push(t, approach, curves_, change) - feedthrough_ * t.rate * change;
+        answer.opposing = slips_.push(t, approach, curves_, change);  // which sets `change`
+        answer.opposing -= feedthrough_ * t.rate * change;
         leave_to_brake(t, change, position, answer);
       }
     return touching_sample(t.contact, t.threshold, last, depth, change, velocity, answer);

@@ -38,7 +38,9 @@ std::string excerpt_at(std::string_view text, std::size_t at) {
   constexpr std::size_t most_in_front = 30;
   const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
   std::size_t start = std::max(line, at - std::min(at, most_in_front));
-  while (start > line && text[start - 1] != ' ') --start;
+  const std::size_t blank = start > line && text[start - 1] != ' ' ? text.find(' ', start) : text.npos;
+  if (blank < at) start = blank + 1;
+  while (start > line && (text[start] & 0xC0) == 0x80) --start;  // within a character
   return excerpt(text.substr(start, std::min(text.find('\n', at), text.size()) - start));
 }
 

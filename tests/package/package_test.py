@@ -332,8 +332,10 @@ class Cross(unittest.TestCase):
         for file in ("tissue.json", "arm.json"):
             shutil.copy(CONSUMER / file, self.folder)
 
+    # A launcher such as ccache, which the tests' own build may use, is not in every `path`.
     def run_cmake(self, *words, path=os.environ["PATH"]):
-        return subprocess.run([CMAKE, *map(str, words)], capture_output=True, text=True, env=dict(os.environ, PATH=path))
+        environment = {key: value for key, value in os.environ.items() if not key.endswith("_COMPILER_LAUNCHER")}
+        return subprocess.run([CMAKE, *map(str, words)], capture_output=True, text=True, env=dict(environment, PATH=path))
 
     def configure(self, *options, path=os.environ["PATH"]):
         return self.run_cmake("-G", "Ninja", "-S", self.folder, "-B", self.folder / "build",

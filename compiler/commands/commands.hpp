@@ -37,6 +37,9 @@ void tell(const Options& options, Diagnostics& diagnostics);
 // Refuses, with a diagnostic, where standard output cannot take the text: a full disk must not pass for success.
 ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnostics);
 
+// To the file that --output names, else to standard output. Refuses, with a diagnostic, what cannot be written.
+ExitStatus write_output(const Options& options, const std::string& text, Diagnostics& diagnostics);
+
 // False, with a diagnostic, where what is to be written is one of the files that are read.
 bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics);
 

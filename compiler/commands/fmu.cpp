@@ -4,17 +4,13 @@
 #include <sys/utsname.h>
 #include <zip.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "commands/system_compiler.hpp"
 #include "emit/fmi_unit.hpp"
-#include "emit/write_files.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-namespace fs = std::filesystem;
 
 // The standard's name of this machine, by which an importer finds the library.
 std::string platform(FmiVersion version) {
@@ -27,23 +23,13 @@ std::string platform(FmiVersion version) {
 std::optional<std::string> shared_library(const std::string& name, const std::string& source,
                                           Diagnostics& diagnostics) {
   const TemporaryFolder folder;
-  if (folder.path().empty()) {
-    diagnostics.report<DiagnosticCode::cannot_make_folder>({}, folder.above(), folder.refusal());
-    diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
+  const std::string library = name + ".so";
+  if (!has_sources(folder, {{name + ".c", source}}, diagnostics) ||
+      !makes_library({environment_or("CC", "cc"), "-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared",
+                      "-fvisibility=hidden", "-s", "-Wl,--build-id=none"},
+                     folder, name + ".c", library, diagnostics))
     return std::nullopt;
-  }
-  if (!write_files(folder.path().string(), {{name + ".c", source}}, diagnostics)) return std::nullopt;
-  const char* chosen = std::getenv("CC");
-  const std::string compiler = chosen != nullptr && *chosen != '\0' ? chosen : "cc";
-  const fs::path library = folder.path() / (name + ".so"), log = folder.path() / "compiler.log";
-  const int status =
-      run_program({compiler, "-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden", "-s",
-                   "-Wl,--build-id=none", (folder.path() / (name + ".c")).string(), "-o", library.string()},
-                  log.string());
-  if (status == 0) return contents_of(library);
-  diagnostics.report<DiagnosticCode::system_compiler_failed>(
-      {}, compiler, status == program_not_found ? "cannot be started" : contents_of(log));
-  return std::nullopt;
+  return contents_of(folder.path() / library);
 }
 
 struct ErrorText {

@@ -2,11 +2,9 @@
 
 #include <dlfcn.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "commands/system_compiler.hpp"
-#include "emit/write_files.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -38,25 +36,14 @@ std::optional<LoadedModel> load_model(const Compilation& compilation, EmissionOp
   options.with_library = true;
   const auto files = emit_cpp(compilation, options, diagnostics);
   const TemporaryFolder folder;
-  if (folder.path().empty()) {
-    diagnostics.report<DiagnosticCode::cannot_make_folder>({}, folder.above(), folder.refusal());
-    diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
+  const bool is_there = has_sources(folder, files.value_or(std::vector<OutputFile>{}), diagnostics);
+  if (!files || !is_there) return std::nullopt;
+  const std::string library = "model.so";
+  if (!makes_library({environment_or("CXX", "c++"), "-std=c++17", "-O2", "-ffp-contract=off", "-shared", "-fPIC",
+                      "-I" + runtime_headers()},
+                     folder, compilation.network.name + "_library.cpp", library, diagnostics))
     return std::nullopt;
-  }
-  if (!files || !write_files(folder.path().string(), *files, diagnostics)) return std::nullopt;
-  const char* chosen = std::getenv("CXX");
-  const std::string compiler = chosen != nullptr && *chosen != '\0' ? chosen : "c++";
-  const fs::path library = folder.path() / "model.so", log = folder.path() / "compiler.log";
-  const int status =
-      run_program({compiler, "-std=c++17", "-O2", "-ffp-contract=off", "-shared", "-fPIC", "-I" + runtime_headers(),
-                   (folder.path() / (compilation.network.name + "_library.cpp")).string(), "-o", library.string()},
-                  log.string());
-  if (status != 0) {
-    diagnostics.report<DiagnosticCode::system_compiler_failed>(
-        {}, compiler, status == program_not_found ? "cannot be started" : contents_of(log));
-    return std::nullopt;
-  }
-  const model_table* table = open_library(library, diagnostics);
+  const model_table* table = open_library(folder.path() / library, diagnostics);
   return table == nullptr ? std::nullopt : std::optional<LoadedModel>(std::in_place, *table);
 }
 

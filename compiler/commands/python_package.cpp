@@ -3,18 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string_view>
 
 #include "commands/system_compiler.hpp"
 #include "emit/banner.hpp"
 #include "emit/template_text.hpp"
-#include "emit/write_files.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Words of Python 3, and modules of its library and beside it: a folder so called, on the path of a program, is what
 // the others that import such a module find.
@@ -165,11 +161,6 @@ std::vector<std::string> words_of_compiler(const std::string& compiler) {
           "-shared", "-fvisibility=hidden"};
 }
 
-std::string compiler_for_c() {
-  const char* chosen = std::getenv("CC");
-  return chosen != nullptr && *chosen != '\0' ? chosen : "cc";
-}
-
 Fields described(const Compilation& c, std::initializer_list<const char*> names) {
   Fields all, wanted;
   describe_file(c, all);
@@ -183,19 +174,9 @@ Fields described(const Compilation& c, std::initializer_list<const char*> names)
 
 std::optional<std::string> library_of(const std::vector<OutputFile>& sources, Diagnostics& diagnostics) {
   const TemporaryFolder folder;
-  if (folder.path().empty()) {
-    diagnostics.report<DiagnosticCode::cannot_make_folder>({}, folder.above(), folder.refusal());
-    diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
-    return std::nullopt;
-  }
-  if (!write_files(folder.path().string(), sources, diagnostics)) return std::nullopt;
-  const fs::path here = folder.path(), library = here / "law.so", log = here / "compiler.log";
-  std::vector<std::string> words = words_of_compiler(compiler_for_c());
-  words.insert(words.end(), {(here / "law.c").string(), "-o", library.string()});
-  const int status = run_program(words, log.string());
-  if (status == 0) return contents_of(library);
-  diagnostics.report<DiagnosticCode::system_compiler_failed>(
-      {}, words.front(), status == program_not_found ? "cannot be started" : contents_of(log));
+  if (!has_sources(folder, sources, diagnostics)) return std::nullopt;
+  if (makes_library(words_of_compiler(environment_or("CC", "cc")), folder, "law.c", "law.so", diagnostics))
+    return contents_of(folder.path() / "law.so");
   diagnostics.note<DiagnosticCode::c_compiler_remedy>({});
   return std::nullopt;
 }

@@ -7,7 +7,6 @@
 #include "commands/commands.hpp"
 #include "commands/eddy_brake.hpp"
 #include "emit/emit_device.hpp"
-#include "emit/write_files.hpp"
 #include "network/read_value.hpp"
 
 namespace dashpot::compiler {
@@ -89,15 +88,10 @@ std::string filled_text(const SourceFile& file, const FilledBrake& brake, bool r
   return json.dump(2) + "\n";
 }
 
-ExitStatus write(const std::string& text, const Options& options, Diagnostics& diagnostics) {
-  if (!options.output) return write_standard_output(text, diagnostics);
-  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
-}
-
 ExitStatus write_as_code(const Device& device, const Options& options, Diagnostics& diagnostics) {
   if (options.output && !spares_inputs(options, {*options.output}, diagnostics)) return ExitStatus::command_line_wrong;
   const std::optional<std::string> text = emit_device(device, *options.device_language, diagnostics);
-  return text ? write(*text, options, diagnostics) : ExitStatus::input_refused;
+  return text ? write_output(options, *text, diagnostics) : ExitStatus::input_refused;
 }
 
 }  // namespace
@@ -115,7 +109,7 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
   // All other commands have to take it.
   if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics))
     return ExitStatus::input_refused;
-  return write(text, options, diagnostics);
+  return write_output(options, text, diagnostics);
 }
 
 }  // namespace dashpot::compiler

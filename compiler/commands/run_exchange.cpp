@@ -5,7 +5,6 @@
 #include "commands/exchange.hpp"
 #include "compile.hpp"
 #include "discretise/tunable_network.hpp"
-#include "emit/write_files.hpp"
 #include "exchange/network_text.hpp"
 #include "exchange/prony_format.hpp"
 #include "network/name_rules.hpp"
@@ -88,11 +87,6 @@ std::string convention_in(PronyFormat format, PronyOf of) {
                                  : fmt::format("the weights are shares of the {} stiffness", name_of(of));
 }
 
-ExitStatus write_text(const Options& options, const std::string& text, Diagnostics& diagnostics) {
-  if (!options.output) return write_standard_output(text, diagnostics);
-  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
-}
-
 }  // namespace
 
 bool is_prony_series(const Compilation& c, Diagnostics& diagnostics) {
@@ -130,7 +124,7 @@ ExitStatus run_import(const Options& options, SourceFiles& files, Diagnostics& d
       prony_network({words.name.value_or(name_from(options.input)), source}, scaled(*series, *stiffness, *time));
   // A series that creates energy is refused here, with the nearest one that does not.
   if (!check(files.keep("the imported network", text), diagnostics)) return ExitStatus::input_refused;
-  return write_text(options, text, diagnostics);
+  return write_output(options, text, diagnostics);
 }
 
 ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
@@ -141,7 +135,7 @@ ExitStatus run_export(const Options& options, SourceFiles& files, Diagnostics& d
   if (!is_prony_series(*c, diagnostics)) return ExitStatus::input_refused;
   const std::string text = write_prony(prony_series(c->form.linear), options.exchange.format, c->network.name,
                                        port_units(c->network.port_motion).stiffness);
-  return write_text(options, text, diagnostics);
+  return write_output(options, text, diagnostics);
 }
 
 }  // namespace dashpot::compiler

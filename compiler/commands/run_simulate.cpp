@@ -10,7 +10,6 @@
 #include "commands/value_columns.hpp"
 #include "compile.hpp"
 #include "law/evaluate.hpp"
-#include "emit/write_files.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -95,8 +94,7 @@ ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics&
                                                                  : simulate<float>(*compilation, *motion, diagnostics);
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (device.device) diagnostics.report<DiagnosticCode::law_alone>({}, device.device->name);
-  if (!options.output) return write_standard_output(text, diagnostics);
-  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
+  return write_output(options, text, diagnostics);
 }
 
 }  // namespace dashpot::compiler

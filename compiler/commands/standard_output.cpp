@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "commands/commands.hpp"
+#include "emit/write_files.hpp"
 #include "source/render.hpp"
 
 namespace dashpot::compiler {
@@ -13,6 +14,11 @@ ExitStatus write_standard_output(const std::string& text, Diagnostics& diagnosti
   if (written) return ExitStatus::done;
   diagnostics.report<DiagnosticCode::cannot_write_file>({}, "standard output", std::string(std::strerror(errno)));
   return ExitStatus::input_refused;
+}
+
+ExitStatus write_output(const Options& options, const std::string& text, Diagnostics& diagnostics) {
+  if (!options.output) return write_standard_output(text, diagnostics);
+  return write_files("", {{*options.output, text}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }
 
 void tell(const Options& options, Diagnostics& diagnostics) {

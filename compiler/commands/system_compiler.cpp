@@ -11,22 +11,20 @@
 #include <fstream>
 #include <sstream>
 
+#include "emit/write_files.hpp"
+
 extern char** environ;
 
 namespace dashpot::compiler {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string folder_for_temporary_files() {
-  const char* chosen = std::getenv("TMPDIR");
-  return chosen != nullptr && *chosen != '\0' ? chosen : "/tmp";
+std::string environment_or(const char* variable, const char* otherwise) {
+  const char* chosen = std::getenv(variable);
+  return chosen != nullptr && *chosen != '\0' ? chosen : otherwise;
 }
 
-}  // namespace
-
-TemporaryFolder::TemporaryFolder() : above_(folder_for_temporary_files()) {
+TemporaryFolder::TemporaryFolder() : above_(environment_or("TMPDIR", "/tmp")) {
   sigset_t ending;
   sigemptyset(&ending);
   for (const int signal : {SIGHUP, SIGINT, SIGTERM}) sigaddset(&ending, signal);
@@ -70,6 +68,24 @@ int run_program(std::vector<std::string> words, const std::string& log) {
   int status = 0;
   ::waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+}
+
+bool has_sources(const TemporaryFolder& folder, const std::vector<OutputFile>& sources, Diagnostics& diagnostics) {
+  if (!folder.path().empty()) return write_files(folder.path().string(), sources, diagnostics);
+  diagnostics.report<DiagnosticCode::cannot_make_folder>({}, folder.above(), folder.refusal());
+  diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
+  return false;
+}
+
+bool makes_library(std::vector<std::string> words, const TemporaryFolder& folder, const std::string& source,
+                   const std::string& library, Diagnostics& diagnostics) {
+  const fs::path here = folder.path(), log = here / "compiler.log";
+  words.insert(words.end(), {(here / source).string(), "-o", (here / library).string()});
+  const int status = run_program(words, log.string());
+  if (status == 0) return true;
+  diagnostics.report<DiagnosticCode::system_compiler_failed>(
+      {}, words.front(), status == program_not_found ? "cannot be started" : contents_of(log));
+  return false;
 }
 
 std::string contents_of(const fs::path& path) {

@@ -9,22 +9,12 @@
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_slips.hpp"
+#include "emit/cpp_tunable.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 using Lines = std::vector<std::string>;
-
-const char* name_of(tunable_kind kind) {
-  switch (kind) {
-    case tunable_kind::spring: return "spring";
-    case tunable_kind::damper: return "damper";
-    case tunable_kind::relaxation: return "relaxation";
-    case tunable_kind::fixed_relaxation: return "fixed_relaxation";
-    case tunable_kind::mesh: return "mesh";
-  }
-  return "";
-}
 
 bool takes_zero_frequency(brake_rule rule) {
   return rule == brake_rule::zero_frequency || rule == brake_rule::half_zero_frequency ||

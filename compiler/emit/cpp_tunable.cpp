@@ -10,17 +10,6 @@
 namespace dashpot::compiler {
 namespace {
 
-const char* name_of(tunable_kind kind) {
-  switch (kind) {
-    case tunable_kind::spring: return "spring";
-    case tunable_kind::damper: return "damper";
-    case tunable_kind::relaxation: return "relaxation";
-    case tunable_kind::fixed_relaxation: return "fixed_relaxation";
-    case tunable_kind::mesh: return "mesh";
-  }
-  return "";
-}
-
 const char* name_of(brake_rule rule) {
   switch (rule) {
     case brake_rule::constant: return "constant";
@@ -113,9 +102,9 @@ class TunablePrinter {
          [this](int n, std::size_t i) { return fmt::format("{},  // {}", n, tables_.spring_names[i]); });
     list(lines, "dashpot::tunable_part<scalar>", "parts", tables_.parts,
          [this](const tunable_part<double>& p, std::size_t) {
-           return fmt::format("{{dashpot::tunable_kind::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_of(p.kind),
-                              p.spring, p.damping, p.first_node, p.node_count, p.first_edge, p.edge_count, p.is_loose,
-                              number(p.share), number(p.loss));
+           return fmt::format("{{dashpot::tunable_kind::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},",
+                              compiler::name_of(p.kind), p.spring, p.damping, p.first_node, p.node_count, p.first_edge,
+                              p.edge_count, p.is_loose, number(p.share), number(p.loss));
          });
     list(lines, "dashpot::tunable_edge", "edges", tables_.edges, [](const tunable_edge& e, std::size_t) {
       return fmt::format("{{{}, {}, {}, {}}},", e.from, e.to, e.spring, e.damping);
@@ -218,6 +207,17 @@ class TunablePrinter {
 };
 
 }  // namespace
+
+const char* name_of(tunable_kind kind) {
+  switch (kind) {
+    case tunable_kind::spring: return "spring";
+    case tunable_kind::damper: return "damper";
+    case tunable_kind::relaxation: return "relaxation";
+    case tunable_kind::fixed_relaxation: return "fixed_relaxation";
+    case tunable_kind::mesh: return "mesh";
+  }
+  return "";
+}
 
 CppProgram tunable_program(const UpdateLaw& law) { return TunablePrinter(law).print(); }
 

@@ -5,6 +5,9 @@
 
 namespace dashpot::compiler {
 
+// As the tables call it, in C++ and in C.
+const char* name_of(tunable_kind kind);
+
 CppProgram tunable_program(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

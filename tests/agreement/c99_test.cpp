@@ -123,39 +123,45 @@ std::vector<std::vector<double>> schedule_of(const compiler::UpdateLaw& law, std
   return schedule;
 }
 
-Emitted emitted(const compiler::SourceFile& source, compiler::ScalarType scalar, std::uint64_t seed,
-                const std::string& name) {
+compiler::Choices choices_for(compiler::ScalarType scalar, std::uint64_t seed, bool is_limited) {
   compiler::Choices choices;
   choices.scalar = scalar;
   choices.scheme = seed % 3 == 0 ? compiler::Scheme::backward_euler : compiler::Scheme::exact;
-  const bool is_limited = seed % 2 == 0;
   if (is_limited) choices.decomposition = "paper";
+  return choices;
+}
+
+// In C; refuses, by an exception, what was not compiled.
+Emitted emitted(std::optional<compiler::Compilation> compilation, compiler::Diagnostics& diagnostics,
+                std::vector<std::vector<double>> schedule) {
+  if (!compilation) throw std::runtime_error(compiler::render_text(diagnostics));
+  const auto files = compiler::emit_c99(*compilation, {}, diagnostics);
+  if (!files) throw std::runtime_error(compiler::render_text(diagnostics));
+  return {std::move(*compilation), files->front().text, std::move(schedule)};
+}
+
+Emitted emitted(const compiler::SourceFile& source, compiler::ScalarType scalar, std::uint64_t seed,
+                const std::string& name) {
+  const bool is_limited = seed % 2 == 0;
+  const compiler::Choices choices = choices_for(scalar, seed, is_limited);
   compiler::Diagnostics diagnostics;
   auto compilation =
       compiler::compile(source, choices, is_limited ? weak_device(seed % 4 == 0) : std::nullopt, diagnostics);
   if (!compilation) throw std::runtime_error(compiler::render_text(diagnostics));
   compilation->network.name = name;
-  const auto files = compiler::emit_c99(*compilation, {}, diagnostics);
-  if (!files) throw std::runtime_error(compiler::render_text(diagnostics));
   auto schedule = schedule_of(compilation->law, seed);
-  return {std::move(*compilation), files->front().text, std::move(schedule)};
+  return emitted(std::move(compilation), diagnostics, std::move(schedule));
 }
 
 Emitted emitted(compiler::Network network, compiler::ScalarType scalar, std::uint64_t seed) {
   network.name = fmt::format("random_{}", seed);
-  compiler::Choices choices;
-  choices.scalar = scalar;
-  choices.scheme = seed % 3 == 0 ? compiler::Scheme::backward_euler : compiler::Scheme::exact;
   const bool is_limited = seed % 5 == 0;
-  if (is_limited) choices.decomposition = "paper";
+  const compiler::Choices choices = choices_for(scalar, seed, is_limited);
   compiler::StageTimes times;
   compiler::Diagnostics diagnostics;
   auto compilation = compiler::compile(std::move(network), choices,
                                        is_limited ? weak_device(seed % 2 == 0) : std::nullopt, diagnostics, times);
-  if (!compilation) throw std::runtime_error(compiler::render_text(diagnostics));
-  const auto files = compiler::emit_c99(*compilation, {}, diagnostics);
-  if (!files) throw std::runtime_error(compiler::render_text(diagnostics));
-  return {std::move(*compilation), files->front().text, {}};
+  return emitted(std::move(compilation), diagnostics, {});
 }
 
 // Those that dashpot brings along, but for the measured ones, which are as many more of the same kinds.

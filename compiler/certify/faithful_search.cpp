@@ -68,8 +68,9 @@ class InputLine {
   // infinite.
   double excess(double damping) {
     const double room = reach_.adds ? reach_.most - reach_.besides - damping : 0;
-    const double needed = lack(damping) + reach_.assured_share * damping + reach_.assured_besides;
-    return lack(damping) + reach_.reserve * needed - reach_.assured_share * std::max(room, 0.0);
+    const double lacking = lack(damping);
+    const double needed = lacking + reach_.assured_share * damping + reach_.assured_besides;
+    return lacking + reach_.reserve * needed - reach_.assured_share * std::max(room, 0.0);
   }
   bool fits(double damping) { return excess(damping) <= 0; }
 

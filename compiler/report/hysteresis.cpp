@@ -91,8 +91,8 @@ Curve total(const std::string& name, const Oscillation& motion, const LawRun& al
 // The frequency, or the nearest that the network is valid for, at which a motion of this size is no faster than that
 // either.
 double within_valid(const Network& network, double amplitude, double frequency) {
-  const auto& [band, rate] = std::pair(network.valid.frequency, network.valid.rate);
-  if (band) frequency = std::clamp(frequency, band->low, band->high);
+  if (const auto& band = network.valid.frequency) frequency = std::clamp(frequency, band->low, band->high);
+  const auto& rate = network.valid.rate;
   const double fastest = rate ? std::max(std::abs(rate->low), std::abs(rate->high)) : 0;
   return fastest > 0 ? std::min(frequency, fastest / (2 * pi * amplitude)) : frequency;
 }

@@ -44,11 +44,14 @@ dashpot::servo_summary palpate(records& felt) {
 
 // At rest in the tissue the springs alone push back, one behind the other; beside it nothing does.
 bool is_right(const dashpot::servo_summary& run, const records& felt, double stiffness) {
-  const dashpot::telemetry_record& held = felt.at(static_cast<std::size_t>(2.2 * 2000));
-  const double closed_form = stiffness * (held.position - surface);                 // [N]
-  const double one_count = stiffness * 5e-6 + held.damping * 5e-6 / (10 / 2000.0);  // [N]: of the encoder
+  const dashpot::device_description facts = described::description();
+  const double step = facts.encoder.step, period = facts.loop.sample_period;
+  const dashpot::telemetry_record& held = felt.at(static_cast<std::size_t>(2.2 / period));
+  const double closed_form = stiffness * (held.position - surface);  // [N]
+  // What one count of the encoder makes of the springs' force and, through the estimated velocity, of the brake's [N].
+  const double one_count = stiffness * step + held.damping * step / (facts.velocity.window * period);
   bool free_is_free = true;
-  for (const auto& record : felt) free_is_free &= record.position > surface - 5e-6 || record.motor_force == 0;
+  for (const auto& record : felt) free_is_free &= record.position > surface - step || record.motor_force == 0;
   std::printf("%.2f mm deep: %.4f N, by the springs alone %.4f N\n", (held.position - surface) * 1e3, force_of(held),
               closed_form);
   return run.left_safe && run.faults.total() == 0 && run.lowest_energy >= 0 && free_is_free &&

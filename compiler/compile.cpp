@@ -71,9 +71,7 @@ void settle_choice(Compilation& c, const Network& present, const Choices& choice
 
 Beside what_is_beside_slips(const NormalForm& form) {
   if (!form.has_slips()) return Beside::no_slips;
-  const LinearForm& linear = form.linear;
-  const bool is_there = linear.static_stiffness > 0 || linear.feedthrough_damping > 0 || !linear.modes.empty();
-  return is_there ? Beside::linear : Beside::nothing;
+  return form.is_all_behind_slips() ? Beside::nothing : Beside::linear;
 }
 
 // The error of the law as it is, with the damping that the certificate has added.

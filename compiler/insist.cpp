@@ -195,6 +195,7 @@ void warn_of_uncertified(const Compilation& c, const Choices& choices, Diagnosti
     diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, reason);
   else diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, reason);
   if (c.device) tell_of_other_devices(c, choices, diagnostics);
+  else diagnostics.note<DiagnosticCode::name_a_device>({});
 }
 
 bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

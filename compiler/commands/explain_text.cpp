@@ -27,7 +27,7 @@ namespace {
 
 std::string kelvin_text(const Compilation& c, const PortUnits& units) {
   const LinearForm& linear = c.form.linear;
-  if (linear.static_stiffness == 0 && linear.feedthrough_damping == 0 && linear.modes.empty()) return "";
+  if (linear.is_empty()) return "";
   const KelvinForm creep = kelvin_form(linear);
   std::string text =
       fmt::format("generalised Kelvin form (for creep): glass compliance {:.8g} {}, fluidity {:.8g} {}\n",
@@ -42,6 +42,14 @@ std::string pace_text(const Compilation& c) {
   const double rate = fastest_rate(c);
   if (rate == 0) return "";
   return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", 1 / rate, c.rate / rate, c.rate);
+}
+
+// What reaches from the tool to ground without a slip.
+std::string linear_text(const Compilation& c, const PortUnits& units) {
+  if (c.form.is_all_behind_slips()) return "beside the slips      nothing: all of the network lies behind a slip\n";
+  return (c.form.has_slips() ? "beside the slips:\n" : "") + to_text(c.form.linear, c.network) +
+         fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)),
+                     units.damping);
 }
 
 // Where the author says that the network is one of what it is to be.
@@ -162,13 +170,11 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   text += calculations_text(c.network);
   for (const Springpot& springpot : c.network.springpots)
     text += "springpot             " + to_text(springpot, c.network.port_motion) + "\n";
-  if (c.form.has_slips()) text += "beside the slips:\n";
-  text += to_text(c.form.linear, c.network);
-  text += fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)),
-                      units.damping);
-  text += pace_text(c) + valid_text(c.network.valid, units) + kelvin_text(c, units) + "\n" +
-          to_text(c.decomposition, c.network);
-  if (with_legend) text += "\n" + legend(c.device.has_value()) + "\n";
+  text += linear_text(c, units) + pace_text(c) + valid_text(c.network.valid, units) + kelvin_text(c, units) + "\n";
+  const bool has_candidates = !c.is_told_slip_by_slip();
+  if (has_candidates) text += candidates_text(c.decomposition, c.network);
+  text += chosen_text(c.decomposition);
+  if (with_legend && has_candidates) text += "\n" + legend(c.device.has_value()) + "\n";
   text += to_text(c.decomposition.slips, c.network);
   text += fmt::format(
       "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",

@@ -23,7 +23,7 @@ std::string stage_text(const Compilation& c, const std::string& stage) {
     return to_text(c.network) + (tree ? to_text(*tree, c.network) + "\n" : "no series-parallel tree\n");
   }
   if (stage == "linear") return to_text(c.form.linear, c.network);
-  if (stage == "decomposition") return to_text(c.decomposition, c.network);
+  if (stage == "decomposition") return candidates_text(c.decomposition, c.network) + chosen_text(c.decomposition);
   if (stage == "law") return to_text(c.law, c.network);
   return "certificate of " + c.network.name + "\n" + to_text(c.certificate, c.network.port_motion);
 }
@@ -79,16 +79,22 @@ bool spares_inputs(const Options& options, const std::vector<OutputFile>& files,
   return spares_inputs(options, names, diagnostics);
 }
 
+bool has_option(const Target& target, std::string_view option) {
+  return std::find(target.options.begin(), target.options.end(), option) != target.options.end();
+}
+
 // False, with a diagnostic each, where an option is asked for that the target has nothing for.
 bool target_has_all(const Options& options, Diagnostics& diagnostics) {
-  const std::vector<std::string_view>& known = options.target->options;
   bool all = true;
   for (const auto& [is_asked, name] : {std::pair(options.emission.constant_time, "--constant-time"),
                                        {options.emission.batch, "--batch"},
                                        {options.emission.with_test, "--with-test"},
                                        {options.certificate.has_value(), "--certificate"}})
-    if (is_asked && std::find(known.begin(), known.end(), name) == known.end()) {
+    if (is_asked && !has_option(*options.target, name)) {
       diagnostics.report<DiagnosticCode::target_lacks_option>({}, std::string(options.target->name), name);
+      for (const Target& target : targets())
+        if (has_option(target, name))
+          diagnostics.report<DiagnosticCode::target_with_option>({}, std::string(target.name));
       all = false;
     }
   return all;
@@ -103,12 +109,10 @@ EmissionOptions emission_of(const Compilation& compilation, const Options& optio
   return emission;
 }
 
-std::string proof_text(const Compilation& c, const std::string& file, Diagnostics& diagnostics) {
+std::string proof_text(const Compilation& c, Diagnostics& diagnostics) {
   const std::optional<std::string> text =
       coq_instance(c.network.name, c.certificate.bound, motor_constants(c.law), c.certificate.loop);
-  if (!text)
-    diagnostics.report<DiagnosticCode::cannot_write_file>({}, file,
-                                                          "no storage function is found for '" + c.network.name + "'");
+  if (!text) diagnostics.report<DiagnosticCode::no_storage_function>({}, c.network.name);
   return text.value_or("");
 }
 
@@ -124,7 +128,8 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
     return ExitStatus::command_line_wrong;
   }
   if ((options.certificate || options.proof) && options.networks.size() > 1) {
-    diagnostics.report<DiagnosticCode::certificate_of_several>({}, options.networks.size());
+    const char* option = options.certificate ? "--certificate" : "--proof";
+    diagnostics.report<DiagnosticCode::certificate_of_several>({}, option, options.networks.size());
     return ExitStatus::command_line_wrong;
   }
   for (const std::string& path : options.networks) {
@@ -144,7 +149,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);
-      if (options.proof) proof = proof_text(*compilation, *options.proof, diagnostics);
+      if (options.proof) proof = proof_text(*compilation, diagnostics);
     }
   }
   times.enter("files");

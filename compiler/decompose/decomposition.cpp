@@ -264,7 +264,7 @@ std::string reason_line(const Candidate& c) {
 
 }  // namespace
 
-std::string to_text(const Decomposition& decomposition, const Network& network) {
+std::string candidates_text(const Decomposition& decomposition, const Network& network) {
   const PortUnits units = port_units(network.port_motion);
   const auto heading = [](const auto&... cells) {
     return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", cells...);
@@ -281,8 +281,11 @@ std::string to_text(const Decomposition& decomposition, const Network& network) 
     else equals += fmt::format("{}{} as {}", equals.empty() ? "" : ", ", c.name, first->name);
   }
   if (!equals.empty()) text += fmt::format("the same              {}\n", equals);
-  text += "reasons\n" + reasons;
-  text += fmt::format("chosen                {}: {}\n", decomposition.choice().name, decomposition.reason);
+  return text + "reasons\n" + reasons;
+}
+
+std::string chosen_text(const Decomposition& decomposition) {
+  std::string text = fmt::format("chosen                {}: {}\n", decomposition.choice().name, decomposition.reason);
   if (!decomposition.in_words.empty()) text += "in words              " + decomposition.in_words + "\n";
   return text;
 }

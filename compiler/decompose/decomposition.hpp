@@ -82,7 +82,8 @@ std::string reason_for_input(const Candidate& chosen, const Choices& choices, bo
 // True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);
 
-std::string to_text(const Decomposition& decomposition, const Network& network);
+std::string candidates_text(const Decomposition& decomposition, const Network& network);
+std::string chosen_text(const Decomposition& decomposition);
 
 // What the columns of the candidates mean, a line or two each.
 std::string legend(bool has_device);

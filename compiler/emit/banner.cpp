@@ -156,10 +156,13 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
                               in_words(c.law.scheme, c.network.contact || !slips.empty())));
   const std::string capped =
       choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
-  facts.push_back(
-      fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
-                  choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what follows", choice.name,
-                  choice.reason));
+  if (c.is_told_slip_by_slip())
+    facts.push_back("brake: makes the damping that follows of each slip, and the motor the rest of the force");
+  else
+    facts.push_back(
+        fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
+                    choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what follows", choice.name,
+                    choice.reason));
   for (const SlipLikes& likes : slips) facts.push_back(brake_line(likes, unit));
   facts.push_back(fmt::format("states: what is kept of the past follows {} ({})", in_words(choice.state_input),
                               c.decomposition.reason));

@@ -24,6 +24,11 @@ struct Compilation {
   double rate = 0;  // [Hz]
   std::optional<Device> device;
   PortDevice port = PortDevice::ideal();  // the device as the network sees it
+
+  // All of it lies behind slips: b is 0 whatever the rule, and what the brake makes is told of each slip.
+  bool is_told_slip_by_slip() const {
+    return form.is_all_behind_slips() && decomposition.choice().damping == 0 && !decomposition.slips.all().empty();
+  }
 };
 
 struct EmissionOptions {

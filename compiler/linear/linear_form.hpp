@@ -29,6 +29,8 @@ struct LinearForm {
   std::vector<Mode> modes;                        // by ascending relaxation rate, all different
   std::vector<std::size_t> static_elements;       // those that take part in k0
   std::vector<std::size_t> feedthrough_elements;  // those that take part in b∞
+
+  bool is_empty() const { return static_stiffness == 0 && feedthrough_damping == 0 && modes.empty(); }
 };
 
 // In: springs and dampers (indices into network.elements) between the nodes `from` and `to`. Out: their canonical form

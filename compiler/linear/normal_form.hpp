@@ -28,6 +28,7 @@ struct NormalForm {
   std::vector<std::vector<std::size_t>> networks;  // the same of parts that are no tree: indices into Network::elements
 
   bool has_slips() const { return !components.empty() || !networks.empty(); }
+  bool is_all_behind_slips() const { return has_slips() && linear.is_empty(); }
 };
 
 // Without slips, `linear` is the canonical form of the whole.

@@ -3,8 +3,7 @@
 // source: beyond Gosline & Hayward 2009, whose Fig. 10 has one; values chosen here
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 0 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
-//   rule 'faithful': no device to be faithful on, so the paper's rule: dampers at the tool in parallel add
+// brake: makes the damping that follows of each slip, and the motor the rest of the force
 // behind Y1; Y2; Y3; Y4 and 6 more: velocity-free, what slides has no damping but at the tool; b = 0 N·s/m stuck,
 //   0 sliding
 // states: what is kept of the past follows the measured position (position driven: on an ideal device nothing

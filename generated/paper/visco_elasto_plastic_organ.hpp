@@ -3,8 +3,7 @@
 // source: Gosline & Hayward 2009, end of 6.3.3; the paper prints no values, these are chosen here
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly, but for
 //   samples in which a slip or a contact changes
-// brake: makes b = 0 N·s/m of damping, behind slips also what follows, and the motor the rest of the force; by the
-//   rule 'faithful': no device to be faithful on, so the paper's rule: dampers at the tool in parallel add
+// brake: makes the damping that follows of each slip, and the motor the rest of the force
 // behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
 //   7.69e-05 %; b = 3.3 N·s/m stuck, 3.3 sliding
 // states: what is kept of the past follows the measured position (position driven: on an ideal device nothing

@@ -118,6 +118,7 @@ class Files(CommandTest):
         for option in [["--batch"], ["--constant-time"], ["--with-test"], ["--certificate", "c.json"]]:
             done = self.dashpot("compile", "kelvin.json", "--target", "c99", *option, status=COMMAND_LINE_WRONG)
             self.assertIn(f"--target c99 knows no {option[0]}", done.stderr)
+            self.assertIn("note: --target cpp has it", done.stderr)
 
     def test_hal(self):
         """Fails if --target hal writes anything but one component, or one that takes the place of another or has no room for its pins."""

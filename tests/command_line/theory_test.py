@@ -49,7 +49,7 @@ class TheoryTest(CommandTest):
     # A law without a storage function would leave an empty proof behind.
     def test_nothing_to_prove(self):
         self.refused("compile", SOURCE / "networks/paper/visco_elasto_plastic.json", "--proof", "law.v",
-                     code="cannot-write-file")
+                     code="no-storage-function")
         self.refused("compile", FIG_5, SOURCE / "networks/paper/kelvin.json", "--proof", "law.v",
                      code="certificate-of-several", status=COMMAND_LINE_WRONG)
         self.assertEqual(self.files(), [])

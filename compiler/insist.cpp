@@ -198,35 +198,6 @@ void warn_of_uncertified(const Compilation& c, const Choices& choices, Diagnosti
   else diagnostics.note<DiagnosticCode::name_a_device>({});
 }
 
-bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
-  const Certificate& certificate = c.certificate;
-  if (!c.device || certificate.certified || certificate.bound.proof == Proof::none) {
-    warn_of_uncertified(c, choices, diagnostics);
-    return true;
-  }
-  const std::string& name = c.network.name;
-  const std::string unit = port_units(c.network.port_motion).damping;
-  const SampledLoop& loop = certificate.loop;
-  const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
-  const double available =
-      c.law.tunable ? certificate.assured : assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
-  const double needed = certificate.bound.needed;
-  const auto [needed_words, available_words] = told_apart(needed, available);
-  diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed_words, unit, c.device->name,
-                                                    available_words);
-  const Remedies remedies(c, choices);
-  const std::optional<double> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
-  if (brake)
-    diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping, remedies.at_joint(*brake),
-                                                          port_units(c.device->description.motion).damping);
-  if (const std::optional<double> share = remedies.share({available / needed, loop.max_damping / brake.value_or(0)}))
-    diagnostics.note<DiagnosticCode::scale_that_would_do>({}, *share);
-  if (const std::optional<double> rate = remedies.rate())
-    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
-  diagnostics.note<DiagnosticCode::compile_uncertified>({});
-  return false;
-}
-
 namespace {
 
 constexpr double noticeably = 0.9;  // of an error, what is worth another choice [1]
@@ -259,7 +230,50 @@ std::vector<OtherChoices> other_choices(const Compilation& c, const Choices& ask
 
 }  // namespace
 
+bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  const Certificate& certificate = c.certificate;
+  if (!c.device || certificate.certified || certificate.bound.proof == Proof::none) {
+    warn_of_uncertified(c, choices, diagnostics);
+    return true;
+  }
+  const std::string& name = c.network.name;
+  const std::string unit = port_units(c.network.port_motion).damping;
+  const SampledLoop& loop = certificate.loop;
+  const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
+  const double available =
+      c.law.tunable ? certificate.assured : assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
+  const double needed = certificate.bound.needed;
+  const auto [needed_words, available_words] = told_apart(needed, available);
+  diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed_words, unit, c.device->name,
+                                                    available_words);
+  for (const OtherChoices& other : other_choices(c, choices)) {
+    const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
+    if (!again || !again->certificate.certified) continue;
+    diagnostics.note<DiagnosticCode::choice_that_would_do>({}, other.options, again->decomposition.choice().damping,
+                                                           unit);
+    break;
+  }
+  const Remedies remedies(c, choices);
+  const std::optional<double> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
+  if (brake)
+    diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping, remedies.at_joint(*brake),
+                                                          port_units(c.device->description.motion).damping);
+  const double by_loop = available / needed, by_brake = brake ? loop.max_damping / *brake : 0;
+  if (const auto share = remedies.share({std::max(by_loop, by_brake), std::min(by_loop, by_brake)}))
+    diagnostics.note<DiagnosticCode::scale_that_would_do>({}, *share);
+  if (const std::optional<double> rate = remedies.rate())
+    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
+  diagnostics.note<DiagnosticCode::compile_uncertified>({});
+  return false;
+}
+
 void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  const SlipDecomposition& slips = c.decomposition.slips;
+  if (c.device && slips.error > choices.tolerance * (1 + 1e-9)) {
+    diagnostics.report<DiagnosticCode::felt_error_behind_slips>(
+        c.network.name_span, in_percent(slips.error), in_percent(choices.tolerance), in_percent(slips.least_error));
+    diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
+  }
   const Candidate& choice = c.decomposition.choice();
   if (!c.device || choice.largest_error <= choices.tolerance * (1 + 1e-9)) return;
   for (const OtherChoices& other : other_choices(c, choices)) {

@@ -62,19 +62,46 @@ class SlipChooser {
     const UpdateLaw coarse = by_motor(1), fine = by_motor(SlipTrial::instants_a_sample(device_));
     const SlipTrial trial(c_.network, coarse, fine, device_, c_.network.contact ? c_.network.contact->at : 0);
     for (const SlipLaw law : laws) options_.push_back(run(plan(law), trial));
-    double least = std::numeric_limits<double>::infinity();
-    for (const Option& option : options_) least = std::min(least, option.merit.error());
     std::optional<Option> floor;  // of the steady law, nothing beyond the largest b∞
-    if (std::find(laws.begin(), laws.end(), SlipLaw::steady) != laws.end()) {
+    if (std::find(laws.begin(), laws.end(), SlipLaw::steady) != laws.end())
       floor = run(plan(SlipLaw::steady, 0), trial);
-      least = std::min(least, floor->merit.error());
-    }
-    limit_ = allowed_error(choices_.tolerance, least);
+    least_ = least_error(floor);
+    limit_ = allowed_error(choices_.tolerance, least_);
     if (floor) fit_steady(*floor, trial);
     return with_figures(best());
   }
 
+  // By a plan. Where the brake has no room for what passivity adds, by the same with less of the brake, if that is
+  // certified.
+  Compilation made_with_room(const SlipPlan& plan) const {
+    Compilation whole = made_by(plan);
+    if (device_.is_ideal() || c_.network.contact || whole.certificate.certified) return whole;
+    SlipPlan roomy = plan;
+    const Certificate* last = &whole.certificate;
+    Compilation made;
+    // What passivity adds falls with what the motor takes back, but for what the sums round.
+    for (int attempt = 0; attempt < 4 && last->bound.proof != Proof::none; ++attempt) {
+      roomy.reserve = std::max(roomy.reserve, last->minimum_damping) * (1 + 1e-9);
+      made = made_by(roomy);
+      if (made.certificate.certified) return made;
+      last = &made.certificate;
+    }
+    return whole;
+  }
+
  private:
+  // The least reachable; an error that only laws reach which are not certified shuts out none that is.
+  double least_error(const std::optional<Option>& floor) const {
+    double least = std::numeric_limits<double>::infinity(), least_certified = least;
+    const auto look_at = [&](const Option& option) {
+      least = std::min(least, option.merit.error());
+      if (option.merit.certified) least_certified = std::min(least_certified, option.merit.error());
+    };
+    for (const Option& option : options_) look_at(option);
+    if (floor) look_at(*floor);
+    return device_.is_ideal() || std::isinf(least_certified) ? least : least_certified;
+  }
+
   // The motor makes everything, at so many times the rate.
   UpdateLaw by_motor(int times) const {
     Decomposition whole = c_.decomposition;
@@ -85,14 +112,19 @@ class SlipChooser {
     return discretise(c_.network, c_.form, whole, choices_, c_.rate * times);
   }
 
-  Option run(const SlipPlan& plan, const SlipTrial& trial) const {
-    Option option{plan, c_, {}, {}};
-    option.merit.law = plan.law;
-    Compilation& made = option.made;
+  Compilation made_by(const SlipPlan& plan) const {
+    Compilation made = c_;
     made.decomposition.slips = decomposed(plan);
     made.law = discretise(made.network, made.form, made.decomposition, choices_, made.rate);
     made.certificate =
         certify(made.law, loop_, slip_motor(made.network, made.form, made.decomposition, choices_, loop_));
+    return made;
+  }
+
+  Option run(const SlipPlan& plan, const SlipTrial& trial) const {
+    Option option{plan, made_with_room(plan), {}, {}};
+    option.merit.law = plan.law;
+    const Compilation& made = option.made;
     double dissipated = 0, square = 0;
     for (std::size_t m = 0; m < trial.motions().size(); ++m) {
       option.felt.push_back(trial.felt(made.law, m));
@@ -166,6 +198,8 @@ class SlipChooser {
   SlipDecomposition with_figures(const Option& best) const {
     SlipDecomposition slips = best.made.decomposition.slips;
     slips.limit = limit_;
+    slips.least_error = least_;
+    slips.error = best.merit.error();
     for (const Option& option : options_) slips.merits.push_back(option.merit);
     const std::string reason = fmt::format(
         "the largest brake, {:.3g} {} on average, of the laws that err by no more than {:.3g} % in a run: {:.3g} %",
@@ -179,7 +213,7 @@ class SlipChooser {
   SampledLoop loop_;
   double gain_;
   std::vector<Option> options_;
-  double limit_ = 0;
+  double least_ = 0, limit_ = 0;
 };
 
 }  // namespace
@@ -188,7 +222,8 @@ void choose_slip_law(Compilation& c, const Choices& choices, const PortDevice& d
   SlipChooser chooser(c, choices, device);
   const std::optional<SlipLaw> asked = slip_law_asked_for(choices);
   SlipDecomposition slips =
-      asked ? SlipChooser::with_reasons(chooser.decomposed(chooser.plan(*asked)), "asked for") : chooser.chosen();
+      asked ? SlipChooser::with_reasons(chooser.made_with_room(chooser.plan(*asked)).decomposition.slips, "asked for")
+            : chooser.chosen();
   c.decomposition.slips = std::move(slips);
 }
 

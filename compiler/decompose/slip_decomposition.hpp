@@ -26,6 +26,7 @@ struct SlipPlan {
   SlipLaw law = SlipLaw::velocity_free;
   double excess = 1;         // of the steady law, the share of what it could take beyond the largest b∞ [1]
   double estimate_gain = 1;  // γ of ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, not below it; infinite where none is known [1]
+  double reserve = 0;        // of the brake, what is kept for passivity [N·s/m]
 };
 
 // What a component gives to the brake in one regime [N·s/m].
@@ -76,6 +77,8 @@ struct SlipDecomposition {
   std::vector<ComponentSplit> networks;  // in the order of NormalForm::networks; behind a contact one for all slips
   std::vector<SlipLawMerit> merits;      // of the laws that have been run; none where there was nothing to choose
   double limit = 0;                      // the error that the choice among them kept to [1]
+  double least_error = 0;                // of the laws that it could choose from [1]
+  double error = 0;                      // of the choice [1]
   double hysteresis = 0;                 // displacement that does not end a slide for the command [m]
   unsigned memory = 0;                   // N + n: samples that an estimate reaches back from the hold that it acts in
   double ramp = 1;                       // ρ: what the way of a ramp makes in a sample at most, of the whole [1]

@@ -123,7 +123,7 @@ SlipDecomposition decompose_slips(const Network& network, const NormalForm& form
   for (const std::vector<std::size_t>& part : network_parts(network, form))
     slips.networks.push_back(split_of_network(network, part, plan, device));
   if (const std::optional<double> most = device.max_damping())
-    cap(slips.networks, cap(slips.components, std::max(0.0, *most - linear_part.damping)));
+    cap(slips.networks, cap(slips.components, std::max(0.0, *most - linear_part.damping - plan.reserve)));
   double span = 0;
   for (const ComponentSplit* split : slips.all()) span += largest_damping(*split);
   slips.hysteresis = hysteresis_steps * device.encoder_step();

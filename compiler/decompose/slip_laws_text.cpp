@@ -52,16 +52,16 @@ std::string merits_text(const SlipDecomposition& slips, const Network& network) 
   if (slips.merits.empty()) return "";
   const PortUnits units = port_units(network.port_motion);
   const auto row = [](const auto&... cells) {
-    return fmt::format("  {:<16}{:>12}{:>12}{:>14}{:>18}{:>14}\n", cells...);
+    return fmt::format("  {:<14}{:>12}{:>11}{:>12}{:>17}{:>11}{:>13}\n", cells...);
   };
   std::string text =
       "laws behind slips in runs around yield: sines at both ends of the band and a drag with reversals\n";
-  text += row("law", "peak error", "rms error", "mean brake", "minimum damping", "motor noise");
-  text += row("", "%", "%", units.damping, units.damping, units.force);
+  text += row("law", "peak error", "rms error", "mean brake", "minimum damping", "certified", "motor noise");
+  text += row("", "%", "%", units.damping, units.damping, "", units.force);
   for (const SlipLawMerit& merit : slips.merits)
     text += row(name_of(merit.law), fmt::format("{:.4g}", 100 * merit.peak_error),
                 fmt::format("{:.4g}", 100 * merit.rms_error), fmt::format("{:.4g}", merit.mean_damping),
-                fmt::format("{:.4g}", merit.minimum_damping),
+                fmt::format("{:.4g}", merit.minimum_damping), merit.certified ? "yes" : "no",
                 merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
   return text;
 }

@@ -179,6 +179,41 @@ class Json(CommandTest):
         self.assertEqual(f"{100 * chosen['largest_error']:.3g}", error)
         self.assertNotIn("[felt-error]", self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stderr)
 
+    def skin_on_paddle(self, **motor):
+        """A network all behind one slip, and a paddle whose brake gives a thirtieth of its damping."""
+        self.write("skin.json", network(
+            '{ "series": [ { "parallel": [ { "spring": 400 }, { "damper": 1.2 } ] }, { "parallel": [ { "slip": 0.4, "name": "fascia" }, '
+            '{ "spring": 60 } ] }, { "parallel": [ { "spring": 150 }, { "series": [ { "spring": 200 }, { "damper": 20 } ] } ] } ] }', "skin"))
+        self.write("paddle.json", json.dumps({
+            "dashpot_device": 1, "name": "paddle", "motion": "rotation", "arm_radius": "80 mm",
+            "loop": {"rate": "2 kHz", "jitter": "50 us", "delay_samples": 1},
+            "encoder": {"counts_per_turn": 12000, "range": ["-0.7 rad", "0.7 rad"], "max_speed": "30 rad/s"},
+            "velocity": {"estimator": "backward_difference", "window": 10}, "motor": {"max_torque": "0.144 N m"} | motor,
+            "brake": {"kind": "eddy_current", "max_damping": "4 mN m s/rad"}}))
+        return 0.004 / 0.08**2
+
+    def test_slips_leave_the_brake_room_for_passivity(self):
+        """Fails if a law behind slips takes all of the brake, so that the default is refused or certified only without it."""
+        brake = self.skin_on_paddle()
+        for choice in ([], ["--decomposition", "steady"], ["--decomposition", "ramped"]):
+            found = self.explained("skin.json", "--device", "paddle.json", *choice)
+            self.assertTrue(found["certificate"]["certified"], choice)
+            self.assertLessEqual(found["certificate"]["needed_damping"], brake * (1 + 1e-9))
+        told = self.dashpot("compile", "skin.json", "--device", "paddle.json").stderr
+        self.assertIn("[felt-error-behind-slips]", told)
+        self.assertNotIn("[felt-error-behind-slips]", self.dashpot("compile", "skin.json").stderr)
+
+    def test_a_refused_choice_names_one_that_would_do(self):
+        """Fails if a decomposition that is asked for and refused goes without the one that is certified on the same device."""
+        self.skin_on_paddle(amplifier_lag="0.3 ms")
+        asked = ["skin.json", "--device", "paddle.json", "--decomposition", "steady"]
+        done = self.refused("compile", *asked, code="not-certified")
+        options, damping = re.search(r"note: '(--.*)' would do: it is certified, with b = ([0-9.]+) N s/m", done.stderr).groups()
+        found = self.explained("skin.json", "--device", "paddle.json", *options.split())
+        (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
+        self.assertEqual(f"{chosen['damping']:.4g}", damping)
+        self.dashpot("compile", "skin.json", "--device", "paddle.json", *options.split(), "-o", "out")
+
     def test_every_number_is_finite(self):
         """Fails if a network at the edge (no spring, no damper, zero values) gives what JSON cannot hold."""
         edges = ['{ "spring": 3 }', '{ "damper": 3 }', '{ "spring": 0 }', '{ "damper": 0 }',

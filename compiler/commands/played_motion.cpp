@@ -187,7 +187,9 @@ class DevicePlayer {
     const Scalar position = static_cast<Scalar>(gear.tool_motion(sample.position)),
                  velocity = static_cast<Scalar>(gear.tool_motion(estimator_.update(sample)));
     const command<Scalar> wanted = law_.step(position, velocity);
-    device_.write(actuator_.drive({double(wanted.damping), double(wanted.force)}, double(velocity)).demand());
+    const actuator_output<double> driven =
+        actuator_.drive({double(wanted.damping), double(wanted.force)}, double(velocity));
+    device_.write(driven.demand());
     if (time < 0) return std::nullopt;
     const simulated::energy_ledger& ledger = device_.ledger();
     if (!taken_before_) taken_before_ = ledger.brake - ledger.motor;
@@ -201,7 +203,8 @@ class DevicePlayer {
                         (felt(before) + felt(device_.truth_from_now_on())) / 2,
                         0,
                         double(wanted.damping),
-                        double(wanted.force)};
+                        double(wanted.force),
+                        driven.motor_saturated() || law_.kept_share() < 1};
   }
 
   double energy() const { return energy_; }  // taken from the tool since the motion began [J]
@@ -237,8 +240,12 @@ void sum_up(PlayedMotion& played) {
     forces += sample.closed_form * sample.closed_form;
     played.peak_error = std::max(played.peak_error, std::abs(error));
     played.peak_force = std::max(played.peak_force, std::abs(sample.closed_form));
+    played.mean_damping += sample.damping;
+    played.most_damping = std::max(played.most_damping, sample.damping);
+    played.limited += sample.is_limited ? 1 : 0;
   }
   const double count = double(std::max<std::size_t>(played.samples.size(), 1));
+  played.mean_damping /= count;
   played.rms_error = std::sqrt(errors / count);
   played.rms_force = std::sqrt(forces / count);
 }
@@ -294,11 +301,17 @@ std::string csv_of(const PlayedMotion& played) {
 
 std::string to_text(const PlayedMotion& p, const Compilation& c) {
   const PortUnits units = port_units(c.network.port_motion);
-  const Candidate& choice = c.decomposition.choice();
-  std::string text = fmt::format("{} on {}: {} samples at {:.6g} Hz, decomposition {}, b = {:.4g} {}\n", c.network.name,
-                                 c.device->name, p.samples.size(), c.rate, choice.name, choice.damping, units.damping);
-  text += fmt::format("the network's force: rms {:.4g} {}, peak {:.4g} {}\n", p.rms_force, units.force, p.peak_force,
+  const double added = c.certificate.added_damping;
+  std::string text = fmt::format("{} on {}: {} samples at {:.6g} Hz, decomposition {}\n", c.network.name,
+                                 c.device->name, p.samples.size(), c.rate, c.decomposition.choice().name);
+  text += fmt::format("the brake is told {:.4g} {} on average, {:.4g} at most", p.mean_damping, units.damping,
+                      p.most_damping);
+  if (added > 0) text += fmt::format("; of it {:.4g} are there for passivity alone", added);
+  text += fmt::format("\nthe network's force: rms {:.4g} {}, peak {:.4g} {}\n", p.rms_force, units.force, p.peak_force,
                       units.force);
+  if (p.limited > 0)
+    text += fmt::format("the motor's limits: it could not make the force of {} samples in {}\n", p.limited,
+                        p.samples.size());
   return text +
          fmt::format("error of what is felt: rms {:.4g} {} ({:.3g} %), peak {:.4g} {} ({:.3g} %)\n", p.rms_error,
                      units.force, share(p.rms_error, p.rms_force), p.peak_error, units.force,
@@ -309,20 +322,23 @@ std::string to_text(const PlayedMotion& p, const Compilation& c) {
 
 std::string to_json(const PlayedMotion& p, const Compilation& c, const std::string& file) {
   const Candidate& choice = c.decomposition.choice();
-  const nlohmann::ordered_json all = {{"name", c.network.name},
-                                      {"device", c.device->name},
-                                      {"rate", c.rate},
-                                      {"samples", p.samples.size()},
-                                      {"decomposition", choice.name},
-                                      {"damping", choice.damping},
-                                      {"force", {{"rms", p.rms_force}, {"peak", p.peak_force}}},
-                                      {"error",
-                                       {{"rms", p.rms_error},
-                                        {"peak", p.peak_error},
-                                        {"rms_share", p.rms_force > 0 ? p.rms_error / p.rms_force : 0},
-                                        {"peak_share", p.peak_force > 0 ? p.peak_error / p.peak_force : 0}}},
-                                      {"energy", {{"taken", p.energy}, {"lowest", p.lowest_energy}}},
-                                      {"file", file}};
+  const nlohmann::ordered_json all = {
+      {"name", c.network.name},
+      {"device", c.device->name},
+      {"rate", c.rate},
+      {"samples", p.samples.size()},
+      {"decomposition", choice.name},
+      {"damping", choice.damping},
+      {"brake", {{"mean", p.mean_damping}, {"most", p.most_damping}, {"for_passivity", c.certificate.added_damping}}},
+      {"limited_samples", p.limited},
+      {"force", {{"rms", p.rms_force}, {"peak", p.peak_force}}},
+      {"error",
+       {{"rms", p.rms_error},
+        {"peak", p.peak_error},
+        {"rms_share", p.rms_force > 0 ? p.rms_error / p.rms_force : 0},
+        {"peak_share", p.peak_force > 0 ? p.peak_error / p.peak_force : 0}}},
+      {"energy", {{"taken", p.energy}, {"lowest", p.lowest_energy}}},
+      {"file", file}};
   return all.dump(2) + "\n";
 }
 

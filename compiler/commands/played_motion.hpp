@@ -20,6 +20,7 @@ struct PlayedSample {
   double closed_form;  // what the network opposes to the motion itself
   double damping;      // the law's command [N·s/m] or [N·m·s/rad]
   double motor_force;  // the same [N] or [N·m]
+  bool is_limited;     // the motor could not make it, or the law has let go of force so that it can
 };
 
 struct PlayedMotion {
@@ -28,6 +29,8 @@ struct PlayedMotion {
   double rms_force = 0, peak_force = 0;  // of the closed form
   double energy = 0;                     // that motor and brake took from the tool since the motion began [J]
   double lowest_energy = 0;              // the least of it at any sample; below 0: they had given more than taken [J]
+  double mean_damping = 0, most_damping = 0;  // that the brake was told [N·s/m] or [N·m·s/rad]
+  std::size_t limited = 0;                    // samples whose force the motor could not make, or the law let go of
 };
 
 // In: a compiled network and its device, a motion of any uniform rate, straight between its rows. The tool is led along

@@ -91,6 +91,25 @@ class Motion(CommandTest):
                 if name == "coil": self.assertAlmostEqual(told["error"]["rms"], exact["error"]["rms"], delta=1e-3 * exact["force"]["rms"])
                 else: self.assertGreater(told["error"]["rms"], 2 * exact["error"]["rms"])
 
+    def test_what_the_brake_and_the_motor_do(self):
+        """Fails if the brake's command, what of it is there for passivity, or forces that the motor cannot make are not told."""
+        net = self.write("spring.json", network('{ "spring": 200 }', "spring"))
+        device = self.device(mechanics={"damping": "0 N s/m"}, motor={"max_torque": "1 N"})
+        rows, told = self.played(net, device, table(sine(2000)), "--decomposition", "velocity-free")
+        damping = [row["damping"] for row in rows]
+        self.assertGreater(damping[0], 0)
+        self.assertEqual((told["brake"]["most"], told["brake"]["for_passivity"]), (damping[0], damping[0]))
+        self.assertAlmostEqual(told["brake"]["mean"], damping[0], delta=1e-12)
+        # 200 N/m times up to 6 mm are more than 1 N for a third of the time; where a law sheds, it has less to make on the way back.
+        self.assertGreater(told["limited_samples"], 0.1 * len(rows))
+        printed = self.dashpot("run", net, "--device", device, "--motion", "motion.csv", "-o", "felt.csv", "--decomposition",
+                               "velocity-free").stdout
+        self.assertIn(f"the brake is told {damping[0]:.4g} N s/m on average, {damping[0]:.4g} at most; of it {damping[0]:.4g} are there "
+                      "for passivity alone\n", printed)
+        self.assertIn(f"the motor's limits: it could not make the force of {told['limited_samples']} samples in {len(rows)}\n", printed)
+        _, strong = self.played(net, self.device(), table(sine(2000)), "--decomposition", "velocity-free")
+        self.assertEqual(strong["limited_samples"], 0)
+
     def test_a_late_spring(self):
         """Fails if a spring n samples late is not felt as the spring that it was n and a half samples ago."""
         net = self.write("spring.json", network('{ "spring": 200 }', "spring"))

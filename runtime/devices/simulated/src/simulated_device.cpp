@@ -54,7 +54,9 @@ const char* simulated_device::refusal(const device_description& device, const sc
   if (!(device.loop.jitter >= 0 && device.loop.jitter < device.loop.sample_period)) {
     return "the jitter is not shorter than the sample period: samples would overtake each other";
   }
-  if (!(device.mechanics.inertia > 0)) return "the device has no inertia: nothing says how it moves";
+  if (!(device.mechanics.inertia > 0)) {
+    return "a simulation needs its inertia: \"inertia\" in \"mechanics\" of the device file";
+  }
   if (scene.prescribed && !scene.intended) return "a prescribed motion is not given";
   if (scene.prescribed && (scene.low || scene.high)) return "a prescribed motion does not heed end-stops";
   if (scene.low && scene.initial_position < scene.low->position) return "the tool starts below the lower end-stop";

@@ -71,12 +71,13 @@ PronySeries scaled(PronySeries series, double stiffness, double time) {
   return series;
 }
 
-// What the command line leaves open, a generic table may say.
+// What the command line leaves open, the file may say.
 ExchangeWords words_for(const SourceFile& file, ExchangeWords words) {
-  if (words.format != PronyFormat::generic) return words;
-  const TableRemarks remarks = remarks_of_table(file);
-  if (!words.of) words.of = remarks.of;
-  if (!words.stiffness && words.of == remarks.of) words.stiffness = remarks.stiffness;
+  const PronyRemarks remarks = remarks_of(file);
+  const bool is_generic = words.format == PronyFormat::generic;
+  if (!words.of && is_generic) words.of = remarks.of;
+  if (!words.stiffness && (!is_generic || words.of == remarks.of)) words.stiffness = remarks.stiffness;
+  if (!words.modulus) words.modulus = remarks.modulus;
   return words;
 }
 

@@ -28,12 +28,13 @@ struct PronyQuestion {
 // zero or less, a generic table that does not say what its weights are shares of.
 std::optional<PronySeries> read_prony(const SourceFile& file, const PronyQuestion& question, Diagnostics& diagnostics);
 
-// What a generic table says of itself in its remarks, as export writes them.
-struct TableRemarks {
-  std::optional<PronyOf> of;             // "# of: instantaneous"
-  std::optional<std::string> stiffness;  // "# stiffness: 27 N/m": of which the weights are shares
+// What a file says of itself in comments, as export writes them.
+struct PronyRemarks {
+  std::optional<PronyOf> of;             // "# of: instantaneous", of a generic table
+  std::optional<std::string> stiffness;  // "** stiffness: 27 N/m": of which the weights are shares
+  std::optional<std::string> modulus;    // "$ modulus: 1 N/m": what one of the file's units is in the network
 };
-TableRemarks remarks_of_table(const SourceFile& file);
+PronyRemarks remarks_of(const SourceFile& file);
 
 // The text of a file, or of the part of an input deck, in the format's own convention. Ensures: read_prony gives the
 // same series, to the rounding of one division by a stiffness. In: a series that is passive and relaxes.

@@ -31,6 +31,8 @@ class Exchange(CommandTest):
             self.dashpot("export", "liver.json", "--to", name, "-o", f"liver.{name}")
             self.dashpot("import", f"liver.{name}", "--from", name, *scale, "-o", f"{name}.json")
             self.expect_close(form(self, f"{name}.json"), given, 1e-12, name)
+            self.dashpot("import", f"liver.{name}", "--from", name, "-o", f"{name}_alone.json")
+            self.expect_close(form(self, f"{name}_alone.json"), given, 1e-12, f"{name}, by what the file says of itself")
             self.dashpot("compile", f"{name}.json", "-o", "emitted")
 
     def test_a_table_says_itself_what_it_is(self):

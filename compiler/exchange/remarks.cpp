@@ -1,0 +1,46 @@
+// What an export says in the comments of the program that it writes for: a line "KEY: WORDS" each.
+#include <sstream>
+
+#include "exchange/deck.hpp"
+#include "exchange/prony_format.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
+
+// Of a line that is a comment in one of the formats, what stands in it.
+std::optional<std::string_view> comment(std::string_view line) {
+  line = without_blanks(line);
+  for (const std::string_view mark : {"#", "**", "!", "$", "<!--"})
+    if (line.starts_with(mark)) {
+      line.remove_prefix(mark.size());
+      if (line.ends_with("-->")) line.remove_suffix(3);
+      return without_blanks(line);
+    }
+  return std::nullopt;
+}
+
+}  // namespace
+
+PronyRemarks remarks_of(const SourceFile& file) {
+  PronyRemarks remarks;
+  std::istringstream lines{std::string(file.text())};
+  for (std::string line; std::getline(lines, line);) {
+    const std::optional<std::string_view> text = comment(line);
+    const std::size_t colon = text ? text->find(':') : std::string_view::npos;
+    if (colon == std::string_view::npos) continue;
+    const std::string key = lower(without_blanks(text->substr(0, colon)));
+    const std::string words(without_blanks(text->substr(colon + 1)));
+    if (key == "of" && !remarks.of) remarks.of = prony_of(lower(words));
+    if (key == "stiffness" && !remarks.stiffness) remarks.stiffness = words;
+    if (key == "modulus" && !remarks.modulus) remarks.modulus = words;
+  }
+  return remarks;
+}
+
+}  // namespace dashpot::compiler

@@ -381,9 +381,17 @@ class Chooser {
       for (const Role role : group) words.emplace_back(rule_of(role).word);
       diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_,
                                                                     fmt::format("{}", fmt::join(words, " or ")));
-      note_answer();
+      const bool has_spare = columns_.size() >= needed().size();
+      if (is_force_after_a_step(group, has_spare)) diagnostics_.note<DiagnosticCode::recording_force_after_step>({});
+      else note_answer();
       return;
     }
+  }
+
+  // A force without the motion that made it: what a relaxation is measured as.
+  bool is_force_after_a_step(const std::vector<Role>& missing, bool has_spare) const {
+    const bool is_missing = missing.front() == Role::modulus || (missing.front() == Role::position && !has_spare);
+    return is_missing && (has(Role::force) || !candidates(Role::force).empty());
   }
 
   const std::string& path_;

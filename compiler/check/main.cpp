@@ -14,6 +14,7 @@ int main(int count, char** words) {
     texts[i].assign(std::istreambuf_iterator<char>(file), {});
     if (!file) return std::cerr << "dashpot-check: cannot read " << words[i + 1] << "\n", 2;
   }
+  if (texts[0].starts_with('{')) std::swap(texts[0], texts[1]);  // the certificate came first
   const dashpot_check::Verdict verdict = dashpot_check::verdict(texts[0], texts[1]);
   std::cout << verdict.words;
   return verdict.proved ? 0 : verdict.is_known ? 1 : 3;

@@ -141,7 +141,7 @@ TEST(NamedCandidates, an_unknown_name_is_refused) {
 // Fails if the picture for people leaves out a candidate or what was chosen.
 TEST(NamedCandidates, text_names_every_candidate) {
   const Decomposed all = decomposed(second_order, choosing("zero-frequency"));
-  const std::string text = to_text(*all.result, all.network);
+  const std::string text = candidates_text(*all.result, all.network) + chosen_text(*all.result);
   for (const Candidate& candidate : all.result->candidates) EXPECT_NE(text.find(candidate.name), std::string::npos);
   EXPECT_NE(text.find("chosen                zero-frequency"), std::string::npos) << text;
 }

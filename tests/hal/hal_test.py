@@ -1,20 +1,18 @@
 """Runs emitted components in LinuxCNC's HAL as a normal user, on threads of this machine, without its real time.
 
-The environment names DASHPOT (the executable), DASHPOT_SOURCE (this repository) and CC. Modules can be loaded from LinuxCNC's own
-folder only: root puts them there for the time of the test; anybody else sees a folder of their own there, in a namespace.
+The environment names DASHPOT (the executable), DASHPOT_SOURCE (this repository) and CC.
 """
 import os
 import pathlib
 import re
-import shutil
 import struct
-import subprocess
 import tempfile
 import unittest
 
+from session import Session, told
+
 DASHPOT, CC = os.environ["DASHPOT"], os.environ["CC"]
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
-MODULES = pathlib.Path("/usr/lib/linuxcnc/modules")
 ROWS = 3000
 
 # Networks, options, and what they are called here, where nothing else is called so.
@@ -28,13 +26,6 @@ AT_ONCE = 8  # as many as one sampler has pins for
 BRAKE = "dp_test_brake"
 
 
-def told(*command, **more):
-    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=120, **more)
-    if done.returncode != 0:
-        raise AssertionError(f"{command}\n{done.stdout}{done.stderr}")
-    return done.stdout + done.stderr
-
-
 def as_float(number):
     return struct.unpack("f", struct.pack("f", number))[0]
 
@@ -46,33 +37,16 @@ class Hal(unittest.TestCase):
         temporary = tempfile.TemporaryDirectory()
         cls.addClassCleanup(temporary.cleanup)
         cls.folder = pathlib.Path(temporary.name)
-        cls.folder.chmod(0o777)
         (cls.folder / f"{BRAKE}.comp").write_text((RIG / "brake_current.comp").read_text().replace("brake_current", BRAKE))
         told("halcompile", "--compile", f"{BRAKE}.comp", cwd=cls.folder)
         for network, options, name in LAWS:
             told(DASHPOT, "compile", SOURCE / f"networks/{network}.json", "--name", name, "--target", "hal", *options, cwd=cls.folder)
             told("halcompile", "--compile", f"{name}.comp", cwd=cls.folder)
-        told(CC, "-DULAPI", "-D_GNU_SOURCE", "-I/usr/include/linuxcnc", SOURCE / "tests/hal/read_samples.c", "-llinuxcnchal", "-o",
-             "read_samples", cwd=cls.folder)
-        (cls.folder / "read_samples").chmod(0o755)
-        modules = [BRAKE] + [name for _, _, name in LAWS]
-        if os.geteuid() == 0:
-            for name in modules:
-                cls.addClassCleanup((MODULES / f"{name}.so").unlink)
-                shutil.copy(cls.folder / f"{name}.so", MODULES)
-        else:
-            shutil.copytree(MODULES, cls.folder / "modules")
-            for name in modules:
-                shutil.copy(cls.folder / f"{name}.so", cls.folder / "modules")
+        cls.hal = Session(cls.folder, CC, [BRAKE] + [name for _, _, name in LAWS])
+        cls.addClassCleanup(cls.hal.close)
 
     def run_hal(self, lines):
-        (self.folder / "test.hal").write_text("\n".join(lines) + "\n")
-        variables = [f"HOME={self.folder}", f"RTAPI_FIFO_PATH={self.folder}/fifo"]
-        run = ["env", "-C", str(self.folder), *variables, "halrun", "-f", "test.hal"]
-        if os.geteuid() == 0:
-            return told("runuser", "-u", "nobody", "--", *run)
-        bind = f"mount --bind '{self.folder}/modules' {MODULES} && exec unshare --user --map-user=1000 \"$@\""
-        return told("unshare", "--user", "--map-root-user", "--mount", "sh", "-c", bind, "sh", *run)
+        return self.hal.run(lines)
 
     def simulated(self, network, options, motion):
         told(DASHPOT, "simulate", SOURCE / f"networks/{network}.json", "--input", motion, "-o", "simulated.csv", *options, cwd=self.folder)

@@ -5,16 +5,13 @@
 
 #include "laws.hpp"
 #include "step_cost.hpp"
+#include "support/semihosting.hpp"
 #include "trace.hpp"
 
-// The start-up's table names them; no interrupt is ever enabled.
-extern "C" {
-void uart0_received() {}
-void uart0_sent() {}
-void timer0_elapsed() {}
-}
-
 namespace {
+
+using dashpot::testing::print;
+using dashpot::testing::print_number;
 
 using device_register = volatile std::uint32_t;
 device_register& at(std::uint32_t address) { return *reinterpret_cast<device_register*>(address); }
@@ -29,21 +26,6 @@ void start_clock() {
 
 // SysTick counts down and around.
 std::uint32_t now() { return (ticks_around - at(0xE000E018)) % ticks_around; }
-
-void semihost(std::uint32_t operation, const void* argument) {
-  register std::uint32_t r0 asm("r0") = operation;
-  register const void* r1 asm("r1") = argument;
-  asm volatile("bkpt 0xAB" : "+r"(r0) : "r"(r1) : "memory");
-}
-
-void print(const char* text) { semihost(4, text); }  // SYS_WRITE0
-
-void print_number(std::uint64_t value, unsigned base, int digits) {
-  char text[24] = {};
-  char* place = text + sizeof text - 1;
-  for (int n = 0; n < digits || value != 0; ++n, value /= base) *--place = "0123456789abcdef"[value % base];
-  print(place);
-}
 
 template <class Law>
 std::uint32_t instructions() {
@@ -64,6 +46,6 @@ int main() {
     print_number(instructions<decltype(law)>(), 10, 1);
     print("\n");
   });
-  semihost(0x18, reinterpret_cast<const void*>(0x20026));  // SYS_EXIT, the application is done
+  dashpot::testing::end_program();
   return 0;
 }

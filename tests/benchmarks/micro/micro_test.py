@@ -3,17 +3,17 @@
 
 Prints "instructions per step" for each law; the numbers are not asserted.
 """
+import pathlib
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "support"))
+from cortex_m import printed  # noqa: E402
 
 
 def main():
     processor, machine, program, host = sys.argv[1:]
-    run = subprocess.run(
-        ["qemu-system-arm", "-M", machine, "-nographic", "-monitor", "none", "-serial", "none", "-chardev", "stdio,id=s0",
-         "-semihosting-config", "enable=on,target=native,chardev=s0", "-icount", "shift=0", "-kernel", program],
-        capture_output=True, text=True, timeout=100, check=True)
-    board = [line.split() for line in run.stdout.splitlines()]
+    board = [line.split() for line in printed(program, machine).splitlines()]
     expected = [line.split() for line in subprocess.run([host], capture_output=True, text=True, check=True).stdout.splitlines()]
     different = [name for (name, trace, _), twin in zip(board, expected, strict=True) if [name, trace] != twin]
     for name, _, instructions in board:

@@ -10,17 +10,43 @@
 namespace dashpot::compiler {
 namespace {
 
-// Σ c_i x_i over the states and inputs at the beginning of a step, and a rest of which the magnitude alone is known:
-// roundings, and what a slip or a contact decides.
+// Σ c_i x_i over the states and inputs at the beginning of a step, a constant, and a rest of which the magnitude alone
+// is known: roundings, and what a slip or a contact decides where its cases are not told apart.
 struct Affine {
   std::map<std::size_t, double> shares;
+  double constant = 0;
   double rest = 0;
+  bool has_kept_share = false;  // a factor between 0 and 1 is in it, at one of its ends
 };
+
+// Which of its cases each decision of a step takes, for all combinations in turn.
+class Cases {
+ public:
+  unsigned choose(unsigned count) {
+    if (at_ == taken_.size()) taken_.push_back({0, count});
+    return taken_[at_++].first;
+  }
+
+  // False after the last.
+  bool next() {
+    at_ = 0;
+    while (!taken_.empty() && ++taken_.back().first == taken_.back().second) taken_.pop_back();
+    return !taken_.empty();
+  }
+
+ private:
+  std::vector<std::pair<unsigned, unsigned>> taken_;  // case and number of cases
+  std::size_t at_ = 0;
+};
+
+constexpr int most_cases = 512;
 
 // What every variable is in terms of the step's beginning, and how large that can be.
 class Magnitudes {
  public:
-  Magnitudes(const UpdateLaw& law, const InputRange& range) : law_(law), roundoff_(unit_roundoff(law.scalar)) {
+  // With the cases told apart, what one takes away from another is seen; where there are too many they are not.
+  Magnitudes(const UpdateLaw& law, const InputRange& range, bool tells_cases_apart)
+      : law_(law), roundoff_(unit_roundoff(law.scalar)), tells_cases_apart_(tells_cases_apart) {
     for (const Variable& v : law.variables) {
       starts_.push_back(bounds_.size());
       for (std::size_t place = 0; place < v.size; ++place)
@@ -31,17 +57,18 @@ class Magnitudes {
   }
 
   void step() {
-    begin();
-    for (const std::vector<Statement>* program : {&law_.output, &law_.keep, &law_.update}) run(*program);
     std::vector<double> then = bounds_;
-    for_each_state([&](std::size_t at) { then[at] = magnitude(values_[at]); });
+    for_each_state([&](std::size_t at) { then[at] = 0; });
+    in_every_case({&law_.output, &law_.keep, &law_.update}, [&] {
+      for_each_state([&](std::size_t at) { then[at] = std::max(then[at], magnitude(values_[at])); });
+    });
     bounds_ = then;
   }
 
   double force() {
-    begin();
-    run(law_.output);
-    return magnitude(values_[first(law_.force)]);
+    double most = 0;
+    in_every_case({&law_.output}, [&] { most = std::max(most, magnitude(values_[first(law_.force)])); });
+    return most;
   }
 
   std::vector<double> states() const {
@@ -63,6 +90,17 @@ class Magnitudes {
         action(first(law_.variables.id_of(v)) + place);
   }
 
+  template <class Action>
+  void in_every_case(std::initializer_list<const std::vector<Statement>*> programs, Action action) {
+    int count = 0;
+    do {
+      begin();
+      for (const std::vector<Statement>* program : programs) run(*program);
+      action();
+    } while (cases_.next() && ++count < most_cases);
+    if (count == most_cases) tells_cases_apart_ = false, cases_ = {}, in_every_case(programs, action);
+  }
+
   void begin() {
     values_.assign(bounds_.size(), {});
     for (std::size_t i = 0; i < values_.size(); ++i) values_[i].shares[i] = 1;
@@ -75,14 +113,19 @@ class Magnitudes {
   }
 
   double magnitude(const Affine& value) const {
-    double sum = value.rest;
+    double sum = std::abs(value.constant) + value.rest;
     for (const auto& [at, share] : value.shares) sum += std::abs(share) * bounds_[at];
     return sum;
   }
 
+  // What stays as it is, because nothing is added, is not rounded. Between the ends of the share that is kept a
+  // spring's offset is on its way to the tool, and rounding takes it beyond the tool at most.
   Affine sum(const Affine& a, const Affine& b, double sign) const {
     Affine all = a;
+    all.has_kept_share |= b.has_kept_share;
+    if (magnitude(b) == 0) return all;
     for (const auto& [at, share] : b.shares) all.shares[at] += sign * share;
+    all.constant += sign * b.constant;
     all.rest += b.rest;
     all.rest += roundoff_ * magnitude(all);
     return all;
@@ -91,6 +134,7 @@ class Magnitudes {
   Affine scaled(const Affine& a, double factor) const {
     Affine all = a;
     for (auto& [at, share] : all.shares) share *= factor;
+    all.constant *= factor;
     all.rest *= std::abs(factor);
     all.rest += roundoff_ * magnitude(all);
     return all;
@@ -102,30 +146,58 @@ class Magnitudes {
     return most;
   }
 
-  Affine product(ExpressionId left, ExpressionId right, std::size_t place) const {
-    const Expression& factor = law_.expressions[left];
-    if (factor.operation != Operation::constant) return {{}, magnitude(of(left, place)) * magnitude(of(right, place))};
-    const std::vector<double>& values = law_.coefficients[factor.coefficient].values;
-    return scaled(of(right, place), values[values.size() == 1 ? 0 : place]);
+  static Affine sized(double magnitude) { return {{}, 0, magnitude, false}; }
+
+  // What is between the ends of the share that is kept is between what both ends give, as long as it is there once.
+  Affine product(const Affine& a, const Affine& b) const {
+    if (a.has_kept_share && b.has_kept_share) return sized(std::numeric_limits<double>::infinity());
+    if (!a.shares.empty() && !b.shares.empty()) {
+      Affine all = sized(magnitude(a) * magnitude(b));
+      all.has_kept_share = a.has_kept_share || b.has_kept_share;
+      return all;
+    }
+    const Affine &factor = a.shares.empty() ? a : b, &other = a.shares.empty() ? b : a;
+    Affine all = scaled(other, factor.constant);
+    all.rest += factor.rest * magnitude(other);
+    all.has_kept_share |= factor.has_kept_share;
+    return all;
   }
 
-  Affine of(ExpressionId id, std::size_t place) const {
+  Affine kept_share() {
+    if (!tells_cases_apart_) return sized(1);
+    return {{}, double(cases_.choose(2)), 0, true};
+  }
+
+  Affine clamped(const Affine& value, double limit) const {
+    return {{}, 0, std::min(magnitude(value), limit), value.has_kept_share};
+  }
+
+  bool is_read_of(ExpressionId id, VariableId variable) const {
+    return law_.expressions[id].operation == Operation::read && law_.expressions[id].variable == variable;
+  }
+
+  Affine of(ExpressionId id, std::size_t place) {
     const Expression& e = law_.expressions[id];
     const auto part = [&](std::size_t i) { return of(e.operands[i], place); };
     const auto size = [&](std::size_t i) { return magnitude(part(i)); };
     const auto at = [&](const std::vector<double>& values) { return values[values.size() == 1 ? 0 : place]; };
     switch (e.operation) {
       case Operation::read: return values_[first(e.variable) + (law_.variables[e.variable].size == 1 ? 0 : place)];
-      case Operation::constant: return {{}, std::abs(at(law_.coefficients[e.coefficient].values))};
+      case Operation::constant: return {{}, at(law_.coefficients[e.coefficient].values), 0, false};
       case Operation::add: return sum(part(0), part(1), 1);
       case Operation::subtract: return sum(part(0), part(1), -1);
-      case Operation::multiply: return product(e.operands[0], e.operands[1], place);
-      case Operation::divide: return {{}, std::numeric_limits<double>::infinity()};  // nothing bounds a quotient
+      case Operation::multiply: return product(part(0), part(1));
+      case Operation::divide:  // nothing bounds another quotient than that of what the motor gives and what was wanted
+        return law_.sheds() && is_read_of(e.operands[0], law_.force) && is_read_of(e.operands[1], law_.wanted)
+                   ? kept_share()
+                   : sized(std::numeric_limits<double>::infinity());
       case Operation::flush: return part(0);
-      case Operation::clamp: return {{}, std::min(size(0), size(1))};
-      case Operation::where: return {{}, std::max(size(1), size(2))};
-      case Operation::relax: return sum(part(2), product(e.operands[0], e.operands[1], place), 1);
-      case Operation::pick: return {{}, largest(law_.coefficients[e.coefficient].values)};
+      case Operation::clamp: return clamped(part(0), size(1));
+      case Operation::where:
+        if (tells_cases_apart_) return part(cases_.choose(2) == 0 ? 1 : 2);
+        return sized(std::max(size(1), size(2)));
+      case Operation::relax: return sum(part(2), product(part(0), part(1)), 1);
+      case Operation::pick: return sized(largest(law_.coefficients[e.coefficient].values));
       case Operation::sum: break;
     }
     Affine all;
@@ -137,6 +209,8 @@ class Magnitudes {
 
   const UpdateLaw& law_;
   double roundoff_;
+  bool tells_cases_apart_;
+  Cases cases_;
   std::vector<std::size_t> starts_;  // place of each variable in the lists below
   std::vector<double> bounds_;
   std::vector<Affine> values_;
@@ -159,25 +233,8 @@ std::vector<double> extrapolated(const std::vector<double>& x0, const std::vecto
   return limit;
 }
 
-}  // namespace
-
-std::string state_name(const Variable& state, std::size_t place) {
-  return (state.element_names.empty() ? state.name : state.element_names[place]) + "_";
-}
-
-InputRange input_range(const PortDevice& port) {
-  const InputRange range = {10, 100};
-  if (port.is_ideal()) return range;
-  const encoder_description& encoder = port.description().encoder;
-  const double reach = std::max(std::abs(encoder.range_low), std::abs(encoder.range_high)) * port.position_scale();
-  const double speed = encoder.max_speed * port.position_scale();
-  return {reach > 0 ? reach : range.position, speed > 0 ? speed : range.velocity};
-}
-
-std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, const InputRange& range) {
-  if (!law.couplings.empty() || !law.networks.empty() || law.tunable) return std::nullopt;
+std::optional<std::map<std::string, double>> box_by(Magnitudes run, const UpdateLaw& law) {
   constexpr double room = 1 + 1e-6;  // of which a step of the slowest mode takes less than its loss, 1e-6 at least
-  Magnitudes run(law, range);
   std::vector<double> states = run.states();
   for (int round = 0; round < 60; ++round) {
     states = after_steps(run, states, 4);
@@ -200,8 +257,29 @@ std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, con
   return std::nullopt;
 }
 
+}  // namespace
+
+std::string state_name(const Variable& state, std::size_t place) {
+  return (state.element_names.empty() ? state.name : state.element_names[place]) + "_";
+}
+
+InputRange input_range(const PortDevice& port) {
+  const InputRange range = {10, 100};
+  if (port.is_ideal()) return range;
+  const encoder_description& encoder = port.description().encoder;
+  const double reach = std::max(std::abs(encoder.range_low), std::abs(encoder.range_high)) * port.position_scale();
+  const double speed = encoder.max_speed * port.position_scale();
+  return {reach > 0 ? reach : range.position, speed > 0 ? speed : range.velocity};
+}
+
+std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, const InputRange& range) {
+  if (!law.couplings.empty() || !law.networks.empty() || law.tunable) return std::nullopt;
+  const auto box = box_by(Magnitudes(law, range, false), law);
+  return box ? box : box_by(Magnitudes(law, range, true), law);
+}
+
 double sum_of_terms(const UpdateLaw& law, const InputRange& range, const std::map<std::string, double>& box) {
-  Magnitudes run(law, range);
+  Magnitudes run(law, range, false);
   std::vector<double> states;
   for (const Variable& v : law.variables)
     for (std::size_t place = 0; v.role == Role::state && place < v.size; ++place)

@@ -24,9 +24,9 @@ InputRange input_range(const PortDevice& port);
 // As the class calls it.
 std::string state_name(const Variable& state, std::size_t place);
 
-// The greatest magnitude of every state, by state_name(), when the law starts at rest; empty where magnitudes alone
-// show none, as of slips that meet at inner nodes and of tunables. A little wider than the fixed point, so that the
-// rounding of a step stays within.
+// The greatest magnitude of every state, by state_name(), when the law starts at rest; empty where magnitudes show none
+// though cases are told apart, as of slips that meet at inner nodes and of tunables. A little wider than the fixed
+// point, so that the rounding of a step stays within.
 std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, const InputRange& range);
 
 // The sum of the magnitudes of the terms that the force is made of, in the box [N].

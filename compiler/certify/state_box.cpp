@@ -16,7 +16,7 @@ struct Affine {
   std::map<std::size_t, double> shares;
   double constant = 0;
   double rest = 0;
-  bool has_kept_share = false;  // a factor between 0 and 1 is in it, at one of its ends
+  bool has_kept_share = false;  // depends on the share of all forces that a shedding law keeps
 };
 
 // Which of its cases each decision of a step takes, for all combinations in turn.
@@ -118,8 +118,7 @@ class Magnitudes {
     return sum;
   }
 
-  // What stays as it is, because nothing is added, is not rounded. Between the ends of the share that is kept a
-  // spring's offset is on its way to the tool, and rounding takes it beyond the tool at most.
+  // Adding zero is exact. Without that, a state that a case leaves as it is would grow by a rounding a step for ever.
   Affine sum(const Affine& a, const Affine& b, double sign) const {
     Affine all = a;
     all.has_kept_share |= b.has_kept_share;
@@ -148,18 +147,17 @@ class Magnitudes {
 
   static Affine sized(double magnitude) { return {{}, 0, magnitude, false}; }
 
-  // What is between the ends of the share that is kept is between what both ends give, as long as it is there once.
+  // A value that is linear in the kept share is largest where the share is 0 or 1, and both are tried. A product of two
+  // such values is not linear: no bound is given.
   Affine product(const Affine& a, const Affine& b) const {
     if (a.has_kept_share && b.has_kept_share) return sized(std::numeric_limits<double>::infinity());
-    if (!a.shares.empty() && !b.shares.empty()) {
-      Affine all = sized(magnitude(a) * magnitude(b));
-      all.has_kept_share = a.has_kept_share || b.has_kept_share;
-      return all;
-    }
     const Affine &factor = a.shares.empty() ? a : b, &other = a.shares.empty() ? b : a;
-    Affine all = scaled(other, factor.constant);
-    all.rest += factor.rest * magnitude(other);
-    all.has_kept_share |= factor.has_kept_share;
+    Affine all = sized(magnitude(a) * magnitude(b));
+    if (factor.shares.empty()) {
+      all = scaled(other, factor.constant);
+      all.rest += factor.rest * magnitude(other);
+    }
+    all.has_kept_share = a.has_kept_share || b.has_kept_share;
     return all;
   }
 

@@ -16,7 +16,7 @@ import tempfile
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/support"))
 sys.path.insert(0, str(SOURCE / "tests/fmi"))
-from cortex_m import FLAGS, FLAGS_CXX, PROCESSORS, printed  # noqa: E402
+from cortex_m import FIRMWARE, PROCESSORS, compiling, linking, printed  # noqa: E402
 from importer import Fmu  # noqa: E402
 
 LAWS = {"second_order_maxwell": "paper", "visco_elasto_plastic": "paper", "second_order_maxwell_tunable": "tunable"}
@@ -159,16 +159,13 @@ def as_package(folder, name):
 
 
 def on_board(folder, name, processor):
-    flags, machine = PROCESSORS[processor]
-    firmware = SOURCE / "runtime/devices/board/firmware"
-    options = [*FLAGS, *FLAGS_CXX, *flags, f"-I{folder}", f"-I{firmware}", f"-I{SOURCE}/runtime/devices/board/include", f"-I{SOURCE}/runtime/include", f"-I{SOURCE}/tests"]
+    options = compiling(processor, folder, FIRMWARE, SOURCE / "runtime/devices/board/include")
     (folder / "law.cpp").write_text(f'#include "{name}.hpp"\nusing law = dashpot::generated::{name};\n'
                                     "dashpot::command<law::scalar> one_step(law& now, law::scalar u, law::scalar v) { return now.step(u, v); }\n")
     (folder / "main.cpp").write_text(BOARD.format(name=name))
     ran("arm-none-eabi-g++", *options, "-c", folder / "law.cpp", "-o", folder / "law.o")
-    ran("arm-none-eabi-g++", *options, "-nostdlib", "-nostartfiles", "-T", firmware / "mps2_an386.ld", folder / "main.cpp", firmware / "startup.cpp",
-        "-lc", "-lgcc", "-o", folder / "play.elf")
-    return loaded(folder / "law.o", "arm-none-eabi-size"), printed(folder / "play.elf", machine).strip()
+    ran("arm-none-eabi-g++", *options, *linking(folder / "main.cpp", folder / "play.elf"))
+    return loaded(folder / "law.o", "arm-none-eabi-size"), printed(folder / "play.elf", PROCESSORS[processor][1]).strip()
 
 
 ROWS = [("C++17", "cpp", "double", lambda *law: in_language(*law, "cpp")), ("C99", "c99", "double", lambda *law: in_language(*law, "c99")),

@@ -24,7 +24,7 @@ import unittest
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
 for room in ["support", "fmi", "hal"]:
     sys.path.insert(0, str(SOURCE / "tests" / room))
-from cortex_m import FLAGS, FLAGS_CXX, PROCESSORS, printed  # noqa: E402
+from cortex_m import PROCESSORS, compiling, linking, printed  # noqa: E402
 from importer import OK, Fmu, Instance  # noqa: E402
 from session import PINS_AT_MOST, Session  # noqa: E402
 
@@ -306,16 +306,13 @@ void play_all(Name named, Say say) {
         self.expect_bits(found)
 
     def board(self, processor):
-        flags, machine = PROCESSORS[processor]
-        firmware = SOURCE / "runtime/devices/board/firmware"
         found = {}
         for scalar in SCALARS:
             folder = self.emitted("cpp", scalar)
             self.played_in_cpp(folder)
-            ran(ARM_GXX, *FLAGS, *FLAGS_CXX, *flags, "-Wall", "-Wextra", "-Werror", f"-I{folder}", f"-I{SOURCE}/runtime/include", f"-I{SOURCE}/tests",
-                "-nostdlib", "-nostartfiles", "-T", firmware / "mps2_an386.ld", SOURCE / "tests/targets/board.cpp", firmware / "startup.cpp",
-                "-lc", "-lgcc", "-o", folder / "play.elf")
-            found |= self.of_text(printed(folder / "play.elf", machine), scalar)
+            ran(ARM_GXX, *compiling(processor, folder), "-Wall", "-Wextra", "-Werror",
+                *linking(SOURCE / "tests/targets/board.cpp", folder / "play.elf"))
+            found |= self.of_text(printed(folder / "play.elf", PROCESSORS[processor][1]), scalar)
         self.expect_bits(found)
 
     def test_cortex_m4f(self):

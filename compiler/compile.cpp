@@ -35,16 +35,23 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
   const Candidate& choice = c.decomposition.choice();
   ChoiceMoves moves{choice.damping, choice.damping, ""};
   double furthest = 1e-6 * choice.damping;
+  const auto chosen_on = [&](const PortDevice& port, const Device& device) {
+    Compilation again = c;
+    again.device = device;
+    Candidate& candidate = again.decomposition.candidates[again.decomposition.chosen];
+    CandidateSettler(present, c.form, c.decomposition, choices, port, c.rate).settle(candidate);
+    if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, device, port, c.rate);
+    return c.form.has_slips() ? damping_on_another_device(again, choices, port) : candidate.damping;
+  };
   const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
   for (const VariedDevice& varied : devices) {
     Diagnostics unheard;
     const std::optional<PortDevice> port = PortDevice::of(varied.device, present, unheard);
     if (!port) continue;
-    Candidate again = choice;
-    CandidateSettler(present, c.form, c.decomposition, choices, *port, c.rate).settle(again);
-    moves.least = std::min(moves.least, again.damping);
-    moves.most = std::max(moves.most, again.damping);
-    if (const double distance = std::abs(again.damping - choice.damping); distance > furthest)
+    const double again = chosen_on(*port, varied.device);
+    moves.least = std::min(moves.least, again);
+    moves.most = std::max(moves.most, again);
+    if (const double distance = std::abs(again - choice.damping); distance > furthest)
       furthest = distance, moves.by = varied.key;
   }
   return devices.empty() ? std::nullopt : std::optional(moves);
@@ -64,7 +71,6 @@ void settle_choice(Compilation& c, const Network& present, const Choices& choice
     c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, false, unit);
     return;
   }
-  if (choices.varies_assumed) c.decomposition.moves = moves_of(c, present, choices);
   if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, *c.device, device, c.rate);
   c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
 }
@@ -86,12 +92,13 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
                       what_is_beside_slips(c.form));
 }
 
-// What the chosen candidate needs is known when the law behind slips is.
-void tell_of_slips(Compilation& c) {
+// What the chosen candidate needs behind slips or a contact is known when the whole law is.
+void tell_of_certificate(Compilation& c) {
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
   const bool is_proved = c.certificate.bound.proof != Proof::none;
   choice.minimum_damping = is_proved ? std::optional(c.certificate.minimum_damping) : std::nullopt;
   choice.certified = is_proved ? std::optional(c.certificate.certified) : std::nullopt;
+  if (choice.faithful) choice.faithful->certified = c.certificate.certified;
 }
 
 // Of the scalar's numbers those below, so that the device clips nothing of what rounding has left.
@@ -165,6 +172,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
   const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
   if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, choices, result.port);
+  if (result.decomposition.choice().faithful && choices.varies_assumed)
+    result.decomposition.moves = moves_of(result, present, choices);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
@@ -186,7 +195,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
       certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
   if (result.certificate.limits.rule == LimitRule::sheds)
     result.law = with_shedding(std::move(result.law), reach_of(loop, choices.scalar), result.network.port_motion);
-  if (!result.port.is_ideal() && !is_tunable && result.form.has_slips()) tell_of_slips(result);
+  const bool is_known_by_the_whole = result.form.has_slips() || result.network.contact;
+  if (!result.port.is_ideal() && !is_tunable && is_known_by_the_whole) tell_of_certificate(result);
   tell_what_is_felt(result, present, choices, result.port);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;

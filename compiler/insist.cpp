@@ -11,6 +11,7 @@
 #include "certify/settle.hpp"
 #include "compile.hpp"
 #include "network/port_units.hpp"
+#include "slip_runs.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -267,11 +268,83 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   return false;
 }
 
+namespace {
+
+// One value of the device file made harmless.
+struct MendedDevice {
+  const char* cause;
+  const char* change;
+  Device device;
+};
+
+std::vector<MendedDevice> mended(const Device& device) {
+  std::vector<MendedDevice> all;
+  const device_description& is = device.description;
+  const auto mend = [&](bool is_there, const char* cause, const char* change, auto apply) {
+    if (!is_there) return;
+    all.push_back({cause, change, device});
+    apply(all.back().device.description);
+  };
+  mend(is.encoder.step > 0, "the encoder's step", "with a 16th of it",
+       [](device_description& d) { d.encoder.step /= 16; });
+  mend(is.loop.delay_samples > 0, "the loop's delay", "without it",
+       [](device_description& d) { d.loop.delay_samples = 0; });
+  mend(is.motor.amplifier_lag > 0, "the amplifier's lag", "without it",
+       [](device_description& d) { d.motor.amplifier_lag = 0; });
+  mend(is.brake.coil_lag > 0, "the lag of the brake's coil", "without it",
+       [](device_description& d) { d.brake.coil_lag = 0; });
+  mend(is.brake.tolerance > 0, "the brake's tolerance", "without it",
+       [](device_description& d) { d.brake.tolerance = 0; });
+  mend(is.brake.residual_damping > 0, "the brake's residual damping", "without it",
+       [](device_description& d) { d.brake.residual_damping = 0; });
+  return all;
+}
+
+// What would err less where slips give way: another choice, else another device.
+void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  const double error = c.decomposition.slips.error;
+  std::vector<OtherChoices> others = other_choices(c, choices);
+  if (c.decomposition.choice().name != "virtual") {
+    others.push_back({choices, "--decomposition virtual"});
+    others.back().choices.decomposition = "virtual";
+  }
+  for (const OtherChoices& other : others) {
+    const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
+    if (!again || (c.certificate.certified && !again->certificate.certified)) continue;
+    const SlipDecomposition& slips = again->decomposition.slips;
+    if (!slips.merits.empty() && slips.error < noticeably * error)
+      return diagnostics.note<DiagnosticCode::errs_less_in_runs>({}, other.options, in_percent(slips.error));
+  }
+  if (c.law.tunable) return;
+  std::optional<MendedDevice> best;
+  double least = noticeably * error;
+  for (const MendedDevice& other : mended(*c.device)) {
+    const PortDevice port = c.port.replaced_by(other.device);
+    const double again = SlipRuns(c, choices, port).error_of(c.law);
+    if (again < least) best = other, least = again;
+  }
+  if (best)
+    return diagnostics.note<DiagnosticCode::errs_less_on_another_device>({}, best->cause, best->change,
+                                                                         in_percent(least));
+  Device faster = *c.device;
+  for (int doubling = 1; doubling <= 4; ++doubling) {
+    faster.description.loop.sample_period /= 2;
+    const std::optional<Compilation> again = compiled(c.network, choices, faster);
+    if (again && again->decomposition.slips.error < noticeably * error)
+      return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,
+                                                                         in_percent(again->decomposition.slips.error));
+  }
+  diagnostics.note<DiagnosticCode::errs_less_nowhere>({});
+}
+
+}  // namespace
+
 void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const SlipDecomposition& slips = c.decomposition.slips;
   if (c.device && slips.error > choices.tolerance * (1 + 1e-9)) {
-    diagnostics.report<DiagnosticCode::felt_error_behind_slips>(
-        c.network.name_span, in_percent(slips.error), in_percent(choices.tolerance), in_percent(slips.least_error));
+    diagnostics.report<DiagnosticCode::felt_error_behind_slips>(c.network.name_span, in_percent(slips.error),
+                                                                in_percent(choices.tolerance));
+    tell_what_errs_less_in_runs(c, choices, diagnostics);
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }
   const Candidate& choice = c.decomposition.choice();
@@ -286,6 +359,38 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
     diagnostics.note<DiagnosticCode::errs_less>({}, other.options, in_percent(better.largest_error), better.damping,
                                                 port_units(c.network.port_motion).damping);
     return;
+  }
+}
+
+void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  const MotorLimits& limits = c.certificate.limits;
+  if (!c.device || !c.certificate.certified || limits.rule == LimitRule::none || limits.is_covered) return;
+  const std::string unit = port_units(c.network.port_motion).damping;
+  const auto is_proved = [](const std::optional<Compilation>& again) {
+    return again && again->certificate.certified && again->certificate.limits.is_covered;
+  };
+  if (c.decomposition.choice().name != "velocity-free") {
+    Choices other = choices;
+    other.decomposition = "velocity-free";
+    if (const auto again = compiled(c.network, other, *c.device); is_proved(again))
+      diagnostics.report<DiagnosticCode::proved_at_the_limit>({}, "--decomposition velocity-free",
+                                                              again->certificate.limits.needed, unit);
+  }
+  if (!limits.available) return;
+  const double scale = c.port.damping_scale();
+  Device device = *c.device;
+  double& own = device.description.mechanics.damping;
+  const double before = own;
+  own = rounded_up((own * scale + (limits.needed - *limits.available)) * (1 + 1e-9) / scale, 4);
+  // With more damping of its own another b may be chosen, which needs more.
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    const auto again = compiled(c.network, choices, device);
+    if (is_proved(again))
+      return diagnostics.report<DiagnosticCode::own_damping_at_the_limit>(
+          {}, own * scale, unit, before * scale, own, port_units(c.device->description.motion).damping);
+    if (!again || !again->certificate.limits.available) return;
+    const double lack = again->certificate.limits.needed - *again->certificate.limits.available;
+    own = rounded_up((own * scale + std::max(lack, 0.0)) * (1 + 1e-9) / scale, 4);
   }
 }
 

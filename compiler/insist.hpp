@@ -17,6 +17,10 @@ bool insist_on_certificate(const Compilation& compilation, const Choices& choice
 // noticeably less, with the options that say so.
 void warn_of_felt_error(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 
+// Where a certified law may do more than its motor's limit allows and nothing is proved of that: tells of a choice or
+// of a device that has been tried and is proved there too.
+void tell_what_is_proved_at_the_limit(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
+
 // For those who drive it all the same: warns of a law that is not certified on its device.
 void warn_of_driving_uncertified(const Compilation& compilation, const Choices& choices, Diagnostics& diagnostics);
 

@@ -12,4 +12,8 @@ namespace dashpot::compiler {
 // nothing can be certified that is not asked.
 void choose_slip_law(Compilation& compilation, const Choices& choices, const PortDevice& device);
 
+// The same on another device, with the chosen state input and the law that `c` has behind its slips: the damping beside
+// them [N·s/m] that `faithful` takes there.
+double damping_on_another_device(const Compilation& c, const Choices& choices, const PortDevice& device);
+
 }  // namespace dashpot::compiler

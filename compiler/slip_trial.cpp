@@ -1,5 +1,6 @@
 #include "slip_trial.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <dashpot/brake_coil.hpp>
@@ -230,7 +231,11 @@ SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const Upda
   const double middle = std::sqrt(low * high);
   motions_.push_back(
       drag(at, around_yield[2] * displacement_at_yield(network, coarse, middle), middle, period, instants));
-  for (const TrialMotion& motion : motions_) forces_.push_back(whole_force(fine, motion.position, at));
+  for (const TrialMotion& motion : motions_) {
+    std::vector<double> force = whole_force(fine, motion.position, at);
+    const double largest = largest_size(force), rms = root_mean_square(force);
+    forces_.push_back({std::move(force), largest, rms});
+  }
 }
 
 // Where in a quarter of a sine the force first departs from what it is for a motion so small that all slips hold.
@@ -261,15 +266,23 @@ FeltForce SlipTrial::felt(const UpdateLaw& law, std::size_t motion) const {
 }
 
 TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt) {
+  return trial_error_between(trial, felt, felt, 0);
+}
+
+TrialError trial_error_between(const SlipTrial& trial, const std::vector<FeltForce>& none,
+                               const std::vector<FeltForce>& all, double share) {
+  using Samples = Eigen::Map<const Eigen::ArrayXd>;
   TrialError worst;
-  for (std::size_t m = 0; m < felt.size(); ++m) {
+  for (std::size_t m = 0; m < none.size(); ++m) {
     const std::vector<double>& truth = trial.network_force(m);
-    const double peak = largest_size(truth), rms = root_mean_square(truth);
-    for (const std::vector<double>* end : {&felt[m].weak, &felt[m].strong}) {
-      std::vector<double> error;
-      for (std::size_t i = 0; i < std::min(end->size(), truth.size()); ++i) error.push_back((*end)[i] - truth[i]);
-      if (peak > 0) worst.peak = std::max(worst.peak, largest_size(error) / peak);
-      if (rms > 0) worst.rms = std::max(worst.rms, root_mean_square(error) / rms);
+    const double peak = trial.largest_network_force(m), rms = trial.rms_network_force(m);
+    for (const std::vector<double> FeltForce::*end : {&FeltForce::weak, &FeltForce::strong}) {
+      const auto size = static_cast<Eigen::Index>(std::min((none[m].*end).size(), truth.size()));
+      if (size == 0) continue;
+      const Samples low((none[m].*end).data(), size), high((all[m].*end).data(), size), network(truth.data(), size);
+      const auto error = (1 - share) * low + share * high - network;
+      if (peak > 0) worst.peak = std::max(worst.peak, error.abs().maxCoeff() / peak);
+      if (rms > 0) worst.rms = std::max(worst.rms, std::sqrt(error.square().mean()) / rms);
     }
   }
   return worst;

@@ -37,16 +37,23 @@ class SlipTrial {
   static int instants_a_sample(const PortDevice& device) { return device.is_ideal() ? 1 : 4; }
 
   const std::vector<TrialMotion>& motions() const { return motions_; }
-  const std::vector<double>& network_force(std::size_t motion) const { return forces_[motion]; }
+  const std::vector<double>& network_force(std::size_t motion) const { return forces_[motion].values; }
+  double largest_network_force(std::size_t motion) const { return forces_[motion].largest; }
+  double rms_network_force(std::size_t motion) const { return forces_[motion].rms; }
   FeltForce felt(const UpdateLaw& law, std::size_t motion) const;
 
  private:
+  struct NetworkForce {
+    std::vector<double> values;  // [N] or [N·m]
+    double largest, rms;
+  };
+
   double displacement_at_yield(const Network& network, const UpdateLaw& coarse, double frequency) const;
 
   const PortDevice& device_;
   double at_;
   std::vector<TrialMotion> motions_;
-  std::vector<std::vector<double>> forces_;
+  std::vector<NetworkForce> forces_;  // one a motion
 };
 
 // Largest and root mean square of what is felt less the network's force, over those of that force: of the worse end of
@@ -57,5 +64,9 @@ struct TrialError {
   double worst() const { return peak > rms ? peak : rms; }
 };
 TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt);
+
+// The same of what is felt of a law between two others, as far as it is affine in what tells them apart.
+TrialError trial_error_between(const SlipTrial& trial, const std::vector<FeltForce>& none,
+                               const std::vector<FeltForce>& all, double share);
 
 }  // namespace dashpot::compiler

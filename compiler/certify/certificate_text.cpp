@@ -68,6 +68,10 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
     lines.push_back(fmt::format(
         "  of the brake's command {:.6g} {} are for passivity and not compensated: what is rendered is D + {:.6g} s",
         c.added_damping, unit, c.added_damping));
+  if (c.certified && c.loop.encoder_step > 0)
+    lines.push_back(
+        "  proved for the position as it is; what the steps of the encoder add is not part of it, 'dashpot explain' "
+        "weighs them under quantisation");
   if (!c.energy.applies) return lines;
   std::string energy = "energy: ";
   if (!c.energy.holds)

@@ -76,6 +76,13 @@ void CandidateSettler::settle_faithful(Candidate& candidate) {
   take(candidate, candidate.state_inputs[chosen.line]);
 }
 
+void CandidateSettler::settle_at(Candidate& candidate) {
+  for (StateInputMerit& merit : candidate.state_inputs) {
+    weigh(candidate, merit);
+    if (merit.state_input == candidate.state_input) take(candidate, merit);
+  }
+}
+
 // What the brake gives, at the tool. Where a surface can be left, more than b∞ would have to be taken back by the motor
 // in the samples of a touch, and nothing is added: the brake is off while the tool is free.
 SearchReach CandidateSettler::reach() const {
@@ -201,10 +208,7 @@ void CandidateSettler::make_room(Candidate& candidate) {
   const double wanted = candidate.wanted_damping;
   place(candidate, *fitting);
   candidate.wanted_damping = wanted;
-  for (StateInputMerit& merit : candidate.state_inputs) {
-    weigh(candidate, merit);
-    if (merit.state_input == candidate.state_input) take(candidate, merit);
-  }
+  settle_at(candidate);
 }
 
 // The need is a convex function of b: each frequency's is, and the largest of convex functions.

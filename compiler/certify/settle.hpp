@@ -28,8 +28,10 @@ class CandidateSettler {
   };
   ErrorOverBand error_over_band(const Candidate& candidate);
 
-  // Gives a candidate another damping; what depends on the loop is left to settle().
+  // Gives a candidate another damping; what depends on the loop is left to settle() and settle_at().
   void place(Candidate& candidate, double damping);
+  // settle() without a choice: of the damping and the state input that the candidate has.
+  void settle_at(Candidate& candidate);
   // Of what is felt of a candidate with so much added to its damping [N·s/m], over the band [1].
   double largest_error(const Candidate& candidate, double added);
 

@@ -87,4 +87,12 @@ void choose_over_box(const Network& network, const NormalForm& form, Decompositi
   faithful.faithful = choice;
 }
 
+bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                           const Choices& choices, const Device& device, const PortDevice& port, double rate) {
+  const Candidate& choice = decomposition.choice();
+  const auto weighed =
+      BoxChoice(network, form, decomposition, choices, device, port, rate).weighed(choice, choice.damping);
+  return weighed && weighed->option.certified;
+}
+
 }  // namespace dashpot::compiler

@@ -13,4 +13,8 @@ namespace dashpot::compiler {
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const Device& device, const PortDevice& port, double rate);
 
+// Whether the chosen damping and state input are certified over the whole range of the parameters.
+bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,
+                           const Choices& choices, const Device& device, const PortDevice& port, double rate);
+
 }  // namespace dashpot::compiler

@@ -92,6 +92,7 @@ class NetworkChanger {
     std::string known;
     for (const std::string& each : names_) known += (known.empty() ? "" : ", ") + each;
     if (!known.empty()) diagnostics_.note<DiagnosticCode::known_keys>({}, known);
+    diagnostics_.note<DiagnosticCode::set_needs_a_name>({});
   }
 
   const JsonValue& root_;

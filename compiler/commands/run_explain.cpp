@@ -43,6 +43,7 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
     return text ? write_standard_output(*text, diagnostics) : ExitStatus::input_refused;
   }
   warn_of_felt_error(*compilation, options.choices, diagnostics);
+  tell_what_is_proved_at_the_limit(*compilation, options.choices, diagnostics);
   weigh_all_candidates(*compilation, options.choices);
   return write_standard_output(options.json ? explain_json(*compilation) : explain_text(*compilation, options.legend),
                                diagnostics);

@@ -192,8 +192,10 @@ void warn_about_choice(const Decomposition& all, const Network& network, const L
                                                        chosen.damping);
   const double viscosity = to_double(zero_frequency_damping(form));
   // What `faithful` gives beyond it is told with the choice.
-  if (chosen.name != "faithful" && chosen.damping > viscosity * (1 + 1e-12))
+  if (chosen.name != "faithful" && chosen.damping > viscosity * (1 + 1e-12)) {
     diagnostics.report<DiagnosticCode::injects_power>(network.name_span, chosen.name, chosen.damping, viscosity);
+    diagnostics.note<DiagnosticCode::injects_power_remedy>({});
+  }
 }
 
 std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal,

@@ -23,6 +23,7 @@ struct FaithfulChoice {
   double allowed_error;  // max(tolerance, 1.05 × the least) [1]
   double least_added;    // of the certified ones within the error [N·s/m]; 0 where there is none
   bool certified;        // the chosen one is
+  bool in_runs = false;  // the errors are those of runs around yield too, not over the band alone
 };
 
 inline constexpr double leeway = 1.05;  // on the least reachable error, and on the least added damping [1]

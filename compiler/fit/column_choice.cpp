@@ -189,13 +189,23 @@ class Chooser {
     if (search_.is_creep || wants(Role::compliance)) return RecordingKind::creep;
     const bool asks_spectrum = wants(Role::storage) || wants(Role::omega) || wants(Role::frequency);
     if (asks_spectrum || has_name(Role::storage, Role::loss)) return RecordingKind::frequency;
+    // A modulus or a compliance beside the time alone, in a unit that says so.
+    const bool has_motion = is_there(Role::position) || is_there(Role::strain) || is_there(Role::force) ||
+                            is_there(Role::stress) || !search_.requests.empty();
+    if (!has_motion && has_with_unit(Role::modulus)) return RecordingKind::relaxation;
+    if (!has_motion && has_with_unit(Role::compliance)) return RecordingKind::creep;
     return RecordingKind::motion;
   }
 
-  bool has_name(Role first, Role second) const {
-    const auto is_there = [&](Role role) { return has(role) || !candidates(role).empty(); };
-    return is_there(first) && is_there(second);
+  bool is_there(Role role) const { return has(role) || !candidates(role).empty(); }
+
+  bool has_with_unit(Role role) const {
+    if (has(role)) return true;
+    const std::vector<std::size_t> found = candidates(role);
+    return found.size() == 1 && columns_[found.front()].unit;
   }
+
+  bool has_name(Role first, Role second) const { return is_there(first) && is_there(second); }
 
   std::vector<std::vector<Role>> needed() const {
     switch (kind()) {
@@ -377,15 +387,25 @@ class Chooser {
   void ask_for_columns() {
     for (const std::vector<Role>& group : needed()) {
       if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
-      std::vector<std::string> words;
-      for (const Role role : group) words.emplace_back(rule_of(role).word);
-      diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_,
-                                                                    fmt::format("{}", fmt::join(words, " or ")));
+      diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_, words_of(group));
       const bool has_spare = columns_.size() >= needed().size();
       if (is_force_after_a_step(group, has_spare)) diagnostics_.note<DiagnosticCode::recording_force_after_step>({});
-      else note_answer();
+      else if (has_spare) note_answer();
+      else diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, columns_.size(), words_of_needed());
       return;
     }
+  }
+
+  std::string words_of_needed() const {
+    std::vector<std::string> all;
+    for (const std::vector<Role>& group : needed()) all.push_back(words_of(group));
+    return fmt::format("{}", fmt::join(all, ", "));
+  }
+
+  static std::string words_of(const std::vector<Role>& group) {
+    std::vector<std::string> words;
+    for (const Role role : group) words.emplace_back(rule_of(role).word);
+    return fmt::format("{}", fmt::join(words, " or "));
   }
 
   // A force without the motion that made it: what a relaxation is measured as.

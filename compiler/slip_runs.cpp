@@ -1,0 +1,113 @@
+#include "slip_runs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "certify/certificate.hpp"
+#include "certify/estimator_factors.hpp"
+#include "decompose/slip_laws.hpp"
+#include "discretise/discretise.hpp"
+
+namespace dashpot::compiler {
+
+SlipRuns::SlipRuns(const Compilation& c, const Choices& choices, const PortDevice& device)
+    : c_(c),
+      choices_(choices),
+      device_(device),
+      loop_(sampled_loop(device, 1 / c.rate)),
+      gain_(estimate_gain(loop_).value_or(std::numeric_limits<double>::infinity())) {
+  for (const SlipLaw law : laws_to_choose_from) {
+    const SlipDecomposition slips = decomposed(chosen_beside(), plan(law));
+    const std::vector<const ComponentSplit*> all = slips.all();
+    const bool is_offered =
+        std::any_of(all.begin(), all.end(), [=](const ComponentSplit* split) { return split->law == law; });
+    if (law == SlipLaw::velocity_free || is_offered) laws_.push_back(law);
+  }
+}
+
+SlipDecomposition SlipRuns::decomposed(const Candidate& beside, const SlipPlan& plan) const {
+  return decompose_slips(c_.network, c_.form, beside, plan, device_);
+}
+
+Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& plan) const {
+  Compilation whole = made_by(beside, plan);
+  if (device_.is_ideal() || c_.network.contact || whole.certificate.certified) return whole;
+  SlipPlan roomy = plan;
+  const Certificate* last = &whole.certificate;
+  Compilation made;
+  // What passivity adds falls with what the motor takes back, but for what the sums round.
+  for (int attempt = 0; attempt < 4 && last->bound.proof != Proof::none; ++attempt) {
+    roomy.reserve = std::max(roomy.reserve, last->minimum_damping) * (1 + 1e-9);
+    made = made_by(beside, roomy);
+    if (made.certificate.certified) return made;
+    last = &made.certificate;
+  }
+  return whole;
+}
+
+void SlipRuns::make_trial() {
+  if (trial_) return;
+  coarse_ = by_motor(1);
+  fine_ = by_motor(SlipTrial::instants_a_sample(device_));
+  trial_.emplace(c_.network, coarse_, fine_, device_, c_.network.contact ? c_.network.contact->at : 0);
+}
+
+double SlipRuns::error_of(const UpdateLaw& law) {
+  make_trial();
+  std::vector<FeltForce> felt;
+  for (std::size_t m = 0; m < trial_->motions().size(); ++m) felt.push_back(trial_->felt(law, m));
+  return trial_error(*trial_, felt).worst();
+}
+
+SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
+  make_trial();
+  SlipOption option{plan, made_with_room(beside, plan), {}, {}};
+  option.merit.law = plan.law;
+  const Compilation& made = option.made;
+  double dissipated = 0, square = 0;
+  for (std::size_t m = 0; m < trial_->motions().size(); ++m) {
+    option.felt.push_back(trial_->felt(made.law, m));
+    dissipated += option.felt.back().dissipated;
+    square += option.felt.back().square_velocity;
+  }
+  const TrialError error = trial_error(*trial_, option.felt);
+  SlipLawMerit& merit = option.merit;
+  merit.peak_error = error.peak;
+  merit.rms_error = error.rms;
+  merit.minimum_damping = made.certificate.minimum_damping;
+  merit.certified = made.certificate.certified;
+  merit.mean_damping = square > 0 ? std::max(0.0, dissipated / square - made.certificate.added_damping) : 0;
+  merit.motor_noise = noise_of(made.decomposition.slips);
+  return option;
+}
+
+// The motor makes everything, at so many times the rate.
+UpdateLaw SlipRuns::by_motor(int times) const {
+  Decomposition whole = c_.decomposition;
+  Candidate& choice = whole.candidates[whole.chosen];
+  choice.damping = 0;
+  choice.state_input = StateInput::position;
+  whole.encoder_step = 0;
+  whole.slips = decomposed(chosen_beside(), plan(SlipLaw::by_motor));
+  return discretise(c_.network, c_.form, whole, choices_, c_.rate * times);
+}
+
+Compilation SlipRuns::made_by(const Candidate& beside, const SlipPlan& plan) const {
+  Compilation made = c_;
+  made.decomposition.candidates[made.decomposition.chosen] = beside;
+  made.decomposition.slips = decomposed(beside, plan);
+  made.law = discretise(made.network, made.form, made.decomposition, choices_, made.rate);
+  made.certificate = certify(made.law, loop_, slip_motor(made.network, made.form, made.decomposition, choices_, loop_));
+  return made;
+}
+
+std::optional<double> SlipRuns::noise_of(const SlipDecomposition& slips) const {
+  double compensation = 0;
+  for (const ComponentSplit* split : slips.all()) compensation += split->largest_compensation();
+  const std::optional<double> noise = device_.velocity_noise();
+  if (compensation == 0) return 0;
+  return noise ? std::optional(compensation * *noise) : std::nullopt;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,63 @@
+// One way to share a network with slips between brake and motor - what is beside the slips, and a law behind them -
+// made, certified and run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "certify/sampled_loop.hpp"
+#include "emit/emission.hpp"
+#include "slip_trial.hpp"
+
+namespace dashpot::compiler {
+
+struct SlipOption {
+  SlipPlan plan;
+  Compilation made;
+  std::vector<FeltForce> felt;  // one a motion
+  SlipLawMerit merit;
+};
+
+class SlipRuns {
+ public:
+  // In: a network with slips and what is chosen for what reaches ground without one. All outlive this.
+  SlipRuns(const Compilation& c, const Choices& choices, const PortDevice& device);
+
+  SlipPlan plan(SlipLaw law, double excess = 1) const { return {law, excess, gain_}; }
+  // velocity_free first, then the others that some part can have.
+  const std::vector<SlipLaw>& laws() const { return laws_; }
+  // Of those laws this one alone.
+  void keep_to(SlipLaw law) { laws_ = {law}; }
+  const SlipTrial& trial() const { return *trial_; }
+  const Candidate& chosen_beside() const { return c_.decomposition.choice(); }
+
+  SlipDecomposition decomposed(const Candidate& beside, const SlipPlan& plan) const;
+
+  // By a plan. Where the brake has no room for what passivity adds, by the same with less of the brake, if that is
+  // certified.
+  Compilation made_with_room(const Candidate& beside, const SlipPlan& plan) const;
+
+  // Made with room, and run through all motions.
+  SlipOption run(const Candidate& beside, const SlipPlan& plan);
+
+  // Of a law that has been made, run through all motions [1].
+  double error_of(const UpdateLaw& law);
+
+ private:
+  void make_trial();
+  UpdateLaw by_motor(int times) const;
+  Compilation made_by(const Candidate& beside, const SlipPlan& plan) const;
+  std::optional<double> noise_of(const SlipDecomposition& slips) const;
+
+  const Compilation& c_;
+  const Choices& choices_;
+  const PortDevice& device_;
+  SampledLoop loop_;
+  double gain_;
+  std::vector<SlipLaw> laws_;
+  UpdateLaw coarse_, fine_;
+  std::optional<SlipTrial> trial_;  // made before the first run
+};
+
+}  // namespace dashpot::compiler

@@ -342,7 +342,8 @@ void describe(CLI::App& app, CommandLine& line) {
                     "No jump, division or call in a step depends on its values");
   compile->add_flag("--batch", options.emission.batch,
                     "Also write NAME_batch.hpp, a class for many points of the network");
-  compile->add_flag("--with-test", options.emission.with_test, "Also write NAME_test.cpp against the closed forms");
+  compile->add_flag("--with-test", options.emission.with_test,
+                    "Also write NAME_test.cpp, or NAME_test.c, against the closed forms");
   compile->add_flag("--uncertified", options.uncertified,
                     "Also write a law that lacks damping for passivity on its device");
   compile->add_option("--templates", options.emission.templates, "Folder of templates in place of the built-in ones")

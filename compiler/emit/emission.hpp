@@ -51,7 +51,8 @@ struct OutputFile {
 std::optional<std::vector<OutputFile>> emit_cpp(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 
-// <name>.h. Refuses: templates that do not fit, and names that C keeps for itself. Other options have no meaning here.
+// <name>.h, and <name>_test.c where asked for. Refuses: templates that do not fit, and names that C keeps for itself.
+// Other options have no meaning here.
 std::optional<std::vector<OutputFile>> emit_c99(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics);
 

@@ -6,6 +6,8 @@
 #include "emit/c99_program.hpp"
 #include "emit/emission.hpp"
 #include "emit/cpp_program.hpp"
+#include "discretise/rounding.hpp"
+#include "emit/response_test.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
 
@@ -150,7 +152,17 @@ std::optional<std::vector<OutputFile>> emit_c99(const Compilation& compilation, 
   if (!shape) return std::nullopt;
   std::optional<std::string> text = fill(*shape, c_header_model(compilation), diagnostics);
   if (!text) return std::nullopt;
-  return std::vector<OutputFile>{{compilation.network.name + ".h", std::move(*text)}};
+  std::vector<OutputFile> files = {{compilation.network.name + ".h", std::move(*text)}};
+  if (!options.with_test) return files;
+  const SourceFile* test = find_template("network_test.c.in", options.templates, diagnostics);
+  if (!test) return std::nullopt;
+  CodeModel model = response_test_model(compilation, "log1p");
+  model.fields["scalar"] = name_of(compilation.law.scalar);
+  model.fields["roundoff"] = fmt::format("{:#}", unit_roundoff(compilation.law.scalar));
+  std::optional<std::string> test_text = fill(*test, model, diagnostics);
+  if (!test_text) return std::nullopt;
+  files.push_back({compilation.network.name + "_test.c", std::move(*test_text)});
+  return files;
 }
 
 }  // namespace dashpot::compiler

@@ -115,7 +115,7 @@ class Files(CommandTest):
         self.write("restrict.json", network('{ "spring": 1 }', "restrict"))
         self.refused("compile", "restrict.json", "--target", "c99", code="name-is-word-of-c")
         self.dashpot("compile", "restrict.json")
-        for option in [["--batch"], ["--constant-time"], ["--with-test"], ["--certificate", "c.json"]]:
+        for option in [["--batch"], ["--constant-time"], ["--certificate", "c.json"]]:
             done = self.dashpot("compile", "kelvin.json", "--target", "c99", *option, status=COMMAND_LINE_WRONG)
             self.assertIn(f"--target c99 knows no {option[0]}", done.stderr)
             self.assertIn("note: --target cpp has it", done.stderr)

@@ -1,0 +1,14 @@
+// What a test of an emitted law against the closed forms of its network is filled with, in any language.
+#pragma once
+
+#include <string>
+
+#include "emit/code_model.hpp"
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// `log1p`: the language's name of ln(1 + x).
+CodeModel response_test_model(const Compilation& c, const std::string& log1p);
+
+}  // namespace dashpot::compiler

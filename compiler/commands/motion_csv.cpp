@@ -271,4 +271,26 @@ bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagn
   return false;
 }
 
+void warn_outside_valid(const Motion& motion, const Network& network, Diagnostics& diagnostics) {
+  const bool turns = network.port_motion == dashpot::motion::rotation;
+  const auto warns = [&](const std::optional<Range>& range, double value, double time, const char* what,
+                         const char* unit) {
+    if (!range || range->contains(value)) return false;
+    diagnostics.report<DiagnosticCode::outside_valid_range>(network.valid.span, what, value, unit, time, range->low,
+                                                            range->high);
+    return true;
+  };
+  bool has_displacement = false, has_rate = false;
+  for (std::size_t i = 0; i < motion.time.size(); ++i) {
+    const double time = motion.time[i], position = motion.position[i];
+    has_displacement =
+        has_displacement || warns(network.valid.displacement, position, time, "displacement", turns ? "rad" : "m");
+    const double slope = i == 0 ? 0 : (position - motion.position[i - 1]) / *motion.period;
+    const double velocity = motion.velocity.empty() ? slope : motion.velocity[i];
+    // Rest is in every recording, and says nothing of how fast the tissue may be pressed.
+    if (velocity == 0) continue;
+    has_rate = has_rate || warns(network.valid.rate, std::abs(velocity), time, "rate", turns ? "rad/s" : "m/s");
+  }
+}
+
 }  // namespace dashpot::compiler

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "network/network.hpp"
 #include "source/diagnostic.hpp"
 
 namespace dashpot::compiler {
@@ -43,5 +44,9 @@ std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnost
 
 // Refuses a motion in degrees for a tool that moves in metres, and the other way round.
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics);
+
+// Warns, once each, where the position or the rate leaves the range that the network is valid in. Without a column of
+// velocity the rate is that between rows.
+void warn_outside_valid(const Motion& motion, const Network& network, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -166,6 +166,7 @@ class DevicePlayer {
         law_(c.law) {
     const double start = path.position_at(0);
     law_.reset(static_cast<Scalar>(start));
+    stored_at_start_ = double(law_.stored_energy());
     estimator_.reset(actuator_.gear().joint_motion(start));
   }
 
@@ -207,7 +208,8 @@ class DevicePlayer {
                         driven.motor_saturated() || law_.kept_share() < 1};
   }
 
-  double energy() const { return energy_; }  // taken from the tool since the motion began [J]
+  double stored_at_start() const { return stored_at_start_; }  // by the network, held at its first position [J]
+  double energy() const { return energy_; }                    // taken from the tool since the motion began [J]
 
  private:
   simulated::scenario scene(std::uint64_t seed) const {
@@ -229,7 +231,7 @@ class DevicePlayer {
   actuator<double> actuator_;
   Evaluation<Scalar> law_;
   std::optional<double> taken_before_;
-  double energy_ = 0;
+  double stored_at_start_ = 0, energy_ = 0;
 };
 
 void sum_up(PlayedMotion& played) {
@@ -253,6 +255,7 @@ void sum_up(PlayedMotion& played) {
 template <class Scalar, class Reference>
 PlayedMotion played_by(DevicePlayer<Scalar> player, Reference reference, double end, double period) {
   PlayedMotion played;
+  played.stored_at_start = player.stored_at_start();
   const auto count = static_cast<std::size_t>(end / period + 1e-9) + 1;
   while (played.samples.size() < count) {
     std::optional<PlayedSample> sample = player.next();
@@ -277,6 +280,7 @@ std::optional<PlayedMotion> play(const Compilation& c, const Choices& choices, c
     diagnostics.report<DiagnosticCode::cannot_start_device>({}, c.device->name, std::string(refusal));
     return std::nullopt;
   }
+  warn_outside_valid(motion, c.network, diagnostics);
   const Path path(motion);
   const std::optional<Compilation> fine = has_closed_form(c) ? std::nullopt : compiled_finely(c, choices, diagnostics);
   ValueColumns(c, motion, diagnostics);
@@ -316,8 +320,11 @@ std::string to_text(const PlayedMotion& p, const Compilation& c) {
          fmt::format("error of what is felt: rms {:.4g} {} ({:.3g} %), peak {:.4g} {} ({:.3g} %)\n", p.rms_error,
                      units.force, share(p.rms_error, p.rms_force), p.peak_error, units.force,
                      share(p.peak_error, p.peak_force)) +
-         fmt::format("energy: {:.4g} J that motor and brake took from the tool, never below {:.4g} J\n", p.energy,
-                     p.lowest_energy);
+         fmt::format("energy: {:.4g} J that motor and brake took from the tool, never below {:.4g} J{}\n", p.energy,
+                     p.lowest_energy,
+                     p.stored_at_start > 0
+                         ? fmt::format("; the network held {:.4g} J as the motion began", p.stored_at_start)
+                         : "");
 }
 
 std::string to_json(const PlayedMotion& p, const Compilation& c, const std::string& file) {
@@ -337,7 +344,7 @@ std::string to_json(const PlayedMotion& p, const Compilation& c, const std::stri
         {"peak", p.peak_error},
         {"rms_share", p.rms_force > 0 ? p.rms_error / p.rms_force : 0},
         {"peak_share", p.peak_force > 0 ? p.peak_error / p.peak_force : 0}}},
-      {"energy", {{"taken", p.energy}, {"lowest", p.lowest_energy}}},
+      {"energy", {{"taken", p.energy}, {"lowest", p.lowest_energy}, {"stored_at_start", p.stored_at_start}}},
       {"file", file}};
   return all.dump(2) + "\n";
 }

@@ -29,6 +29,7 @@ struct PlayedMotion {
   double rms_force = 0, peak_force = 0;  // of the closed form
   double energy = 0;                     // that motor and brake took from the tool since the motion began [J]
   double lowest_energy = 0;              // the least of it at any sample; below 0: they had given more than taken [J]
+  double stored_at_start = 0;            // what the network holds at the first position, that it may give out first [J]
   double mean_damping = 0, most_damping = 0;  // that the brake was told [N·s/m] or [N·m·s/rad]
   std::size_t limited = 0;                    // samples whose force the motor could not make, or the law let go of
 };

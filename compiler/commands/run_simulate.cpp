@@ -40,22 +40,12 @@ bool settle_rate(const Motion& motion, const std::optional<Device>& device, Choi
   return false;
 }
 
-void warn_once_outside(const std::optional<Range>& range, double value, double time, const char* what, const char* unit,
-                       bool& warned, const Network& network, Diagnostics& diagnostics) {
-  if (warned || !range || range->contains(value)) return;
-  warned = true;
-  diagnostics.report<DiagnosticCode::outside_valid_range>(network.valid.span, what, value, unit, time, range->low,
-                                                          range->high);
-}
-
 template <class Scalar>
 std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) {
   Evaluation<Scalar> law(c.law);
   law.reset(0);
   std::string text = "time,position,velocity,force,damping,motor_force\n";
   double last_position = 0;
-  bool warned_displacement = false, warned_rate = false;
-  const bool turns = c.network.port_motion == motion::rotation;
   ValueColumns values(c, motion, diagnostics);
   for (std::size_t i = 0; i < motion.time.size(); ++i) {
     values.set(law, i, motion.time[i], diagnostics);
@@ -66,13 +56,8 @@ std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& di
     const command<Scalar> now = law.step(static_cast<Scalar>(position), velocity);
     text += fmt::format("{},{},{},{},{},{}\n", motion.time[i], static_cast<Scalar>(position), velocity,
                         now.damping * velocity + now.force, now.damping, now.force);
-    warn_once_outside(c.network.valid.displacement, position, motion.time[i], "displacement", turns ? "rad" : "m",
-                      warned_displacement, c.network, diagnostics);
-    // Rest is in every recording, and says nothing of how fast the tissue may be pressed.
-    if (velocity != 0)
-      warn_once_outside(c.network.valid.rate, std::abs(double(velocity)), motion.time[i], "rate",
-                        turns ? "rad/s" : "m/s", warned_rate, c.network, diagnostics);
   }
+  warn_outside_valid(motion, c.network, diagnostics);
   return text;
 }
 

@@ -1,6 +1,7 @@
 component second_order_maxwell "General viscoelastic solid, Fig. 2e";
 description """
-The force of a network of springs, dampers and slips, written by dashpot 0.1.0 from a network with digest af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af.
+The force of a network of springs, dampers and slips, written by dashpot 0.1.0 from a network with digest
+af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af.
 
 Once a period take position and velocity of the tool from the encoder, and give \\fBdamping\\fR to the brake and minus \\fBforce\\fR
 to the motor: the network opposes the tool with damping * velocity + force.

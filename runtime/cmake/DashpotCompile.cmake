@@ -1,6 +1,6 @@
 # dashpot_compile(TARGET NETWORK FILE [DEVICE FILE] [RATE HZ] [SCHEME NAME] [STATE_INPUT NAME] [DECOMPOSITION NAME|DAMPING]
 #                 [SCALAR double|float] [VECTOR none|sse2|avx2|avx512|neon] [TEMPLATES FOLDER] [CONSTANT_TIME] [BATCH] [WITH_TEST]
-#                 [TARGET cpp|c99] [NAME NAME] [UNCERTIFIED] [CERTIFICATE FILE] [FMU 2|3])
+#                 [TARGET cpp|c99] [NAME NAME] [UNCERTIFIED] [CERTIFICATE FILE] [FMU 2|3] [PYTHON] [WASM])
 #
 # Makes TARGET, an INTERFACE library: what links it includes <NAME.hpp>, the update law of the network called NAME in FILE,
 # and is built after it. The law is compiled again when the network, the device, the compiler or a template changes, and
@@ -18,7 +18,12 @@
 # FMU also makes NAME.fmu, the law as a unit for co-simulation of FMI 2.0 or 3.0, for the machine that builds; the property
 # DASHPOT_FMU of TARGET is its path.
 #
-# WITH_TEST also makes TARGET_test, GoogleTest cases of the law against closed forms, and registers them with CTest.
+# PYTHON also makes python/NAME/, the law as a package for Python, for the machine that builds; the property DASHPOT_PYTHON
+# of TARGET is the folder that Python looks for it in. WASM also makes wasm/NAME/, the law as a module for JavaScript; the
+# property DASHPOT_WASM is its index.js.
+#
+# WITH_TEST also makes TARGET_test, GoogleTest cases of the law against closed forms or, with TARGET c99, a program in C,
+# and registers them with CTest.
 #
 # CERTIFICATE names a file to write, for `dashpot verify`; UNCERTIFIED also makes a law that lacks damping on its device.
 #
@@ -29,7 +34,7 @@
 #
 # Where the build is for another machine, the compiler is that of DASHPOT_COMPILER, else an installed one that runs here.
 function(dashpot_compile target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_TEST;CONSTANT_TIME;BATCH;UNCERTIFIED"
+  cmake_parse_arguments(PARSE_ARGV 1 arg "WITH_TEST;CONSTANT_TIME;BATCH;UNCERTIFIED;PYTHON;WASM"
     "NETWORK;DEVICE;RATE;SCHEME;STATE_INPUT;DECOMPOSITION;SCALAR;VECTOR;TEMPLATES;TARGET;NAME;CERTIFICATE;FMU" "")
   if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES OR NOT arg_NETWORK)
     message(FATAL_ERROR "dashpot_compile(${target}): NETWORK FILE is needed, and each of its options has one value; not "
@@ -70,30 +75,46 @@ function(dashpot_compile target)
       list(APPEND options ${flag} ${arg_${option}})
     endif()
   endforeach()
-  set(fmu)
+  set(uncertified)
+  if(arg_UNCERTIFIED)
+    set(uncertified --uncertified)
+  endif()
+  # The same law for others, beside the header.
+  set(others)
   if(DEFINED arg_FMU)
     if(NOT arg_FMU MATCHES "^[23]$")
       message(FATAL_ERROR "dashpot_compile(${target}): FMU is '${arg_FMU}'; 2 or 3 is expected, the version of the standard")
     endif()
     list(APPEND outputs ${folder}/${name}.fmu)
-    set(fmu COMMAND ${compiler} compile ${arg_NETWORK} ${options} --target fmi${arg_FMU} -o ${folder})
-    if(arg_UNCERTIFIED)
-      list(APPEND fmu --uncertified)
-    endif()
+    list(APPEND others COMMAND ${compiler} compile ${arg_NETWORK} ${options} ${uncertified} --target fmi${arg_FMU}
+                               -o ${folder})
+  endif()
+  if(arg_PYTHON)
+    list(APPEND outputs ${folder}/python/${name}/__init__.py)
+    list(APPEND others COMMAND ${compiler} compile ${arg_NETWORK} ${options} ${uncertified} --target python
+                               -o ${folder}/python)
+  endif()
+  if(arg_WASM)
+    list(APPEND outputs ${folder}/wasm/${name}/index.js)
+    list(APPEND others COMMAND ${compiler} compile ${arg_NETWORK} ${options} ${uncertified} --target wasm
+                               -o ${folder}/wasm)
   endif()
   list(APPEND options --target ${arg_TARGET})
   if(arg_CONSTANT_TIME)
     list(APPEND options --constant-time)
   endif()
-  if(arg_UNCERTIFIED)
-    list(APPEND options --uncertified)
-  endif()
+  list(APPEND options ${uncertified})
   if(arg_BATCH)
     list(APPEND outputs ${folder}/${name}_batch.hpp)
     list(APPEND options --batch)
   endif()
+  if(arg_TARGET STREQUAL "c99")
+    set(test ${folder}/${name}_test.c)
+  else()
+    set(test ${folder}/${name}_test.cpp)
+  endif()
   if(arg_WITH_TEST)
-    list(APPEND outputs ${folder}/${name}_test.cpp)
+    list(APPEND outputs ${test})
     list(APPEND options --with-test)
   endif()
   if(arg_CERTIFICATE)
@@ -116,7 +137,7 @@ function(dashpot_compile target)
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${folder}
     COMMAND ${compiler} compile ${arg_NETWORK} ${options} -o ${folder} --depfile ${folder}/${name}.d
     ${describe_device}
-    ${fmu}
+    ${others}
     DEPENDS ${arg_NETWORK} ${arg_DEVICE} ${compiler_file}
     DEPFILE ${folder}/${name}.d
     COMMENT "Compiling network ${name} for ${target}"
@@ -136,8 +157,18 @@ function(dashpot_compile target)
   if(DEFINED arg_FMU)
     set_target_properties(${target} PROPERTIES DASHPOT_FMU ${folder}/${name}.fmu)
   endif()
-  if(arg_WITH_TEST)
-    _dashpot_add_test(${target} ${folder}/${name}_test.cpp)
+  if(arg_PYTHON)
+    set_target_properties(${target} PROPERTIES DASHPOT_PYTHON ${folder}/python)
+  endif()
+  if(arg_WASM)
+    set_target_properties(${target} PROPERTIES DASHPOT_WASM ${folder}/wasm/${name}/index.js)
+  endif()
+  if(arg_WITH_TEST AND arg_TARGET STREQUAL "c99")
+    add_executable(${target}_test ${test})
+    target_link_libraries(${target}_test PRIVATE ${target} m)
+    add_test(NAME ${target}_test COMMAND ${target}_test)
+  elseif(arg_WITH_TEST)
+    _dashpot_add_test(${target} ${test})
   endif()
 endfunction()
 

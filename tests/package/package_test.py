@@ -5,6 +5,7 @@
 The environment names what ctest knows: DASHPOT_SOURCE (this repository), DASHPOT_BUILD (where it is built), DASHPOT_PREFIX (where
 it is installed), CMAKE_COMMAND, and the compiler to use in CXX.
 """
+import json
 import os
 import pathlib
 import re
@@ -16,6 +17,7 @@ import unittest
 import zipfile
 
 CMAKE = os.environ["CMAKE_COMMAND"]
+PYTHON = "/usr/bin/python3"  # with NumPy
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
 BUILD = pathlib.Path(os.environ["DASHPOT_BUILD"])
 PREFIX = pathlib.Path(os.environ["DASHPOT_PREFIX"])
@@ -113,6 +115,24 @@ class Consumer:
             self.assertIn('fixedInternalStepSize="0.005"', unit.read("modelDescription.xml").decode())
             self.assertIn("scheme: backward-euler at 200 Hz, float", unit.read("sources/coarse_tissue.c").decode())
 
+    # Fails if PYTHON or WASM leaves something out, makes another law, or says that it is elsewhere.
+    def check_others(self):
+        rows = [tuple(float(number) for number in row.split(",")[1:]) for row in motion(200).splitlines()]
+        coarse = simulate(self.dashpot(), self.project, "coarse_tissue", 200, "--scheme", "backward-euler",
+                          "--state-input", "velocity", "--decomposition", "virtual", "--scalar", "float")
+        package = (self.project.build_folder / "package.txt").read_text()
+        script = f"import coarse_tissue\nlaw = coarse_tissue.Law()\nfor row in {rows}: print(*law.step(*row), sep=',')"
+        told = self.project.run(PYTHON, "-B", "-c", script, env={**os.environ, "PYTHONPATH": package})
+        module = (self.project.build_folder / "module.txt").read_text()
+        script = (f"import {{ readFile }} from 'node:fs/promises'; import {{ load }} from {json.dumps(module)};"
+                  f"const law = await load();"
+                  f"for (const [position, velocity] of {json.dumps(rows)}) {{"
+                  f" const now = law.step(position, velocity); console.log(`${{now.damping}},${{now.force}}`); }}")
+        run = self.project.run("node", "--input-type=module", "-e", script)
+        for printed in [told, run]:
+            commands = [tuple(single(float(number)) for number in row.split(",")) for row in printed.splitlines()]
+            self.assertEqual(commands, [tuple(map(single, row)) for row in coarse])
+
     # Fails if a build with nothing to do does something.
     def check_rest(self):
         self.assertEqual(self.first_build.count(COMPILING_A_LAW), 2)
@@ -131,6 +151,7 @@ class InTree(Consumer, unittest.TestCase):
     def test_commands_and_rest(self):
         self.check_commands()
         self.check_unit()
+        self.check_others()
         self.check_rest()
 
     # Fails if a compiler that is not there is found out by a build that stops at the first law.
@@ -198,6 +219,7 @@ class Installed(Consumer, unittest.TestCase):
     def test_commands(self):
         self.check_commands()
         self.check_unit()
+        self.check_others()
 
     def test_rest(self):
         self.check_rest()
@@ -205,7 +227,7 @@ class Installed(Consumer, unittest.TestCase):
     # Fails if fused multiply-add could change the bits of a law in a user's build.
     def test_no_contraction(self):
         commands = (self.project.build_folder / "compile_commands.json").read_text()
-        self.assertEqual(commands.count("-ffp-contract=off"), 5)  # press, press_surface, press_in_c, tissue_test, own_loop
+        self.assertEqual(commands.count("-ffp-contract=off"), 6)  # press, press_surface, press_in_c and its test, tissue_test, own_loop
 
     # Fails if a servo loop cannot be linked, or if emitted tests are not built, not registered, or do not pass.
     def test_everything_else(self):

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "certify/convex_search.hpp"
+#include "certify/settle.hpp"
+#include "discretise/tunable_network.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -30,9 +32,12 @@ struct Line {
 
 class BesideSearch {
  public:
-  BesideSearch(const Compilation& c, const Choices& choices, const PortDevice& device, SlipRuns& runs,
-               CandidateSettler& settler)
-      : runs_(runs), settler_(settler), choices_(choices), before_(runs.chosen_beside()) {
+  BesideSearch(const Compilation& c, const Choices& choices, const PortDevice& device, SlipRuns& runs)
+      : runs_(runs),
+        present_(at_default(c.network)),
+        settler_(present_, c.form, c.decomposition, choices, device, c.rate),
+        choices_(choices),
+        before_(runs.chosen_beside()) {
     const double feedthrough = to_double(c.form.linear.feedthrough_damping);
     most_ = device.max_damping().value_or(0);
     if (c.network.contact) most_ = std::min(most_, feedthrough);
@@ -136,8 +141,9 @@ class BesideSearch {
       if (is_allowed(line.places[i + 1].option, choice)) return;
       const auto here = [&](double share) { return error(line, i, share); };
       const LeastPlace least = golden_section(here, 0, 1, allowed, closely);
-      double inside = line.places[i].option.error <= allowed && least.value > allowed ? 0 : least.place;
-      if (inside > 0 && least.value > allowed) continue;
+      const bool is_inside = least.value <= allowed;
+      if (!is_inside && line.places[i].option.error > allowed) continue;
+      const double inside = is_inside ? least.place : 0;
       const double end = boundary([&](double share) { return here(share) <= allowed; }, inside, 1, closely);
       double damping = damping_at(line, i, end);
       const double low = line.places[i].beside.damping;
@@ -152,7 +158,8 @@ class BesideSearch {
   }
 
   SlipRuns& runs_;
-  CandidateSettler& settler_;
+  Network present_;
+  CandidateSettler settler_;
   const Choices& choices_;
   Candidate before_;
   double most_ = 0;
@@ -163,9 +170,8 @@ class BesideSearch {
 
 }  // namespace
 
-Candidate choose_beside_slips(const Compilation& c, const Choices& choices, const PortDevice& device, SlipRuns& runs,
-                              CandidateSettler& settler) {
-  return BesideSearch(c, choices, device, runs, settler).chosen();
+Candidate choose_beside_slips(const Compilation& c, const Choices& choices, const PortDevice& device, SlipRuns& runs) {
+  return BesideSearch(c, choices, device, runs).chosen();
 }
 
 }  // namespace dashpot::compiler

@@ -29,6 +29,10 @@ bool would_do(const Network& network, const Choices& choices, const Device& devi
   return again && again->certificate.certified;
 }
 
+bool is_proved_at_the_limit(const std::optional<Compilation>& c) {
+  return c && c->certificate.certified && c->certificate.limits.is_covered;
+}
+
 double as_told(double value, int digits) { return std::stod(fmt::format("{:.{}g}", value, digits)); }
 
 // Of the last of so many digits.
@@ -94,6 +98,22 @@ class Remedies {
       again = compiled(c_.network, choices_, device);
       if (again && again->certificate.certified) return mechanics.damping * scale_;
       if (!again) break;
+    }
+    return std::nullopt;
+  }
+
+  // In the device's own unit, in four digits: of the device itself, for a law that keeps to its motor's limit.
+  std::optional<double> own_damping_at_the_limit() const {
+    Device device = *c_.device;
+    double& own = device.description.mechanics.damping;
+    std::optional<MotorLimits> limits = c_.certificate.limits;
+    // With more damping of its own another b may be chosen, which needs more.
+    for (int attempt = 0; attempt < 4 && limits && limits->available; ++attempt) {
+      const double lack = std::max(limits->needed - *limits->available, 0.0);
+      own = rounded_up((own * scale_ + lack) * (1 + 1e-9) / scale_, 4);
+      const std::optional<Compilation> again = compiled(c_.network, choices_, device);
+      if (is_proved_at_the_limit(again)) return own;
+      limits = again ? std::optional(again->certificate.limits) : std::nullopt;
     }
     return std::nullopt;
   }
@@ -366,32 +386,18 @@ void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choic
   const MotorLimits& limits = c.certificate.limits;
   if (!c.device || !c.certificate.certified || limits.rule == LimitRule::none || limits.is_covered) return;
   const std::string unit = port_units(c.network.port_motion).damping;
-  const auto is_proved = [](const std::optional<Compilation>& again) {
-    return again && again->certificate.certified && again->certificate.limits.is_covered;
-  };
   if (c.decomposition.choice().name != "velocity-free") {
     Choices other = choices;
     other.decomposition = "velocity-free";
-    if (const auto again = compiled(c.network, other, *c.device); is_proved(again))
+    if (const auto again = compiled(c.network, other, *c.device); is_proved_at_the_limit(again))
       diagnostics.report<DiagnosticCode::proved_at_the_limit>({}, "--decomposition velocity-free",
                                                               again->certificate.limits.needed, unit);
   }
-  if (!limits.available) return;
-  const double scale = c.port.damping_scale();
-  Device device = *c.device;
-  double& own = device.description.mechanics.damping;
-  const double before = own;
-  own = rounded_up((own * scale + (limits.needed - *limits.available)) * (1 + 1e-9) / scale, 4);
-  // With more damping of its own another b may be chosen, which needs more.
-  for (int attempt = 0; attempt < 4; ++attempt) {
-    const auto again = compiled(c.network, choices, device);
-    if (is_proved(again))
-      return diagnostics.report<DiagnosticCode::own_damping_at_the_limit>(
-          {}, own * scale, unit, before * scale, own, port_units(c.device->description.motion).damping);
-    if (!again || !again->certificate.limits.available) return;
-    const double lack = again->certificate.limits.needed - *again->certificate.limits.available;
-    own = rounded_up((own * scale + std::max(lack, 0.0)) * (1 + 1e-9) / scale, 4);
-  }
+  const Remedies remedies(c, choices);
+  if (const std::optional<double> own = remedies.own_damping_at_the_limit())
+    diagnostics.report<DiagnosticCode::own_damping_at_the_limit>(
+        {}, remedies.at_tool(*own), unit, remedies.at_tool(c.device->description.mechanics.damping), *own,
+        port_units(c.device->description.motion).damping);
 }
 
 void warn_of_driving_uncertified(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

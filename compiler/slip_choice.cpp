@@ -8,7 +8,6 @@
 #include "brake_beside_slips.hpp"
 #include "certify/tunable_choice.hpp"
 #include "decompose/slip_laws.hpp"
-#include "discretise/tunable_network.hpp"
 #include "network/port_units.hpp"
 #include "slip_runs.hpp"
 
@@ -31,14 +30,13 @@ class SlipChooser {
       : runs_(runs), beside_(beside), choices_(choices), device_(device) {}
 
   // `least_elsewhere`: the least error that another damping beside the slips reaches.
-  SlipDecomposition chosen(double least_elsewhere = std::numeric_limits<double>::infinity()) {
+  SlipDecomposition chosen(std::optional<double> least_elsewhere = std::nullopt) {
     const std::vector<SlipLaw>& laws = runs_.laws();
     for (const SlipLaw law : laws) options_.push_back(runs_.run(beside_, runs_.plan(law)));
     std::optional<SlipOption> floor;  // of the steady law, nothing beyond the largest b∞
     if (std::find(laws.begin(), laws.end(), SlipLaw::steady) != laws.end())
       floor = runs_.run(beside_, runs_.plan(SlipLaw::steady, 0));
-    least_ = least_error(floor);
-    if (least_elsewhere < std::numeric_limits<double>::infinity()) least_ = least_elsewhere;
+    least_ = least_elsewhere ? *least_elsewhere : least_error(floor);
     limit_ = allowed_error(choices_.tolerance, least_);
     if (floor) fit_steady(*floor);
     return with_figures(best());
@@ -150,9 +148,7 @@ void choose_slip_law(Compilation& c, const Choices& choices, const PortDevice& d
     // The damping beside them was chosen over the band alone, while all slips hold. Where the runs with it keep to the
     // tolerance too, it stays.
     if (beside.faithful && !device.is_ideal() && !is_within(slips.error, choices.tolerance)) {
-      const Network present = at_default(c.network);
-      CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
-      const Candidate other = choose_beside_slips(c, choices, device, runs, settler);
+      const Candidate other = choose_beside_slips(c, choices, device, runs);
       if (!is_lost_over_box(c, other, choices, device)) {
         slips = SlipChooser(runs, other, choices, device).chosen(other.faithful->least_error);
         c.decomposition.candidates[c.decomposition.chosen] = other;
@@ -174,9 +170,7 @@ double damping_on_another_device(const Compilation& c, const Choices& choices, c
   SlipRuns runs(one, choices, device);
   runs.keep_to(law);
   if (is_within(runs.run(beside, runs.plan(law)).merit.error(), choices.tolerance)) return beside.damping;
-  const Network present = at_default(c.network);
-  CandidateSettler settler(present, c.form, one.decomposition, choices, device, c.rate);
-  return choose_beside_slips(one, choices, device, runs, settler).damping;
+  return choose_beside_slips(one, choices, device, runs).damping;
 }
 
 }  // namespace dashpot::compiler

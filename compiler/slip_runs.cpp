@@ -46,30 +46,31 @@ Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& pl
   return whole;
 }
 
-void SlipRuns::make_trial() {
-  if (trial_) return;
-  coarse_ = by_motor(1);
-  fine_ = by_motor(SlipTrial::instants_a_sample(device_));
-  trial_.emplace(c_.network, coarse_, fine_, device_, c_.network.contact ? c_.network.contact->at : 0);
+std::vector<FeltForce> SlipRuns::felt_of(const UpdateLaw& law) {
+  if (!trial_) {
+    coarse_ = by_motor(1);
+    fine_ = by_motor(SlipTrial::instants_a_sample(device_));
+    trial_.emplace(c_.network, coarse_, fine_, device_, c_.network.contact ? c_.network.contact->at : 0);
+  }
+  std::vector<FeltForce> felt;
+  for (std::size_t m = 0; m < trial_->motions().size(); ++m) felt.push_back(trial_->felt(law, m));
+  return felt;
 }
 
 double SlipRuns::error_of(const UpdateLaw& law) {
-  make_trial();
-  std::vector<FeltForce> felt;
-  for (std::size_t m = 0; m < trial_->motions().size(); ++m) felt.push_back(trial_->felt(law, m));
+  const std::vector<FeltForce> felt = felt_of(law);
   return trial_error(*trial_, felt).worst();
 }
 
 SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
-  make_trial();
   SlipOption option{plan, made_with_room(beside, plan), {}, {}};
   option.merit.law = plan.law;
   const Compilation& made = option.made;
+  option.felt = felt_of(made.law);
   double dissipated = 0, square = 0;
-  for (std::size_t m = 0; m < trial_->motions().size(); ++m) {
-    option.felt.push_back(trial_->felt(made.law, m));
-    dissipated += option.felt.back().dissipated;
-    square += option.felt.back().square_velocity;
+  for (const FeltForce& felt : option.felt) {
+    dissipated += felt.dissipated;
+    square += felt.square_velocity;
   }
   const TrialError error = trial_error(*trial_, option.felt);
   SlipLawMerit& merit = option.merit;

@@ -45,7 +45,7 @@ class SlipRuns {
   double error_of(const UpdateLaw& law);
 
  private:
-  void make_trial();
+  std::vector<FeltForce> felt_of(const UpdateLaw& law);
   UpdateLaw by_motor(int times) const;
   Compilation made_by(const Candidate& beside, const SlipPlan& plan) const;
   std::optional<double> noise_of(const SlipDecomposition& slips) const;

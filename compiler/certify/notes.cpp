@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "decompose/slip_laws.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -52,13 +53,15 @@ std::optional<std::string> quieter_law(const SlipDecomposition& slips) {
 
 }  // namespace
 
-std::vector<std::string> notes_on_choice(const Decomposition& decomposition, const std::string& damping_unit) {
+std::vector<std::string> notes_on_choice(const Decomposition& decomposition, const Network& network) {
   std::vector<std::string> notes;
+  if (has_tunables(network)) return notes;
   const Candidate& choice = decomposition.choice();
   const Candidate* calmest = least(decomposition, &Candidate::minimum_damping, any);
   if (calmest && choice.minimum_damping && *calmest->minimum_damping < worthwhile * *choice.minimum_damping)
     notes.push_back(fmt::format("'{}' would need {:.4g} in place of {:.4g} {} of minimum damping", calmest->name,
-                                *calmest->minimum_damping, *choice.minimum_damping, damping_unit));
+                                *calmest->minimum_damping, *choice.minimum_damping,
+                                port_units(network.port_motion).damping));
   const Candidate* quietest = least(decomposition, &Candidate::motor_noise, needs_no_more);
   if (quietest && choice.motor_noise && *quietest->motor_noise < worthwhile * *choice.motor_noise)
     notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise",

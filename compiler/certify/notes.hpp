@@ -8,8 +8,8 @@
 
 namespace dashpot::compiler {
 
-// `damping_unit`: of the port. One clause each, at most one for the minimum damping, one for the motor's noise, and one
-// for each component with slips.
-std::vector<std::string> notes_on_choice(const Decomposition& decomposition, const std::string& damping_unit);
+// One clause each, at most one for the minimum damping, one for the motor's noise, and one for each component with
+// slips. None where parameters are tunable: what the others need is then not known.
+std::vector<std::string> notes_on_choice(const Decomposition& decomposition, const Network& network);
 
 }  // namespace dashpot::compiler

@@ -71,9 +71,9 @@ void CandidateSettler::settle_faithful(Candidate& candidate) {
   const FaithfulFind found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
   const FoundOption& chosen = found.options[found.choice.chosen];
   place(candidate, chosen.option.damping);
+  candidate.state_input = lines[chosen.line].state_input;
   candidate.faithful = found.choice;
-  for (StateInputMerit& merit : candidate.state_inputs) weigh(candidate, merit);
-  take(candidate, candidate.state_inputs[chosen.line]);
+  settle_at(candidate);
 }
 
 void CandidateSettler::settle_at(Candidate& candidate) {

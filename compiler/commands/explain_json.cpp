@@ -254,8 +254,7 @@ std::string explain_json(const Compilation& c) {
               {"motor_limits",
                c.device ? json_of(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion).damping)
                         : Json(nullptr)},
-              {"notes", c.law.tunable ? std::vector<std::string>()
-                                      : notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping)},
+              {"notes", notes_on_choice(c.decomposition, c.network)},
               {"chosen", choice.name},
               {"choice", json_of_choice(c.decomposition)},
               {"state_input", name_of(choice.state_input)},

@@ -66,9 +66,7 @@ std::string valid_text(const Validity& valid, const PortUnits& units) {
 
 std::string notes_text(const Compilation& c) {
   std::string text;
-  if (c.law.tunable) return text;  // the others are weighed with fixed values
-  for (const std::string& note : notes_on_choice(c.decomposition, port_units(c.network.port_motion).damping))
-    text += "note: " + note + "\n";
+  for (const std::string& note : notes_on_choice(c.decomposition, c.network)) text += "note: " + note + "\n";
   return text;
 }
 

@@ -59,8 +59,11 @@ void check(const std::string& path, const Options& options, const std::optional<
     parse_motion(*file, diagnostics);
   } else if (is_device(*file)) {
     read_device(*file, diagnostics);
-  } else if (const auto compilation = compile(*file, options.choices, device, diagnostics)) {
-    warn_of_felt_error(*compilation, options.choices, diagnostics);
+  } else {
+    Choices choices = options.choices;
+    choices.varies_assumed = false;  // nothing is told of it
+    const auto compilation = compile(*file, choices, device, diagnostics);
+    if (compilation) warn_of_felt_error(*compilation, choices, diagnostics);
   }
 }
 

@@ -169,11 +169,13 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = open_network(options.networks.front(), options, files, diagnostics);
+  Choices choices = options.choices;
+  choices.varies_assumed = false;  // nothing is told of it
   const std::optional<Compilation> compilation =
-      file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
+      file ? compile(*file, choices, device.device, diagnostics) : std::nullopt;
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
-  warn_of_driving_uncertified(*compilation, options.choices, diagnostics);
-  warn_of_felt_error(*compilation, options.choices, diagnostics);
+  warn_of_driving_uncertified(*compilation, choices, diagnostics);
+  warn_of_felt_error(*compilation, choices, diagnostics);
   if (options.motion) return play_motion(options, *compilation, files, diagnostics);
   std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);
   if (!model) return ExitStatus::input_refused;

@@ -283,9 +283,7 @@ std::string candidates_text(const Decomposition& decomposition, const Network& n
     else equals += fmt::format("{}{} as {}", equals.empty() ? "" : ", ", c.name, first->name);
   }
   if (!equals.empty()) text += fmt::format("the same              {}\n", equals);
-  const bool is_tunable = std::any_of(network.parameters.begin(), network.parameters.end(),
-                                      [](const Parameter& parameter) { return parameter.tunable; });
-  if (is_tunable && decomposition.candidates.size() > 1)
+  if (has_tunables(network) && decomposition.candidates.size() > 1)
     text += "with fixed values     every row but the chosen one: of the network as it begins, without set()\n";
   return text + "reasons\n" + reasons;
 }

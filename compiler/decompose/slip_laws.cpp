@@ -9,11 +9,6 @@
 namespace dashpot::compiler {
 namespace {
 
-bool has_tunables(const Network& network) {
-  return std::any_of(network.parameters.begin(), network.parameters.end(),
-                     [](const Parameter& p) { return p.tunable; });
-}
-
 PartDecomposer decomposer_of(SlipPart part, const Network& network, const PortDevice& device) {
   return {std::move(part), device, has_tunables(network), network.contact.has_value()};
 }

@@ -253,11 +253,6 @@ bool is_too_large(const TunableTables& tables, const Network& network, Diagnosti
 
 }  // namespace
 
-bool has_tunables(const Network& network) {
-  return std::any_of(network.parameters.begin(), network.parameters.end(),
-                     [](const Parameter& p) { return p.tunable; });
-}
-
 Network at_default(const Network& network) {
   Network present = network;
   std::vector<bool> passable;

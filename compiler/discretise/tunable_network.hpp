@@ -10,8 +10,6 @@
 
 namespace dashpot::compiler {
 
-bool has_tunables(const Network& network);
-
 // The same network with what its tunables' values let no force through marked as without effect.
 Network at_default(const Network& network);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "network/law.hpp"
@@ -51,6 +52,11 @@ void append_limits(std::string& out, const Network& network) {
 }
 
 }  // namespace
+
+bool has_tunables(const Network& network) {
+  return std::any_of(network.parameters.begin(), network.parameters.end(),
+                     [](const Parameter& parameter) { return parameter.tunable; });
+}
 
 std::string to_text(const Network& network) {
   std::string out;

@@ -84,6 +84,9 @@ struct Network {
 std::optional<Network> build_network(const NetworkDecl& decl, Diagnostics& diagnostics,
                                      const std::optional<Range>& device_band = std::nullopt);
 
+// Whether a parameter may change while the law runs.
+bool has_tunables(const Network& network);
+
 std::string to_text(const Network& network);
 std::string to_text(const Springpot& springpot, motion port_motion);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/settle.hpp"
 #include "commanded.hpp"
 #include "compile.hpp"
 #include "support/written_network.hpp"

@@ -70,8 +70,8 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
         c.added_damping, unit, c.added_damping));
   if (c.certified && c.loop.encoder_step > 0)
     lines.push_back(
-        "  proved for the position as it is; what the steps of the encoder add is not part of it, 'dashpot explain' "
-        "weighs them under quantisation");
+        "  the proof takes the position for exact: what the steps of the encoder add is not part of it, and is told by "
+        "'dashpot explain' under quantisation");
   if (!c.energy.applies) return lines;
   std::string energy = "energy: ";
   if (!c.energy.holds)

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double next_to_nothing = 0.01;  // of what the brake can give
 constexpr const char* in_runs =
-    ", judged by runs around yield too, because the slips err more than the tolerance there";
+    " This damping was chosen together with the law behind the slips, by runs around yield as well as over the band, "
+    "because with the damping that is best over the band alone the error where slips give way is beyond the tolerance.";
 constexpr double same = 1e-6;  // relative: one damping
 
 bool is_same(double x, double y) { return std::abs(x - y) <= same * std::max(std::abs(x), std::abs(y)); }
@@ -26,7 +27,8 @@ const Candidate* named(const Decomposition& decomposition, const char* name) {
 std::string allowance(const FaithfulChoice& choice, double tolerance) {
   if (choice.allowed_error <= tolerance * (1 + 1e-9)) return fmt::format("{} % are allowed", in_percent(tolerance));
   return fmt::format("{} % are allowed, because no damping brings less than {} %{}", in_percent(choice.allowed_error),
-                     in_percent(choice.least_error), choice.in_runs ? " here and where the slips give way" : "");
+                     in_percent(choice.least_error),
+                     choice.in_runs ? ", there and in runs in which slips give way" : "");
 }
 
 // What is gained and what it costs.
@@ -84,7 +86,7 @@ std::string choice_in_words(const Decomposition& decomposition, const PortUnits&
   if (!choice.faithful) return "";
   if (beside == Beside::nothing)
     return fmt::format(
-        "All of the network is behind slips: 'faithful' takes b = {:.4g} of the brake's {:.4g} {} beside them{}. What "
+        "All of the network is behind slips: 'faithful' takes b = {:.4g} of the brake's {:.4g} {} beside them.{} What "
         "is felt of the slips depends on the motion: 'dashpot run --motion' measures it.",
         choice.damping, reach, units.damping, choice.faithful->in_runs ? in_runs : "");
   std::string text = fmt::format(
@@ -93,7 +95,7 @@ std::string choice_in_words(const Decomposition& decomposition, const PortUnits&
       choice.damping, reach, units.damping, beside == Beside::linear ? " of what is beside the slips" : "",
       in_percent(choice.largest_error), allowance(*choice.faithful, decomposition.tolerance),
       choice.faithful->certified ? "" : "; nothing that errs so little is certified");
-  if (choice.faithful->in_runs) text += fmt::format(" It takes the largest brake{}.", in_runs);
+  if (choice.faithful->in_runs) text += in_runs;
   if (const Candidate* paper = named(decomposition, "paper")) text += " " + against_paper(choice, *paper, units);
   if (decomposition.moves)
     text +=

@@ -284,7 +284,9 @@ std::string candidates_text(const Decomposition& decomposition, const Network& n
   }
   if (!equals.empty()) text += fmt::format("the same              {}\n", equals);
   if (has_tunables(network) && decomposition.candidates.size() > 1)
-    text += "with fixed values     every row but the chosen one: of the network as it begins, without set()\n";
+    text +=
+        "other rows            of the network with its parameters held at the values of its file; only the "
+        "chosen row holds for every value within their ranges\n";
   return text + "reasons\n" + reasons;
 }
 

@@ -257,6 +257,21 @@ int main() {
         done = self.dashpot("check", "device.json", status=INPUT_REFUSED)
         self.assertNotIn("[device-instead-of-network]", done.stderr)
 
+    def test_a_table_after_a_step_is_told_by_its_header(self):
+        """Fails if a modulus or a compliance over time has to be asked for, or is then read as anything else."""
+        times = [0.01 * 1.2 ** i for i in range(40)]
+        relaxing = [(t, 100 + 150 * math.exp(-t / 0.3)) for t in times]
+        creeping = [(t, 1 / 100 - (1 / 100 - 1 / 250) * math.exp(-t / 0.75)) for t in times]
+        for option, header, rows in [("--relaxation", "modulus [N/m]", relaxing), ("--creep", "compliance [m/N]", creeping)]:
+            self.write("table.csv", f"time [s],{header}\n" + "".join(f"{t!r},{value!r}\n" for t, value in rows))
+            done = self.dashpot("check", "table.csv")
+            self.assertEqual(done.stdout + done.stderr, "")
+            self.fit("table.csv", "--name", "body", "-o", "plain.json")
+            self.fit("table.csv", "--name", "body", option, "-o", "asked.json")
+            plain, asked = ((self.folder / name).read_text() for name in ["plain.json", "asked.json"])
+            self.assertEqual(plain.replace("plain.json", ""), asked.replace(f"{option} ", "").replace("asked.json", ""))
+            self.refused("fit", "table.csv", "--columns", "time=time", "-o", "not.json", code="recording-column-missing")
+
     def test_a_line_without_end(self):
         """Fails if a line is read for as long as it lasts."""
         self.write("endless.csv", "time [s],position [mm],force [N]\n" + "1" * (3 << 20))

@@ -3,6 +3,7 @@ import csv
 import io
 import json
 import math
+import re
 import unittest
 
 from dashpot_command import COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, network
@@ -171,6 +172,26 @@ class Motion(CommandTest):
         # The simulated shaft takes steps of its own, which round the corners between rows.
         self.assertAlmostEqual(told["energy"]["taken"] / (4 * travel * 2000), 1, delta=1e-4)
         self.assertEqual(told["energy"]["lowest"], 0)
+
+    def test_a_start_that_is_loaded(self):
+        """Fails if what the network holds as the motion begins is not told, so that giving it out passes for energy made."""
+        rows = [(k / 2000, 0.004 if k < 200 else max(0.0, 0.004 - 0.01 * (k - 200) / 2000)) for k in range(1200)]
+        net = self.write("spring.json", network('{ "spring": 3000 }', "spring"))
+        _, told = self.played(net, self.device(), table(rows), "--decomposition", "velocity-free")
+        self.assertAlmostEqual(told["energy"]["stored_at_start"], 3000 * 0.004**2 / 2, delta=1e-9)
+        self.assertLess(told["energy"]["lowest"], -0.02)
+        said = self.dashpot("run", net, "--device", "device.json", "--motion", "motion.csv", "-o", "felt.csv").stdout
+        self.assertIn("the network held 0.024 J as the motion began", said)
+
+    def test_a_motion_beyond_what_the_network_is_valid_for(self):
+        """Fails if run is silent where simulate warns."""
+        net = self.write("valid.json", network('{ "spring": 30 }', "valid", '"valid": { "displacement": ["0 mm", "1 mm"], "rate": ["0 m/s", "1 mm/s"] },'))
+        self.write("motion.csv", table(sine(2000)))
+        played = self.dashpot("run", net, "--device", self.device(), "--motion", "motion.csv", "-o", "felt.csv").stderr
+        simulated = self.dashpot("simulate", net, "--input", "motion.csv").stderr
+        for said in [played, simulated]:
+            self.assertEqual(said.count("[outside-valid-range]"), 2)
+        self.assertEqual(re.findall("warning: (.*) .outside-valid-range", played), re.findall("warning: (.*) .outside-valid-range", simulated))
 
     def test_refusals(self):
         """Fails if a command line that means nothing is taken, a bad recording played, or a motion out of reach not warned of."""

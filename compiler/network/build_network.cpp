@@ -9,6 +9,7 @@
 #include "network/network.hpp"
 #include "network/parameter_table.hpp"
 #include "network/read_motion.hpp"
+#include "network/static_curve.hpp"
 #include "source/excerpt.hpp"
 
 namespace dashpot::compiler {
@@ -38,6 +39,8 @@ class NetworkBuilder {
     read_validity();
     add_elements();
     read_contact();
+    if (decl_.static_curve)
+      network_.static_curve = read_static_curve(*decl_.static_curve, table_, network_.port_motion, diagnostics_);
     network_.parameters = table_.parameters();
     check_whole();
     return std::move(network_);

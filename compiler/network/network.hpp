@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "network/element.hpp"
+#include "network/motion_map.hpp"
 #include "source/diagnostic.hpp"
 #include "syntax/network_decl.hpp"
 
@@ -42,6 +43,25 @@ struct Contact {
   Span span;
 };
 
+// A point of a curve.
+struct CurvePoint {
+  double displacement;  // [m] or [rad]
+  double force;         // [N] or [N·m]
+};
+
+// The wanted force over displacement, behind which the whole network lies. Odd: for negative displacements it is the
+// same with the other sign.
+struct StaticCurve {
+  enum class Kind { power, exponential, table };
+
+  Kind kind = Kind::power;
+  double shape = 1;                // p of c u^p, or a of c (e^{a u} − 1) [1/m]
+  CurvePoint point{};              // through which it goes; of a table the last
+  std::vector<CurvePoint> points;  // of a table, from [0, 0] on; beyond the last it keeps its slope
+  bool is_instantaneous = false;   // else it is what is left at rest
+  Span span;
+};
+
 // What a springpot was taken for: its Maxwell elements are among the network's.
 struct Springpot {
   std::string name;
@@ -70,6 +90,8 @@ struct Network {
   std::vector<Element> elements;
   std::vector<Springpot> springpots;
   std::optional<Contact> contact;
+  std::optional<StaticCurve> static_curve;
+  std::optional<MotionMap> map;  // of the static curve, once the network's stiffness is known
   Validity valid;
   std::vector<Comment> comments;
   std::string digest;  // of the file's bytes
@@ -89,6 +111,7 @@ bool has_tunables(const Network& network);
 
 std::string to_text(const Network& network);
 std::string to_text(const Springpot& springpot, motion port_motion);
+std::string to_text(const StaticCurve& curve, motion port_motion);
 
 // A line for every value that was calculated: what its author wrote, and what came out.
 std::string calculations_text(const Network& network);

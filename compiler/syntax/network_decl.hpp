@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -92,6 +93,18 @@ struct ContactDecl {
   Span span;
 };
 
+// The wanted force over displacement at rest or at once: one of the three kinds.
+struct StaticDecl {
+  std::string kind;                // "power", "exponential" or "table"
+  std::optional<ValueDecl> shape;  // the exponent, or the rate of the exponential; of a table nothing
+  std::optional<ValueDecl> force;  // at `at`
+  std::optional<ValueDecl> at;
+  std::vector<std::pair<ValueDecl, ValueDecl>> table;  // displacement and force
+  std::optional<Text> is;
+  Span span;
+  Span kind_span;
+};
+
 struct ValidDecl {
   std::optional<RangeDecl> rate;
   std::optional<RangeDecl> displacement;
@@ -114,6 +127,7 @@ struct NetworkDecl {
   std::variant<TreeDecl, std::vector<EdgeDecl>> structure;  // `network` or `elements`
   Span structure_span;
   std::optional<ContactDecl> contact;
+  std::optional<StaticDecl> static_curve;
   std::optional<ValidDecl> valid;
   std::vector<CommentDecl> comments;
   std::string digest;    // of the file's bytes

@@ -8,6 +8,7 @@
 #include "syntax/file_format.hpp"
 #include "syntax/object_reader.hpp"
 #include "syntax/parse_fit.hpp"
+#include "syntax/parse_static.hpp"
 #include "syntax/parse_structure.hpp"
 
 namespace dashpot::compiler {
@@ -15,8 +16,8 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-const std::vector<std::string> network_keys = {"dashpot", "name",     "title",   "source", "motion", "parameters",
-                                               "network", "elements", "contact", "valid",  "fit"};
+const std::vector<std::string> network_keys = {"dashpot", "name",     "title",  "source",  "motion", "parameters",
+                                               "network", "elements", "static", "contact", "valid",  "fit"};
 
 ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics) {
   ParameterDecl parameter{{member.key, member.key_span}, {}, false, {}, {}, member.value.span};
@@ -89,6 +90,7 @@ NetworkDecl parse_network_keys(ObjectReader reader, Diagnostics& diagnostics) {
   decl.motion = reader.text("motion");
   decl.parameters = parse_parameters(reader, diagnostics);
   parse_structure(reader, decl, diagnostics);
+  if (const JsonValue* object = reader.object("static")) decl.static_curve = parse_static(*object, diagnostics);
   decl.contact = parse_contact(reader, diagnostics);
   decl.valid = parse_valid(reader, diagnostics);
   check_fit_record(reader, diagnostics);

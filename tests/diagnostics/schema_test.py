@@ -38,6 +38,8 @@ BEYOND_THE_SCHEMAS = {
     "expression_with_exponential_of_length", "expression_with_logarithm_of_zero", "expression_with_open_bracket",
     "expression_with_root_of_negative", "expression_with_root_without_unit", "expression_with_stray_bracket",
     "expression_without_product_sign", "prony_time_of_zero", "prony_weights_above_one",
+    "static_power_below_one", "static_power_with_unit", "static_force_of_zero", "static_rate_negative", "static_table_starts_elsewhere",
+    "static_table_goes_back", "static_table_softens", "static_at_tunable",
     "springpot_band_at_zero", "springpot_band_reversed", "springpot_band_too_wide", "springpot_beyond_a_double",
     "springpot_beyond_its_band", "springpot_error_too_small",
     "springpot_exponent_above_one", "springpot_exponent_of_damper", "springpot_exponent_of_spring", "springpot_of_zero",

@@ -1,0 +1,168 @@
+#include "linear/motion_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dashpot::compiler {
+namespace {
+
+using boost::multiprecision::exp;
+using boost::multiprecision::expm1;
+using boost::multiprecision::pow;
+using boost::multiprecision::sqrt;
+
+// (e^x − 1)/… without cancellation is expm1; e^x − 1 − x of a small x is its series.
+Real exponential_remainder(const Real& x) {
+  if (abs(x) > Real("1e-6")) return expm1(x) - x;
+  Real term = x * x / 2, sum = 0;
+  for (int n = 3; n < 12; ++n) sum += term, term *= x / n;
+  return sum;
+}
+
+// c of c u^p or of c (e^{a u} − 1)
+Real factor_of(const StaticCurve& curve) {
+  const Real force = curve.point.force, at = curve.point.displacement, shape = curve.shape;
+  return curve.kind == StaticCurve::Kind::power ? Real(force / pow(at, shape)) : Real(force / expm1(shape * at));
+}
+
+// The last point that is not beyond, with a point after it.
+std::size_t row_of(const StaticCurve& curve, const Real& displacement) {
+  std::size_t row = 0;
+  while (row + 2 < curve.points.size() && curve.points[row + 1].displacement <= displacement) ++row;
+  return row;
+}
+
+Real slope_of(const StaticCurve& curve, std::size_t row) {
+  return (Real(curve.points[row + 1].force) - Real(curve.points[row].force)) /
+         (Real(curve.points[row + 1].displacement) - Real(curve.points[row].displacement));
+}
+
+// Of a curve that begins straight, df/du at 0; 0 of a power above 1.
+Real initial_stiffness(const StaticCurve& curve) {
+  switch (curve.kind) {
+    case StaticCurve::Kind::power: return curve.shape == 1 ? factor_of(curve) : Real(0);
+    case StaticCurve::Kind::exponential: return factor_of(curve) * Real(curve.shape);
+    case StaticCurve::Kind::table: return slope_of(curve, 0);
+  }
+  return 0;
+}
+
+struct Knot {
+  Real value, tangent;
+};
+
+Knot knot_at(const StaticCurve& curve, const Real& stiffness, const Real& displacement) {
+  if (displacement == 0) return {0, sqrt(initial_stiffness(curve) / stiffness)};
+  const Real w = sqrt(2 * energy_at(curve, displacement) / stiffness);
+  return {w, force_at(curve, displacement) / (stiffness * w)};
+}
+
+MapCell cubic_between(const Knot& from, const Knot& to, const Real& width) {
+  const Real rise = (to.value - from.value) / width;
+  const auto coefficient = [&](const Real& difference, const Real& over) {
+    return abs(difference) <= negligible_share * to.tangent ? 0.0 : to_double(difference / over);
+  };
+  return {to_double(from.value), to_double(from.tangent), coefficient(3 * rise - 2 * from.tangent - to.tangent, width),
+          coefficient(from.tangent + to.tangent - 2 * rise, width * width)};
+}
+
+MotionMap with_cells(const StaticCurve& curve, const Real& stiffness, double reach, std::size_t cells) {
+  MotionMap map;
+  map.reach = reach;
+  map.stiffness = to_double(stiffness);
+  Knot knot = knot_at(curve, stiffness, 0);
+  for (std::size_t i = 1; i <= cells; ++i) {
+    const Knot next = knot_at(curve, stiffness, Real(reach) * i / cells);
+    map.cell.push_back(cubic_between(knot, next, Real(reach) / cells));
+    knot = next;
+  }
+  map.cell.push_back({to_double(knot.value), to_double(knot.tangent), 0, 0});
+  const std::size_t places = std::max<std::size_t>(16, 2048 / cells);  // looked at in each cell, and where tables bend
+  const double largest = to_double(force_at(curve, reach));
+  const auto look_at = [&](double u) {
+    const double force = map.stiffness * map.value_at(u) * map.tangent_at(u);
+    map.static_error = std::max(map.static_error, std::abs(force - to_double(force_at(curve, u))) / largest);
+  };
+  for (std::size_t i = 0; i <= cells * places; ++i) look_at(reach * double(i) / double(cells * places));
+  for (const CurvePoint& point : curve.points)
+    if (point.displacement < reach) look_at(point.displacement);
+  return map;
+}
+
+// How far the tool goes beyond the place where the curve begins.
+double reach_of(const Network& network) {
+  const double start = network.contact ? network.contact->at : 0;
+  double reach = network.static_curve->point.displacement;
+  if (const auto& valid = network.valid.displacement; valid) {
+    const double forward = valid->high - start, backward = network.contact ? 0 : start - valid->low;
+    if (std::max(forward, backward) > 0) reach = std::max(forward, backward);
+  }
+  return reach;
+}
+
+std::optional<Real> stiffness_of(const Network& network, const LinearForm& form, Diagnostics& diagnostics) {
+  Real stiffness = form.static_stiffness;
+  if (network.static_curve->is_instantaneous) {
+    for (const Mode& mode : form.modes) stiffness += mode.stiffness;
+    if (stiffness > 0) return stiffness;
+    diagnostics.report<DiagnosticCode::static_without_springs>(network.static_curve->span);
+    return std::nullopt;
+  }
+  if (stiffness > 0) return stiffness;
+  diagnostics.report<DiagnosticCode::static_without_rest>(network.static_curve->span);
+  diagnostics.note<DiagnosticCode::static_rest_remedy>({});
+  return std::nullopt;
+}
+
+}  // namespace
+
+Real force_at(const StaticCurve& curve, const Real& displacement) {
+  switch (curve.kind) {
+    case StaticCurve::Kind::power: return factor_of(curve) * pow(displacement, Real(curve.shape));
+    case StaticCurve::Kind::exponential: return factor_of(curve) * expm1(Real(curve.shape) * displacement);
+    case StaticCurve::Kind::table: {
+      const std::size_t row = row_of(curve, displacement);
+      return Real(curve.points[row].force) +
+             slope_of(curve, row) * (displacement - Real(curve.points[row].displacement));
+    }
+  }
+  return 0;
+}
+
+Real energy_at(const StaticCurve& curve, const Real& displacement) {
+  const Real shape = curve.shape;
+  switch (curve.kind) {
+    case StaticCurve::Kind::power: return factor_of(curve) * pow(displacement, shape + 1) / (shape + 1);
+    case StaticCurve::Kind::exponential: return factor_of(curve) / shape * exponential_remainder(shape * displacement);
+    case StaticCurve::Kind::table: {
+      const std::size_t last = row_of(curve, displacement);
+      Real energy = 0;
+      for (std::size_t row = 0; row <= last; ++row) {
+        const CurvePoint& from = curve.points[row];
+        const Real to = row == last ? displacement : Real(curve.points[row + 1].displacement);
+        energy += (to - Real(from.displacement)) * (Real(from.force) + force_at(curve, to)) / 2;
+      }
+      return energy;
+    }
+  }
+  return 0;
+}
+
+std::optional<MotionMap> motion_map(const Network& network, const LinearForm& form, Diagnostics& diagnostics,
+                                    double error) {
+  const std::optional<Real> stiffness = stiffness_of(network, form, diagnostics);
+  if (!stiffness) return std::nullopt;
+  const StaticCurve& curve = *network.static_curve;
+  const double reach = reach_of(network);
+  MotionMap map = with_cells(curve, *stiffness, reach, 32);
+  for (std::size_t cubics = 64; cubics <= most_cubics && map.static_error > error; cubics *= 2)
+    map = with_cells(curve, *stiffness, reach, cubics);
+  if (map.static_error > largest_static_error) {
+    diagnostics.report<DiagnosticCode::static_too_bent>(curve.span, most_cubics, 100 * map.static_error);
+    return std::nullopt;
+  }
+  map.start = network.contact ? network.contact->at : 0;
+  return map;
+}
+
+}  // namespace dashpot::compiler

@@ -5,6 +5,7 @@
 
 #include "certify/assumed_values.hpp"
 #include "certify/choice_text.hpp"
+#include "certify/curve_bound.hpp"
 #include "certify/settle.hpp"
 #include "certify/tunable_choice.hpp"
 #include "decompose/slip_laws.hpp"
@@ -13,8 +14,10 @@
 #include "discretise/rounding.hpp"
 #include "discretise/tunable_network.hpp"
 #include "law/representable.hpp"
+#include "linear/motion_map.hpp"
 #include "linear/reach.hpp"
 #include "linear/validity.hpp"
+#include "lower/behind_map.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/roll.hpp"
 #include "lower/shed.hpp"
@@ -85,7 +88,8 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
   if (device.is_ideal()) return;
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
-  choice.largest_error = settler.largest_error(choice, c.certificate.added_damping);
+  const double steepest = c.port.steepest();
+  choice.largest_error = settler.largest_error(choice, c.certificate.added_damping / (steepest * steepest));
   c.decomposition.in_words =
       choice_in_words(c.decomposition, port_units(c.network.port_motion), device.max_damping().value_or(0),
                       to_double(zero_frequency_damping(c.form.linear)), to_double(c.form.linear.feedthrough_damping),
@@ -118,6 +122,31 @@ bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diag
   return asked == StateInput::position;
 }
 
+// False, with a diagnostic, where there is a static curve that cannot be had.
+bool put_behind_curve(Network& network, Network& present, const NormalForm& form, Diagnostics& diagnostics) {
+  if (!network.static_curve) return true;
+  if (has_tunables(network)) {
+    diagnostics.report<DiagnosticCode::static_with_tunables>(network.static_curve->span);
+    return false;
+  }
+  network.map = present.map = motion_map(present, form.linear, diagnostics);
+  return network.map.has_value();
+}
+
+// Certifies the law and lowers it to what is emitted.
+void certify_law(Compilation& c, const Choices& choices) {
+  const SampledLoop loop = sampled_loop(c.port, 1 / c.rate);
+  const std::optional<SlipMotor> slips = slip_motor(c.network, c.form, c.decomposition, choices, loop);
+  if (c.network.map) {
+    c.certificate = certify_behind_curve(c.law, c.network, slips, c.port, 1 / c.rate);
+    c.law = behind_map(std::move(c.law), *c.network.map, c.certificate.added_damping, c.network.port_motion);
+  } else {
+    c.certificate = certify(c.law, loop, slips);
+  }
+  if (c.certificate.limits.rule == LimitRule::sheds)
+    c.law = with_shedding(std::move(c.law), reach_of(c.certificate.loop, choices.scalar), c.network.port_motion);
+}
+
 }  // namespace
 
 std::optional<Network> check(const SourceFile& source, Diagnostics& diagnostics, const std::optional<Device>& device) {
@@ -147,11 +176,11 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
                                      [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
   Choices choices = with_names(asked, device || has_slips);
   if (!settle_tunables(network, choices, diagnostics)) return std::nullopt;
-  const Network present = at_default(network);
+  Network present = at_default(network);
   if (!is_within_reach(present, diagnostics)) return std::nullopt;
   times.enter("normal form");
   std::optional<NormalForm> form = closed_normal_form(present, diagnostics);
-  if (!form) return std::nullopt;
+  if (!form || !put_behind_curve(network, present, *form, diagnostics)) return std::nullopt;
   Compilation result;
   result.network = std::move(network);
   result.device = device;
@@ -190,12 +219,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   }
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");
-  const SampledLoop loop = sampled_loop(result.port, 1 / result.rate);
-  result.certificate =
-      certify(result.law, loop, slip_motor(result.network, result.form, result.decomposition, choices, loop));
-  if (result.certificate.limits.rule == LimitRule::sheds)
-    result.law = with_shedding(std::move(result.law), reach_of(loop, choices.scalar), result.network.port_motion);
-  const bool is_known_by_the_whole = result.form.has_slips() || result.network.contact;
+  certify_law(result, choices);
+  const bool is_known_by_the_whole = result.form.has_slips() || result.network.contact || result.network.map;
   if (!result.port.is_ideal() && !is_tunable && is_known_by_the_whole) tell_of_certificate(result);
   tell_what_is_felt(result, present, choices, result.port);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;

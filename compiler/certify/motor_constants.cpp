@@ -38,19 +38,24 @@ void read_bank(const UpdateLaw& law, std::size_t bank, MotorConstants& motor) {
   motor.error_bound = law.relative_error_bound;
 }
 
-bool is_of_motor_reach(const UpdateLaw& law, const Statement& statement) {
+// Of the motor's limits, or of a static curve's map.
+bool is_beside_network(const UpdateLaw& law, const Statement& statement) {
   bool found = false;
   each_expression(law, statement.value, [&](const Expression& e) {
-    found |= e.operation == Operation::constant && law.coefficients[e.coefficient].role == ConstantRole::motor_reach;
+    if (e.operation != Operation::constant && e.operation != Operation::pick) return;
+    const ConstantRole role = law.coefficients[e.coefficient].role;
+    found |= role == ConstantRole::motor_reach || role == ConstantRole::map;
   });
   return found || (law.sheds() && statement.target == law.force);
 }
 
 bool has_slips(const UpdateLaw& law) {
-  if (law.brake_changes() || !law.couplings.empty() || !law.networks.empty() || law.surface_at) return true;
+  if ((law.brake_changes() && law.mapped == no_variable) || !law.couplings.empty() || !law.networks.empty() ||
+      law.surface_at)
+    return true;
   bool chooses = false;  // beside the limits of a motor
   for (const Statement& statement : law.output)
-    if (!is_of_motor_reach(law, statement))
+    if (!is_beside_network(law, statement))
       each_expression(law, statement.value, [&](const Expression& e) {
         chooses |= e.operation == Operation::clamp || e.operation == Operation::where;
       });

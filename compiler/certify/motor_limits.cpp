@@ -58,15 +58,6 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   return gains;
 }
 
-// L of the contract [s].
-double time_of_lag(const SampledLoop& loop) {
-  const double lag = loop.amplifier_lag;
-  if (!(lag > 0)) return 0;
-  const double kept = -std::expm1(-(loop.sample_period - loop.jitter) / lag);  // 1 − q
-  const double lost = -std::expm1(-2 * loop.longest_hold() / lag);             // 1 − q_T²
-  return 2 * std::sqrt(loop.longest_hold() * lag * lost / 2) / kept * margin;
-}
-
 // F_i = c_i (u − q_i), q_i an average of where the tool has been: within the travel R no more than c_i R.
 std::optional<double> largest_force(const Gains& gains, const MotorConstants& linear,
                                     const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
@@ -116,6 +107,14 @@ std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop
   for (const MotorMode& mode : motor.modes)
     change += (mode.decay > 0 ? mode.position_drive / mode.decay : mode.position_drive) * loop.travel * mode.loss;
   return change / shortest * margin;
+}
+
+double time_of_lag(const SampledLoop& loop) {
+  const double lag = loop.amplifier_lag;
+  if (!(lag > 0)) return 0;
+  const double kept = -std::expm1(-(loop.sample_period - loop.jitter) / lag);  // 1 − q
+  const double lost = -std::expm1(-2 * loop.longest_hold() / lag);             // 1 − q_T²
+  return 2 * std::sqrt(loop.longest_hold() * lag * lost / 2) / kept * margin;
 }
 
 std::optional<double> damping_for_slew(const MotorConstants& motor, double used, const SampledLoop& loop) {

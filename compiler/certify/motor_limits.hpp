@@ -70,6 +70,9 @@ std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop
 // 2 β′ T √(σ/3ρ): what a slew costs that is enough, σ of ρ being used; empty where the estimator's gain is not known.
 std::optional<double> damping_for_slew(const MotorConstants& motor, double used, const SampledLoop& loop);
 
+// L [s]; 0 without a lag.
+double time_of_lag(const SampledLoop& loop);
+
 // The largest such F0; 0 where there is none.
 double covered_discontinuity(double slew, double spare_damping, double stiffness, double sample_period);
 

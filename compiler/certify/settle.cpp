@@ -165,6 +165,7 @@ PassivityBound CandidateSettler::bound(StateInput input, double damping, std::si
     motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
     motor->brake = damping;
   }
+  if (network_.map && motor && motor->estimate_drives_modes()) return {};  // as certify/curve_bound.hpp has it
   return motor && slips_ ? passivity_bound(*motor, *slips_, loop_) : passivity_bound(motor, loop_, terms);
 }
 

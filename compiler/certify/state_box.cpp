@@ -109,7 +109,12 @@ class Magnitudes {
   void run(const std::vector<Statement>& program) {
     for (const Statement& s : program)
       for (std::size_t place = 0; place < law_.variables[s.target].size; ++place)
-        values_[first(s.target) + place] = of(s.value, place);
+        values_[first(s.target) + place] = s.target == law_.mapped ? mapped() : of(s.value, place);
+  }
+
+  // |w| ≤ w′_most |u − start|, but for the roundings of a cubic.
+  Affine mapped() const {
+    return sized(law_.steepest * (bounds_[first(law_.position)] + std::abs(law_.map_start)) * (1 + 64 * roundoff_));
   }
 
   double magnitude(const Affine& value) const {
@@ -265,8 +270,9 @@ InputRange input_range(const PortDevice& port) {
   const InputRange range = {10, 100};
   if (port.is_ideal()) return range;
   const encoder_description& encoder = port.description().encoder;
-  const double reach = std::max(std::abs(encoder.range_low), std::abs(encoder.range_high)) * port.position_scale();
-  const double speed = encoder.max_speed * port.position_scale();
+  const double scale = port.at_tool().position_scale();
+  const double reach = std::max(std::abs(encoder.range_low), std::abs(encoder.range_high)) * scale;
+  const double speed = encoder.max_speed * scale;
   return {reach > 0 ? reach : range.position, speed > 0 ? speed : range.velocity};
 }
 

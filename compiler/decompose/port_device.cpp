@@ -36,15 +36,27 @@ std::optional<PortDevice> PortDevice::of(const Device& device, const Network& ne
   const device_description& d = device.description;
   PortDevice port;
   port.device_ = device;
-  if (d.motion == network.port_motion) return port;
-  if (network.port_motion == motion::translation && d.arm_radius > 0) {
-    // B_joint = B r², u = q r (theory, section 7).
-    port.damping_scale_ = 1 / (d.arm_radius * d.arm_radius);
-    port.position_scale_ = d.arm_radius;
-    return port;
-  }
+  const double steepest = network.map ? network.map->steepest() : 1;
+  port.steepest_ = steepest;
+  if (d.motion == network.port_motion) return port.behind_lever(steepest);
+  // B_joint = B r², u = q r (theory, section 7).
+  if (network.port_motion == motion::translation && d.arm_radius > 0)
+    return port.behind_lever(d.arm_radius).behind_lever(steepest);
   diagnostics.report<DiagnosticCode::motion_mismatch>(network.name_span, network.name, device.name);
   return std::nullopt;
+}
+
+PortDevice PortDevice::behind_lever(double ratio) const {
+  PortDevice port = *this;
+  port.damping_scale_ /= ratio * ratio;
+  port.position_scale_ *= ratio;
+  return port;
+}
+
+PortDevice PortDevice::at_tool() const {
+  PortDevice port = behind_lever(1 / steepest_);
+  port.steepest_ = 1;
+  return port;
 }
 
 PortDevice PortDevice::replaced_by(const Device& device) const {

@@ -15,7 +15,9 @@ class PortDevice {
  public:
   static PortDevice ideal() { return PortDevice(); }
 
-  // Refuses: a rotary device without an arm radius under a translational network, and the reverse.
+  // Behind a static curve the network's port is the end of a lever: of the steepest place, where the device has least
+  // force, least damping and the coarsest steps for it. Refuses: a rotary device without an arm radius under a
+  // translational network, and the reverse.
   static std::optional<PortDevice> of(const Device& device, const Network& network, Diagnostics& diagnostics);
 
   // Another device in the place of this one: of the same motion, and the same arm.
@@ -25,13 +27,14 @@ class PortDevice {
   const device_description& description() const { return device_->description; }  // of a device that is not ideal
   double damping_scale() const { return damping_scale_; }                         // from the joint to the tool
   double position_scale() const { return position_scale_; }                       // likewise
-  std::optional<double> max_damping() const;                                      // at the tool [N·s/m]; empty: any
-  double tolerance() const;                                                       // ε of the brake [1]
-  double assured_share() const;                                                   // (1 − ε)/(1 + (v_max/v_c)²) [1]
-  double residual_damping() const;     // of the brake at zero current, at the tool [N·s/m]
-  double band_low() const;             // [rad/s]
-  double band_high() const;            // [rad/s]
-  double reference_frequency() const;  // [rad/s]; 0: the limit ω → 0
+  double steepest() const { return steepest_; }  // w′ of a static curve, at most; else 1
+  std::optional<double> max_damping() const;     // at the tool [N·s/m]; empty: any
+  double tolerance() const;                      // ε of the brake [1]
+  double assured_share() const;                  // (1 − ε)/(1 + (v_max/v_c)²) [1]
+  double residual_damping() const;               // of the brake at zero current, at the tool [N·s/m]
+  double band_low() const;                       // [rad/s]
+  double band_high() const;                      // [rad/s]
+  double reference_frequency() const;            // [rad/s]; 0: the limit ω → 0
 
   // G(jω) = V̂/U̇ of the estimator; a pure delay where the estimator is not linear. 1 for an ideal device.
   std::complex<double> velocity_response(double angular_frequency) const;
@@ -51,6 +54,11 @@ class PortDevice {
   std::string_view estimator_name() const;
   std::optional<double> velocity_noise() const;  // rms of the estimate under quantisation [m/s]; empty: not linear
 
+  // Seen from the end of a lever that moves `ratio` times as far.
+  PortDevice behind_lever(double ratio) const;
+  // The device at the tool itself, in front of a static curve.
+  PortDevice at_tool() const;
+
  private:
   using Estimator = any_estimator<double>;
   Estimator estimator() const;
@@ -58,6 +66,7 @@ class PortDevice {
   std::optional<Device> device_;
   double damping_scale_ = 1;  // from the joint to the tool
   double position_scale_ = 1;
+  double steepest_ = 1;
 };
 
 }  // namespace dashpot::compiler

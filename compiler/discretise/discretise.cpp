@@ -47,7 +47,8 @@ class LawBuilder {
                names_of_modes(form.linear.modes, network, writer_), ""),
         slips_(writer_, network, sample_period, form, decomposition.slips),
         brake_(writer_, decomposition.slips, slips_, linear_damping_, sample_period) {
-    if (network.contact) contact_.emplace(writer_, network.contact->at, decomposition.encoder_step);
+    // A static curve's map begins at the surface.
+    if (network.contact) contact_.emplace(writer_, network.map ? 0 : network.contact->at, decomposition.encoder_step);
   }
 
   UpdateLaw build() {

@@ -76,8 +76,12 @@ ExpressionId LawWriter::constants(const VectorName& name, const std::string& uni
 }
 
 ExpressionId LawWriter::pick(const std::string& name, const std::string& unit, const std::string& meaning,
-                             const std::vector<Real>& values, ExpressionId place) {
-  const CoefficientId table = add_constants({name, unit, meaning, {}, {}, ConstantRole::brake_choice}, values);
+                             const std::vector<Real>& values, ExpressionId place, ConstantRole role) {
+  const auto known = std::find_if(law_.coefficients.begin(), law_.coefficients.end(),
+                                  [&](const Coefficient& coefficient) { return coefficient.name == name; });
+  const CoefficientId table = known != law_.coefficients.end()
+                                  ? law_.coefficients.id_of(*known)
+                                  : add_constants({name, unit, meaning, {}, {}, role}, values);
   return law_.expressions.add({Operation::pick, {place}, {}, table});
 }
 

@@ -75,7 +75,8 @@ class LawWriter {
 
   // A table, and the place of it that an expression says.
   ExpressionId pick(const std::string& name, const std::string& unit, const std::string& meaning,
-                    const std::vector<Real>& values, ExpressionId place);
+                    const std::vector<Real>& values, ExpressionId place,
+                    ConstantRole role = ConstantRole::brake_choice);
 
   // The variable that an expression is, or `nothing` where it is more than that.
   VariableId reads(ExpressionId expression) const;

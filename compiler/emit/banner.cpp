@@ -152,6 +152,13 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
   std::vector<std::string> facts;
   if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
+  if (c.network.map)
+    facts.push_back(fmt::format(
+        "static curve: {}; the network lies behind a map w of the position u, for which u stands in what follows: f = "
+        "w' "
+        "F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the force at rest is off by at most {:.2g} % of the largest",
+        to_text(*c.network.static_curve, c.network.port_motion), c.network.map->least_tangent(0, c.network.map->reach),
+        c.network.map->steepest(), 100 * c.network.map->static_error));
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}: {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar),
                               in_words(c.law.scheme, c.network.contact || !slips.empty())));
   const std::string capped =

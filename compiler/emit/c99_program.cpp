@@ -394,9 +394,10 @@ class C99Printer {
     return lines;
   }
 
-  Lines reset() const {
+  Lines reset() {
     Lines lines;
     if (law_.rest_position == no_variable) lines.push_back("(void)position;");
+    else lines = with_constants({&law_.start}, lines_of(law_.start));
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       const std::string rest =
@@ -413,7 +414,8 @@ class C99Printer {
   }
 
   std::string rest_position() const {
-    const std::string there = law_.surface_at
+    const std::string there = law_.started_at != no_variable ? law_.variables[law_.started_at].name
+                              : law_.surface_at
                                   ? fmt::format("dashpot_pushed_in{}({}, position)", suffix_, number(*law_.surface_at))
                                   : "position";
     return fmt::format("(dashpot_all_finite{}(position, position, position) != 0) ? {} : {}", suffix_, there,

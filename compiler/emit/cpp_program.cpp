@@ -145,6 +145,7 @@ class CppPrinter {
     std::vector<std::string> lines;
     const bool rests = law_.rest_position != no_variable;
     if (!rests) lines.push_back("static_cast<void>(position);");
+    if (rests) lines = statements_.lines_of(law_.start);
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       if (rests && &variable == &law_.variables[law_.rest_position])
@@ -162,6 +163,7 @@ class CppPrinter {
   }
 
   std::string rest_position() const {
+    if (law_.started_at != no_variable) return name_of(law_.started_at);
     return law_.surface_at ? fmt::format("dashpot::pushed_in({}, position)", literal(*law_.surface_at)) : "position";
   }
 

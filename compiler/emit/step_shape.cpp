@@ -1,4 +1,6 @@
 #include "emit/step_shape.hpp"
+
+#include <fmt/format.h>
 #include "law/cost.hpp"
 
 #include <algorithm>
@@ -36,7 +38,16 @@ bool can_be_emitted(const Compilation& c, const EmissionOptions& options, Diagno
   if (untimed) diagnostics.note<DiagnosticCode::bounded_step_remedy>({}, "--constant-time", operations_of(c.law));
   const bool single = options.batch && refuses(c, "--batch", diagnostics);
   if (single) diagnostics.note<DiagnosticCode::object_each_remedy>({}, "--batch");
-  return !untimed && !single;
+  return !untimed && !single && takes_static_curve(c, options, diagnostics);
+}
+
+bool takes_static_curve(const Compilation& c, const EmissionOptions& options, Diagnostics& diagnostics) {
+  if (!c.network.static_curve) return true;
+  const Span place = c.network.static_curve->span;
+  for (const auto& [is_asked, name] : {std::pair(options.batch, "--batch"), {options.with_test, "--with-test"}})
+    if (is_asked)
+      diagnostics.report<DiagnosticCode::static_not_taken>(place, c.network.name, fmt::format("'{}'", name));
+  return !options.batch && !options.with_test;
 }
 
 bool can_be_c99(const Compilation& c, Diagnostics& diagnostics) {

@@ -22,6 +22,9 @@ class Check {
     require(!law_.brake_changes() || locals.count(law_.brake) != 0, "the brake is never assigned");
     phase("keep", law_.keep, locals, {.inputs = true, .states = true, .locals = false});
     locals.clear();
+    phase("start", law_.start, locals, {.inputs = true, .states = false, .locals = true});
+    require(law_.started_at == no_variable || locals.count(law_.started_at) != 0, "the start is never assigned");
+    locals.clear();
     phase("update", law_.update, locals, {.inputs = false, .states = true, .locals = true});
     locals.clear();
     phase("energy", law_.energy, locals, {.inputs = false, .states = false, .locals = true});

@@ -56,9 +56,19 @@ void Evaluation<Scalar>::reset(Scalar position) {
     std::fill(places.begin(), places.end(), static_cast<Scalar>(variable.rest_value));
   }
   if (law_.rest_position != no_variable && all_finite(position, position, position))
-    at(law_.rest_position)[0] = law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
+    at(law_.rest_position)[0] = rest_position(position);
   std::fill(turns_.begin(), turns_.end(), 0);
   sampled_ = false;
+}
+
+template <class Scalar>
+Scalar Evaluation<Scalar>::rest_position(Scalar position) {
+  if (law_.started_at != no_variable) {
+    at(law_.position)[0] = position;
+    run(law_.start);
+    return at(law_.started_at)[0];
+  }
+  return law_.surface_at ? pushed_in(static_cast<Scalar>(*law_.surface_at), position) : position;
 }
 
 template <class Scalar>

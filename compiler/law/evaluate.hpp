@@ -56,6 +56,7 @@ class Evaluation {
   void take_turn(const GuardInTurn& guard, std::size_t& turn);
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
   void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
+  Scalar rest_position(Scalar position);  // of a finite position
   Scalar damping(VariableId changing) const;
   Scalar value(ExpressionId expression, std::size_t place) const;
   Scalar sum(VariableId vector) const;

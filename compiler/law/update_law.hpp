@@ -75,6 +75,7 @@ enum class ConstantRole : std::uint8_t {
   recovery_compliance,    // −1/g of a surface
   place,                  // of a surface or a step of the encoder
   steady_damping,         // b of what no slip changes
+  map,                    // of the map of a static curve: where its cells lie, and its cubics
   motor_reach,            // what the motor can make, and shares of it
   brake_choice,           // how the brake is commanded: shares, samples, thresholds, what is chosen and not computed
   zero,                   // nothing
@@ -199,6 +200,7 @@ struct UpdateLaw {
   Table<SlipNetwork> networks;
   std::vector<GuardInTurn> guards;  // before `update`
   std::vector<Statement> energy;    // ends with the assignment of `stored`
+  std::vector<Statement> start;     // of reset(): locals of the position, where `started_at` needs them
 
   std::optional<TunableTables> tunable;  // of a network with tunables: all of its law, the programs are then empty
 
@@ -206,10 +208,14 @@ struct UpdateLaw {
   VariableId velocity;
   VariableId rest_position = no_variable;  // the state that reset(p) sets to p, if any; all others become zero
   std::optional<double>
-      surface_at;    // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
-  VariableId force;  // m_k, the motor's command [N]
-  VariableId wanted = no_variable;  // m_k before the motor's limits, where the law knows them (lower/shed.hpp) [N]
-  VariableId share = no_variable;   // then the state that remembers which share of all forces has been kept [1]
+      surface_at;  // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
+  VariableId started_at = no_variable;  // the local of `start` that reset() sets rest_position to, if not the position
+  VariableId mapped = no_variable;      // w of the position, a local of `output`, behind a static curve
+  double steepest = 1;                  // w′ at most [1]
+  double map_start = 0;                 // where w is 0 [m]
+  VariableId force;                     // m_k, the motor's command [N]
+  VariableId wanted = no_variable;      // m_k before the motor's limits, where the law knows them (lower/shed.hpp) [N]
+  VariableId share = no_variable;       // then the state that remembers which share of all forces has been kept [1]
   VariableId brake =
       no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
@@ -224,6 +230,7 @@ struct UpdateLaw {
     return wanted != no_variable ? wanted : force;
   }  // not finite where the sample is to be refused
   bool brake_changes() const { return brake != no_variable; }
+  VariableId moved() const { return mapped != no_variable ? mapped : position; }  // what the springs see of the tool
 };
 
 }  // namespace dashpot::compiler

@@ -74,15 +74,22 @@ class Shedding {
     std::vector<Statement> opening;
     if (!law_.surface_at) open_port(opening);
     for (Statement& statement : law_.output) statement.value = loosened(statement.value);
-    law_.output.insert(law_.output.begin(), opening.begin(), opening.end());
+    law_.output.insert(after_map(), opening.begin(), opening.end());
     for (Statement& statement : law_.energy) statement.value = loosened_energy(statement.value);
+  }
+
+  // Behind a static curve the springs see w, which is known there.
+  std::vector<Statement>::iterator after_map() {
+    if (law_.mapped == no_variable) return law_.output.begin();
+    return std::next(std::find_if(law_.output.begin(), law_.output.end(),
+                                  [&](const Statement& s) { return s.target == law_.mapped; }));
   }
 
   // The middle one of 0, r and u.
   void open_port(std::vector<Statement>& opening) {
     shift_now_ = writer_.scalar("rest_shift_now", writer_.length(), "r", Role::local);
     const auto shift = [&] { return writer_.read(shift_); };
-    const auto tool = [&] { return writer_.read(law_.position); };
+    const auto tool = [&] { return writer_.read(law_.moved()); };
     const ExpressionId least = writer_.where(writer_.subtract(shift(), tool()), tool(), shift());
     const ExpressionId most = writer_.where(writer_.subtract(shift(), tool()), shift(), tool());
     writer_.assign(opening, shift_now_,
@@ -145,7 +152,7 @@ class Shedding {
   // r ← r + (1 − s) (x − r), x the tool or the surface
   void keep_spring() {
     if (shift_ == no_variable) return;
-    const VariableId at = law_.surface_at ? local("surface_now") : law_.position;
+    const VariableId at = law_.surface_at ? local("surface_now") : law_.moved();
     const VariableId next = writer_.scalar("next_rest_shift", writer_.length(), "r", Role::local);
     const ExpressionId spread = writer_.subtract(writer_.read(at), writer_.read(shift_now_));
     const ExpressionId let_go = writer_.subtract(one(), writer_.read(share_));

@@ -1,0 +1,214 @@
+#include "certify/curve_bound.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dashpot/estimators/estimator_names.hpp>
+#include <limits>
+
+#include "certify/estimator_factors.hpp"
+#include "certify/hold_bound.hpp"
+#include "discretise/law_writer.hpp"
+#include "discretise/rounding.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double margin = 1 + 1e-9;  // of sums in double, some thousand terms of them
+constexpr int stretches_of_cell = 8;
+
+PassivityBound not_proved(std::string reason) {
+  PassivityBound bound;
+  bound.reason = std::move(reason);
+  return bound;
+}
+
+double yield_forces(const Network& network) {
+  double sum = 0;
+  for (const Element& element : network.elements)
+    if (const Slip* slip = std::get_if<Slip>(&element.law); slip && element.has_effect) sum += slip->yield_force;
+  return sum;
+}
+
+std::string hindrance(const MotorConstants& motor, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
+  if (motor.estimate_drives_modes() || (slips && slips->held_compensation > 0))
+    return "what follows an estimate of the velocity is more than a damping, and lies behind a static curve";
+  if (slips && tool.amplifier_lag > 0) return "the amplifier lags, and slips or a contact lie behind a static curve";
+  if (tool.motor_slew > 0) return "the motor's slew is limited, and its force lies behind a static curve";
+  if (!tool.has_device)
+    return "a static curve's steepness changes while the tool moves, and no device states how fast that is";
+  if (tool.tool_speed == 0) return "the device states no largest speed, and a static curve's steepness changes with it";
+  if (tool.travel == 0)
+    return "the device states no range of its encoder, and forces behind a static curve grow with it";
+  return "";
+}
+
+class CurveNeed {
+ public:
+  CurveNeed(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+            const SampledLoop& tool, double coil_lag)
+      : map_(*network.map), tool_(tool), coil_lag_(coil_lag), motor_(linear_motor_constants(law)), brake_(law.damping) {
+    const bool is_one_sided = network.contact.has_value();
+    static_stiffness_ = std::abs(motor_.static_stiffness);
+    step_stiffness_ = std::abs(motor_.step_stiffness);
+    other_end_ = is_one_sided ? 0 : map_.value_at(tool.travel);
+    besides_ = slips ? yield_forces(network) : 0;
+    share_ = assured_share(tool).convert_to<double>();
+  }
+
+  // S + curvature − what the brake has, at the worst place, and beside it what a lag and an estimate cost.
+  double lacking(double needed_behind, double cost_of_estimate) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const double constants : {0.0, 1.0, 2.0, 4.0, 8.0}) {
+      if (coil_lag_ > 0 ? constants == 0 : constants > 0) continue;
+      least = std::min(least, lacking_with(needed_behind, constants));
+    }
+    return (least + cost_of_lag() + cost_of_estimate) * margin;
+  }
+
+ private:
+  double lacking_with(double needed_behind, double constants) const {
+    const double hold = tool_.longest_hold();
+    const double reach = tool_.tool_speed * hold * (1.0 + tool_.delay_samples);
+    const double brake_reach = reach + constants * coil_lag_ * tool_.tool_speed;
+    const double settled = coil_lag_ > 0 ? std::pow(1 - std::exp(-constants), 2) : 1;
+    double most = 0;
+    each_stretch([&](double from, double to) {
+      const double before = std::max(from - reach, 0.0), after = to + reach;
+      const double steepest = map_.largest_tangent(before, after);
+      const double flattest = flattest_within(from - brake_reach, to + brake_reach);
+      const double bend = (0.5 + tool_.delay_samples) * hold * force(after) * map_.largest_curvature(before, after);
+      most =
+          std::max(most, needed_behind * steepest * steepest + bend - share_ * settled * brake_ * flattest * flattest);
+    });
+    return most;
+  }
+
+  // On both sides of where the curve begins it is the same.
+  double flattest_within(double from, double to) const {
+    if (from < 0) return map_.least_tangent(0, std::max(to, -from));
+    return map_.least_tangent(from, to);
+  }
+
+  double cost_of_lag() const {
+    if (tool_.amplifier_lag == 0) return 0;
+    const double steepest = map_.steepest();
+    double most = 0;
+    each_stretch([&](double from, double to) { most = std::max(most, force(to) * map_.largest_curvature(from, to)); });
+    const double stiffness = hold_stiffness(motor_).convert_to<double>();
+    return (stiffness * steepest * steepest + most / 2) * time_of_lag(tool_);
+  }
+
+  double force(double distance) const {
+    const double w = map_.value_at(distance);
+    return static_stiffness_ * w + step_stiffness_ * (w + other_end_) + besides_;
+  }
+
+  template <class Take>
+  void each_stretch(Take take) const {
+    const double width = map_.width() / stretches_of_cell;
+    for (std::size_t i = 0; i < map_.cubics() * stretches_of_cell; ++i) take(double(i) * width, double(i + 1) * width);
+    take(map_.reach, map_.reach);
+  }
+
+  const MotionMap& map_;
+  const SampledLoop& tool_;
+  double coil_lag_;
+  MotorConstants motor_;
+  double brake_;  // b_w
+  double static_stiffness_, step_stiffness_, other_end_, besides_, share_;
+};
+
+// The law sheds, since a motor that clips is not passive behind a map. Shed forces store less, and nothing that is late
+// is on its way.
+MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& certificate) {
+  MotorLimits limits;
+  if (!tool.has_device || !(tool.max_force > 0 || tool.motor_slew > 0)) return limits;
+  limits.rule = LimitRule::sheds;
+  limits.needed = certificate.bound.needed;
+  if (!certificate.certified) limits.reason = "nothing is proved of it within the limit either";
+  else if (tool.delay_samples > 0 || tool.amplifier_lag > 0)
+    limits.reason = "its forces lie behind a static curve, and the loop is late";
+  limits.is_covered = limits.reason.empty();
+  return limits;
+}
+
+// κ γ T_max/h w′²_most of all that the motor makes of the estimate; empty where nothing is known of the estimator.
+std::optional<double> cost_of_estimate(const MotorConstants& motor, const std::optional<SlipMotor>& slips,
+                                       const SampledLoop& tool, double steepest) {
+  const double followed = std::abs(motor.velocity_gain) + (slips ? slips->compensation : 0);
+  if (followed == 0) return 0;
+  const std::optional<double> gain = estimate_gain(tool);
+  if (!gain) return std::nullopt;
+  return followed * *gain * tool.longest_hold() / tool.sample_period * steepest * steepest;
+}
+
+PassivityBound bound_behind_curve(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+                                  const SampledLoop& tool, SampledLoop behind, const PortDevice& device) {
+  MotorConstants motor = linear_motor_constants(law);
+  if (const std::string why = hindrance(motor, slips, tool); !why.empty()) return not_proved(why);
+  const MotionMap& map = *network.map;
+  const double quickest = std::sqrt(law.damping) * map.largest_curvature(0, map.reach) * tool.tool_speed;
+  if (device.coil_slew() > 0 && quickest > device.coil_slew())
+    return not_proved("the brake's coil does not follow the static curve at the largest speed");
+  const std::optional<double> of_estimate = cost_of_estimate(motor, slips, tool, map.steepest());
+  if (!of_estimate)
+    return not_proved(
+        fmt::format("nothing is proved for the estimator {} in the motor", name_of(tool.velocity.estimator)));
+  behind.amplifier_lag = 0;                                    // these two are counted apart
+  behind.device_damping = std::numeric_limits<double>::max();  // what is there is compared at the tool
+  motor.velocity_gain = 0;
+  std::optional<SlipMotor> without_estimate = slips;
+  if (slips) without_estimate->compensation = 0;
+  PassivityBound bound = slips ? passivity_bound(motor, *without_estimate, behind) : passivity_bound(motor, behind);
+  if (bound.proof == Proof::none) return bound;
+  const double least = map.least_tangent(0, map.reach);
+  const Rational told = Rational(law.damping) * Rational(least) * Rational(least);
+  bound.needed =
+      (Rational(CurveNeed(law, network, slips, tool, device.coil_lag()).lacking(bound.needed, *of_estimate)) +
+       assured_share(tool) * told)
+          .convert_to<double>() *
+      margin;
+  bound.proof = Proof::hold;
+  bound.reason.clear();
+  bound.storage.reset();
+  bound.frequency = 0;
+  bound.constant_period_only = false;
+  if (!network.contact || Rational(bound.needed) <= assured_damping(tool, 0)) return bound;
+  PassivityBound beyond = not_proved(
+      "a free tool, which the brake leaves alone, touches late, and the device itself has less damping than that "
+      "needs");
+  beyond.needed = bound.needed;
+  return beyond;
+}
+
+}  // namespace
+
+Certificate certify_behind_curve(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+                                 const PortDevice& behind, double sample_period) {
+  const MotionMap& map = *network.map;
+  const PortDevice at_tool = behind.at_tool();
+  const SampledLoop tool = sampled_loop(at_tool, sample_period);
+  Certificate result;
+  result.loop = tool;
+  result.bound = bound_behind_curve(law, network, slips, tool, sampled_loop(behind, sample_period), at_tool);
+  result.bound.any_regime = slips.has_value();
+  const double flattest = map.least_tangent(0, map.reach), rounding = 64 * unit_roundoff(law.scalar);
+  const double least = law.damping * flattest * flattest * (1 - rounding);
+  const double most = law.largest_damping * map.steepest() * map.steepest();
+  if (result.bound.proof != Proof::none) {
+    result.minimum_damping = missing_damping(result.bound, tool, least);
+    const double added = result.minimum_damping + rounding * (most + result.minimum_damping);
+    const bool fits = tool.has_device && !network.contact && most + added <= tool.max_damping;
+    if (result.minimum_damping > 0 && fits) result.added_damping = rounded(Real(added), law.scalar);
+  }
+  const Rational assured = assured_damping(tool, Rational(least) + Rational(result.added_damping * (1 - rounding)));
+  result.assured = assured.convert_to<double>();
+  result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
+  result.limits = limits_behind_curve(tool, result);
+  if (tool.encoder_step > 0) result.quantisation_stiffness = 2 * tool.coulomb_friction / tool.encoder_step;
+  return result;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,33 @@
+// What a law behind a static curve's map w needs to be passive at the tool (theory, section 11).
+//
+// Behind the map the law needs S = b T for a motion of w. What it holds acts on the displacement that comes next, over
+// which w bends: with n samples of delay
+//
+//     V_{k+1} − V_k ≤ f_k Δu + [S w′²/T + (½ + n) |M| |w″|] Δu²
+//
+// w′ and w″ being the largest within the reach r = (1 + n) v T of the tool, M the largest force of the motor behind the
+// map. So at every place
+//
+//     b_tool + share b_w w′²(least within r) ≥ S w′² + (½ + n) T |M| |w″|
+//
+// where b_tool is what is there whatever the brake is told, and the brake's coil lags: of what it is told it has
+// (1 − e^{−m})² of the least within m time constants more. A motor that lags is off by no more than
+// ‖e‖ ≤ (β w′²_most + ½ |M w″|_most) L ‖v‖, with L as in motor_limits.hpp; what it makes of the estimate, κ w′² v̂,
+// costs κ γ T/h w′²_most as long as ‖v̂‖ ≤ γ ‖Δu/h‖.
+//
+// |M| ≤ k0 w + Σ c_i (w + w₋) + Σ Y, with w₋ that of the other end of the tool's travel, 0 behind a contact.
+#pragma once
+
+#include "certify/certificate.hpp"
+#include "decompose/port_device.hpp"
+#include "network/network.hpp"
+
+namespace dashpot::compiler {
+
+// In: a law of w before its map, what its motor makes behind slips, the device as the law sees it behind the map.
+// Out: its certificate at the tool. `added_damping` is what the brake is to be told besides b_w w′², wherever the tool
+// is.
+Certificate certify_behind_curve(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+                                 const PortDevice& behind, double sample_period);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,218 @@
+#include "lower/behind_map.hpp"
+
+#include <algorithm>
+
+#include "discretise/law_writer.hpp"
+#include "law/check_law.hpp"
+#include "law/walk.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+class Mapping {
+ public:
+  Mapping(UpdateLaw law, const MotionMap& map, double added_damping, motion port_motion)
+      : law_(std::move(law)), writer_(law_, port_motion), map_(map), added_damping_(added_damping) {}
+
+  UpdateLaw result() {
+    std::vector<Statement> output;
+    std::swap(output, law_.output);
+    std::vector<Statement> keep;
+    std::swap(keep, law_.keep);
+    write_place(law_.output);
+    const VariableId mapped = write_value(law_.output);
+    write_tangent();
+    write_velocity(output, keep);
+    for (auto* program : {&output, &keep})
+      for (Statement& statement : *program) statement.value = behind(statement.value, mapped);
+    law_.output.insert(law_.output.end(), output.begin(), output.end());
+    law_.keep = keep;
+    write_force();
+    write_brake();
+    write_start();
+    law_.mapped = mapped;
+    law_.steepest = map_.steepest();
+    law_.map_start = map_.start;
+    check_law(law_, "static curve");
+    return std::move(law_);
+  }
+
+ private:
+  ExpressionId number(const char* name, const std::string& unit, const char* meaning, double value) {
+    return writer_.constant(name, unit, meaning, Real(value), ConstantRole::map);
+  }
+  ExpressionId zero() { return number("centre", writer_.length(), "of the map, which is odd", 0); }
+
+  VariableId local(const char* name, const std::string& unit, const char* meaning) {
+    return writer_.scalar(name, unit, meaning, Role::local);
+  }
+
+  // The cell of |u|, and how far in it |u| is. A position that is no number takes the first cell, and is refused
+  // after.
+  void write_place(std::vector<Statement>& program) {
+    side_ = writer_.read(law_.position);
+    if (map_.start != 0) {
+      const VariableId depth = local("depth", writer_.length(), "of the tool behind the unloaded surface");
+      writer_.assign(program, depth,
+                     writer_.subtract(
+                         side_, number("surface_at", writer_.length(), "where the unloaded surface lies", map_.start)),
+                     "x = u − u0");
+      side_ = writer_.read(depth);
+    }
+    const VariableId distance = local("distance", writer_.length(), "of the tool from where the curve begins");
+    writer_.assign(program, distance, writer_.where(side_, side_, writer_.subtract(zero(), side_)), "|x|");
+    const VariableId in_cells = local("in_cells", "1", "the distance, within the map");
+    const ExpressionId cells = writer_.multiply(
+        writer_.read(distance), number("cells_per_length", "1/" + writer_.length(), "of the map", 1 / map_.width()));
+    writer_.assign(program, in_cells,
+                   writer_.clamp(cells, number("last_cell", "1", "of the map", double(map_.cubics()))), "");
+    cell_ = local("cell", "1", "of the map, counted from 0; the last is straight");
+    writer_.assign(program, cell_, writer_.where(writer_.read(in_cells), writer_.read(in_cells), zero()), "");
+    within_ = local("within", writer_.length(), "d, from where the cell begins");
+    writer_.assign(program, within_,
+                   writer_.subtract(writer_.read(distance),
+                                    pick("cell_begins", writer_.length(), "of each cell",
+                                         [this](std::size_t i) { return Real(map_.reach) * i / map_.cubics(); })),
+                   "d = |x| − x_i");
+    write_cubic(program);
+  }
+
+  // w = a + d (b + d s), s = c + e d
+  void write_cubic(std::vector<Statement>& program) {
+    const auto of_cell = [&](double MapCell::*member) {
+      return [this, member](std::size_t i) { return Real(map_.cell[i].*member); };
+    };
+    cubic_ = local("map_cubic", "1/" + writer_.length(), "e d");
+    writer_.assign(
+        program, cubic_,
+        writer_.multiply(pick("map_e", "1/" + writer_.length() + "²", "e of each cell", of_cell(&MapCell::e)),
+                         writer_.read(within_)),
+        "e d");
+    bend_ = local("map_bend", "1/" + writer_.length(), "c + e d");
+    writer_.assign(program, bend_,
+                   writer_.add(pick("map_c", "1/" + writer_.length(), "c of each cell", of_cell(&MapCell::c)),
+                               writer_.read(cubic_)),
+                   "s = c + e d");
+  }
+
+  template <class ValueOf>
+  ExpressionId pick(const char* name, const std::string& unit, const char* meaning, ValueOf value_of) {
+    std::vector<Real> values;
+    for (std::size_t i = 0; i <= map_.cubics(); ++i) values.push_back(value_of(i));
+    return writer_.pick(name, unit, meaning, values, writer_.read(cell_), ConstantRole::map);
+  }
+
+  VariableId write_value(std::vector<Statement>& program) {
+    const ExpressionId d = writer_.read(within_);
+    const ExpressionId a = pick("map_a", writer_.length(), "w where each cell begins",
+                                [this](std::size_t i) { return Real(map_.cell[i].a); });
+    const ExpressionId value =
+        writer_.add(a, writer_.multiply(d, writer_.add(slope(), writer_.multiply(d, writer_.read(bend_)))));
+    const VariableId mapped = local("mapped", writer_.length(), "w, what the network sees of the tool");
+    const VariableId size = local("mapped_size", writer_.length(), "|w|");
+    writer_.assign(program, size, value, "|w| = a + d (b + d s)");
+    writer_.assign(program, mapped,
+                   writer_.where(side_, writer_.read(size), writer_.subtract(zero(), writer_.read(size))),
+                   "w with the sign of x");
+    return mapped;
+  }
+
+  ExpressionId slope() {
+    return pick("map_b", "1", "w′ where each cell begins", [this](std::size_t i) { return Real(map_.cell[i].b); });
+  }
+
+  void write_tangent() {
+    tangent_ = local("tangent", "1", "w′");
+    const ExpressionId s = writer_.read(bend_);
+    const ExpressionId twice = writer_.add(writer_.add(s, s), writer_.read(cubic_));
+    writer_.assign(law_.output, tangent_, writer_.add(slope(), writer_.multiply(writer_.read(within_), twice)),
+                   "w′ = b + d (2 s + e d)");
+  }
+
+  void write_velocity(const std::vector<Statement>& output, const std::vector<Statement>& keep) {
+    if (!reads(law_, output, law_.velocity) && !reads(law_, keep, law_.velocity)) return;
+    velocity_ = local("mapped_velocity", writer_.velocity(), "estimate of ẇ");
+    writer_.assign(law_.output, velocity_, writer_.multiply(writer_.read(tangent_), writer_.read(law_.velocity)),
+                   "ẇ = w′ u̇");
+  }
+
+  // What read the inputs reads what they are behind the map.
+  ExpressionId behind(ExpressionId id, VariableId mapped) {
+    const Expression e = law_.expressions[id];
+    if (e.operation == Operation::read && e.variable == law_.position) return writer_.read(mapped);
+    if (e.operation == Operation::read && e.variable == law_.velocity) return writer_.read(velocity_);
+    Expression changed = e;
+    for (std::size_t i = 0; i < operands(e).size(); ++i) changed.operands[i] = behind(e.operands[i], mapped);
+    return changed.operands == e.operands ? id : law_.expressions.add(changed);
+  }
+
+  Statement& assignment_of(VariableId target) {
+    return *std::find_if(law_.output.begin(), law_.output.end(),
+                         [&](const Statement& statement) { return statement.target == target; });
+  }
+
+  void write_force() {
+    const VariableId behind = local("mapped_force", writer_.force(), "motor's part, behind the map");
+    assignment_of(law_.force).target = behind;
+    for (auto* program : {&law_.output, &law_.keep})
+      for (Statement& statement : *program) statement.value = reading(statement.value, law_.force, behind);
+    writer_.assign(law_.output, law_.force, writer_.multiply(writer_.read(tangent_), writer_.read(behind)), "m = w′ M");
+  }
+
+  ExpressionId reading(ExpressionId id, VariableId before, VariableId now) {
+    const Expression e = law_.expressions[id];
+    if (e.operation == Operation::read && e.variable == before) return writer_.read(now);
+    Expression changed = e;
+    for (std::size_t i = 0; i < operands(e).size(); ++i) changed.operands[i] = reading(e.operands[i], before, now);
+    return changed.operands == e.operands ? id : law_.expressions.add(changed);
+  }
+
+  // b = w′² b_w, and what the certificate adds at the tool.
+  void write_brake() {
+    if (law_.largest_damping == 0 && added_damping_ == 0) return;
+    const VariableId square = local("tangent_squared", "1", "w′²");
+    writer_.assign(law_.output, square, writer_.multiply(writer_.read(tangent_), writer_.read(tangent_)), "w′²");
+    const VariableId before = law_.brake;
+    const ExpressionId behind = before != no_variable
+                                    ? writer_.read(before)
+                                    : writer_.constant("mapped_damping", writer_.damping(), "b behind the map",
+                                                       Real(law_.damping), ConstantRole::steady_damping);
+    ExpressionId told = law_.largest_damping == 0 ? nothing : writer_.multiply(writer_.read(square), behind);
+    if (added_damping_ > 0)
+      told = writer_.plus(told, writer_.constant("damping_at_tool", writer_.damping(), "what the certificate adds",
+                                                 Real(added_damping_), ConstantRole::steady_damping));
+    law_.brake = writer_.scalar("brake_command", writer_.damping(), "b", Role::local);
+    writer_.assign(law_.output, law_.brake, told, "b = w′² b_w");
+    law_.last_brake = writer_.kept(law_.brake);
+    const double least = map_.least_tangent(0, map_.reach), most = map_.steepest();
+    law_.damping = law_.damping * least * least + added_damping_;
+    law_.largest_damping = law_.largest_damping * most * most + added_damping_;
+  }
+
+  // reset() asks where w is.
+  void write_start() {
+    if (law_.rest_position == no_variable) return;
+    write_place(law_.start);
+    const VariableId mapped = write_value(law_.start);
+    if (!law_.surface_at) return void(law_.started_at = mapped);
+    law_.started_at = local("pushed_in", writer_.length(), "s, how far the tool has the surface pushed in");
+    writer_.assign(law_.start, law_.started_at, writer_.where(writer_.read(mapped), writer_.read(mapped), zero()),
+                   "s = w⁺");
+  }
+
+  UpdateLaw law_;
+  LawWriter writer_;
+  const MotionMap& map_;
+  double added_damping_;
+  ExpressionId side_ = nothing;
+  VariableId cell_ = no_variable, within_ = no_variable, cubic_ = no_variable, bend_ = no_variable,
+             tangent_ = no_variable, velocity_ = no_variable;
+};
+
+}  // namespace
+
+UpdateLaw behind_map(UpdateLaw law, const MotionMap& map, double added_damping, motion port_motion) {
+  return Mapping(std::move(law), map, added_damping, port_motion).result();
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,15 @@
+// A law behind the map w(u) of a static curve (theory, section 11):
+//
+//     f = w′(u) F(w(u)),   b(u) = w′(u)² b_w,   and the estimate v̂ of u̇ becomes w′(u) v̂.
+#pragma once
+
+#include "law/update_law.hpp"
+#include "network/motion_map.hpp"
+
+namespace dashpot::compiler {
+
+// In: a law whose position is w, without tunables, and what is added to the brake at the tool [N·s/m]. Out: the same
+// law of the tool's position. The states stay what they are.
+UpdateLaw behind_map(UpdateLaw law, const MotionMap& map, double added_damping, motion port_motion);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,211 @@
+// What is certified of laws behind static curves, against motions that take as much energy as they can within the range
+// and the speed that the device states: the brake and the mechanics take what a constant damping takes at a constant
+// speed over a hold.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "compile.hpp"
+#include "syntax/parse_device.hpp"
+#include "law/evaluate.hpp"
+#include "support/random.hpp"
+#include "support/repetitions.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+using namespace dashpot::compiler;
+
+struct Loop {
+  double period, jitter, speed, travel, brake;  // [s], [s], [m/s], [m] to either side, [N·s/m]
+  unsigned delay;
+};
+
+Device device_of(const Loop& loop, double damping) {
+  const std::string text = fmt::format(
+      R"({{ "dashpot_device": 1, "name": "rig", "motion": "translation",
+           "loop": {{ "rate": "{:.17g} Hz", "jitter": {:.17g}, "delay_samples": {}, "band": ["0.1 Hz", "20 Hz"] }},
+           "encoder": {{ "resolution": "1 um", "range": [{:.17g}, {:.17g}], "max_speed": {:.17g} }},
+           "velocity": {{ "estimator": "backward_difference", "window": 4 }},
+           "motor": {{ "max_torque": "1 MN" }}{},
+           "mechanics": {{ "inertia": "0.1 kg", "damping": {:.17g} }} }})",
+      1 / loop.period, loop.jitter, loop.delay, -loop.travel, loop.travel, loop.speed,
+      loop.brake > 0
+          ? fmt::format(R"(, "brake": {{ "kind": "eddy_current", "max_damping": {:.17g}, "tolerance": "10 %" }})",
+                        loop.brake)
+          : "",
+      damping);
+  Diagnostics diagnostics;
+  const SourceFile file("rig.json", text);
+  const std::optional<DeviceDecl> decl = parse_device(file, diagnostics);
+  std::optional<Device> device = decl ? build_device(*decl, diagnostics) : std::nullopt;
+  EXPECT_TRUE(device) << text;
+  return *device;
+}
+
+struct Case {
+  std::string network;
+  Loop loop;
+  bool in_contact;
+};
+
+// Springs that stay, springs that relax slowly or fast, a damper in every other one with a brake.
+Case random_curve(std::uint64_t seed, bool with_brake) {
+  Random random(seed);
+  const double at = random.log_uniform(1e-3, 1e-2), force = random.log_uniform(0.3, 10);
+  std::string curve;
+  switch (seed % 3) {
+    case 0:
+      curve = fmt::format(R"({{ "power": {:.6g}, "force": {:.9g}, "at": {:.9g} }})", random.uniform(1, 3), force, at);
+      break;
+    case 1:
+      curve = fmt::format(R"({{ "exponential": {:.9g}, "force": {:.9g}, "at": {:.9g} }})", random.uniform(0.3, 5) / at,
+                          force, at);
+      break;
+    default:
+      curve = fmt::format(R"({{ "table": [[0, 0], [{:.9g}, {:.9g}], [{:.9g}, {:.9g}], [{:.9g}, {:.9g}]] }})", 0.3 * at,
+                          random.uniform(0.05, 0.4) * force, 0.7 * at, random.uniform(0.45, 0.8) * force, at, force);
+  }
+  std::string elements = fmt::format(R"({{ "spring": {:.9g} }})", random.log_uniform(50, 2000));
+  for (int i = 0, modes = int(seed / 3 % 3); i < modes; ++i) {
+    const double stiffness = random.log_uniform(20, 2000);
+    elements += fmt::format(R"(, {{ "series": [ {{ "spring": {:.9g} }}, {{ "damper": {:.9g} }} ] }})", stiffness,
+                            stiffness * random.log_uniform(0.02, 20));
+  }
+  const bool in_contact = seed % 2 == 0;
+  if (with_brake && !in_contact) elements += fmt::format(R"(, {{ "damper": {:.9g} }})", random.log_uniform(0.1, 20));
+  Case one;
+  one.in_contact = in_contact;
+  one.network = fmt::format(
+      R"({{ "dashpot": 1, "name": "curved", "static": {}, "network": {{ "parallel": [ {} ] }}{},
+           "valid": {{ "displacement": {:.9g} }} }})",
+      curve, elements, in_contact ? R"(, "contact": { "at": 0 })" : "", random.uniform(0.7, 1.5) * at);
+  one.loop = {1 / random.log_uniform(500, 5000), 0,
+              random.log_uniform(0.01, 0.5),     random.uniform(1, 2) * at,
+              with_brake ? 100.0 : 0.0,          unsigned(seed / 7 % 3)};
+  one.loop.jitter = random.chance(0.5) ? 0 : random.uniform(0, 0.3) * one.loop.period;
+  return one;
+}
+
+Compilation on(const Case& one, double damping) {
+  Diagnostics diagnostics;
+  const SourceFile file("curved.json", one.network);
+  Choices choices;
+  if (one.loop.brake == 0) choices.decomposition = 0.0;
+  std::optional<Compilation> c = compile(file, choices, device_of(one.loop, damping), diagnostics);
+  EXPECT_TRUE(c) << one.network;
+  return std::move(*c);
+}
+
+// Energy that has gone in at its least, and the largest amount that was exchanged in a period.
+struct Balance {
+  double least = 0, largest = 0;
+};
+
+class Attack {
+ public:
+  Attack(const Compilation& c, const Loop& loop, double damping) : law_(c.law), loop_(loop), damping_(damping) {
+    law_.reset(0);
+    for (unsigned i = 0; i < loop.delay; ++i) late_.push_back({0, 0});
+  }
+
+  // The tool goes there within one hold, as far as its speed lets it. `share`: what of its command the brake makes.
+  void go(double wanted, double share = 1) {
+    const double hold = loop_.period + loop_.jitter, most = loop_.speed * hold;
+    late_.push_back(law_.step(place_, 0));
+    const command<double> held = late_.front();
+    late_.pop_front();
+    const double next = std::clamp(std::clamp(wanted, place_ - most, place_ + most), -loop_.travel, loop_.travel);
+    const double way = next - place_;
+    const double given = held.force * way, taken = (damping_ + share * held.damping) * way * way / hold;
+    energy_ += given + taken;
+    balance_.least = std::min(balance_.least, energy_);
+    balance_.largest = std::max({balance_.largest, std::abs(given), taken});
+    place_ = next;
+  }
+
+  double place() const { return place_; }
+  const Balance& balance() const { return balance_; }
+
+ private:
+  Evaluation<double> law_;
+  Loop loop_;
+  double damping_;
+  std::deque<command<double>> late_;
+  double place_ = 0, energy_ = 0;
+  Balance balance_;
+};
+
+// Waits at one end, goes to a place, and trembles there.
+Balance after_trembling(const Compilation& c, const Loop& loop, double damping, double end, double place, double size) {
+  Attack attack(c, loop, damping);
+  const double most = loop.speed * (loop.period + loop.jitter);
+  for (int k = 0; k < 4 * loop.travel / most + 2000; ++k) attack.go(end);
+  for (int k = 0; k < 4 * loop.travel / most && attack.place() != place; ++k) attack.go(place);
+  const int round = 2 * (1 + int(loop.delay) * 2);  // late by n samples, a slower one takes most
+  for (int k = 0; k < 1000; ++k) attack.go(place + (k % round < round / 2 ? size : -size) / 2);
+  return attack.balance();
+}
+
+constexpr double rounding = 1e-12;
+
+// If this fails, a law behind a curve that is called certified gives out energy.
+TEST(StaticCurves, CertifiedLawsGiveOutNoEnergy) {
+  int certified = 0;
+  for (std::uint64_t seed = 1; seed <= repetitions(60, 1000); ++seed) {
+    const Case one = random_curve(seed, true);
+    Compilation c = on(one, 1e-3);
+    double damping = 1e-3;
+    if (!c.certificate.certified && c.certificate.bound.needed > 0)
+      c = on(one, damping = 1.0000001 * c.certificate.bound.needed);
+    if (!c.certificate.certified) continue;
+    ++certified;
+    Random random(1000 + seed);
+    for (const double share : {0.9, 1.1}) {
+      Attack attack(c, one.loop, damping);
+      double goal = 0;
+      for (int k = 0; k < 2000; ++k) {
+        if (random.chance(0.02)) goal = random.uniform(one.in_contact ? -0.1 : -1, 1) * one.loop.travel;
+        attack.go(goal + random.uniform(-1, 1) * one.loop.speed * one.loop.period, share);
+      }
+      EXPECT_GE(attack.balance().least, -rounding * 2000 * attack.balance().largest) << seed << " " << one.network;
+    }
+  }
+  EXPECT_GT(certified, int(repetitions(60, 1000)) * 9 / 10);
+}
+
+// If this fails, the certificate asks for more damping than any motion needs: with nine tenths of it most laws give out
+// energy where the tool waits, comes and trembles.
+TEST(StaticCurves, MostLawsGiveOutEnergyWithNineTenths) {
+  int cases = 0, gains = 0;
+  for (std::uint64_t seed = 1; seed <= repetitions(40, 300); ++seed) {
+    Case one = random_curve(seed, false);
+    one.loop.speed = 0.05 * one.loop.travel / one.loop.period / 100;
+    const double needed = on(one, 1e-3).certificate.bound.needed;
+    const Compilation c = on(one, needed);
+    ASSERT_TRUE(c.certificate.bound.proof != Proof::none) << c.certificate.bound.reason << " " << one.network;
+    ++cases;
+    const double most = one.loop.speed * (one.loop.period + one.loop.jitter);
+    bool gained = false, gained_enough = false;
+    for (const double end : {-one.loop.travel, 0.0, one.loop.travel})
+      for (int i = -40; i <= 40; ++i) {
+        const double place = one.loop.travel * i / 40;
+        const auto gains_with = [&](double damping) {
+          const Balance balance = after_trembling(c, one.loop, damping, end, place, most);
+          return balance.least < -rounding * 3000 * balance.largest;
+        };
+        gained_enough |= gains_with(needed);
+        gained = gained || gains_with(0.9 * needed);
+      }
+    EXPECT_FALSE(gained_enough) << seed << " " << one.network;
+    gains += gained;
+  }
+  RecordProperty("gains", gains);
+  EXPECT_GE(gains, 8 * cases / 10) << "of " << cases;
+}
+
+}  // namespace
+}  // namespace dashpot::testing

@@ -8,6 +8,7 @@
 #include "verify/recompiled.hpp"
 #include "verify/reference_constants.hpp"
 #include "verify/reference_gain.hpp"
+#include "verify/reference_map.hpp"
 #include "verify/verify_slips.hpp"
 #include "verify/verify_tunables.hpp"
 
@@ -154,11 +155,32 @@ class Verification {
   Diagnostics& diagnostics_;
 };
 
+// The tables of a static curve's map.
+void recompute_map(const HeaderConstants& header, const Compilation& compiled, Diagnostics& diagnostics) {
+  const MotionMap& map = *compiled.network.map;
+  const Network linear = linear_part(compiled.network, compiled.form);
+  const ReferenceMap exact = reference_map(compiled.network, reference_form(linear), map.cubics());
+  const auto compare = [&](const char* name, const std::vector<Reference>& expected) {
+    const auto found = std::find_if(header.all.begin(), header.all.end(),
+                                    [&](const HeaderConstant& constant) { return constant.name == name; });
+    if (found == header.all.end() || found->values.size() != expected.size())
+      return diagnostics.report<DiagnosticCode::constant_missing>({}, name);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (!is_correctly_rounded(found->values[i], expected[i], header.scalar))
+        diagnostics.report<DiagnosticCode::constant_wrong>({}, name, i + 1, found->values[i], expected[i].str(20));
+  };
+  compare("cell_begins", exact.begins);
+  compare("map_a", exact.a);
+  compare("map_b", exact.b);
+  compare("map_c", exact.c);
+  compare("map_e", exact.e);
+}
+
 }  // namespace
 
 bool is_plainly_linear(const Network& network) {
   const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
-  return !network.contact && !has_tunables(network) &&
+  return !network.contact && !network.static_curve && !has_tunables(network) &&
          std::none_of(network.elements.begin(), network.elements.end(), is_slip);
 }
 
@@ -176,6 +198,7 @@ std::size_t verify_constants(const CertificateFile& certificate, const PortDevic
   verification.compare_with_certificate();
   if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_constants();
   else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_constants();
+  if (compiled.network.map) recompute_map(header, compiled, diagnostics);
   return verification.constants();
 }
 
@@ -183,6 +206,8 @@ void verify_bounds(const CertificateFile& certificate, const PortDevice& device,
                    const Compilation& compiled, Diagnostics& diagnostics) {
   if (is_plainly_linear(compiled.network)) Verification(certificate, header, diagnostics).recompute_bounds(device);
   else if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
+  else if (compiled.network.map)
+    compare_with_recompiled(certificate, compiled, std::nullopt, header.scalar, diagnostics);
   else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_bounds();
 }
 

@@ -4,6 +4,7 @@
 #include "certify/notes.hpp"
 #include "commands/explain.hpp"
 #include "decompose/slip_laws.hpp"
+#include "linear/quasi_linear.hpp"
 #include "network/port_units.hpp"
 #include "law/cost.hpp"
 
@@ -73,6 +74,24 @@ Json json_of(const SlipDecomposition& slips, const ComponentSplit& split, std::s
 }
 
 // The keys of a candidate for what reaches ground without a slip, while the tool touches, and for a tool that is free.
+Json json_of_curve(const Compilation& c) {
+  if (!c.network.map) return nullptr;
+  const MotionMap& map = *c.network.map;
+  const double least = map.least_tangent(0, map.reach), most = map.steepest();
+  Json told = {{"curve", to_text(*c.network.static_curve, c.network.port_motion)},
+               {"stiffness", map.stiffness},
+               {"begins", map.start},
+               {"reach", map.reach},
+               {"cubics", map.cubics()},
+               {"largest_error", map.static_error},
+               {"least_scale", least * least},
+               {"largest_scale", most * most},
+               {"quasi_linear_difference", nullptr}};
+  if (c.network.valid.rate && c.network.valid.rate->high > 0)
+    told["quasi_linear_difference"] = distance_from_quasi_linear(c.network, c.form.linear, c.network.valid.rate->high);
+  return told;
+}
+
 Json json_of_contact(const Compilation& c, bool touches) {
   const Candidate& choice = c.decomposition.choice();
   const LinearForm& form = c.form.linear;
@@ -241,6 +260,7 @@ std::string explain_json(const Compilation& c) {
               {"contact", c.network.contact
                               ? Json({{"at", c.network.contact->at}, {"hysteresis", c.decomposition.encoder_step}})
                               : Json(nullptr)},
+              {"static", json_of_curve(c)},
               {"scheme", name_of(c.law.scheme)},
               {"rate", c.rate},
               {"fastest_relaxation_rate", fastest_rate(c)},

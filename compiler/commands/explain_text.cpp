@@ -6,6 +6,7 @@
 #include "certify/notes.hpp"
 #include "commands/explain.hpp"
 #include "decompose/slip_laws.hpp"
+#include "linear/quasi_linear.hpp"
 #include "network/port_units.hpp"
 #include "law/cost.hpp"
 #include "source/wrapped_text.hpp"
@@ -62,6 +63,32 @@ std::string valid_text(const Validity& valid, const PortUnits& units) {
   add("rate", valid.rate, units.velocity);
   add("displacement", valid.displacement, units.position);
   return "valid                 " + (text.empty() ? "no range is stated" : text) + "\n";
+}
+
+// The curve, how well it is met, and what of the numbers that follow is felt at the tool.
+std::string static_text(const Compilation& c, const PortUnits& units) {
+  if (!c.network.map) return "";
+  const MotionMap& map = *c.network.map;
+  const double least = map.least_tangent(0, map.reach), most = map.steepest();
+  std::string text = "static curve          " + to_text(*c.network.static_curve, c.network.port_motion) + "\n";
+  text += fmt::format(
+      "emitted as            {} cubics up to {:.6g} {} from where it begins, straight beyond; the force at rest is off "
+      "by "
+      "at most {:.2g} % of the largest\n",
+      map.cubics(), map.reach, units.position, 100 * map.static_error);
+  text += fmt::format(
+      "behind the curve      lies the network: all that follows of it, b, stiffness and what it needs, is felt at the "
+      "tool "
+      "{:.4g} to {:.4g} times as large\n",
+      least * least, most * most);
+  if (c.network.valid.rate && c.network.valid.rate->high > 0)
+    text += fmt::format(
+        "quasi-linear law      a law of the same curve and relaxation would differ by up to {:.3g} % of the largest "
+        "force "
+        "in a ramp at {:.6g} {}\n",
+        100 * distance_from_quasi_linear(c.network, c.form.linear, c.network.valid.rate->high),
+        c.network.valid.rate->high, units.velocity);
+  return text;
 }
 
 std::string notes_text(const Compilation& c) {
@@ -135,6 +162,9 @@ std::string why_no_brake(const Compilation& c, const PortUnits& units) {
 // What the lines say that begin so, of those that are there.
 std::string legend_of_lines(const std::string& text) {
   const std::pair<const char*, const char*> lines[] = {
+      {"static curve", "the force at rest, or at once, over the displacement, which the file asks for"},
+      {"quasi-linear law",
+       "QLV: f = ∫ G(t − s) df_e(s), passive along one line, whose damping goes with the curve's slope"},
       {"static stiffness", "of the spring that is left when everything has relaxed"},
       {"feedthrough damping", "of the damper that is felt at once, however fast the motion"},
       {"mode", "a spring and a damper in series that relax together, and the elements that make them"},
@@ -169,7 +199,8 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   text += calculations_text(c.network);
   for (const Springpot& springpot : c.network.springpots)
     text += "springpot             " + to_text(springpot, c.network.port_motion) + "\n";
-  text += linear_text(c, units) + pace_text(c) + valid_text(c.network.valid, units) + kelvin_text(c, units) + "\n";
+  text += static_text(c, units) + linear_text(c, units) + pace_text(c) + valid_text(c.network.valid, units) +
+          kelvin_text(c, units) + "\n";
   const bool has_candidates = !c.is_told_slip_by_slip();
   if (has_candidates) text += candidates_text(c.decomposition, c.network);
   text += chosen_text(c.decomposition);

@@ -96,6 +96,8 @@ bool is_prony_series(const Compilation& c, Diagnostics& diagnostics) {
     diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "tunable parameters");
   else if (c.form.has_slips()) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "slips");
   else if (c.network.contact) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "a contact");
+  else if (c.network.static_curve)
+    diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "a static curve");
   else if (c.form.linear.feedthrough_damping > 0) {
     diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "damping that reaches the tool at once");
     diagnostics.note<DiagnosticCode::stiffen_damper>({});

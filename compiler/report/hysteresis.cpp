@@ -159,6 +159,7 @@ double telling_amplitude(const Compilation& c) {
 }
 
 std::string hysteresis_html(const Compilation& c, double amplitude) {
+  if (c.network.map) return three_loops(c, amplitude / 2);  // the largest as far as the curve is stated
   return c.form.has_slips() || c.network.contact ? three_loops(c, amplitude) : linear_loop(c);
 }
 

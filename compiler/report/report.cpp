@@ -24,6 +24,7 @@
 #include "report/regime_table.hpp"
 #include "report/sampled_margin.hpp"
 #include "report/schematic.hpp"
+#include "report/static_curve.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -54,6 +55,8 @@ std::vector<Fields> facts(const Compilation& c) {
     const auto slips = std::count_if(c.network.elements.begin(), c.network.elements.end(), is_slip);
     list.push_back(fact("slips", std::to_string(slips), ""));
   }
+  if (c.network.static_curve)
+    list.push_back(fact("static curve", escaped(to_text(*c.network.static_curve, c.network.port_motion)), ""));
   if (c.network.contact)
     list.push_back(fact("surface of the contact", number_text(c.network.contact->at), units.position));
   return list;
@@ -80,7 +83,7 @@ void add_linear_parts(const Compilation& c, CodeModel& model) {
     return;
   }
   model.lists["canonical"].push_back({{"form", canonical_form_html(c)}});
-  if (!c.network.contact) model.lists["agreement"].push_back({{"body", agreement_html(c)}});
+  if (!c.network.contact && !c.network.map) model.lists["agreement"].push_back({{"body", agreement_html(c)}});
   model.lists["candidates"].push_back({{"choice", escaped(c.decomposition.choice().name)},
                                        {"reason", escaped(in_four_digits(c.decomposition.reason))},
                                        {"in_words", in_words_html(c.decomposition.in_words)},
@@ -91,7 +94,8 @@ void add_linear_parts(const Compilation& c, CodeModel& model) {
 
 void add_passivity(const Compilation& c, CodeModel& model) {
   model.fields["passivity"] = certificate_html(c);
-  model.fields["margin"] = sampled_margin_html(c) + (is_linear(c) ? delay_margin_html(c) : "");
+  // Both are of linear laws; behind a static curve the certificate's words are all there is.
+  model.fields["margin"] = c.network.map ? "" : sampled_margin_html(c) + (is_linear(c) ? delay_margin_html(c) : "");
 }
 
 // Two digits of ten times the slowest relaxation, within what a reader waits for.
@@ -146,7 +150,7 @@ std::string tunables_json(const UpdateLaw& law) {
 
 // What a linear network opposes to a motion, as a page needs it; nothing for another.
 std::string form_json(const Compilation& c) {
-  if (c.form.has_slips() || c.network.contact || c.law.tunable) return "null";
+  if (c.form.has_slips() || c.network.contact || c.network.map || c.law.tunable) return "null";
   std::string modes;
   for (const Mode& mode : c.form.linear.modes)
     modes += fmt::format("{}[{},{}]", modes.empty() ? "" : ",", json_literal(to_double(mode.relaxation_rate)),
@@ -250,7 +254,8 @@ std::optional<std::string> report(const Compilation& c, const std::optional<std:
   fields["schematic"] = drawing(c.network);
   fields["law"] = update_law_html(c);
   const double amplitude = telling_amplitude(c);
-  fields["responses"] = (is_linear(c) ? linear_responses_html(c) : "") + hysteresis_html(c, amplitude);
+  fields["responses"] =
+      static_curve_html(c) + (is_linear(c) ? linear_responses_html(c) : "") + hysteresis_html(c, amplitude);
   add_comments(c, model);
   add_linear_parts(c, model);
   add_passivity(c, model);

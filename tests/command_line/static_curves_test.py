@@ -1,0 +1,84 @@
+"""Static curves in every command that compiles a network."""
+import json
+import math
+import re
+import unittest
+
+from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
+
+SPHERE, SKIN, LIGAMENT = (SOURCE / f"networks/static/{name}.json" for name in ["sphere_on_gel", "skin_in_contact", "ligament"])
+TRAINER = SOURCE / "examples/breast_palpation/device.json"
+KNEE = SOURCE / "examples/knee_ligament/device.json"
+
+
+class StaticCurvesTest(CommandTest):
+
+    # If this fails, what is felt at rest is not the curve of the file.
+    def test_simulate_settles_on_the_curve(self):
+        rows = ["time,position"] + [f"{i / 1000},{min(i, 300) * 1e-5 + 2e-3}" for i in range(20000)]
+        self.write("motion.csv", "\n".join(rows) + "\n")
+        answer = self.dashpot("simulate", SKIN, "--input", "motion.csv").stdout.splitlines()
+        force = float(answer[-1].split(",")[answer[0].split(",").index("force")])
+        self.assertAlmostEqual(force, 0.27, delta=1e-3)  # 3 mm beyond the surface, of a curve up to 1.47 N, met to 0.05 %
+
+    # If this fails, explain does not tell what is compiled.
+    def test_explain_tells_curve_and_map(self):
+        text = self.dashpot("explain", SPHERE, "--legend").stdout
+        for words in ["power 1.5", "cubics up to 0.006 m", "behind the curve", "quasi-linear law"]:
+            self.assertIn(words, text)
+        told = json.loads(self.dashpot("explain", SPHERE, "--json").stdout)["static"]
+        self.assertEqual((told["stiffness"], told["reach"], told["begins"]), (400, 0.006, 0))
+        self.assertLess(told["largest_error"], 5e-4)
+        # w'^2 = f^2/(2 k E) is 5/4 c sqrt(u)/k of Hertz' curve.
+        c = 4 / 3 * 50e3 / 0.75 * math.sqrt(0.01)
+        self.assertAlmostEqual(told["largest_scale"], 1.25 * c * math.sqrt(0.006) / 400, places=6)
+        self.assertIsNone(json.loads(self.dashpot("explain", SOURCE / "networks/paper/kelvin.json", "--json").stdout)["static"])
+
+    # If this fails, a law behind a curve is not certified where it was, or verify does not know it again.
+    def test_certified_laws_are_verified(self):
+        for network, device, name in [(SKIN, TRAINER, "skin_in_contact"), (SPHERE, TRAINER, "sphere_on_gel"), (LIGAMENT, KNEE, "ligament")]:
+            with self.subTest(name):
+                self.dashpot("compile", network, "--device", device, "--certificate", "law.json", "--uncertified")
+                certificate = json.loads((self.folder / "law.json").read_text())["passivity"]
+                done = self.dashpot("verify", "law.json", f"{name}.hpp", status=None)
+                self.assertEqual(done.returncode == 0, certificate["certified"], done.stdout + done.stderr)
+                again = self.dashpot("verify", "law.json", f"{name}.hpp", "--allow-uncertified").stdout
+                self.assertIn("recomputed in 100 digits; banner and code are those of the network", again)
+        self.dashpot("compile", SKIN, "--device", TRAINER, "--certificate", "law.json")
+        self.assertTrue(json.loads((self.folder / "law.json").read_text())["passivity"]["certified"])
+
+    # If this fails, a wrong number in a table of the map passes.
+    def test_every_table_is_recomputed(self):
+        self.dashpot("compile", SKIN, "--certificate", "law.json")
+        header, certificate = (self.folder / "skin_in_contact.hpp").read_text(), (self.folder / "law.json").read_text()
+        for table in ["cell_begins", "map_a", "map_b", "map_c", "map_e"]:
+            numbers = re.search(rf" {table}\[\d+\] = {{(.*?)}};", header, re.DOTALL).group(1)
+            place, number = next((i, n) for i, n in enumerate(re.split(r",\s+", numbers)) if i > 30 and abs(float(n)) > 1e-12)
+            wrong = json.loads(certificate)
+            wrong["constants"][table][place] = math.nextafter(float(number), math.inf)
+            replaced = numbers.replace(number, repr(wrong["constants"][table][place]), 1)
+            self.assertNotEqual(replaced, numbers)
+            self.write("wrong.json", json.dumps(wrong, indent=2))
+            self.write("wrong.hpp", header.replace(numbers, replaced))
+            done = self.dashpot("verify", "wrong.json", "wrong.hpp", "--allow-uncertified", status=INPUT_REFUSED)
+            self.assertIn(f"'{table}'", done.stderr)
+
+    # If this fails, a page with a static curve is not written, or shows closed forms of another law.
+    def test_report_shows_the_curve(self):
+        self.dashpot("report", SPHERE, "-o", "page.html")
+        page = (self.folder / "page.html").read_text()
+        self.assertIn("Force at rest", page)
+        self.assertIn("emitted map", page)
+        self.assertNotIn("Hysteresis</h2>", page)
+
+    # If this fails, something is written of a static curve that does not hold it.
+    def test_what_takes_no_curve_says_so(self):
+        self.refused("compile", SPHERE, "--batch", code="static-not-taken")
+        self.refused("compile", SPHERE, "--with-test", code="static-not-taken")
+        self.refused("compile", SPHERE, "--target", "c99", "--with-test", code="static-not-taken")
+        self.refused("export", SKIN, "--to", "generic", code="not-exported")
+        self.assertEqual(self.files(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

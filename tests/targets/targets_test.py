@@ -31,9 +31,10 @@ from session import PINS_AT_MOST, Session  # noqa: E402
 DASHPOT, GXX, GCC = os.environ["DASHPOT"], os.environ["GXX"], os.environ["GCC"]
 NODE, ARM_GXX = os.environ["NODE"], os.environ["ARM_GXX"]
 
-# The paper's, four of them with slips or a contact, and two whose parameters change on the way.
+# The paper's, four of them with slips or a contact, two whose parameters change on the way, two behind static curves.
 NETWORKS = sorted((SOURCE / "networks/paper").glob("*.json"))
 NETWORKS += [SOURCE / f"networks/tunable/{name}.json" for name in ["friction_tunable", "second_order_maxwell_tunable"]]
+NETWORKS += [SOURCE / f"networks/static/{name}.json" for name in ["ligament", "sphere_on_gel"]]
 NAMES = [network.stem for network in NETWORKS]
 SCALARS = {"double": "d", "float": "f"}
 ROWS, PERIOD = 400, 0.001

@@ -220,6 +220,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   if (!is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   times.enter("certificate");
   certify_law(result, choices);
+  if (result.network.map && !is_representable(result.law, result.network, diagnostics)) return std::nullopt;
   const bool is_known_by_the_whole = result.form.has_slips() || result.network.contact || result.network.map;
   if (!result.port.is_ideal() && !is_tunable && is_known_by_the_whole) tell_of_certificate(result);
   tell_what_is_felt(result, present, choices, result.port);

@@ -124,7 +124,7 @@ class Decomposer {
   // `position` first: it is preferred where nothing else tells the inputs apart.
   std::vector<StateInput> inputs_to_compare(const Split& split) const {
     if (choices_.state_input) return {*choices_.state_input};
-    if (network_.contact) return {StateInput::position};
+    if (network_.contact || network_.map) return {StateInput::position};
     const bool velocity_may_drive = device_.estimate_sums_to_displacement();
     if (split.fixed_input && (velocity_may_drive || *split.fixed_input == StateInput::position))
       return {*split.fixed_input};

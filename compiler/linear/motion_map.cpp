@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dashpot::compiler {
 namespace {
@@ -27,9 +28,11 @@ Real factor_of(const StaticCurve& curve) {
 
 // The last point that is not beyond, with a point after it.
 std::size_t row_of(const StaticCurve& curve, const Real& displacement) {
-  std::size_t row = 0;
-  while (row + 2 < curve.points.size() && curve.points[row + 1].displacement <= displacement) ++row;
-  return row;
+  const auto after =
+      std::upper_bound(curve.points.begin(), curve.points.end(), displacement,
+                       [](const Real& place, const CurvePoint& point) { return place < point.displacement; });
+  const auto row = static_cast<std::size_t>(after - curve.points.begin());
+  return std::clamp<std::size_t>(row, 1, curve.points.size() - 1) - 1;
 }
 
 Real slope_of(const StaticCurve& curve, std::size_t row) {
@@ -51,9 +54,9 @@ struct Knot {
   Real value, tangent;
 };
 
-Knot knot_at(const StaticCurve& curve, const Real& stiffness, const Real& displacement) {
+Knot knot_at(const StaticCurve& curve, const Real& stiffness, const Real& displacement, const Real& work) {
   if (displacement == 0) return {0, sqrt(initial_stiffness(curve) / stiffness)};
-  const Real w = sqrt(2 * energy_at(curve, displacement) / stiffness);
+  const Real w = sqrt(2 * work / stiffness);
   return {w, force_at(curve, displacement) / (stiffness * w)};
 }
 
@@ -66,17 +69,31 @@ MapCell cubic_between(const Knot& from, const Knot& to, const Real& width) {
           coefficient(from.tangent + to.tangent - 2 * rise, width * width)};
 }
 
+bool is_finite(const MotionMap& map) {
+  const bool all = std::all_of(map.cell.begin(), map.cell.end(), [](const MapCell& cell) {
+    return std::isfinite(cell.a) && std::isfinite(cell.b) && std::isfinite(cell.c) && std::isfinite(cell.e);
+  });
+  return all && std::isfinite(1 / map.width()) && map.steepest() > 0;
+}
+
 MotionMap with_cells(const StaticCurve& curve, const Real& stiffness, double reach, std::size_t cells) {
   MotionMap map;
   map.reach = reach;
   map.stiffness = to_double(stiffness);
-  Knot knot = knot_at(curve, stiffness, 0);
+  Knot knot = knot_at(curve, stiffness, 0, 0);
+  Real work = 0;
   for (std::size_t i = 1; i <= cells; ++i) {
-    const Knot next = knot_at(curve, stiffness, Real(reach) * i / cells);
+    const Real place = Real(reach) * i / cells;
+    work += work_between(curve, Real(reach) * (i - 1) / cells, place);
+    const Knot next = knot_at(curve, stiffness, place, work);
     map.cell.push_back(cubic_between(knot, next, Real(reach) / cells));
     knot = next;
   }
   map.cell.push_back({to_double(knot.value), to_double(knot.tangent), 0, 0});
+  if (!is_finite(map)) {
+    map.static_error = std::numeric_limits<double>::infinity();
+    return map;
+  }
   const std::size_t places = std::max<std::size_t>(16, 2048 / cells);  // looked at in each cell, and where tables bend
   const double largest = to_double(force_at(curve, reach));
   const auto look_at = [&](double u) {
@@ -129,23 +146,21 @@ Real force_at(const StaticCurve& curve, const Real& displacement) {
   return 0;
 }
 
-Real energy_at(const StaticCurve& curve, const Real& displacement) {
+Real work_between(const StaticCurve& curve, const Real& from, const Real& to) {
   const Real shape = curve.shape;
-  switch (curve.kind) {
-    case StaticCurve::Kind::power: return factor_of(curve) * pow(displacement, shape + 1) / (shape + 1);
-    case StaticCurve::Kind::exponential: return factor_of(curve) / shape * exponential_remainder(shape * displacement);
-    case StaticCurve::Kind::table: {
-      const std::size_t last = row_of(curve, displacement);
-      Real energy = 0;
-      for (std::size_t row = 0; row <= last; ++row) {
-        const CurvePoint& from = curve.points[row];
-        const Real to = row == last ? displacement : Real(curve.points[row + 1].displacement);
-        energy += (to - Real(from.displacement)) * (Real(from.force) + force_at(curve, to)) / 2;
-      }
-      return energy;
-    }
+  const auto from_start = [&](const Real& place) {
+    return curve.kind == StaticCurve::Kind::power
+               ? Real(factor_of(curve) * pow(place, shape + 1) / (shape + 1))
+               : Real(factor_of(curve) / shape * exponential_remainder(shape * place));
+  };
+  if (curve.kind != StaticCurve::Kind::table) return from_start(to) - from_start(from);
+  Real work = 0, begin = from;
+  for (std::size_t row = row_of(curve, from), last = row_of(curve, to); row <= last; ++row) {
+    const Real end = row == last ? to : Real(curve.points[row + 1].displacement);
+    work += (end - begin) * (force_at(curve, begin) + force_at(curve, end)) / 2;
+    begin = end;
   }
-  return 0;
+  return work;
 }
 
 std::optional<MotionMap> motion_map(const Network& network, const LinearForm& form, Diagnostics& diagnostics,

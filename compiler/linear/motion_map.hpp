@@ -16,9 +16,9 @@
 
 namespace dashpot::compiler {
 
-// At a displacement that is not negative: the force [N], and the work that led there [J].
+// At a displacement that is not negative [N], and between two of them the work [J].
 Real force_at(const StaticCurve& curve, const Real& displacement);
-Real energy_at(const StaticCurve& curve, const Real& displacement);
+Real work_between(const StaticCurve& curve, const Real& from, const Real& to);
 
 inline constexpr double most_static_error = 5e-4;     // that more cubics are taken for
 inline constexpr double largest_static_error = 1e-2;  // beyond, a curve is refused

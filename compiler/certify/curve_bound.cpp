@@ -33,7 +33,7 @@ double yield_forces(const Network& network) {
 
 std::string hindrance(const MotorConstants& motor, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
   if (motor.estimate_drives_modes() || (slips && slips->held_compensation > 0))
-    return "what follows an estimate of the velocity is more than a damping, and lies behind a static curve";
+    return "the estimated velocity moves the law's states, and of that nothing is proved behind a static curve";
   if (slips && tool.amplifier_lag > 0) return "the amplifier lags, and slips or a contact lie behind a static curve";
   if (tool.motor_slew > 0) return "the motor's slew is limited, and its force lies behind a static curve";
   if (!tool.has_device)

@@ -77,9 +77,9 @@ std::string static_text(const Compilation& c, const PortUnits& units) {
       "at most {:.2g} % of the largest\n",
       map.cubics(), map.reach, units.position, 100 * map.static_error);
   text += fmt::format(
-      "behind the curve      lies the network: all that follows of it, b, stiffness and what it needs, is felt at the "
-      "tool "
-      "{:.4g} to {:.4g} times as large\n",
+      "behind the curve      lies the network: b, and all stiffness and damping below, is felt at the tool {:.4g} to "
+      "{:.4g} "
+      "times as large; what 'passivity' says is of the tool\n",
       least * least, most * most);
   if (c.network.valid.rate && c.network.valid.rate->high > 0)
     text += fmt::format(

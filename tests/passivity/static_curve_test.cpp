@@ -202,12 +202,11 @@ TEST(StaticCurves, MostLawsGiveOutEnergyWithHalf) {
       return balance.least < -rounding * 5000 * balance.largest;
     };
     bool gained = false;
-    for (int i = -4; i <= 4 && !gained; ++i)
+    for (int i = -4; i <= 4; ++i)
       for (const double end : {-one.loop.travel, 0.0, one.loop.travel}) {
         const double place = one.loop.travel * i / 4;
-        if (gained || !gains_with(0.5 * needed, end, place)) continue;
-        gained = true;
-        EXPECT_FALSE(gains_with(needed, end, place)) << seed << " " << one.network;
+        gained = gained || gains_with(0.5 * needed, end, place);
+        EXPECT_FALSE(gains_with(needed, end, place)) << seed << " " << place << " " << one.network;
       }
     gains += gained;
   }

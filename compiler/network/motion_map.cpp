@@ -14,17 +14,22 @@ struct Extremes {
   double least, most;
 };
 
-// Over the part of a stretch that lies in one cell, the slope is a parabola.
+// Of |w′| over the part of a stretch that lies in one cell. The slope is a parabola, which may dip below 0 where a
+// curve begins very flat.
 Extremes tangents(const MotionMap& map, std::size_t cell, double from, double to) {
   const MapCell& m = map.cell[cell];
   const double start = double(cell) * map.width();
   const double low = std::max(from - start, 0.0), end = to - start;
   const double high = cell == map.cubics() ? std::max(low, end) : std::clamp(end, low, map.width());
   const auto slope = [&](double d) { return m.b + d * (2 * m.c + 3 * m.e * d); };
-  Extremes found{std::min(slope(low), slope(high)), std::max(slope(low), slope(high))};
-  if (m.e == 0) return found;
-  const double vertex = slope(std::clamp(-m.c / (3 * m.e), low, high));
-  return {std::min(found.least, vertex), std::max(found.most, vertex)};
+  double least = std::min(slope(low), slope(high)), most = std::max(slope(low), slope(high));
+  if (m.e != 0) {
+    const double vertex = slope(std::clamp(-m.c / (3 * m.e), low, high));
+    least = std::min(least, vertex);
+    most = std::max(most, vertex);
+  }
+  const bool changes_sign = least <= 0 && most >= 0;
+  return {changes_sign ? 0 : std::min(std::abs(least), std::abs(most)), std::max(std::abs(least), std::abs(most))};
 }
 
 template <class Take>
@@ -49,7 +54,7 @@ double MotionMap::tangent_at(double distance) const {
 }
 
 double MotionMap::least_tangent(double from, double to) const {
-  double least = tangent_at(from);
+  double least = std::abs(tangent_at(from));
   over_cells(*this, from, to, [&](std::size_t at) { least = std::min(least, tangents(*this, at, from, to).least); });
   return least;
 }

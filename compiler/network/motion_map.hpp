@@ -25,7 +25,7 @@ struct MotionMap {
   double value_at(double distance) const;
   double tangent_at(double distance) const;
 
-  // Over a stretch between two distances that are not negative: not above and not below what w′ takes there, and the
+  // Over a stretch between two distances that are not negative: not above and not below what |w′| takes there, and the
   // largest |w″|, to rounding.
   double least_tangent(double from, double to) const;
   double largest_tangent(double from, double to) const;

@@ -10,6 +10,7 @@
 #include "certify/box_motor.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/proved_bound.hpp"
+#include "certify/unproved.hpp"
 #include "certify/quantisation.hpp"
 #include "discretise/rounding.hpp"
 #include "law/add_damping.hpp"
@@ -29,12 +30,6 @@ std::string hindrance_to_hold(const MotorConstants& motor, const SampledLoop& lo
 // T_max/h
 Rational longest_hold_share(const SampledLoop& loop) {
   return (Rational(loop.sample_period) + Rational(loop.jitter)) / Rational(loop.sample_period);
-}
-
-PassivityBound not_proved(std::string reason) {
-  PassivityBound bound;
-  bound.reason = std::move(reason);
-  return bound;
 }
 
 PassivityBound within_range(PassivityBound bound) {
@@ -66,10 +61,6 @@ PassivityBound hold_statement(const MotorConstants& motor, const SampledLoop& lo
   bound.needed = ceiling(hold_stiffness(motor) * (1 + 2 * Rational(loop.delay_samples)) *
                          (Rational(loop.sample_period) + Rational(loop.jitter)));
   return within_range(bound);
-}
-
-std::string not_proved_for(const SampledLoop& loop) {
-  return fmt::format("nothing is proved for the estimator {} in the motor", name_of(loop.velocity.estimator));
 }
 
 // A slew that is enough costs as an amplifier's lag does; one that is not is a force that nobody asked for.
@@ -168,12 +159,7 @@ PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& sl
   bound.needed += (needed * hold + compensation * *gain) * (1 + 1e-14);
   bound = within_range(bound);
   if (bound.proof == Proof::none) return bound;
-  if (!slips.behind_contact || Rational(bound.needed) <= assured_damping(loop, 0)) return bound;
-  PassivityBound beyond = not_proved(
-      "a free tool, which the brake leaves alone, touches late, and the device itself has less damping than that "
-      "needs");
-  beyond.needed = bound.needed;
-  return beyond;
+  return slips.behind_contact ? of_a_free_tool(bound, loop) : bound;
 }
 
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake) {

@@ -1,14 +1,12 @@
 #include "certify/curve_bound.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <dashpot/estimators/estimator_names.hpp>
 #include <limits>
 
 #include "certify/estimator_factors.hpp"
 #include "certify/hold_bound.hpp"
+#include "certify/unproved.hpp"
 #include "discretise/law_writer.hpp"
 #include "discretise/rounding.hpp"
 
@@ -17,12 +15,6 @@ namespace {
 
 constexpr double margin = 1 + 1e-9;  // of sums in double, some thousand terms of them
 constexpr int stretches_of_cell = 8;
-
-PassivityBound not_proved(std::string reason) {
-  PassivityBound bound;
-  bound.reason = std::move(reason);
-  return bound;
-}
 
 double yield_forces(const Network& network) {
   double sum = 0;
@@ -153,9 +145,7 @@ PassivityBound bound_behind_curve(const UpdateLaw& law, const Network& network, 
   if (device.coil_slew() > 0 && quickest > device.coil_slew())
     return not_proved("the brake's coil does not follow the static curve at the largest speed");
   const std::optional<double> of_estimate = cost_of_estimate(motor, slips, tool, map.steepest());
-  if (!of_estimate)
-    return not_proved(
-        fmt::format("nothing is proved for the estimator {} in the motor", name_of(tool.velocity.estimator)));
+  if (!of_estimate) return not_proved(not_proved_for(tool));
   behind.amplifier_lag = 0;                                    // these two are counted apart
   behind.device_damping = std::numeric_limits<double>::max();  // what is there is compared at the tool
   motor.velocity_gain = 0;
@@ -175,12 +165,7 @@ PassivityBound bound_behind_curve(const UpdateLaw& law, const Network& network, 
   bound.storage.reset();
   bound.frequency = 0;
   bound.constant_period_only = false;
-  if (!network.contact || Rational(bound.needed) <= assured_damping(tool, 0)) return bound;
-  PassivityBound beyond = not_proved(
-      "a free tool, which the brake leaves alone, touches late, and the device itself has less damping than that "
-      "needs");
-  beyond.needed = bound.needed;
-  return beyond;
+  return network.contact ? of_a_free_tool(bound, tool) : bound;
 }
 
 }  // namespace

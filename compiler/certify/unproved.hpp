@@ -1,0 +1,19 @@
+// Statements that are not made, and why.
+#pragma once
+
+#include <string>
+
+#include "certify/certificate.hpp"
+
+namespace dashpot::compiler {
+
+PassivityBound not_proved(std::string reason);
+
+// Of an estimator that nothing is known of.
+std::string not_proved_for(const SampledLoop& loop);
+
+// The same bound where the device damps a free tool enough, which the brake leaves alone; else one that is not proved,
+// with what would be needed.
+PassivityBound of_a_free_tool(const PassivityBound& bound, const SampledLoop& loop);
+
+}  // namespace dashpot::compiler

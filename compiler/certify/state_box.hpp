@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "decompose/port_device.hpp"
 #include "law/update_law.hpp"
@@ -21,15 +22,30 @@ struct InputRange {
 // is more than a hand moves.
 InputRange input_range(const PortDevice& port);
 
+// A force F that what rounding keeps from it, the error e, is carried along with: bounds are those of F + e.
+struct CarriedError {
+  VariableId force, error;
+  VariableId added;  // y, with e, in an update: F ← F + y
+};
+std::vector<CarriedError> carried_errors(const UpdateLaw& law);
+
 // As the class calls it.
 std::string state_name(const Variable& state, std::size_t place);
 
-// The greatest magnitude of every state, by state_name(), when the law starts at rest; empty where magnitudes show none
-// though cases are told apart, as of slips that meet at inner nodes and of tunables. A little wider than the fixed
-// point, so that the rounding of a step stays within.
-std::optional<std::map<std::string, double>> state_box(const UpdateLaw& law, const InputRange& range);
+// Of a state, or of what is left of it when others are taken away, each times its factor.
+struct StateBounds {
+  double low, high;
+  std::vector<std::pair<std::string, double>> others = {};  // by state_name()
+  double magnitude() const { return high > -low ? high : -low; }
+};
+using StateBox = std::map<std::string, StateBounds>;
+
+// The least and the greatest of every state, by state_name(), when the law starts at rest; empty where magnitudes show
+// none though cases are told apart, and of tunables. A little wider than the fixed point, so that the rounding of a
+// step stays within.
+std::optional<StateBox> state_box(const UpdateLaw& law, const InputRange& range);
 
 // The sum of the magnitudes of the terms that the force is made of, in the box [N].
-double sum_of_terms(const UpdateLaw& law, const InputRange& range, const std::map<std::string, double>& box);
+double sum_of_terms(const UpdateLaw& law, const InputRange& range, const StateBox& box);
 
 }  // namespace dashpot::compiler

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <set>
 #include <string_view>
 
@@ -380,18 +382,63 @@ class C99Printer {
     return lines;
   }
 
-  // One comparison a line, joined by &&.
+  // One comparison a line, joined by &&. A force with an error that is carried along is within where both together are:
+  // the difference is exact where it is not far from them, and a sum has the right sign. What states differ by is
+  // worked out in double.
   Lines bounds() const {
-    Lines lines;
-    for (const Variable& variable : law_.variables)
-      for (std::size_t place = 0; variable.role == Role::state && place < variable.size && !box_.empty(); ++place) {
-        const std::string there =
-            law_.is_rolled(variable.size) ? fmt::format("{}[{}]", variable.name, place) : member(variable, place);
-        const std::string bound = number(box_.at(state_name(variable, place)));
-        lines.push_back(
-            fmt::format("{2}(self->{0} >= -{1}) && (self->{0} <= {1})", there, bound, lines.empty() ? "" : "&& "));
+    std::map<int, Lines> by_depth;
+    if (box_.empty()) return {};
+    const std::map<std::string, std::string> members = members_by_state();
+    const std::vector<CarriedError> carried = carried_errors(law_);
+    for_each_state([&](const Variable& variable, std::size_t place) {
+      const auto own = std::find_if(carried.begin(), carried.end(),
+                                    [&](const CarriedError& c) { return c.force == law_.variables.id_of(variable); });
+      const StateBounds& bound = box_.at(state_name(variable, place));
+      const std::string there = members.at(state_name(variable, place));
+      if (!bound.others.empty()) {
+        std::string taken;
+        for (const auto& [other, factor] : bound.others)
+          taken += fmt::format("{}{:#} * (double){}", taken.empty() ? "" : " + ", factor, members.at(other));
+        Lines& lines = by_depth[depth_of(bound)];
+        lines.push_back(fmt::format("((double){} - ({}) >= {:#})", there, taken, bound.low));
+        lines.push_back(fmt::format("((double){} - ({}) <= {:#})", there, taken, bound.high));
+      } else if (own != carried.end()) {
+        by_depth[0].push_back(fmt::format("(({0} - {1}) + {3} >= 0) && (({0} - {2}) + {3} <= 0)", there,
+                                          number(bound.low), number(bound.high),
+                                          members.at(state_name(law_.variables[own->error], place))));
+      } else {
+        by_depth[0].push_back(
+            fmt::format("({0} >= {1}) && ({0} <= {2})", there, number(bound.low), number(bound.high)));
       }
-    return lines;
+    });
+    Lines all;
+    for (const auto& [depth, lines] : by_depth)
+      for (const std::string& line : lines) all.push_back((all.empty() ? "" : "&& ") + line);
+    return all;
+  }
+
+  // How many differences stand between this one and plain states.
+  int depth_of(const StateBounds& bound) const {
+    int depth = 0;
+    for (const auto& [other, factor] : bound.others) depth = std::max(depth, 1 + depth_of(box_.at(other)));
+    return depth;
+  }
+
+  template <class Action>
+  void for_each_state(Action action) const {
+    for (const Variable& variable : law_.variables)
+      for (std::size_t place = 0; variable.role == Role::state && place < variable.size; ++place)
+        action(variable, place);
+  }
+
+  std::map<std::string, std::string> members_by_state() const {
+    std::map<std::string, std::string> members;
+    for_each_state([&](const Variable& variable, std::size_t place) {
+      members[state_name(variable, place)] =
+          "self->" +
+          (law_.is_rolled(variable.size) ? fmt::format("{}[{}]", variable.name, place) : member(variable, place));
+    });
+    return members;
   }
 
   Lines reset() {

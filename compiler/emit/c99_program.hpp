@@ -2,10 +2,10 @@
 // many. States are members of `self`; constants stand in the function that reads them.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
+#include "certify/state_box.hpp"
 #include "law/update_law.hpp"
 
 namespace dashpot::compiler {
@@ -22,9 +22,6 @@ struct C99Program {
   std::vector<std::string> energy;  // down to that of `stored`
   std::string kept_share;           // of all forces, by the last output; empty where a law never sheds
 };
-
-// Bounds of states by state_name().
-using StateBox = std::map<std::string, double>;
 
 // `name` is the network's.
 C99Program c99_program(const UpdateLaw& law, const std::string& name, const StateBox& box = {});

@@ -38,7 +38,8 @@ class CForm {
   void proof() {
     text_ += "#ifdef __FRAMAC__\n";
     for (const auto& [state, bound] : box_.states)
-      text_ += fmt::format("static const double {}bound = {:#};\n", state, bound);
+      text_ +=
+          fmt::format("static const double {0}low = {1:#}, {0}high = {2:#};\n", state, low(state, bound), bound.high);
     text_ += fmt::format("int main(void) {{\n  {}_reset(&self, 0);\n", name_);
     for (const auto& [state, slices] : box_.slices)
       text_ += fmt::format("  //@ loop unroll {1};\n  for (int {0}at = 0; {0}at < {1}; ++{0}at) {{\n", state, slices);
@@ -55,25 +56,25 @@ class CForm {
         "  //@ assert brakes: command.damping >= 0;\n",
         name_);
     for (const auto& [state, bound] : box_.states)
-      text_ += fmt::format("  //@ assert stays: {1} <= {2} <= {0}bound;\n", state, low(state), members_.at(state));
+      text_ += fmt::format("  //@ assert stays: {0}low <= {1} <= {0}high;\n", state, members_.at(state));
     for (std::size_t i = 0; i < box_.slices.size(); ++i) text_ += "  }\n";
     text_ += "  return 0;\n}\n";
   }
 
-  void begin(const std::string& state, double bound) {
+  void begin(const std::string& state, const compiler::StateBounds& bound) {
     const std::string& there = members_.at(state);
     const auto sliced = box_.slices.find(state);
     if (sliced == box_.slices.end())
-      text_ += fmt::format("  {} = Frama_C_{}_interval({}, {}bound);\n", there, scalar_, low(state), state);
+      text_ += fmt::format("  {0} = Frama_C_{1}_interval({2}low, {2}high);\n", there, scalar_, state);
     else
       text_ += fmt::format("  {0} = Frama_C_{3}_interval({1:#} + {4}at * {2:#}, {1:#} + ({4}at + 1) * {2:#});\n", there,
-                           -bound, 2 * bound / sliced->second, scalar_, state);
+                           bound.low, (bound.high - bound.low) / sliced->second, scalar_, state);
   }
 
-  // A damping is not negative; all else is within ± its bound.
-  std::string low(const std::string& state) const {
-    return law_.brake_changes() && state == scalar_name(law_.variables[law_.last_brake], 0) ? "0"
-                                                                                            : "-" + state + "bound";
+  // A damping is not negative.
+  double low(const std::string& state, const compiler::StateBounds& bound) const {
+    const bool is_brake = law_.brake_changes() && state == scalar_name(law_.variables[law_.last_brake], 0);
+    return is_brake ? 0 : bound.low;
   }
 
   void run() {

@@ -9,10 +9,10 @@
 
 namespace dashpot::testing {
 
-// What the main program of the proof starts from: each state within ± its bound, in so many slices one after the other.
+// What the main program of the proof starts from: each state within its bounds, in so many slices one after the other.
 struct ProvenBox {
   compiler::InputRange range;
-  std::map<std::string, double> states;
+  compiler::StateBox states;
   std::map<std::string, int> slices;  // of states that need a distinction of cases
 };
 

@@ -48,8 +48,7 @@ std::string with_ending(std::string text, const std::set<std::string>& names, co
 
 class Script {
  public:
-  Script(const compiler::Compilation& compilation, const compiler::InputRange& range,
-         const std::map<std::string, double>& box)
+  Script(const compiler::Compilation& compilation, const compiler::InputRange& range, const compiler::StateBox& box)
       : c_(compilation), law_(compilation.law), range_(range), box_(box) {}
 
   std::string text() {
@@ -111,7 +110,7 @@ class Script {
     };
     assume(scalar_name(law_.variables[law_.position], 0), range_.position);
     assume(scalar_name(law_.variables[law_.velocity], 0), range_.velocity);
-    for (const auto& [state, bound] : box_) assume(state, bound);
+    for (const auto& [state, bound] : box_) assume(state, bound.magnitude());
     for (const compiler::Coefficient& c : law_.coefficients)
       for (std::size_t place = 0; place < c.values.size(); ++place) {
         const std::string name = scalar_name(c, place);
@@ -135,7 +134,7 @@ class Script {
     for (const Statement& statement : law_.update)
       for (std::size_t place = 0; place < law_.variables[statement.target].size; ++place) {
         const std::string state = scalar_name(law_.variables[statement.target], place);
-        const double largest = box_.at(state);
+        const double largest = box_.at(state).magnitude();
         goals_.push_back(fmt::format("|{}next| <= {}", state, exact(largest)));
         if (const std::optional<double> loss = loss_of(statement.value, place))
           goals_.push_back(fmt::format("|{0}next - {0}next_real| <= {1}", state,
@@ -157,7 +156,7 @@ class Script {
   const compiler::Compilation& c_;
   const UpdateLaw& law_;
   const compiler::InputRange& range_;
-  const std::map<std::string, double>& box_;
+  const compiler::StateBox& box_;
   std::set<std::string> outputs_, nexts_;
   std::vector<std::string> floats_, assumptions_, goals_;
   std::map<std::string, double> constants_;
@@ -167,7 +166,7 @@ class Script {
 }  // namespace
 
 std::string gappa_script(const compiler::Compilation& compilation, const compiler::InputRange& range,
-                         const std::map<std::string, double>& box) {
+                         const compiler::StateBox& box) {
   return Script(compilation, range, box).text();
 }
 

@@ -14,6 +14,6 @@ namespace dashpot::testing {
 // certificate adds for the sum of its terms; and the states are in the box again. Gappa's `rnd=` rounds every operation
 // of an expression; flushing, which adds less than 2⁻²⁰⁰ N (2⁻⁶⁰ N in float), is left out.
 std::string gappa_script(const compiler::Compilation& compilation, const compiler::InputRange& range,
-                         const std::map<std::string, double>& box);
+                         const compiler::StateBox& box);
 
 }  // namespace dashpot::testing

@@ -1,0 +1,156 @@
+// How large the states of a law can be after a step, from how large they are before it.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "certify/slip_answer.hpp"
+#include "certify/state_box.hpp"
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// Σ c_i x_i over the states and inputs at the beginning of a step and over the forces of coupled slips, a constant, and
+// a rest of which the magnitude alone is known: roundings, and what a slip or a contact decides where its cases are not
+// told apart. Beside it an interval, which knows what a case has decided; rounding does not take a number beyond a
+// bound that is a number too.
+struct Amount {
+  std::map<std::size_t, double> shares;
+  double constant = 0;
+  double rest = 0;
+  bool has_kept_share = false;  // depends on the share of all forces that a shedding law keeps
+  double low, high;
+};
+
+// How far the cases of a step are told apart. Where they are, what one takes away from another is seen; where there
+// are too many they are not.
+enum class Detail {
+  none,
+  choices,  // of every `where`, and whether a surface is touched
+  slips,    // and of every clamp whether it holds
+};
+
+// Which of its cases each decision of a step takes, for all combinations in turn.
+class StepCases {
+ public:
+  unsigned choose(unsigned count) {
+    if (at_ == taken_.size()) taken_.push_back({0, count});
+    return taken_[at_++].first;
+  }
+
+  // False after the last.
+  bool next() {
+    at_ = 0;
+    while (!taken_.empty() && ++taken_.back().first == taken_.back().second) taken_.pop_back();
+    return !taken_.empty();
+  }
+
+ private:
+  std::vector<std::pair<unsigned, unsigned>> taken_;  // case and number of cases
+  std::size_t at_ = 0;
+};
+
+// What is bounded of a state x is x − Σ factor y, of other states y. Of a force that decays while its spring is
+// stretched, F ← a F + g (y⁺ − y): then F − (g/a) y is between bounds where y is, however slowly F decays. Of the sum
+// of some states: then it is what rounding leaves.
+struct Share {
+  std::size_t at;  // y
+  double factor;
+};
+struct Anchored {
+  std::size_t at;  // x
+  std::vector<Share> shares;
+};
+using Anchors = std::vector<Anchored>;  // each after those that its shares are of
+
+class Magnitudes {
+  struct Bounds {
+    std::vector<double> low, high;  // neither side of 0 alone
+    void include(std::size_t at, double least, double most);
+  };
+
+ public:
+  Magnitudes(const UpdateLaw& law, const InputRange& range, Detail detail, Anchors anchors = {});
+
+  void step();
+  Anchors find_anchors();
+  const Anchors& anchors() const { return anchors_; }
+  std::size_t effort() const { return effort_; }  // statements run so far, in all cases
+  double force();                                 // at most [N]
+
+  // How far below 0 and how far above each may be, one after the other; of a force with an error that is carried along,
+  // both together, of a state with an anchor, their difference.
+  std::vector<double> states() const;
+  void set_states(const std::vector<double>& flat);
+
+ private:
+  template <class Action>
+  void for_each_state(Action action) const;
+  template <class Action>
+  void in_every_case(std::initializer_list<const std::vector<Statement>*> programs, Action action);
+
+  void begin();
+  bool is_map(const Statement& s) const { return law_.mapped != no_variable && s.target == law_.mapped; }
+  void run(const std::vector<Statement>& program);
+  void solve(const Statement& statement);
+  template <class Coupled>
+  const SlipAnswer& answer_of(const Coupled& coupled, bool is_free);
+  template <class Coupled>
+  void solve(const Coupled& coupled, VariableId force, const Amount& change, bool is_pushed,
+             const std::vector<VariableId>& moved, VariableId surface);
+  void know(const Amount& amount, double sign);
+  Amount tightened(Amount value) const;
+  Amount combined(const SlipAnswerRow& row, const Amount& change, const std::vector<Amount>& held,
+                  const std::vector<Amount>& slips, int operations) const;
+  void carry(std::size_t force, Bounds& then) const;
+  const std::vector<Share>* anchor_of(std::size_t at) const;
+  double spring_of(std::size_t force) const;
+  std::vector<Share> sum_at(const Statement& s) const;
+  bool add_terms(ExpressionId id, std::vector<Share>& terms) const;
+  Amount plus(const Amount& a, const Amount& b, double factor) const;
+  Amount plus(Amount a, const std::vector<Share>& shares, double sign) const;
+
+  double low_of(std::size_t symbol) const;
+  double high_of(std::size_t symbol) const;
+  double size_of(std::size_t symbol) const { return std::max(-low_of(symbol), high_of(symbol)); }
+  double lowest(const Amount& value) const;
+  double highest(const Amount& value) const;
+  double magnitude(const Amount& value) const { return std::max(-lowest(value), highest(value)); }
+  double rounded(double value) const;
+  Amount exactly(double value) const;
+  Amount sized(double magnitude) const;
+  Amount within(Amount value, double low, double high) const;
+  Amount symbol(std::size_t at) const;
+  Amount sum(const Amount& a, const Amount& b, double sign) const;
+  Amount scaled(const Amount& a, double factor) const;
+  Amount product(const Amount& a, const Amount& b) const;
+  Amount kept_share();
+  Amount clamped(const Amount& value, double limit);
+  Amount chosen(const Expression& where, std::size_t place);
+  void take(ExpressionId condition, bool is_above);
+  Amount of(ExpressionId id, std::size_t place);
+  bool is_read_of(ExpressionId id, VariableId variable) const;
+  std::size_t first(VariableId id) const { return starts_[id.place()]; }
+
+  const UpdateLaw& law_;
+  double roundoff_;
+  Detail detail_;
+  std::size_t effort_ = 0;
+  StepCases cases_;
+  std::vector<std::size_t> starts_;  // place of each variable in the lists below
+  Bounds bounds_;
+  std::map<std::size_t, std::size_t> errors_;  // of forces that carry one along
+  std::map<std::size_t, std::size_t> added_;   // what is added to them in a step
+  Anchors anchors_;
+  std::map<std::pair<const std::string*, bool>, SlipAnswer> answers_;  // by the name of what is coupled
+  // Of the case at hand:
+  std::vector<Amount> values_;
+  std::vector<double> slip_forces_;                          // at most, symbols after those of all variables
+  std::map<std::pair<VariableId, VariableId>, bool> known_;  // a − b > 0, or a > 0
+  std::vector<Amount> positive_;                             // what is not below 0
+  bool is_possible_ = true;
+};
+
+}  // namespace dashpot::compiler

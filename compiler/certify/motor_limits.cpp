@@ -113,6 +113,7 @@ double time_of_lag(const SampledLoop& loop) {
   const double lag = loop.amplifier_lag;
   if (!(lag > 0)) return 0;
   const double kept = -std::expm1(-(loop.sample_period - loop.jitter) / lag);  // 1 − q
+  if (!(kept > 0)) return std::numeric_limits<double>::infinity();             // two samples may follow at once
   const double lost = -std::expm1(-2 * loop.longest_hold() / lag);             // 1 − q_T²
   return 2 * std::sqrt(loop.longest_hold() * lag * lost / 2) / kept * margin;
 }
@@ -148,6 +149,7 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
   limits.rule = slips || linear.follows_estimate() || !slew_is_enough ? LimitRule::sheds : LimitRule::clamps;
   limits.reason = gains.hindrance;
   if (!slew_is_enough) limits.reason = "its force may have to fall faster than the motor's slew";
+  if (!std::isfinite(time_of_lag(loop))) limits.reason = "the amplifier lags, and the jitter is a sample or more";
   if (loop.motor_slew > 0 && loop.amplifier_lag > 0) limits.reason = "the amplifier lags, and its slew is limited";
   if (limits.reason.empty()) {
     const double slew_time =

@@ -70,7 +70,7 @@ std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop
 // 2 β′ T √(σ/3ρ): what a slew costs that is enough, σ of ρ being used; empty where the estimator's gain is not known.
 std::optional<double> damping_for_slew(const MotorConstants& motor, double used, const SampledLoop& loop);
 
-// L [s]; 0 without a lag.
+// L [s]; 0 without a lag, infinite with one where two samples may follow at once.
 double time_of_lag(const SampledLoop& loop);
 
 // The largest such F0; 0 where there is none.

@@ -1,6 +1,10 @@
 // The known values of theory, section 6.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
+#include "certify/motor_limits.hpp"
 #include "motors.hpp"
 
 namespace dashpot::compiler {
@@ -79,6 +83,18 @@ TEST(KnownValues, ShortfallOfTheBrake) {
     const PassivityBound bound = passivity_bound(motor, loop);
     ASSERT_EQ(bound.proof, Proof::sampled);
     EXPECT_NEAR(missing_damping(bound, loop, damping) * (1 - tolerance), missing, 6e-4) << tolerance << " " << window;
+  }
+}
+
+// Fails if a lag were said to cost little, or even less than nothing, where a jitter of a sample or more lets two samples
+// follow at once.
+TEST(TimeOfLag, HasNoBoundWhereTwoSamplesMayFollowAtOnce) {
+  SampledLoop loop = plain_loop(known_period);
+  loop.amplifier_lag = known_period / 5;
+  EXPECT_TRUE(std::isfinite(time_of_lag(loop)));
+  for (const double jitter : {1.0, 1.5, 40.0}) {
+    loop.jitter = jitter * known_period;
+    EXPECT_EQ(time_of_lag(loop), std::numeric_limits<double>::infinity()) << jitter;
   }
 }
 

@@ -118,8 +118,9 @@ class Remedies {
     return std::nullopt;
   }
 
-  // Of all springs and dampers, in three digits.
+  // Of all springs and dampers, in three digits. Behind a static curve it is the curve that says how large forces are.
   std::optional<double> share(std::initializer_list<double> guesses) const {
+    if (c_.network.static_curve) return std::nullopt;
     for (const double guess : guesses)
       for (const double careful : {1.0, 0.9, 0.75, 0.5}) {
         if (!(guess * careful > 1e-6 && guess * careful < 1)) continue;

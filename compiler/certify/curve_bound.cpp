@@ -38,9 +38,9 @@ std::string hindrance(const MotorConstants& motor, const std::optional<SlipMotor
 
 class CurveNeed {
  public:
-  CurveNeed(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+  CurveNeed(const MotorConstants& motor, double damping, const Network& network, const std::optional<SlipMotor>& slips,
             const SampledLoop& tool, double coil_lag)
-      : map_(*network.map), tool_(tool), coil_lag_(coil_lag), motor_(linear_motor_constants(law)), brake_(law.damping) {
+      : map_(*network.map), tool_(tool), coil_lag_(coil_lag), motor_(motor), brake_(damping) {
     const bool is_one_sided = network.contact.has_value();
     static_stiffness_ = std::abs(motor_.static_stiffness);
     step_stiffness_ = std::abs(motor_.step_stiffness);
@@ -136,13 +136,16 @@ std::optional<double> cost_of_estimate(const MotorConstants& motor, const std::o
   return followed * *gain * tool.longest_hold() / tool.sample_period * steepest * steepest;
 }
 
-PassivityBound bound_behind_curve(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
-                                  const SampledLoop& tool, SampledLoop behind, const PortDevice& device) {
-  MotorConstants motor = linear_motor_constants(law);
+}  // namespace
+
+PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Network& network,
+                                  const std::optional<SlipMotor>& slips, const PortDevice& at_tool,
+                                  SampledLoop behind) {
+  const SampledLoop tool = sampled_loop(at_tool, behind.sample_period);
   if (const std::string why = hindrance(motor, slips, tool); !why.empty()) return not_proved(why);
   const MotionMap& map = *network.map;
-  const double quickest = std::sqrt(law.damping) * map.largest_curvature(0, map.reach) * tool.tool_speed;
-  if (device.coil_slew() > 0 && quickest > device.coil_slew())
+  const double quickest = std::sqrt(damping) * map.largest_curvature(0, map.reach) * tool.tool_speed;
+  if (at_tool.coil_slew() > 0 && quickest > at_tool.coil_slew())
     return not_proved("the brake's coil does not follow the static curve at the largest speed");
   const std::optional<double> of_estimate = cost_of_estimate(motor, slips, tool, map.steepest());
   if (!of_estimate) return not_proved(not_proved_for(tool));
@@ -154,12 +157,11 @@ PassivityBound bound_behind_curve(const UpdateLaw& law, const Network& network, 
   PassivityBound bound = slips ? passivity_bound(motor, *without_estimate, behind) : passivity_bound(motor, behind);
   if (bound.proof == Proof::none) return bound;
   const double least = map.least_tangent(0, map.reach);
-  const Rational told = Rational(law.damping) * Rational(least) * Rational(least);
-  bound.needed =
-      (Rational(CurveNeed(law, network, slips, tool, device.coil_lag()).lacking(bound.needed, *of_estimate)) +
-       assured_share(tool) * told)
-          .convert_to<double>() *
-      margin;
+  const Rational told = Rational(damping) * Rational(least) * Rational(least);
+  const double lacking =
+      CurveNeed(motor, damping, network, slips, tool, at_tool.coil_lag()).lacking(bound.needed, *of_estimate);
+  if (!std::isfinite(lacking)) return not_proved("the amplifier lags, and the jitter is a sample or more");
+  bound.needed = (Rational(lacking) + assured_share(tool) * told).convert_to<double>() * margin;
   bound.proof = Proof::hold;
   bound.reason.clear();
   bound.storage.reset();
@@ -168,7 +170,12 @@ PassivityBound bound_behind_curve(const UpdateLaw& law, const Network& network, 
   return network.contact ? of_a_free_tool(bound, tool) : bound;
 }
 
-}  // namespace
+double lacking_behind_curve(const PassivityBound& bound, double damping, const MotionMap& map,
+                            const SampledLoop& tool) {
+  const double flattest = map.least_tangent(0, map.reach), steepest = map.steepest();
+  const Rational assured = assured_damping(tool, Rational(damping) * Rational(flattest) * Rational(flattest));
+  return Rational(Rational(bound.needed) - assured).convert_to<double>() / (steepest * steepest);
+}
 
 Certificate certify_behind_curve(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
                                  const PortDevice& behind, double sample_period) {
@@ -177,7 +184,8 @@ Certificate certify_behind_curve(const UpdateLaw& law, const Network& network, c
   const SampledLoop tool = sampled_loop(at_tool, sample_period);
   Certificate result;
   result.loop = tool;
-  result.bound = bound_behind_curve(law, network, slips, tool, sampled_loop(behind, sample_period), at_tool);
+  result.bound = bound_behind_curve(linear_motor_constants(law), law.damping, network, slips, at_tool,
+                                    sampled_loop(behind, sample_period));
   result.bound.any_regime = slips.has_value();
   const double flattest = map.least_tangent(0, map.reach), rounding = 64 * unit_roundoff(law.scalar);
   const double least = law.damping * flattest * flattest * (1 - rounding);

@@ -24,6 +24,15 @@
 
 namespace dashpot::compiler {
 
+// What the brake is told is b w′², b being `damping`: the bound of what such a motor needs at the tool, the slowest
+// place for b being counted as if it were everywhere. `behind` is the loop behind the map.
+PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Network& network,
+                                  const std::optional<SlipMotor>& slips, const PortDevice& at_tool, SampledLoop behind);
+
+// By how much that is more than there is, as a brake behind the map sees it where the map is steepest; below 0 where
+// there is more [N·s/m].
+double lacking_behind_curve(const PassivityBound& bound, double damping, const MotionMap& map, const SampledLoop& tool);
+
 // In: a law of w before its map, what its motor makes behind slips, the device as the law sees it behind the map.
 // Out: its certificate at the tool. `added_damping` is what the brake is to be told besides b_w w′², wherever the tool
 // is.

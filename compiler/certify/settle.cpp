@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "certify/convex_search.hpp"
+#include "certify/curve_bound.hpp"
 #include "certify/proved_bound.hpp"
 #include "decompose/spectrum.hpp"
 #include "discretise/discretise.hpp"
@@ -132,8 +133,10 @@ const FeltError& CandidateSettler::felt(StateInput input) {
 // What the emitted law adds: all that is lacking, or nothing.
 double CandidateSettler::added_in(const StateInputMerit& merit) const {
   if (!merit.minimum_damping || network_.contact) return 0;
-  return merit.is_within_brake ? *merit.minimum_damping : 0;
+  return merit.is_within_brake ? *merit.minimum_damping / at_tool() : 0;
 }
+
+double CandidateSettler::at_tool() const { return device_.steepest() * device_.steepest(); }
 
 double CandidateSettler::largest_error(const Candidate& candidate, double added) {
   return felt(candidate.state_input).largest(candidate.damping, added);
@@ -154,7 +157,7 @@ const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput 
   single.candidates[single.chosen].damping = 0;
   single.candidates[single.chosen].state_input = input;
   const UpdateLaw law = discretise(network_, form_, single, choices_, rate_);
-  const bool needs_whole = network_.contact || !form_.has_slips();
+  const bool needs_whole = !network_.map && (network_.contact || !form_.has_slips());
   return motors_.emplace(input, needs_whole ? motor_constants(law) : linear_motor_constants(law)).first->second;
 }
 
@@ -165,8 +168,19 @@ PassivityBound CandidateSettler::bound(StateInput input, double damping, std::si
     motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
     motor->brake = damping;
   }
-  if (network_.map && motor && motor->estimate_drives_modes()) return {};  // as certify/curve_bound.hpp has it
+  if (network_.map && motor) return behind_curve(std::move(*motor), damping);
   return motor && slips_ ? passivity_bound(*motor, *slips_, loop_) : passivity_bound(motor, loop_, terms);
+}
+
+// As if the law had no map, and lacked as much.
+PassivityBound CandidateSettler::behind_curve(MotorConstants motor, double damping) const {
+  const PortDevice at_tool = device_.at_tool();
+  PassivityBound bound = bound_behind_curve(std::move(motor), damping, network_, slips_, at_tool, loop_);
+  if (bound.proof == Proof::none) return bound;
+  const Rational brake = damping + (slips_ ? slips_->least_brake : 0);
+  bound.needed = assured_damping(loop_, brake).convert_to<double>() +
+                 lacking_behind_curve(bound, damping, *network_.map, sampled_loop(at_tool, loop_.sample_period));
+  return bound;
 }
 
 void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
@@ -177,7 +191,7 @@ void CandidateSettler::weigh(Candidate& candidate, StateInputMerit& merit) {
   const double least_brake = candidate.damping + (slips_ ? slips_->least_brake : 0);
   merit.is_within_brake = false;
   if (needed.proof != Proof::none) {
-    merit.minimum_damping = missing_damping(needed, loop_, least_brake);
+    merit.minimum_damping = missing_damping(needed, loop_, least_brake) * at_tool();
     merit.is_within_brake = is_within_brake(candidate.damping, needed);
   }
   if (!device_.is_ideal()) merit.largest_error = felt(merit.state_input).largest(candidate.damping, added_in(merit));

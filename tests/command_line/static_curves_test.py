@@ -9,6 +9,9 @@ from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
 SPHERE, SKIN, LIGAMENT = (SOURCE / f"networks/static/{name}.json" for name in ["sphere_on_gel", "skin_in_contact", "ligament"])
 TRAINER = SOURCE / "examples/breast_palpation/device.json"
 KNEE = SOURCE / "examples/knee_ligament/device.json"
+PANTOGRAPH = SOURCE / "runtime/devices/pantograph_brake_2009.json"
+CONE = {"dashpot": 1, "name": "cone", "static": {"power": 2, "force": "1 N", "at": "5 mm"},
+        "network": {"parallel": [{"spring": "300 N/m"}, {"series": [{"spring": "200 N/m"}, {"damper": "30 N s/m"}]}]}}
 
 
 class StaticCurvesTest(CommandTest):
@@ -46,6 +49,32 @@ class StaticCurvesTest(CommandTest):
                 self.assertIn("recomputed in 100 digits; banner and code are those of the network", again)
         self.dashpot("compile", SKIN, "--device", TRAINER, "--certificate", "law.json")
         self.assertTrue(json.loads((self.folder / "law.json").read_text())["passivity"]["certified"])
+
+    # If this fails, a law that cannot be certified ends in a defect, or in the advice to scale what the curve alone says.
+    def test_a_curve_that_needs_too_much_is_refused(self):
+        self.write("cone.json", json.dumps(CONE))
+        refused = self.dashpot("compile", "cone.json", "--device", PANTOGRAPH, status=INPUT_REFUSED).stderr
+        self.assertIn("[not-certified]", refused)
+        self.assertIn("a brake of", refused)
+        self.assertNotIn("of its stiffness", refused)
+        self.assertNotIn("Hz would do", refused)  # faster, the jitter is a sample, and nothing is known of the lag
+
+    # If this fails, the table promises of a candidate what it does not keep when it is chosen.
+    def test_candidates_need_what_they_need_when_chosen(self):
+        self.write("cone.json", json.dumps(CONE))
+        for network in ["cone.json", LIGAMENT, SKIN]:
+            for device in [PANTOGRAPH, TRAINER, KNEE]:
+                told = self.dashpot("explain", network, "--device", device, "--json", status=None)
+                if told.returncode:
+                    continue
+                for row in json.loads(told.stdout)["candidates"]:
+                    own = json.loads(self.dashpot("explain", network, "--device", device, "--json", "--decomposition", row["name"]).stdout)
+                    chosen = next(c for c in own["candidates"] if c["name"] == row["name"])
+                    with self.subTest(network=network, device=device, candidate=row["name"]):
+                        if row["minimum_damping"] is None or chosen["minimum_damping"] is None:
+                            self.assertEqual(row["minimum_damping"], chosen["minimum_damping"])
+                        else:
+                            self.assertAlmostEqual(row["minimum_damping"], chosen["minimum_damping"], delta=1e-6 * (1 + row["minimum_damping"]))
 
     # If this fails, a wrong number in a table of the map passes.
     def test_every_table_is_recomputed(self):

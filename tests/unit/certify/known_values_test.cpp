@@ -86,7 +86,7 @@ TEST(KnownValues, ShortfallOfTheBrake) {
   }
 }
 
-// Fails if a lag were said to cost little, or even less than nothing, where a jitter of a sample or more lets two samples
+// Fails if a lag were said to cost little, or less than nothing, where a jitter of a sample or more lets two samples
 // follow at once.
 TEST(TimeOfLag, HasNoBoundWhereTwoSamplesMayFollowAtOnce) {
   SampledLoop loop = plain_loop(known_period);

@@ -341,7 +341,7 @@ void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, D
   double least = noticeably * error;
   for (const MendedDevice& other : mended(*c.device)) {
     const PortDevice port = c.port.replaced_by(other.device);
-    const double again = SlipRuns(c, choices, port).error_of(c.law);
+    const double again = SlipRuns(c, choices, port).errors_of(c.law).worst();
     if (again < least) best = other, least = again;
   }
   if (best)
@@ -355,7 +355,27 @@ void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, D
       return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,
                                                                          in_percent(again->decomposition.slips.error));
   }
+  const PortUnits units = port_units(c.network.port_motion);
+  for (int doubling = 1; doubling <= 4; ++doubling) {
+    const double most = std::ldexp(c.device->description.brake.max_damping, doubling);
+    const std::optional<Compilation> again = compiled(c.network, choices, with_brake(*c.device, most));
+    if (again && again->decomposition.slips.error < noticeably * error)
+      return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>(
+          {}, again->port.max_damping().value_or(0), units.damping, most,
+          port_units(c.device->description.motion).damping, in_percent(again->decomposition.slips.error));
+  }
   diagnostics.note<DiagnosticCode::errs_less_nowhere>({});
+}
+
+// What an error of up to so much is like: the worst and the mildest of the runs.
+void tell_of_runs(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  if (c.law.tunable) return;
+  SlipRuns runs(c, choices, c.port);
+  const std::vector<double> errors = runs.errors_of(c.law).by_motion;
+  const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
+  const auto name = [&](auto place) { return runs.trial().motions()[std::size_t(place - errors.begin())].name; };
+  diagnostics.note<DiagnosticCode::worst_and_mildest_run>({}, name(most), in_percent(*most), name(least),
+                                                          in_percent(*least));
 }
 
 }  // namespace
@@ -365,6 +385,7 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
   if (c.device && slips.error > choices.tolerance * (1 + 1e-9)) {
     diagnostics.report<DiagnosticCode::felt_error_behind_slips>(c.network.name_span, in_percent(slips.error),
                                                                 in_percent(choices.tolerance));
+    tell_of_runs(c, choices, diagnostics);
     tell_what_errs_less_in_runs(c, choices, diagnostics);
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }

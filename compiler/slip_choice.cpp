@@ -84,10 +84,10 @@ class SlipChooser {
       const SlipLawMerit& merit = option.merit;
       if (!is_within(merit.error(), limit_)) continue;
       within.push_back(&option);
-      const bool is_proved = option.made.certificate.bound.proof != Proof::none;
-      const double added = device_.is_ideal() ? 0 : merit.minimum_damping;
-      evaluated.push_back({merit.mean_damping, merit.error(), is_proved ? std::optional(added) : std::nullopt,
-                           device_.is_ideal() || merit.certified, merit.motor_noise});
+      const std::optional<double> added =
+          device_.is_ideal() && merit.minimum_damping ? std::optional(0.0) : merit.minimum_damping;
+      evaluated.push_back(
+          {merit.mean_damping, merit.error(), added, device_.is_ideal() || merit.certified, merit.motor_noise});
     }
     return *within[choose_faithful(evaluated, limit_).chosen];
   }

@@ -57,9 +57,9 @@ std::vector<FeltForce> SlipRuns::felt_of(const UpdateLaw& law) {
   return felt;
 }
 
-double SlipRuns::error_of(const UpdateLaw& law) {
+TrialError SlipRuns::errors_of(const UpdateLaw& law) {
   const std::vector<FeltForce> felt = felt_of(law);
-  return trial_error(*trial_, felt).worst();
+  return trial_error(*trial_, felt);
 }
 
 SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
@@ -76,7 +76,7 @@ SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
   SlipLawMerit& merit = option.merit;
   merit.peak_error = error.peak;
   merit.rms_error = error.rms;
-  merit.minimum_damping = made.certificate.minimum_damping;
+  if (made.certificate.bound.proof != Proof::none) merit.minimum_damping = made.certificate.minimum_damping;
   merit.certified = made.certificate.certified;
   merit.mean_damping = square > 0 ? std::max(0.0, dissipated / square - made.certificate.added_damping) : 0;
   merit.motor_noise = noise_of(made.decomposition.slips);

@@ -1,5 +1,7 @@
 #include "slip_trial.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include <numbers>
 
 #include "law/evaluate.hpp"
+#include "network/port_units.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -220,17 +223,22 @@ SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const Upda
                      double at)
     : device_(device), at_(at) {
   const int instants = instants_a_sample(device);
+  const std::string unit = port_units(network.port_motion).position;
   const double period = coarse.sample_period, highest = 0.25 / period;
   const double high = std::min(device.band_high() / (2 * pi), highest),
                low = std::min(std::max(device.band_low() / (2 * pi), 1.25 / (most_samples * period)), high);
   for (const double frequency : {low, high}) {
     const double yield = displacement_at_yield(network, coarse, frequency);
-    for (const double amplitude : around_yield)
-      motions_.push_back(sine(at, amplitude * yield, frequency, period, instants));
+    for (const double share : around_yield) {
+      motions_.push_back(sine(at, share * yield, frequency, period, instants));
+      motions_.back().name = fmt::format("a sine of {:.3g} Hz and ±{:.3g} {}", frequency, share * yield, unit);
+    }
   }
   const double middle = std::sqrt(low * high);
-  motions_.push_back(
-      drag(at, around_yield[2] * displacement_at_yield(network, coarse, middle), middle, period, instants));
+  const double way = around_yield[2] * displacement_at_yield(network, coarse, middle);
+  motions_.push_back(drag(at, way, middle, period, instants));
+  motions_.back().name =
+      fmt::format("a drag to and fro at {:.3g} {}/s over ±{:.3g} {}", 4 * way * middle, unit, way, unit);
   for (const TrialMotion& motion : motions_) {
     std::vector<double> force = whole_force(fine, motion.position, at);
     const double largest = largest_size(force), rms = root_mean_square(force);
@@ -276,14 +284,18 @@ TrialError trial_error_between(const SlipTrial& trial, const std::vector<FeltFor
   for (std::size_t m = 0; m < none.size(); ++m) {
     const std::vector<double>& truth = trial.network_force(m);
     const double peak = trial.largest_network_force(m), rms = trial.rms_network_force(m);
+    TrialError of_motion;
     for (const std::vector<double> FeltForce::*end : {&FeltForce::weak, &FeltForce::strong}) {
       const auto size = static_cast<Eigen::Index>(std::min((none[m].*end).size(), truth.size()));
       if (size == 0) continue;
       const Samples low((none[m].*end).data(), size), high((all[m].*end).data(), size), network(truth.data(), size);
       const auto error = (1 - share) * low + share * high - network;
-      if (peak > 0) worst.peak = std::max(worst.peak, error.abs().maxCoeff() / peak);
-      if (rms > 0) worst.rms = std::max(worst.rms, std::sqrt(error.square().mean()) / rms);
+      if (peak > 0) of_motion.peak = std::max(of_motion.peak, error.abs().maxCoeff() / peak);
+      if (rms > 0) of_motion.rms = std::max(of_motion.rms, std::sqrt(error.square().mean()) / rms);
     }
+    worst.peak = std::max(worst.peak, of_motion.peak);
+    worst.rms = std::max(worst.rms, of_motion.rms);
+    worst.by_motion.push_back(of_motion.worst());
   }
   return worst;
 }

@@ -7,6 +7,7 @@
 // same rate, else at four times the rate, so that the hold is seen.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "decompose/port_device.hpp"
@@ -16,6 +17,7 @@ namespace dashpot::compiler {
 
 // A displacement of the tool at the instants of the network's own law.
 struct TrialMotion {
+  std::string name;              // "a sine of 5 Hz and ±0.001 m"
   std::vector<double> position;  // [m] or [rad]
 };
 
@@ -59,7 +61,8 @@ class SlipTrial {
 // Largest and root mean square of what is felt less the network's force, over those of that force: of the worse end of
 // the tolerance, the worst motion.
 struct TrialError {
-  double peak = 0, rms = 0;  // [1]
+  double peak = 0, rms = 0;       // [1]
+  std::vector<double> by_motion;  // the larger of both [1]
 
   double worst() const { return peak > rms ? peak : rms; }
 };

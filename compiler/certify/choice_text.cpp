@@ -26,9 +26,9 @@ const Candidate* named(const Decomposition& decomposition, const char* name) {
 
 std::string allowance(const FaithfulChoice& choice, double tolerance) {
   if (choice.allowed_error <= tolerance * (1 + 1e-9)) return fmt::format("{} % are allowed", in_percent(tolerance));
-  return fmt::format("{} % are allowed, because no damping brings less than {} %{}", in_percent(choice.allowed_error),
-                     in_percent(choice.least_error),
-                     choice.in_runs ? ", there and in runs in which slips give way" : "");
+  return fmt::format("no damping brings less than {} %{}, and up to {} % are taken", in_percent(choice.least_error),
+                     choice.in_runs ? ", there and in runs in which slips give way" : "",
+                     in_percent(choice.allowed_error));
 }
 
 // What is gained and what it costs.

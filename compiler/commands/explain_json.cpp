@@ -137,7 +137,7 @@ Json slip_laws_of(const Compilation& c) {
                       {"peak_error", merit ? Json(merit->peak_error) : Json(nullptr)},
                       {"rms_error", merit ? Json(merit->rms_error) : Json(nullptr)},
                       {"mean_damping", merit ? Json(merit->mean_damping) : Json(nullptr)},
-                      {"minimum_damping", merit ? Json(merit->minimum_damping) : Json(nullptr)},
+                      {"minimum_damping", merit ? or_null(merit->minimum_damping) : Json(nullptr)},
                       {"motor_noise", merit ? or_null(merit->motor_noise) : Json(nullptr)},
                       {"refusal", offer.refusal.empty() ? Json(nullptr) : Json(offer.refusal)}});
     }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "certify/notes.hpp"
@@ -9,6 +10,7 @@
 #include "linear/quasi_linear.hpp"
 #include "network/port_units.hpp"
 #include "law/cost.hpp"
+#include "law/evaluate.hpp"
 #include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
@@ -47,7 +49,8 @@ std::string pace_text(const Compilation& c) {
 
 // What reaches from the tool to ground without a slip.
 std::string linear_text(const Compilation& c, const PortUnits& units) {
-  if (c.form.is_all_behind_slips()) return "beside the slips      nothing: all of the network lies behind a slip\n";
+  if (c.form.is_all_behind_slips())
+    return "beside the slips      nothing: no spring or damper joins tool and ground but through a part with a slip\n";
   return (c.form.has_slips() ? "beside the slips:\n" : "") + to_text(c.form.linear, c.network) +
          fmt::format("zero-frequency damping {:.10g} {}\n", to_double(zero_frequency_damping(c.form.linear)),
                      units.damping);
@@ -63,6 +66,50 @@ std::string valid_text(const Validity& valid, const PortUnits& units) {
   add("rate", valid.rate, units.velocity);
   add("displacement", valid.displacement, units.position);
   return "valid                 " + (text.empty() ? "no range is stated" : text) + "\n";
+}
+
+// What the device's own numbers come to in currents, which shows a ratio that was forgotten.
+std::string currents_text(const Compilation& c) {
+  if (!c.device) return "";
+  const motor_description& motor = c.device->description.motor;
+  const brake_description& brake = c.device->description.brake;
+  std::string text;
+  if (motor.max_torque > 0 && motor.torque_constant > 0)
+    text = fmt::format("{:.4g} A make the motor's largest force", motor.max_torque / motor.torque_constant);
+  if (brake.max_damping > 0 && brake.damping_per_current_squared > 0)
+    text += fmt::format("{}{:.4g} A the brake's largest damping", text.empty() ? "" : ", ",
+                        std::sqrt(brake.max_damping / brake.damping_per_current_squared));
+  return text.empty() ? "" : "currents              " + text + "\n";
+}
+
+// What motor and brake together have to make when the tool is pushed as far and as fast as 'valid' says, and held.
+std::string push_text(const Compilation& c, const PortUnits& units) {
+  constexpr double most_samples = 1e6;
+  if (!c.device || !c.network.valid.displacement) return "";
+  const double depth = c.network.valid.displacement->high;
+  const double rate = c.network.valid.rate ? c.network.valid.rate->high : 0.1;
+  const double samples = std::ceil(depth / rate * c.rate);
+  if (!(depth > 0) || !(rate > 0) || !(samples <= most_samples)) return "";
+  Choices choices;
+  choices.rate = c.rate;
+  Diagnostics told_already;
+  StageTimes unseen;
+  const std::optional<Compilation> whole = compile(c.network, choices, std::nullopt, told_already, unseen);
+  if (!whole) return "";
+  const double at = c.network.contact ? c.network.contact->at : 0;
+  Evaluation<double> run(whole->law);
+  run.reset(at);
+  double most = 0;
+  for (double i = 1; i <= samples; ++i) {
+    const command<double> now = run.step(at + depth * i / samples, rate);
+    most = std::max(most, std::abs(now.damping * rate + now.force));
+  }
+  const double limit = c.certificate.loop.max_force;
+  std::string text = fmt::format("a push of {:.4g} {} at {:.4g} {} takes up to {:.4g} {} of motor and brake", depth,
+                                 units.position, rate, units.velocity, most, units.force);
+  if (limit > 0) text += fmt::format("; the motor gives {:.4g} {}", limit, units.force);
+  if (limit > 0 && most > limit) text += ", and what the brake does not make of the rest is missing";
+  return "over 'valid'          " + text + "\n";
 }
 
 // The curve, how well it is met, and what of the numbers that follow is felt at the tool.
@@ -177,6 +224,8 @@ std::string legend_of_lines(const std::string& text) {
        "the device has for certain"},
       {"energy", "what the law itself can give back, and what rounding may add to it"},
       {"largest force", "what the law may ask of the motor, and what the motor can make"},
+      {"over 'valid'", "the network's own force in such a motion, with its parameters as they are in the file"},
+      {"currents", "what the device file's limits and constants come to"},
       {"slew", "how fast the motor's force has to change, and how fast it can"},
       {"sudden loss", "of what force the motor may lag behind without giving energy"},
       {"at the limit", "what happens where the motor cannot follow, and whether energy comes of it"},
@@ -188,6 +237,31 @@ std::string legend_of_lines(const std::string& text) {
     if (begins) all += fmt::format("{:<22}{}{}\n", label, std::string(label).size() >= 22 ? " " : "", meaning);
   }
   return all + fmt::format("{:<22}{}\n", "a | b, a - b", "elements beside each other, elements in series");
+}
+
+// Of the columns behind slips that are there.
+std::string legend_of_slips(const std::string& text) {
+  struct Column {
+    const char *table, *name, *meaning;
+  };
+  const Column columns[] = {
+      {"  stuck", "stuck", "the regime: the slips that hold in it; the others slide"},
+      {"  stuck", "b", "the damping that the brake is told to make in this regime"},
+      {"  stuck", "its observer's", "what the rule in the last column asks of the brake, before limits lower it"},
+      {"  stuck", "b∞", "the damping that is felt at once in this regime"},
+      {"  stuck", "compensation", "what the motor takes back of the brake, by the velocity estimate"},
+      {"  stuck", "observer", "the rule that gives the damping of this regime"},
+      {"  law ", "law", "what is done with the damping while slips slide or stick; the chosen one is named above"},
+      {"  law ", "peak error", "the largest error of the felt force in a run, of the largest force in that run"},
+      {"  law ", "rms error", "the same of root mean squares"},
+      {"  law ", "mean brake", "the damping that the brake makes on average"},
+      {"  law ", "minimum damping", "what must be added so that the law is certified; -: nothing is proved"},
+      {"  law ", "motor noise", "the rms force of the motor that comes from the encoder's steps alone"}};
+  std::string all;
+  for (const Column& column : columns)
+    if (text.find(std::string("\n") + column.table) != std::string::npos)
+      all += fmt::format("{:<22}{}\n", column.name, column.meaning);
+  return all;
 }
 
 }  // namespace
@@ -205,13 +279,15 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   if (has_candidates) text += candidates_text(c.decomposition, c.network);
   text += chosen_text(c.decomposition);
   if (with_legend && has_candidates) text += "\n" + legend(c.device.has_value()) + "\n";
-  text += to_text(c.decomposition.slips, c.network);
+  const std::string slips = to_text(c.decomposition.slips, c.network);
+  text += slips;
+  if (with_legend && !slips.empty()) text += "\n" + legend_of_slips(slips) + "\n";
   text += fmt::format(
       "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",
       choice.extra_damping_any_delay.value_or(0), units.damping);
   if (c.network.contact)
     text += "contact               " + contact_text(c.decomposition, c.network) + "\n" + why_no_brake(c, units);
-  text += to_text(c.certificate, c.network.port_motion) + notes_text(c);
+  text += to_text(c.certificate, c.network.port_motion) + push_text(c, units) + currents_text(c) + notes_text(c);
   text += c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c);
   if (with_legend) text += "\n" + legend_of_lines(text);
   return fitted(text);

@@ -47,9 +47,9 @@ struct SlipLawMerit {
   SlipLaw law;
   double peak_error = 0;  // largest |f_law − f_network| of a motion over the largest |f_network| in it, the worst [1]
   double rms_error = 0;   // the same of root mean squares [1]
-  double mean_damping = 0;     // Σ b u̇²/Σ u̇² over all motions, without what is added for passivity [N·s/m]
-  double minimum_damping = 0;  // what would have to be added for passivity [N·s/m]
-  bool certified = false;      // on the device, with what has been added
+  double mean_damping = 0;  // Σ b u̇²/Σ u̇² over all motions, without what is added for passivity [N·s/m]
+  std::optional<double> minimum_damping;  // what would have to be added for passivity; empty: not proved [N·s/m]
+  bool certified = false;                 // on the device, with what has been added
   std::optional<double> motor_noise;  // rms, from quantisation through the estimate behind slips [N]; empty: not linear
 
   double error() const { return peak_error > rms_error ? peak_error : rms_error; }

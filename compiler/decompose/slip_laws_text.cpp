@@ -32,7 +32,7 @@ std::string regimes_text(const ComponentSplit& split, const Network& network) {
     const Regime& regime = split.regimes.regimes[i];
     const std::vector<std::string> stuck = slip_names(split.regimes, regime, false, network);
     text += fmt::format("  {:<24}{:>14.8g}{:>16.8g}{:>14.8g}{:>14.8g}  {}\n",
-                        stuck.empty() ? "-" : fmt::format("{}", fmt::join(stuck, ", ")), split.shares[i].damping,
+                        stuck.empty() ? "none" : fmt::format("{}", fmt::join(stuck, ", ")), split.shares[i].damping,
                         to_double(regime.damping), to_double(regime.feedthrough()), split.shares[i].compensation,
                         regime.reason);
   }
@@ -59,10 +59,11 @@ std::string merits_text(const SlipDecomposition& slips, const Network& network) 
   text += row("law", "peak error", "rms error", "mean brake", "minimum damping", "certified", "motor noise");
   text += row("", "%", "%", units.damping, units.damping, "", units.force);
   for (const SlipLawMerit& merit : slips.merits)
-    text += row(name_of(merit.law), fmt::format("{:.4g}", 100 * merit.peak_error),
-                fmt::format("{:.4g}", 100 * merit.rms_error), fmt::format("{:.4g}", merit.mean_damping),
-                fmt::format("{:.4g}", merit.minimum_damping), merit.certified ? "yes" : "no",
-                merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
+    text +=
+        row(name_of(merit.law), fmt::format("{:.4g}", 100 * merit.peak_error),
+            fmt::format("{:.4g}", 100 * merit.rms_error), fmt::format("{:.4g}", merit.mean_damping),
+            merit.minimum_damping ? fmt::format("{:.4g}", *merit.minimum_damping) : "-", merit.certified ? "yes" : "no",
+            merit.motor_noise ? fmt::format("{:.4g}", *merit.motor_noise) : "not linear");
   return text;
 }
 

@@ -119,10 +119,11 @@ std::string merits_table(const SlipDecomposition& slips, const Network& network)
       "<th>minimum damping [{}]</th><th>motor noise [{}]</th></tr></thead><tbody>\n",
       number_text(100 * slips.limit), units.damping, units.damping, units.force);
   for (const SlipLawMerit& merit : slips.merits)
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                        name_of(merit.law), number_text(100 * merit.peak_error), number_text(100 * merit.rms_error),
-                        number_text(merit.mean_damping), number_text(merit.minimum_damping),
-                        merit.motor_noise ? number_text(*merit.motor_noise) : "not linear");
+    html +=
+        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                    name_of(merit.law), number_text(100 * merit.peak_error), number_text(100 * merit.rms_error),
+                    number_text(merit.mean_damping), merit.minimum_damping ? number_text(*merit.minimum_damping) : "–",
+                    merit.motor_noise ? number_text(*merit.motor_noise) : "not linear");
   return html + "</tbody></table></div>\n";
 }
 

@@ -192,10 +192,9 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
   std::vector<std::string> lines;
   if (!loop.has_device) return lines;
   const std::string rate = units.force + "/s";
-  std::string asked =
-      limits.largest_force
-          ? fmt::format("asks for up to {:.6g} {} within the encoder's range", *limits.largest_force, units.force)
-          : std::string("has no proved bound on the force it asks for");
+  std::string asked = limits.largest_force ? fmt::format("asks for up to {:.6g} {} within the encoder's range",
+                                                         *limits.largest_force, units.force)
+                                           : std::string("has no proved bound on the force it asks for");
   if (loop.max_force > 0) asked += fmt::format(", the motor gives {:.6g} {}", loop.max_force, units.force);
   if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: the law " + asked);
   if (limits.slew_needed || loop.motor_slew > 0)

@@ -79,7 +79,7 @@ Scan scanned(const Compilation& c, double allowed, int steps) {
       const double band = settler.largest_error(beside, option.made.certificate.added_damping);
       if (option.merit.certified)
         certified.push_back(
-            {std::max(band, option.merit.error()), option.merit.minimum_damping, option.merit.mean_damping});
+            {std::max(band, option.merit.error()), option.merit.minimum_damping.value(), option.merit.mean_damping});
     }
   Scan scan;
   for (const Option& option : certified) scan.least_error = std::min(scan.least_error, option.error);

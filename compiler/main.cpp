@@ -405,7 +405,9 @@ void describe(CLI::App& app, CommandLine& line) {
       ->option_text("SECONDS");
   run->add_option("--port", options.port, "The board: serial:PATH?baud=N, unix:PATH, udp:HOST:PORT or pty:")
       ->option_text("URL");
-  run->add_option("--hand", options.hand, "Who moves the simulated device, default relaxed")
+  run->add_option(
+         "--hand", options.hand,
+         "Who moves the simulated device, default relaxed: a hand that means to swing by 10 mm or 0.2 rad at 0.5 Hz")
       ->check(CLI::IsMember({"none", "relaxed", "firm", "stiff"}))
       ->option_text("none|relaxed|firm|stiff");
   run->add_option("--seed", options.seed, "Of the simulated device's chance, default 0")

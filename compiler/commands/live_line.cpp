@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -14,6 +15,8 @@ LiveLine::LiveLine(bool rotary) : rotary_(rotary), terminal_(::isatty(STDOUT_FIL
 void LiveLine::show(const telemetry_record& record) {
   ++records_;
   latest_ = std::max(latest_, record.lateness);
+  motor_ = std::max(motor_, std::abs(record.motor_force));
+  brake_ = std::max(brake_, record.damping);
   if (record.tripped != fault::none) ++faults_;
   if (record.time < next_) return;
   print(record);
@@ -21,6 +24,7 @@ void LiveLine::show(const telemetry_record& record) {
   last_time_ = record.time;
   records_ = 0;
   latest_ = 0;
+  motor_ = brake_ = 0;
 }
 
 void LiveLine::print(const telemetry_record& record) {
@@ -29,9 +33,10 @@ void LiveLine::print(const telemetry_record& record) {
   const char* force = rotary_ ? "N m" : "N";
   const char* damping = rotary_ ? "N m s/rad" : "N s/m";
   const std::string line = fmt::format(
-      "{}{:7.1f} s  {:7.0f} Hz  late {:6.0f} us  motor {:9.4f} {}  brake {:8.4f} {}  energy {:9.5f} J  faults {}{}",
-      terminal_ ? "\r" : "", record.time, rate, double(latest_) * 1e-3, record.motor_force, force, record.damping,
-      damping, record.energy, faults_, terminal_ ? "" : "\n");
+      "{}{:7.1f} s  {:7.0f} Hz  late {:6.0f} us  motor up to {:9.4f} {}  brake up to {:8.4f} {}  energy {:9.5f} J  "
+      "faults {}{}",
+      terminal_ ? "\r" : "", record.time, rate, double(latest_) * 1e-3, motor_, force, brake_, damping, record.energy,
+      faults_, terminal_ ? "" : "\n");
   std::fputs(line.c_str(), stdout);  // nobody has to read along
   std::fflush(stdout);
   shown_ = true;

@@ -1,4 +1,5 @@
-// What a running loop is doing, in one line: overwritten on a terminal, once a second elsewhere.
+// What a running loop is doing, in one line: overwritten on a terminal, once a second elsewhere. Of motor and brake it
+// tells the largest command since the line before.
 #pragma once
 
 #include <dashpot/servo/telemetry_record.hpp>
@@ -23,6 +24,8 @@ class LiveLine {
   double last_time_ = 0;  // [s]
   std::uint64_t records_ = 0;
   std::int64_t latest_ = 0;  // largest lateness since the last line [ns]
+  double motor_ = 0;         // largest force since the last line, its magnitude [N] or [N·m]
+  double brake_ = 0;         // likewise [N·s/m] or [N·m·s/rad]
   std::uint64_t faults_ = 0;
   bool shown_ = false;
 };

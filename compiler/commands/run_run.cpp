@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
@@ -103,13 +105,22 @@ std::optional<servo_summary> run_simulated(const Options& options, const Compila
                       : run_on(device, model, loop, monotonic_clock{}, log, diagnostics);
 }
 
-ExitStatus conclude(const servo_summary& summary, const std::string& log, Diagnostics& diagnostics) {
+std::string commands_text(const servo_summary& summary, const PortUnits& units) {
+  return fmt::format(
+      "range     the tool from {:.4g} to {:.4g} {}, the motor up to {:.4g} {}, the brake up to {:.4g} {}\n",
+      summary.lowest_position, summary.highest_position, units.position, summary.largest_force, units.force,
+      summary.largest_damping, units.damping);
+}
+
+ExitStatus conclude(const servo_summary& summary, const PortUnits& units, const std::string& log,
+                    Diagnostics& diagnostics) {
   const int unwritten = summary.telemetry_error;
   if (unwritten != 0)
     diagnostics.report<DiagnosticCode::cannot_write_file>({}, log, std::string(std::strerror(unwritten)));
   const bool has_log = is_admitted(summary.verdict) && unwritten == 0;
   const bool sound = has_log && summary.left_safe && summary.faults.total() == 0;
-  const ExitStatus told = write_standard_output(to_text(summary) + (has_log ? "log: " + log + "\n" : ""), diagnostics);
+  const ExitStatus told = write_standard_output(
+      to_text(summary) + (has_log ? commands_text(summary, units) + "log: " + log + "\n" : ""), diagnostics);
   return sound ? told : ExitStatus::input_refused;
 }
 
@@ -187,7 +198,9 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
                                                    ? run_on_board(options, *compilation, *model, loop, diagnostics)
                                                    : run_simulated(options, *compilation, *model, loop, diagnostics);
   live.finish();
-  return summary ? conclude(*summary, log_name(options, *compilation), diagnostics) : ExitStatus::input_refused;
+  return summary ? conclude(*summary, port_units(compilation->network.port_motion), log_name(options, *compilation),
+                            diagnostics)
+                 : ExitStatus::input_refused;
 }
 
 }  // namespace dashpot::compiler

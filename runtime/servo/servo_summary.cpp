@@ -21,6 +21,13 @@ std::string durations(const char* what, const histogram& times) {
                microseconds(times.percentile(99.9)), microseconds(times.max()));
 }
 
+// Nothing where time is simulated: a period takes none.
+std::string timing(const servo_summary& summary) {
+  if (summary.lateness.max() == 0 && summary.response.max() == 0 && summary.busy.max() == 0) return "";
+  return durations("wake-up", summary.lateness) + durations("response", summary.response) +
+         durations("busy", summary.busy);
+}
+
 std::string faults(const fault_counts& counts) {
   if (counts.total() == 0) return "faults    none\n";
   std::string text = "faults   ";
@@ -46,8 +53,9 @@ std::string losses(const servo_summary& summary) {
 
 std::string shedding(const servo_summary& summary) {
   if (summary.shed == 0) return "";
-  return print("shed      %llu commands were beyond the motor, the least share of all forces kept %.4g\n",
-               static_cast<unsigned long long>(summary.shed), summary.least_share);
+  return print(
+      "shed      %llu commands were beyond the motor; in one sample the forces kept at least %.4g of themselves\n",
+      static_cast<unsigned long long>(summary.shed), summary.least_share);
 }
 
 // A command that has left need not have arrived.
@@ -62,13 +70,15 @@ const char* ending(const servo_summary& summary) {
 std::string to_text(const servo_summary& summary) {
   if (!is_admitted(summary.verdict)) return "refused before the device was touched\n";
   const auto count = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
-  return print("periods   %llu served, %llu missed, %llu woken beyond the stated jitter, %llu held, %llu clipped\n",
+  return print("periods   %llu served, %llu missed, %llu woken beyond the stated jitter, %llu held\n",
                count(summary.periods), count(summary.missed_deadlines), count(summary.beyond_jitter),
-               count(summary.held), count(summary.clipped)) +
-         shedding(summary) + durations("wake-up", summary.lateness) + durations("response", summary.response) +
-         durations("busy", summary.busy) + faults(summary.faults) +
-         print("energy    %.6g J that motor and brake took from the tool, never below %.6g J\n", summary.energy,
-               summary.lowest_energy) +
+               count(summary.held)) +
+         print("clipped   %llu commands at the motor's limit, %llu at the brake's\n", count(summary.motor_clipped),
+               count(summary.brake_clipped)) +
+         shedding(summary) + timing(summary) + faults(summary.faults) +
+         print("energy    %.6g J that motor and brake took from the tool, never below %.6g J%s\n", summary.energy,
+               summary.lowest_energy,
+               summary.lowest_energy < 0 ? ": below zero the tool had got more than it gave" : "") +
          losses(summary) + print("ended     %s, %s\n", name_of(summary.state), ending(summary));
 }
 

@@ -296,8 +296,8 @@ TEST(Misbehaviour, ends_as_the_table_says) {
 
 // A board that makes less than it is asked for must show in what the run came to.
 TEST(Misbehaviour, of_a_weak_board_is_counted) {
-  EXPECT_GT(outcome_of(misbehaviours().at("weak")).summary.clipped, 50U);
-  EXPECT_EQ(outcome_of(misbehaviours().at("none")).summary.clipped, 0U);
+  EXPECT_GT(outcome_of(misbehaviours().at("weak")).summary.motor_clipped, 50U);
+  EXPECT_EQ(outcome_of(misbehaviours().at("none")).summary.motor_clipped, 0U);
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(Uptime, of_the_host_is_seen_by_nobody) {
     const run_of_a_loop young = run(when, false), old = run(when, true);
     EXPECT_EQ(old.summary.faults.total(), 0U) << name_of(old.summary.last_fault.kind);
     EXPECT_EQ(old.summary.held, 0U);
-    EXPECT_EQ(old.summary.clipped, 0U);
+    EXPECT_EQ(old.summary.motor_clipped + old.summary.brake_clipped, 0U);
     EXPECT_TRUE(old.summary.safe_confirmed);
     EXPECT_EQ(old.statistics.samples.lost + old.statistics.samples.late + old.statistics.delayed, 0U);
     ASSERT_EQ(old.torques.size(), young.torques.size());

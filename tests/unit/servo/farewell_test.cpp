@@ -149,7 +149,7 @@ TEST(WildSequenceNumber, CostsNoMoreThanALongWindow) {
 }
 
 // Broken, a board that clips in spite of what it promised would be told nowhere, and the energy would be that of a
-// motor which is not there: asked for 0.5 N, 0.1 N applied, "0 clipped".
+// motor which is not there: asked for 0.5 N, 0.1 N applied, "0 commands at the motor's limit".
 TEST(WeakDevice, IsToldAndReckonedWith) {
   device_description ideal = scripted_description();
   ideal.encoder.step = 0;
@@ -165,7 +165,7 @@ TEST(WeakDevice, IsToldAndReckonedWith) {
     return device_status::ok;
   });
   const servo_summary summary = run(device, 0.4).summary;
-  EXPECT_GT(summary.clipped, 390u);
+  EXPECT_GT(summary.motor_clipped, 390u);
   double truth = 0;
   for (std::size_t k = 1; k + 1 < 400; ++k)
     truth -= 0.2 * device.written()[k - 1].motor_torque * (positions[k + 1] - positions[k]);

@@ -151,8 +151,14 @@ TEST_F(ServoLoop, CountsClippedCommands) {
   model.on_output([](std::size_t output, command<double>& wanted) {
     if (output >= 10 && output < 15) wanted.force = 100.0;
     if (output == 20) wanted.damping = 100.0;
+    if (output == 25) wanted.damping = 20.0 * (1 + 1e-15);  // what the brake can make, rounded on the way
   });
-  EXPECT_EQ(run(40).clipped, 6u);
+  const servo_summary summary = run(40);
+  EXPECT_EQ(summary.motor_clipped, 5u);
+  EXPECT_EQ(summary.brake_clipped, 1u);
+  EXPECT_NE(to_text(summary).find("clipped   5 commands at the motor's limit, 1 at the brake's"), std::string::npos);
+  EXPECT_EQ(summary.largest_force, 100);
+  EXPECT_EQ(summary.largest_damping, 100);
 }
 
 // Broken, nobody would know that the law let go of what the motor cannot make, and how much of it.
@@ -161,9 +167,9 @@ TEST_F(ServoLoop, CountsWhatTheModelSheds) {
   const servo_summary summary = run(40);
   EXPECT_EQ(summary.shed, 6u);
   EXPECT_EQ(summary.least_share, 0.25);
-  EXPECT_EQ(summary.clipped, 0u);
+  EXPECT_EQ(summary.motor_clipped + summary.brake_clipped, 0u);
   EXPECT_NE(
-      to_text(summary).find("shed      6 commands were beyond the motor, the least share of all forces kept 0.25"),
+      to_text(summary).find("shed      6 commands were beyond the motor; in one sample the forces kept at least 0.25"),
       std::string::npos);
   EXPECT_EQ(to_text(run(40)).find("shed"), std::string::npos);  // from its 41st output on
 }

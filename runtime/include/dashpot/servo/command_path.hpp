@@ -79,8 +79,10 @@ class command_path {
   const actuation& demand() const noexcept { return demand_; }
   const actuation& safe() const noexcept { return safe_; }
   bool has_answered() const noexcept { return answered_; }  // this period's sample reached the model
-  bool is_clipped() const noexcept {                        // by our limits or by the device's own
-    return output_.motor_saturated() || output_.damping_clipped != 0 || motor_falls_short_ || brake_falls_short_;
+  // By our limits or by the device's own.
+  bool is_motor_clipped() const noexcept { return output_.motor_saturated() || motor_falls_short_; }
+  bool is_brake_clipped() const noexcept {
+    return is_less(output_.brake_damping, output_.brake_damping + output_.damping_clipped) || brake_falls_short_;
   }
   // Of all forces in the network, what the model has kept for the motor to be able to follow: 1 where it shed nothing.
   double kept_share() const noexcept { return kept_share_; }
@@ -128,7 +130,7 @@ class command_path {
     energy_.tell(number, -actuator_.gear().tool_force(report.applied.motor_torque), !brake_falls_short_);
   }
 
-  // By more than a board loses that has the command in single precision.
+  // By more than rounding on the way to the joint, and than a board loses that has the command in single precision.
   static bool is_less(double applied, double asked) noexcept {
     const double towards = asked < 0 ? -applied : applied, wanted = asked < 0 ? -asked : asked;
     return !(towards >= wanted * (1 - 1e-6) - 1e-30);

@@ -2,6 +2,8 @@
 // rest. servo_loop.hpp sets it up and paces it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <dashpot/device.hpp>
@@ -170,10 +172,21 @@ class servo_cycle {
 
   void account_answer() noexcept {
     if (!path_.has_answered()) ++summary_.held;
-    if (path_.has_answered() && path_.is_clipped()) ++summary_.clipped;
-    if (path_.has_answered() && path_.kept_share() < 1) account_shed(path_.kept_share());
+    if (path_.has_answered()) account_command();
     summary_.energy = path_.energy();
     if (summary_.energy < summary_.lowest_energy) summary_.lowest_energy = summary_.energy;
+  }
+
+  void account_command() noexcept {
+    if (path_.is_motor_clipped()) ++summary_.motor_clipped;
+    if (path_.is_brake_clipped()) ++summary_.brake_clipped;
+    if (path_.kept_share() < 1) account_shed(path_.kept_share());
+    const double position = path_.position(), force = std::abs(path_.wanted().force);
+    summary_.lowest_position = has_moved_ ? std::min(summary_.lowest_position, position) : position;
+    summary_.highest_position = has_moved_ ? std::max(summary_.highest_position, position) : position;
+    summary_.largest_force = std::max(summary_.largest_force, force);
+    summary_.largest_damping = std::max(summary_.largest_damping, path_.wanted().damping);
+    has_moved_ = true;
   }
 
   void account_shed(double share) noexcept {
@@ -234,6 +247,7 @@ class servo_cycle {
   bool tells_ = false;      // the device says what it applies
   bool commanded_ = false;  // it has taken a command
   bool heard_ = false;      // and given a sample since
+  bool has_moved_ = false;  // the model has got a position
   unsigned waited_ = 0;     // for the first sample [periods]
   servo_summary summary_;
 };

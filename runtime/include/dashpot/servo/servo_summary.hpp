@@ -21,16 +21,21 @@ struct servo_summary {
   std::uint64_t missed_deadlines = 0;       // periods that were skipped
   std::uint64_t beyond_jitter = 0;          // wake-ups later than the device's stated jitter
   std::uint64_t held = 0;                   // periods without a fresh sample while running
-  std::uint64_t clipped = 0;                // commands beyond what motor or brake can give
+  std::uint64_t motor_clipped = 0;          // commands beyond what the motor can give, or has given
+  std::uint64_t brake_clipped = 0;          // commands beyond what the brake can give, or has given
   std::uint64_t shed = 0;                   // commands for which the model let go of forces that the motor cannot make
-  double least_share = 1;                   // of all forces that it then kept
+  double least_share = 1;                   // of all forces that it then kept in one sample
   fault_counts faults;
   fault_report last_fault;
-  histogram lateness;        // of the wake-ups [ns]
-  histogram response;        // from wake-up until the command had left [ns]
-  histogram busy;            // from wake-up until everything was done [ns]
-  double energy = 0;         // taken from the tool by motor and brake since the last start, at least [J]
-  double lowest_energy = 0;  // its least value of the whole run; below zero energy was given to the tool [J]
+  histogram lateness;           // of the wake-ups [ns]
+  histogram response;           // from wake-up until the command had left [ns]
+  histogram busy;               // from wake-up until everything was done [ns]
+  double lowest_position = 0;   // of the tool, as the model got it; 0 before the first sample [m] or [rad]
+  double highest_position = 0;  // likewise
+  double largest_force = 0;     // that the model wanted of the motor, its magnitude [N] or [N·m]
+  double largest_damping = 0;   // that it wanted of the brake [N·s/m] or [N·m·s/rad]
+  double energy = 0;            // taken from the tool by motor and brake since the last start, at least [J]
+  double lowest_energy = 0;     // its least value of the whole run; below zero energy was given to the tool [J]
   std::uint64_t telemetry_dropped = 0;
   std::uint64_t events_dropped = 0;
   int telemetry_error = 0;  // errno of the first failed write, 0: none

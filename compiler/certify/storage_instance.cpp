@@ -198,8 +198,9 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   const auto power = [](unsigned digits) { return (Integer(1) << digits).str(); };
   return fmt::format(
       "(* '{}': whatever the tool does, no energy is taken out of the loop with {} N.s/m of damping (N.m.s/rad of a\n"
-      "   rotation) at holds of up to {} s. Written by dashpot; accepted by coqc -R compiler/certify/proof Dashpot. "
-      "*)\n"
+      "   rotation) at holds of up to {} s. Written by dashpot. In a copy of compiler/certify/proof, or of an\n"
+      "   installation's share/dashpot/proof, with this file beside the others, coqc accepts it:\n"
+      "     coqc -R . Dashpot Forms.v\n     coqc -R . Dashpot Loop.v\n     coqc -R . Dashpot THIS_FILE.v *)\n"
       "Require Import ZArith List Reals Forms Loop.\nImport ListNotations.\nLocal Open Scope Z_scope.\n\n"
       "Definition law : loop := {{|\n  states := {}; E := {}; k0 := {};\n  P := {};\n  eP := {}; eA := {}; eS := {};\n"
       "  parts := {} |}}.\nDefinition of_P : witness := {}.\nDefinition of_parts : list (list witness) := {}.\n\n"

@@ -20,7 +20,8 @@
 #
 # PYTHON also makes python/NAME/, the law as a package for Python, for the machine that builds; the property DASHPOT_PYTHON
 # of TARGET is the folder that Python looks for it in. WASM also makes wasm/NAME/, the law as a module for JavaScript; the
-# property DASHPOT_WASM is its index.js.
+# property DASHPOT_WASM is its index.js. With one of these three the law is made by default, and by the target TARGET_law,
+# whether anything links TARGET or not.
 #
 # WITH_TEST also makes TARGET_test, GoogleTest cases of the law against closed forms or, with TARGET c99, a program in C,
 # and registers them with CTest.
@@ -143,7 +144,11 @@ function(dashpot_compile target)
     COMMENT "Compiling network ${name} for ${target}"
     VERBATIM)
 
-  add_custom_target(${target}_law DEPENDS ${outputs})
+  set(by_default)
+  if(arg_FMU OR arg_PYTHON OR arg_WASM)  # which no program has to link
+    set(by_default ALL)
+  endif()
+  add_custom_target(${target}_law ${by_default} DEPENDS ${outputs})
   add_library(${target} INTERFACE)
   add_dependencies(${target} ${target}_law)
   target_include_directories(${target} INTERFACE ${folder})

@@ -114,6 +114,8 @@ class Consumer:
             self.assertIn("sources/coarse_tissue.c", unit.namelist())
             self.assertIn('fixedInternalStepSize="0.005"', unit.read("modelDescription.xml").decode())
             self.assertIn("scheme: backward-euler at 200 Hz, float", unit.read("sources/coarse_tissue.c").decode())
+        self.project.build("all")
+        self.assertTrue((self.project.build_folder / "unlinked/unlinked_tissue.fmu").exists())
 
     # Fails if PYTHON or WASM leaves something out, makes another law, or says that it is elsewhere.
     def check_others(self):

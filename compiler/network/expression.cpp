@@ -49,7 +49,7 @@ bool is_plain(std::string_view text, const NameScope& scope) {
 }
 
 // An operator that is none of a unit's: "+" or "-" between operands, one straight behind a number or in front of one,
-// any where the text starts with a name.
+// any where the text starts with a name. A bracket that starts with a number is none of a unit's either.
 bool has_operator(std::string_view text) {
   std::size_t at = blanks(text);
   if (name_length(text.substr(at)) > 0) return text.find_first_of("+-*/^") != std::string_view::npos;
@@ -60,7 +60,7 @@ bool has_operator(std::string_view text) {
     if (after_operand && before != '^' && signs) return true;
     if (after_number && (rest.front() == '*' || rest.front() == '^')) return true;
     const std::size_t number = is_digit(rest.front()) || rest.front() == '.' ? decimal_length(rest) : 0;
-    if (number > 0 && (before == '*' || before == '/')) return true;
+    if (number > 0 && (before == '*' || before == '/' || before == '(')) return true;
     after_number = number > 0 && before != '^';
     after_operand = number > 0 || name_length(rest) > 0 || rest.front() == ')';
     before = rest.front();

@@ -39,6 +39,8 @@ void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const Unit
   diagnostics.report<DiagnosticCode::unknown_unit>(place, excerpt(symbol));
   if (const std::string spaced = spaced_unit(symbol); !spaced.empty())
     diagnostics.note<DiagnosticCode::write_instead>({}, spaced);
+  else if (const std::string other = unit_in_other_case(symbol); !other.empty())
+    diagnostics.note<DiagnosticCode::write_instead>({}, other);
   else diagnostics.note<DiagnosticCode::known_units>({});
 }
 

@@ -206,7 +206,8 @@ std::optional<std::string> split(std::string_view symbol) {
   if (symbol.size() > 1 && symbol[0] == symbol[1])
     if (const auto prefixed = split_behind_prefix(symbol)) return prefixed;
   for (std::size_t length = std::min<std::size_t>(3, symbol.size()); length > 0; --length) {
-    if (find_symbol(symbol.substr(0, length)) == nullptr) continue;
+    const std::string_view first = symbol.substr(0, length);
+    if (find_symbol(first) == nullptr || first == "rpm") continue;  // nobody multiplies a speed by anything
     if (const auto rest = split(symbol.substr(length)))
       return std::string(symbol.substr(0, length)) + (rest->empty() ? "" : " ") + *rest;
   }
@@ -222,12 +223,37 @@ std::optional<std::string> split_prefixed(std::string_view symbol) {
   return split(symbol);
 }
 
+std::string in_small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
+
 }  // namespace
 
 std::span<const UnitSymbol> unit_symbols() { return symbols; }
 std::span<const UnitPrefix> unit_prefixes() { return prefixes; }
 
 std::variant<Unit, UnitFault> parse_unit(std::string_view text) { return UnitParser(text).parse(); }
+
+std::string unit_in_other_case(std::string_view symbol) {
+  const std::string small = in_small_letters(symbol);
+  std::string found;
+  const auto consider = [&](const std::string& known) {
+    if (in_small_letters(known) != small) return true;
+    if (!found.empty()) return false;
+    found = known;
+    return true;
+  };
+  for (const UnitSymbol& known : symbols) {
+    if (!consider(std::string(known.text))) return {};
+    for (const UnitPrefix& prefix : prefixes)
+      if (known.takes_prefix && !consider(std::string(prefix.text) + std::string(known.text))) return {};
+  }
+  const bool makes_nano_of_newton = symbol.starts_with('N') && found.starts_with('n');
+  return makes_nano_of_newton ? std::string() : found;
+}
 
 std::string spaced_unit(std::string_view symbol) {
   constexpr std::size_t longest_symbol = 12;  // splitting is exponential, and nobody runs more units together

@@ -50,4 +50,8 @@ std::span<const UnitPrefix> unit_prefixes();
 // where there is none.
 std::string spaced_unit(std::string_view symbol);
 
+// For a symbol that is unknown, the one known that differs from it by case alone ("khz" → "kHz"); empty where there is
+// none, or several ("mpa").
+std::string unit_in_other_case(std::string_view symbol);
+
 }  // namespace dashpot::compiler

@@ -76,7 +76,16 @@ TEST(Unit, RunTogetherIsTakenApart) {
   EXPECT_EQ(spaced_unit("gcm"), "g cm");
   EXPECT_EQ(spaced_unit("Nmm"), "N mm");
   EXPECT_EQ(spaced_unit("Nmrad"), "N m rad");
-  for (const char* text : {"h", "lbf", "", "NmNmNmNmNmNmNmNm"}) EXPECT_EQ(spaced_unit(text), "") << text;
+  for (const char* text : {"h", "lbf", "", "rpmm", "NmNmNmNmNmNmNmNm"}) EXPECT_EQ(spaced_unit(text), "") << text;
+}
+
+// If this fails, a unit in small letters has no remedy, or one that may be another unit than was meant.
+TEST(Unit, InOtherCaseIsRecognised) {
+  EXPECT_EQ(unit_in_other_case("khz"), "kHz");
+  EXPECT_EQ(unit_in_other_case("KPA"), "kPa");
+  EXPECT_EQ(unit_in_other_case("n"), "N");
+  EXPECT_EQ(unit_in_other_case("RPM"), "rpm");
+  for (const char* text : {"mpa", "mhz", "NM", "lbf", ""}) EXPECT_EQ(unit_in_other_case(text), "") << text;
 }
 
 // If this fails, a unit that a message recommends is not understood when it is written.

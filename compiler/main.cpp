@@ -166,6 +166,15 @@ void add_networks(CLI::App& command, CommandLine& line, bool several) {
   networks->expected(several ? -1 : 1);
 }
 
+// How a recording is to be read.
+void add_reading(CLI::App& command, FitWords& fit) {
+  command.add_option("--columns", fit.columns, "Which column is what: ROLE=[-]NAME[+NUMBER][:UNIT],…")
+      ->option_text("time=T:s,position=X:mm,force=F:N");
+  command.add_flag("--no-header", fit.no_header, "Columns have no names: --columns takes their numbers");
+  command.add_option("--geometry", fit.geometry, "From stress and strain to a tool")
+      ->option_text("column|shear|punch|sphere|needle:KEY=LENGTH,…");
+}
+
 void describe_fit(CLI::App& app, CommandLine& line) {
   CLI::App* command = add_command(app, line, "fit", "Fit a network to recordings");
   FitWords& fit = line.options.fit;
@@ -180,11 +189,7 @@ void describe_fit(CLI::App& app, CommandLine& line) {
   command->add_option("--title", fit.title, "Of the network, default how many recordings")->option_text("TEXT");
   command->add_option("--source", fit.source, "Where the recordings are from, for the network's source")
       ->option_text("TEXT");
-  command->add_option("--columns", fit.columns, "Which column is what: ROLE=[-]NAME[+NUMBER][:UNIT],…")
-      ->option_text("time=T:s,position=X:mm,force=F:N");
-  command->add_flag("--no-header", fit.no_header, "Columns have no names: --columns takes their numbers");
-  command->add_option("--geometry", fit.geometry, "From stress and strain to a tool")
-      ->option_text("column|shear|punch|sphere|needle:KEY=LENGTH,…");
+  add_reading(*command, fit);
   command->add_option("--scale", fit.scale, "What 1 stands for in values without a unit")->option_text("QUANTITY");
   command->add_flag("--relaxation", fit.relaxation, "Stiffness or modulus over the time since a step of position");
   command->add_flag("--creep", fit.creep, "Compliance over the time since a step of force");
@@ -318,6 +323,7 @@ void describe(CLI::App& app, CommandLine& line) {
       "The program dashpot-check, with a hyphen, is another: it decides what a certificate states of a header.");
   check->add_option("FILE", options.networks, "Network or device files, or tables")->required()->expected(-1);
   add_choices(*check, line);
+  add_reading(*check, options.fit);
 
   CLI::App* explain =
       add_command(app, line, "explain", "Show canonical form, candidate decompositions, and the choice");

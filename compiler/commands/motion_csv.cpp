@@ -15,6 +15,27 @@ namespace {
 
 constexpr std::size_t head_lines = 200;  // tell how the table is written
 
+bool is_header(const std::vector<fitting::TableColumn>& columns) {
+  return !columns_for(columns, fitting::Role::time).empty() && !columns_for(columns, fitting::Role::position).empty();
+}
+
+// By its name or unit, or a word within its title: "Load cell (kgf)" is a force too.
+bool is_answer(const fitting::TableColumn& column) {
+  using fitting::Role;
+  constexpr std::size_t shortest_word = 4;  // that is looked for within others
+  std::string title = column.title;
+  std::transform(title.begin(), title.end(), title.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  for (const Role role : {Role::force, Role::stress}) {
+    const bool has_unit = column.unit && fitting::unit_of_column(column, role);
+    if (has_unit || !columns_for({column}, role).empty()) return true;
+  }
+  for (const Role role : {Role::force, Role::stress, Role::storage, Role::loss, Role::modulus, Role::compliance})
+    for (const std::string& name : names_of(role))
+      if (name.size() >= shortest_word && title.find(name) != std::string::npos) return true;
+  return false;
+}
+
 struct Cell {
   std::string_view text;
   Span span;
@@ -86,16 +107,12 @@ class CsvTable {
       const std::vector<Cell> line = names_in(text);
       if (line.empty()) continue;  // the sign of a comment alone
       if (first.empty()) first = line, behind_first = place_;
-      if (is_header(line)) return line;
+      std::vector<fitting::TableColumn> columns;
+      for (const Cell& cell : line) columns.push_back(fitting::table_column(cell.text));
+      if (is_header(columns)) return line;
     }
     place_ = behind_first;
     return first;
-  }
-
-  static bool is_header(const std::vector<Cell>& line) {
-    std::vector<fitting::TableColumn> columns;
-    for (const Cell& cell : line) columns.push_back(fitting::table_column(cell.text));
-    return !columns_for(columns, fitting::Role::time).empty() && !columns_for(columns, fitting::Role::position).empty();
   }
 
   // The names may stand behind the sign of a comment.
@@ -261,6 +278,24 @@ class CsvTable {
 
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics) {
   return CsvTable(file, diagnostics).read();
+}
+
+bool is_motion(const std::vector<std::string>& first_lines) {
+  std::vector<fitting::HeadLine> head;
+  for (const std::string& line : first_lines)
+    if (line.find_first_not_of(" \t\r") != std::string::npos && head.size() < head_lines)
+      head.push_back({line, head.size() + 1});
+  const fitting::Dialect dialect = fitting::dialect_of(head).value_or(fitting::Dialect());
+  for (const fitting::HeadLine& line : head) {
+    std::string_view text = line.text;
+    text.remove_prefix(std::min(text.find_first_not_of(" \t#%"), text.size()));
+    while (!text.empty() && (text.back() == '\r' || text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+    std::vector<fitting::TableColumn> columns;
+    for (const std::string_view field : fitting::fields_of(text, dialect))
+      columns.push_back(fitting::table_column(field));
+    if (is_header(columns)) return std::none_of(columns.begin(), columns.end(), is_answer);
+  }
+  return false;
 }
 
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics) {

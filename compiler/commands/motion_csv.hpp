@@ -42,6 +42,10 @@ struct Motion {
 // numbers, times that do not rise, a period that is not uniform or that no loop has.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
 
+// Whether a table that begins so is a motion: a line that names time and position, and no force, stress or anything
+// else that answered them.
+bool is_motion(const std::vector<std::string>& first_lines);
+
 // Refuses a motion in degrees for a tool that moves in metres, and the other way round.
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics);
 

@@ -1,7 +1,6 @@
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
+#include <string>
+#include <vector>
 
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
@@ -19,18 +18,17 @@ bool is_table(const std::string& path) {
   return ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".dat";
 }
 
-// A motion has a column 'position', and none of what answered it: told from the first lines.
-bool is_recording(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::string beginning(4096, ' ');
-  stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  beginning.resize(static_cast<std::size_t>(stream.gcount()));
-  std::transform(beginning.begin(), beginning.end(), beginning.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  for (const std::string_view answer :
-       {"force", "torque", "moment", "load", "stress", "modul", "storage", "compliance"})
-    if (beginning.find(answer) != std::string::npos) return true;
-  return beginning.find("position") == std::string::npos;
+// What --columns is given for is a recording; else the header tells.
+bool is_recording(const std::string& path, const FitWords& words) {
+  constexpr std::size_t head_lines = 200;
+  Diagnostics unheard;
+  std::vector<std::string> head;
+  fitting::LineReader lines(path, fitting::ReadProgress());
+  if (words.columns || words.geometry || words.no_header || !lines.open(unheard)) return true;
+  while (head.size() < head_lines)
+    if (const auto line = lines.next(unheard)) head.emplace_back(*line);
+    else break;
+  return !is_motion(head);
 }
 
 // What is no JSON is told of as a network.
@@ -41,17 +39,34 @@ bool is_device(const SourceFile& file) {
          !find_member(*root, "dashpot");
 }
 
-// As `dashpot fit` would read it without further words; its questions are answered there.
-void check_recording(const std::string& path, Diagnostics& diagnostics) {
+// What the command line says of recordings; nothing, reported, where it is malformed.
+std::optional<fitting::ReadChoices> read_choices(const FitWords& words, Diagnostics& diagnostics) {
   fitting::ReadChoices choices;
-  choices.columns.command = "dashpot fit " + path;
+  choices.has_header = !words.no_header;
+  choices.awaits_geometry = true;
+  if (words.columns) {
+    const auto requests = fitting::parse_columns(*words.columns, diagnostics);
+    if (!requests) return std::nullopt;
+    choices.columns.requests = *requests;
+  }
+  if (words.geometry && !(choices.geometry = fitting::parse_geometry(*words.geometry, diagnostics)))
+    return std::nullopt;
+  return choices;
+}
+
+// As `dashpot fit` would read it.
+void check_recording(const std::string& path, fitting::ReadChoices choices, const FitWords& words,
+                     Diagnostics& diagnostics) {
+  choices.columns.command = "dashpot check " + fitting::shell_word(path) + (words.no_header ? " --no-header" : "") +
+                            (words.geometry ? " --geometry " + fitting::shell_word(*words.geometry) : "");
   fitting::LineReader lines(path, fitting::ReadProgress());
   if (lines.open(diagnostics)) read_recording(lines, choices, diagnostics);
 }
 
-void check(const std::string& path, const Options& options, const std::optional<Device>& device, SourceFiles& files,
-           Diagnostics& diagnostics) {
-  if (is_table(path) && is_recording(path)) return check_recording(path, diagnostics);
+void check(const std::string& path, const Options& options, const fitting::ReadChoices& reading,
+           const std::optional<Device>& device, SourceFiles& files, Diagnostics& diagnostics) {
+  if (is_table(path) && is_recording(path, options.fit))
+    return check_recording(path, reading, options.fit, diagnostics);
   const SourceFile* file =
       is_table(path) ? files.open(path, diagnostics) : open_network(path, options, files, diagnostics);
   if (file == nullptr) return;
@@ -72,7 +87,9 @@ void check(const std::string& path, const Options& options, const std::optional<
 ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   const DeviceChoice device = open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
-  for (const std::string& path : options.networks) check(path, options, device.device, files, diagnostics);
+  const auto reading = read_choices(options.fit, diagnostics);
+  if (!reading) return ExitStatus::command_line_wrong;
+  for (const std::string& path : options.networks) check(path, options, *reading, device.device, files, diagnostics);
   return diagnostics.has_errors() ? ExitStatus::input_refused : ExitStatus::done;
 }
 

@@ -33,15 +33,6 @@ class ProgressLine {
   bool is_terminal_ = ::isatty(STDERR_FILENO) == 1, is_shown_ = false;
 };
 
-// As a shell takes it.
-std::string spelt(const std::string& word) {
-  const bool is_plain = !word.empty() && word.find_first_of(" ()[]{}'\"$&;|<>*?\\!#~") == std::string::npos;
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 // The command line; without an option and its value where those are named.
 std::string command_line(const FitWords& words, const std::string& without = "") {
   std::string text = "dashpot";
@@ -51,7 +42,7 @@ std::string command_line(const FitWords& words, const std::string& without = "")
       continue;
     }
     if (!without.empty() && words.arguments[i].starts_with(without + "=")) continue;
-    text += " " + spelt(words.arguments[i]);
+    text += " " + shell_word(words.arguments[i]);
   }
   return text;
 }

@@ -140,12 +140,29 @@ Title title_of(std::string_view text) {
   return {std::string(text), std::nullopt};
 }
 
+// The primes at the end of "G'" and "E''", however they are typed.
+std::size_t take_primes(std::string_view& text) {
+  std::size_t primes = 0;
+  for (bool found = true; found;) {
+    found = false;
+    for (const auto& [sign, count] : {std::pair("'", 1), std::pair("\"", 2), std::pair("′", 1), std::pair("’", 1),
+                                      std::pair("″", 2), std::pair("”", 2)}) {
+      if (!text.ends_with(sign)) continue;
+      text.remove_suffix(std::string_view(sign).size());
+      primes += static_cast<std::size_t>(count);
+      found = true;
+    }
+  }
+  return primes;
+}
+
 std::string letters_of(std::string_view text) {
+  const std::size_t primes = take_primes(text);
   std::string letters;
   for (const char c : text)
     if (std::isalnum(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80)
       letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return letters;
+  return letters + (primes == 1 ? "prime" : primes == 2 ? "doubleprime" : "");
 }
 
 std::vector<TableColumn> columns_of(const TableShape& shape) {
@@ -194,7 +211,29 @@ class Chooser {
                             is_there(Role::stress) || !search_.requests.empty();
     if (!has_motion && has_with_unit(Role::modulus)) return RecordingKind::relaxation;
     if (!has_motion && has_with_unit(Role::compliance)) return RecordingKind::creep;
+    return kind_by_units();
+  }
+
+  // Of columns that no name tells: a frequency without a time is a spectrum's, a modulus beside the time a
+  // relaxation's.
+  RecordingKind kind_by_units() const {
+    const bool is_named = (is_there(Role::frequency) && !is_there(Role::force)) || is_there(Role::omega);  // "f"
+    const bool has_frequency = is_named || has_unit(Role::frequency);
+    const bool has_displacement = is_there(Role::position) || is_there(Role::strain) || has_unit(Role::position);
+    const bool is_motion = has_displacement || wants(Role::force) || wants(Role::stress);
+    if (is_motion || !search_.requests.empty()) return RecordingKind::motion;
+    const bool has_time = is_there(Role::time) || has_unit(Role::time);
+    if (!has_time && (has_frequency || is_there(Role::storage) || is_there(Role::loss)))
+      return RecordingKind::frequency;
+    const bool is_alone = columns_.size() == 2 && has_time && !is_there(Role::force) && !is_there(Role::stress);
+    if (is_alone && has_unit(Role::modulus)) return RecordingKind::relaxation;
+    if (is_alone && has_unit(Role::compliance)) return RecordingKind::creep;
     return RecordingKind::motion;
+  }
+
+  bool has_unit(Role role) const {
+    return std::any_of(columns_.begin(), columns_.end(),
+                       [&](const TableColumn& column) { return column.unit && unit_of_column(column, role); });
   }
 
   bool is_there(Role role) const { return has(role) || !candidates(role).empty(); }
@@ -332,35 +371,77 @@ class Chooser {
     }
   }
 
-  // The command line that would do, with what is known and, elsewhere, the likeliest.
+  // What a column would be asked for as: ROLE=NAME[:UNIT].
+  struct Offer {
+    Role role;
+    std::size_t index;
+    std::string text;
+  };
+
+  // The command line that would do, with what is known and, elsewhere, the likeliest: columns that are there, and none
+  // in a unit that the header contradicts. Empty where no column is left for a role.
   std::string answer() const {
+    const std::vector<std::vector<Role>> groups = needed();
+    std::vector<std::optional<Offer>> offers(groups.size());
+    std::vector<bool> is_used(shape_.width);
+    for (const ChosenColumn& column : chosen_) is_used[column.index] = true;
+    for (std::size_t i = 0; i < groups.size(); ++i)
+      if ((offers[i] = named_offer(groups[i]))) is_used[offers[i]->index] = true;
+    for (const bool by_unit : {true, false})
+      for (std::size_t i = 0; i < groups.size(); ++i)
+        if (!offers[i] && (offers[i] = likely_offer(groups[i], is_used, by_unit))) is_used[offers[i]->index] = true;
     std::vector<std::string> parts;
-    std::size_t next = 1;
-    for (const std::vector<Role>& group : needed()) {
-      const RoleRule* rule = &rule_of(group.front());
-      std::string name = std::to_string(next++), unit = std::string(":") + rule->likely_unit;
-      for (const Role role : group) {
-        if (const ChosenColumn* column = find_column(chosen_, role)) {
-          rule = &rule_of(role), name = column->title, unit.clear();
-          for (const ColumnRequest& request : search_.requests)
-            if (request.role == role && request.unit) unit = ":" + *request.unit;
-          break;
-        }
-        const std::vector<std::size_t> found = candidates(role);
-        if (found.empty()) continue;
-        rule = &rule_of(role), name = columns_[found.front()].name;
-        unit = columns_[found.front()].unit ? "" : std::string(":") + rule->likely_unit;
-        break;
-      }
-      parts.push_back(std::string(rule->word) + "=" + name + (unit == ":1" ? "" : unit));
+    for (const std::optional<Offer>& offer : offers) {
+      if (!offer) return {};
+      parts.push_back(std::string(rule_of(offer->role).word) + "=" + offer->text);
     }
-    const std::string columns = fmt::format("{}", fmt::join(parts, ","));
-    const bool needs_quotes = columns.find_first_of(" ()[]{}'\"$&;|<>*?") != std::string::npos;
-    return search_.command + " --columns " + (needs_quotes ? "'" + columns + "'" : columns);
+    return search_.command + " --columns " + shell_word(fmt::format("{}", fmt::join(parts, ",")));
+  }
+
+  std::optional<Offer> named_offer(const std::vector<Role>& group) const {
+    for (const Role role : group)
+      if (const ChosenColumn* column = find_column(chosen_, role)) {
+        std::string unit;
+        for (const ColumnRequest& request : search_.requests)
+          if (request.role == role && request.unit) unit = ":" + *request.unit;
+        return Offer{role, column->index, spelt(column->index, column->title) + unit};
+      }
+    for (const Role role : group)
+      if (const std::vector<std::size_t> found = candidates(role); !found.empty()) return offer_of(role, found.front());
+    return std::nullopt;
+  }
+
+  std::optional<Offer> likely_offer(const std::vector<Role>& group, const std::vector<bool>& is_used,
+                                    bool by_unit) const {
+    for (const Role role : group)
+      for (std::size_t i = 0; i < shape_.width; ++i) {
+        const bool has_unit = i < columns_.size() && columns_[i].unit;
+        if (is_used[i] || has_unit != by_unit || (by_unit && !unit_of_column(columns_[i], role))) continue;
+        const bool turns = by_unit && unit_of_column(columns_[i], role)->dimension != dimensions::frequency;
+        if (by_unit && role == Role::omega && !turns) continue;  // hertz are no angular frequency
+        return offer_of(role, i);
+      }
+    return std::nullopt;
+  }
+
+  Offer offer_of(Role role, std::size_t index) const {
+    const bool has_unit = index < columns_.size() && columns_[index].unit;
+    const std::string likely = rule_of(role).likely_unit;
+    const std::string name = index < columns_.size() ? columns_[index].name : "";
+    return {role, index, spelt(index, name) + (has_unit || likely == "1" ? "" : ":" + likely)};
+  }
+
+  // The column's name; its number where the name has none, or would be read as something else.
+  std::string spelt(std::size_t index, const std::string& name) const {
+    const bool is_plain = !name.empty() && name.find_first_of(",:=+-") == std::string::npos;
+    return is_plain && index_of(name) == index ? name : std::to_string(index + 1);
   }
 
   void note_answer() {
-    diagnostics_.note<DiagnosticCode::recording_answer>({}, answer());
+    if (const std::string line = answer(); !line.empty()) diagnostics_.note<DiagnosticCode::recording_answer>({}, line);
+    else if (shape_.width < needed().size())
+      diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, shape_.width, words_of_needed());
+    else diagnostics_.note<DiagnosticCode::recording_columns_remedy>({}, words_of_columns(), words_of_needed());
     if (!shape_.metadata.empty())
       diagnostics_.note<DiagnosticCode::recording_metadata>(
           {}, excerpt(fmt::format("{}", fmt::join(shape_.metadata, " | "))));
@@ -394,6 +475,12 @@ class Chooser {
       else diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, columns_.size(), words_of_needed());
       return;
     }
+  }
+
+  std::string words_of_columns() const {
+    std::vector<std::string> titles;
+    for (const TableColumn& column : columns_) titles.push_back("'" + column.title + "'");
+    return fmt::format("{}", fmt::join(titles, ", "));
   }
 
   std::string words_of_needed() const {
@@ -449,6 +536,15 @@ ColumnRequest request_of(Role role, std::string text) {
 }
 
 }  // namespace
+
+std::string shell_word(const std::string& word) {
+  if (!word.empty() && word.find_first_of(" ()[]{}'\"$&;|<>*?\\!#~") == std::string::npos) return word;
+  if (word.find('\'') == std::string::npos) return "'" + word + "'";
+  if (word.find_first_of("\"$`\\!") == std::string::npos) return "\"" + word + "\"";
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
 
 const char* name_of(Role role) { return rule_of(role).word; }
 const std::vector<std::string>& names_of(Role role) { return rule_of(role).names; }

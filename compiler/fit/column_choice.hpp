@@ -89,6 +89,8 @@ std::optional<std::vector<ChosenColumn>> choose_columns(const std::string& path,
 RecordingKind kind_of(const std::vector<ChosenColumn>& columns);
 const ChosenColumn* find_column(const std::vector<ChosenColumn>& columns, Role role);
 
+std::string shell_word(const std::string& word);  // as a shell takes it
+
 // A quantity as the command line spells it, "10 mm" or "1kPa".
 struct SpokenQuantity {
   double value;  // SI

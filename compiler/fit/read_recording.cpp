@@ -43,6 +43,11 @@ class RecordingReader {
     result_.recording.digest = lines_.digest();
     check_whole();
     if (diagnostics_.error_count() > errors_before) return std::nullopt;
+    if (const ChosenColumn* material = material_column(); material != nullptr && !choices_.geometry) {
+      diagnostics_.report<DiagnosticCode::recording_awaits_geometry>({}, lines_.path(), material->title,
+                                                                     name_of(material->role));
+      diagnostics_.note<DiagnosticCode::geometry_known>({});
+    }
     begin_at_rest();
     return std::move(result_);
   }
@@ -76,15 +81,8 @@ class RecordingReader {
       result_.is_rotation = force->dimension == dimensions::torque;
     if (const ChosenColumn* position = find_column(columns, Role::position))
       result_.is_rotation = position->dimension == dimensions::angle;
-    const auto is_material = [](const ChosenColumn& c) {
-      const bool has_modulus = c.role == Role::modulus || c.role == Role::storage || c.role == Role::loss;
-      return c.role == Role::strain || c.role == Role::stress || c.role == Role::compliance ||
-             (has_modulus && c.dimension == Dimension{1, -1, -2});
-    };
-    const auto material = std::find_if(columns.begin(), columns.end(), [&](const ChosenColumn& c) {
-      return is_material(c) && !(c.role == Role::compliance && c.dimension == Dimension{-1, 0, 2});
-    });
-    if (material != columns.end() && !choices_.geometry) {
+    const ChosenColumn* material = material_column();
+    if (material != nullptr && !choices_.geometry && !choices_.awaits_geometry) {
       diagnostics_.report<DiagnosticCode::recording_without_geometry>({}, lines_.path(), material->title,
                                                                       name_of(material->role));
       diagnostics_.note<DiagnosticCode::recording_answer>(
@@ -97,6 +95,19 @@ class RecordingReader {
       return false;
     }
     return true;
+  }
+
+  // The first that is no force or displacement at a tool.
+  const ChosenColumn* material_column() const {
+    const auto is_material = [](const ChosenColumn& c) {
+      const bool has_modulus = c.role == Role::modulus || c.role == Role::storage || c.role == Role::loss;
+      return c.role == Role::strain || c.role == Role::stress || c.role == Role::compliance ||
+             (has_modulus && c.dimension == Dimension{1, -1, -2});
+    };
+    const auto material = std::find_if(columns_.begin(), columns_.end(), [&](const ChosenColumn& c) {
+      return is_material(c) && !(c.role == Role::compliance && c.dimension == Dimension{-1, 0, 2});
+    });
+    return material == columns_.end() ? nullptr : &*material;
   }
 
   double factor_of(const ChosenColumn& column) const {

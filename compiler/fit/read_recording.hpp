@@ -24,6 +24,7 @@ struct ReadChoices {
   std::optional<Geometry> geometry;
   Start start = Start::automatic;
   bool has_header = true;
+  bool awaits_geometry = false;  // what is of a material is read as it stands, and that a geometry is needed is told
   bool keeps_positions = false;  // a surface is looked for: positions stay as they stand in the file
   double force_delay = 0;        // the force was recorded so much later than it acted [s]
 };
@@ -38,7 +39,8 @@ struct ReadRecording {
 // In: a reader that has been opened. Refuses, with place and remedy: what has no table, cells that are no finite
 // numbers, rows of another length, times that fall, two rows of one time that differ (equal ones are dropped), fewer
 // than three rows, no motion, a force that never changes, signs that pull where they should push. Asks, with the
-// command line that answers: units, names, geometry. Warns: a force that stands at its limit while the tool moves on.
+// command line that answers: units, names, geometry. Warns: a geometry that is awaited, a force that stands at its
+// limit while the tool moves on.
 std::optional<ReadRecording> read_recording(LineReader& lines, const ReadChoices& choices, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler::fitting

@@ -252,10 +252,26 @@ int main() {
         self.assertEqual(done.stdout + done.stderr, "")
         self.refused("check", "zener.csv", "falls.csv", code="recording-time-falls")
         done = self.dashpot("check", TITIN[0], status=INPUT_REFUSED)
-        self.assertIn(f"dashpot fit {TITIN[0]} --columns time=Time:s,", done.stderr)
+        self.assertIn(f"dashpot check {TITIN[0]} --columns time=Time:s,", done.stderr)
         self.write("device.json", '{ "dashpot_device": 1, "name": "arm", "loop": { "rate": "10 m" } }')
         done = self.dashpot("check", "device.json", status=INPUT_REFUSED)
         self.assertNotIn("[device-instead-of-network]", done.stderr)
+
+    def test_check_takes_what_fit_takes_to_read(self):
+        """Fails if check cannot be told of columns or a geometry, or refuses a recording that wants nothing else."""
+        self.write("relax.csv", "time [s],modulus [kPa]\n0,3\n1,2\n2,1.5\n3,1.2\n")
+        done = self.dashpot("check", "relax.csv")
+        self.assertIn("'relax.csv' reads well", done.stderr)
+        self.assertIn("[recording-awaits-geometry]", done.stderr)
+        self.assertEqual(self.dashpot("check", "relax.csv", "--geometry", "punch:radius=4mm").stderr, "")
+        self.refused("fit", "relax.csv", "-o", "not.json", code="recording-without-geometry")
+        self.write("bare.csv", "0,3\n1,2\n2,1.5\n3,1.2\n")
+        done = self.dashpot("check", "bare.csv", "--no-header", "--columns", "time=1:s,modulus=2:N/m")
+        self.assertEqual(done.stderr, "")
+        self.write("bad.csv", "time [s],modulus [kPa]\n0,3\n1,x\n2,1.5\n3,1.2\n")
+        self.assertNotIn("reads well", self.refused("check", "bad.csv", code="recording-not-a-number").stderr)
+        done = self.dashpot("check", "relax.csv", "--geometry", "cube", status=COMMAND_LINE_WRONG)
+        self.assertIn("[geometry-malformed]", done.stderr)
 
     def test_a_table_after_a_step_is_told_by_its_header(self):
         """Fails if a modulus or a compliance over time has to be asked for, or is then read as anything else."""

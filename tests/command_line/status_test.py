@@ -64,6 +64,12 @@ class Check(CommandTest):
         self.write("broken_device.json", '{ "dashpot_device": 1, "name": "none" }')
         self.assertEqual(self.dashpot("check", FIG_5, PANTOGRAPH, "motion.csv").stderr, "")
         self.refused("check", FIG_5, "late.csv", code="csv-time-not-rising")
+        rows = "0,0\n0.001,0.1\n0.002,0.2\n"
+        for header in ["t [s],x [mm]", "t,x_mm", "time [s],displacement [mm]", "# Zeit,Weg"]:
+            self.assertEqual(self.dashpot("check", self.write("motion.csv", header + "\n" + rows)).stderr, "", header)
+        for title in ["F", "Load cell (kgf)", "M [N m]"]:
+            table = self.write("forces.csv", f"t,x_mm,{title}\n0,0,0\n0.001,0.1,1\n0.002,0.2,2\n")
+            self.assertIn("[recording-", self.dashpot("check", table, status=INPUT_REFUSED).stderr, title)
         self.refused("check", "broken_device.json", code="missing-key")
 
 

@@ -96,6 +96,21 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
                       what_is_beside_slips(c.form));
 }
 
+// The encoder's range at the tool, against where the surface lies.
+void warn_of_surface(const Contact& contact, const Network& network, const Device& device, Diagnostics& diagnostics) {
+  const encoder_description& encoder = device.description.encoder;
+  if (encoder.range_low == encoder.range_high) return;  // unlimited
+  const bool has_arm = device.description.motion != network.port_motion;
+  const double arm = has_arm ? device.description.arm_radius : 1;
+  const double low = arm * encoder.range_low, high = arm * encoder.range_high;
+  // The tissue lies beyond the surface, to the positive side.
+  if (contact.at < high) return;
+  const char* const unit = network.port_motion == motion::rotation ? "rad" : "m";
+  diagnostics.report<DiagnosticCode::surface_out_of_reach>(contact.span, contact.at, unit, device.name, low, high,
+                                                           unit);
+  diagnostics.note<DiagnosticCode::surface_reach_remedy>({}, has_arm ? " or its \"arm_radius\"" : "");
+}
+
 // What the chosen candidate needs behind slips or a contact is known when the whole law is.
 void tell_of_certificate(Compilation& c) {
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
@@ -189,6 +204,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   warn_about_validity(result.form.linear, result.network, diagnostics);
   std::optional<PortDevice> port = device ? PortDevice::of(*device, result.network, diagnostics) : PortDevice::ideal();
   if (!port) return std::nullopt;
+  if (device && result.network.contact) warn_of_surface(*result.network.contact, result.network, *device, diagnostics);
   result.port = std::move(*port);
   times.enter("decomposition");
   const Device* const on = device ? &*device : nullptr;

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "network/device.hpp"
+#include "network/expression.hpp"
 #include "network/rate_limits.hpp"
 #include "network/read_motion.hpp"
 #include "network/read_value.hpp"
@@ -74,12 +76,40 @@ std::vector<std::string> estimator_names() {
   return names;
 }
 
+// Whether the file tells of a joint that turns, whatever it says of its motion.
+bool tells_of_rotation(const DeviceDecl& decl) {
+  if (decl.arm_radius) return true;
+  const auto turns = [](const ValueDecl& value) {
+    const NameScope no_names;
+    if (!is_stated(value, no_names)) return false;
+    Diagnostics unheard;
+    const std::optional<Quantity> quantity = read_stated(value, no_names, unheard);
+    return quantity && quantity->dimension && quantity->dimension->radian != 0;
+  };
+  for (const SectionDecl& section : decl.sections)
+    for (const EntryDecl& entry : section.entries)
+      if (entry.key.text == "counts_per_turn" || std::any_of(entry.values.begin(), entry.values.end(), turns))
+        return true;
+  return false;
+}
+
+// One error, instead of one for every value, where a joint that turns is not said to.
+motion motion_of_joint(const DeviceDecl& decl, Diagnostics& diagnostics) {
+  const bool is_known = decl.motion && (decl.motion->text == "translation" || decl.motion->text == "rotation");
+  const motion stated = read_motion(decl.motion, diagnostics);
+  if (is_known || stated == motion::rotation || !tells_of_rotation(decl)) return stated;
+  if (!decl.motion && !decl.complete) return motion::rotation;  // its key may be misspelt, and that is told
+  if (!decl.motion) diagnostics.report<DiagnosticCode::missing_key>(decl.opening, "the device file", "motion");
+  diagnostics.note<DiagnosticCode::write_instead>({}, "\"motion\": \"rotation\"");
+  return motion::rotation;
+}
+
 class DeviceBuilder {
  public:
   DeviceBuilder(const DeviceDecl& decl, Diagnostics& diagnostics)
       : decl_(decl),
         diagnostics_(diagnostics),
-        motion_(read_motion(decl.motion, diagnostics)),
+        motion_(motion_of_joint(decl, diagnostics)),
         due_(motion_ == motion::rotation ? rotation_dimensions : translation_dimensions) {}
 
   Device build() {
@@ -133,7 +163,12 @@ class DeviceBuilder {
     reader.read("rate", dimensions::frequency, Bound::above_zero, rate);
     if (reader.is_within("rate", rate, lowest_rate, highest_rate, "Hz")) loop.sample_period = 1 / rate;
     reader.read("jitter", dimensions::time, Bound::zero_or_more, loop.jitter);
-    reader.is_within("jitter", loop.jitter, 0, longest_time, "s");
+    const bool is_time = reader.is_within("jitter", loop.jitter, 0, longest_time, "s");
+    if (is_time && loop.jitter >= loop.sample_period) {
+      diagnostics_.report<DiagnosticCode::jitter_of_a_period>(reader.place_of("jitter"), reader.text_of("jitter"),
+                                                              1e3 * loop.sample_period);
+      diagnostics_.note<DiagnosticCode::jitter_remedy>({});
+    }
     reader.read_count("delay_samples", 0, loop.delay_samples);
     if (!reader.is_within("delay_samples", loop.delay_samples, 0, most_delay_samples, "samples"))
       loop.delay_samples = 0;
@@ -232,9 +267,12 @@ class DeviceBuilder {
   void read_motor() {
     SectionReader reader = section("motor");
     motor_description& motor = device_.description.motor;
-    reader.refuse_other_keys({"torque_constant", "max_torque", "amplifier_lag", "slew", "saturation_allowed", "noise"});
+    reader.refuse_other_keys(
+        {"torque_constant", "max_torque", "amplifier_lag", "slew", "saturation_allowed", "noise"},
+        {{"max_current", [&](const EntryDecl& entry) { note_torque(reader, stated_in(entry, dimensions::current)); }}});
     reader.read("torque_constant", due_.force_constant, Bound::above_zero, motor.torque_constant);
     reader.read("max_torque", due_.force, Bound::above_zero, motor.max_torque);
+    if (const auto current = reader.stated("max_torque", dimensions::current)) note_torque(reader, current);
     reader.read("amplifier_lag", dimensions::time, Bound::zero_or_more, motor.amplifier_lag);
     reader.is_within("amplifier_lag", motor.amplifier_lag, 0, longest_time, "s");
     reader.read("slew", due_.force_rate, Bound::above_zero, motor.slew);
@@ -242,30 +280,67 @@ class DeviceBuilder {
     reader.read("noise", due_.force, Bound::zero_or_more, motor.noise);
   }
 
+  // Worked out where the file says both.
+  void note_torque(const SectionReader& reader, const std::optional<double>& current) {
+    const auto constant = reader.stated("torque_constant", due_.force_constant);
+    diagnostics_.note<DiagnosticCode::torque_of_current>(
+        {}, current && constant ? fmt::format(": \"{:.6g} {}\"", *constant * *current, unit_of(due_.force)) : "");
+  }
+
+  // What is damping at the tool is refused, and worked out for the joint.
+  void read_damping(const SectionReader& reader, std::string_view key, Bound bound, double& target) const {
+    reader.read(key, due_.damping, bound, target);
+    const double arm = device_.description.arm_radius;
+    const std::optional<double> at_tool = reader.stated(key, dimensions::damping);
+    if (motion_ == motion::rotation && arm > 0 && at_tool)
+      diagnostics_.note<DiagnosticCode::damping_at_joint>({}, reader.text_of(key), *at_tool * arm * arm);
+  }
+
+  void note_damping(const SectionReader& reader, const std::optional<double>& current) {
+    std::optional<double> constant = reader.stated("damping_per_current_squared", due_.damping_per_current_squared);
+    if (!constant) constant = reader.stated("kappa", due_.damping_per_current_squared);
+    diagnostics_.note<DiagnosticCode::damping_of_current>(
+        {}, current && constant ? fmt::format(": \"{:.6g} {}\"", *constant * *current * *current, unit_of(due_.damping))
+                                : "");
+  }
+
   void read_brake() {
     SectionReader reader = section("brake");
     brake_description& brake = device_.description.brake;
-    reader.refuse_other_keys({"kind", "max_damping", "damping_per_current_squared", "residual_damping", "tolerance",
-                              "coil_lag", "slew", "critical_speed", "safe_damping"});
+    reader.refuse_other_keys(
+        {"kind", "max_damping", "damping_per_current_squared", "residual_damping", "tolerance", "coil_lag", "slew",
+         "critical_speed", "safe_damping"},
+        {{"max_current", [&](const EntryDecl& entry) { note_damping(reader, stated_in(entry, dimensions::current)); }},
+         {"kappa", [&](const EntryDecl&) {
+            diagnostics_.note<DiagnosticCode::key_is_called>({}, "damping_per_current_squared");
+          }}});
     reader.require("kind");
     reader.require("max_damping");
     if (const auto word = reader.read_word("kind", {"eddy_current", "shorted_motor"}))
       brake.kind = *word == 0 ? brake_kind::eddy_current : brake_kind::shorted_motor;
-    reader.read("max_damping", due_.damping, Bound::above_zero, brake.max_damping);
+    read_damping(reader, "max_damping", Bound::above_zero, brake.max_damping);
+    if (const auto current = reader.stated("max_damping", dimensions::current)) note_damping(reader, current);
     reader.read("damping_per_current_squared", due_.damping_per_current_squared, Bound::above_zero,
                 brake.damping_per_current_squared);
-    reader.read("residual_damping", due_.damping, Bound::zero_or_more, brake.residual_damping);
+    read_damping(reader, "residual_damping", Bound::zero_or_more, brake.residual_damping);
     reader.read("tolerance", dimensions::number, Bound::zero_or_more, brake.tolerance);
     reader.read("coil_lag", dimensions::time, Bound::zero_or_more, brake.coil_lag);
     reader.is_within("coil_lag", brake.coil_lag, 0, longest_time, "s");
     reader.read("slew", dimensions::current_rate, Bound::above_zero, brake.slew);
     reader.read("critical_speed", due_.velocity, Bound::above_zero, brake.critical_speed);
     reader.is_within("critical_speed", brake.critical_speed, lowest_speed, highest_speed, speed_unit());
-    reader.read("safe_damping", due_.damping, Bound::zero_or_more, brake.safe_damping);
+    read_damping(reader, "safe_damping", Bound::zero_or_more, brake.safe_damping);
     check_brake(reader, brake);
   }
 
   void check_brake(const SectionReader& reader, const brake_description& brake) {
+    // Beyond its corner the coil lets less and less of the commanded damping pass.
+    const double corner = 0.5 / (std::numbers::pi * brake.coil_lag);  // [Hz]
+    if (const double low = device_.description.loop.band_low; corner < low && brake.coil_lag <= longest_time) {
+      diagnostics_.report<DiagnosticCode::coil_below_band>(reader.place_of("coil_lag"), reader.text_of("coil_lag"),
+                                                           corner, low);
+      diagnostics_.note<DiagnosticCode::coil_lag_remedy>({});
+    }
     if (brake.tolerance >= 1)
       diagnostics_.report<DiagnosticCode::tolerance_too_large>(reader.place_of("tolerance"),
                                                                reader.text_of("tolerance"));
@@ -285,7 +360,7 @@ class DeviceBuilder {
     mechanics_description& mechanics = device_.description.mechanics;
     reader.refuse_other_keys({"inertia", "damping", "coulomb_friction", "mode", "backlash"});
     reader.read("inertia", due_.inertia, Bound::zero_or_more, mechanics.inertia);
-    reader.read("damping", due_.damping, Bound::zero_or_more, mechanics.damping);
+    read_damping(reader, "damping", Bound::zero_or_more, mechanics.damping);
     reader.read("coulomb_friction", due_.force, Bound::zero_or_more, mechanics.coulomb_friction);
     reader.read("backlash", due_.position, Bound::zero_or_more, mechanics.backlash);
     if (reader.has("mode"))

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "network/expression.hpp"
 #include "network/quantity.hpp"
 #include "network/read_value.hpp"
 #include "source/excerpt.hpp"
@@ -14,6 +15,14 @@
 #include "syntax/object_reader.hpp"
 
 namespace dashpot::compiler {
+
+std::optional<double> stated_in(const EntryDecl& entry, const Dimension& dimension) {
+  const NameScope no_names;
+  if (entry.is_list || entry.values.empty() || !is_stated(entry.values.front(), no_names)) return std::nullopt;
+  Diagnostics unheard;
+  const std::optional<Quantity> quantity = read_stated(entry.values.front(), no_names, unheard);
+  return quantity && quantity->dimension == dimension ? std::optional(quantity->value) : std::nullopt;
+}
 
 SectionReader::SectionReader(const DeviceDecl& decl, std::string name, motion joint_motion, Diagnostics& diagnostics)
     : name_(std::move(name)), motion_(joint_motion), diagnostics_(diagnostics) {
@@ -27,10 +36,17 @@ void SectionReader::require(std::string_view key) const {
     diagnostics_.report<DiagnosticCode::missing_key>(section_->opening, name_, key);
 }
 
-void SectionReader::refuse_other_keys(const std::vector<std::string>& keys) {
+void SectionReader::refuse_other_keys(const std::vector<std::string>& keys, const std::vector<KeyRemedy>& remedies) {
   if (!is_present()) return;
   for (const EntryDecl& entry : section_->entries) {
     if (std::find(keys.begin(), keys.end(), entry.key.text) != keys.end()) continue;
+    const auto remedy = std::find_if(remedies.begin(), remedies.end(),
+                                     [&](const KeyRemedy& known) { return known.key == entry.key.text; });
+    if (remedy != remedies.end()) {
+      diagnostics_.report<DiagnosticCode::unknown_key>(entry.key.span, name_, entry.key.text);
+      remedy->note(entry);
+      continue;
+    }
     if (const auto nearest = report_unknown_key(entry.key, name_, keys, diagnostics_)) misspelt_.push_back(*nearest);
   }
 }
@@ -89,6 +105,11 @@ std::optional<std::size_t> SectionReader::read_word(std::string_view key, const 
 Span SectionReader::place_of(std::string_view key) const {
   const EntryDecl* entry = find(key);
   return entry != nullptr ? entry->span : section_ != nullptr ? section_->name.span : Span{};
+}
+
+std::optional<double> SectionReader::stated(std::string_view key, const Dimension& dimension) const {
+  const EntryDecl* entry = find(key);
+  return entry == nullptr ? std::nullopt : stated_in(*entry, dimension);
 }
 
 std::string SectionReader::text_of(std::string_view key) const {

@@ -3,6 +3,7 @@
 
 #include <dashpot/command.hpp>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,15 @@ namespace dashpot::compiler {
 
 enum class Bound { any, zero_or_more, above_zero };
 
+// A key that is known to be written where another is meant, and what notes the way out.
+struct KeyRemedy {
+  std::string_view key;
+  std::function<void(const EntryDecl&)> note;
+};
+
+// In SI, where it is one quantity of this dimension; reports nothing.
+std::optional<double> stated_in(const EntryDecl& entry, const Dimension& dimension);
+
 // Every read leaves its target alone where the key is absent or, reported, not what is due.
 class SectionReader {
  public:
@@ -24,7 +34,7 @@ class SectionReader {
   bool is_present() const { return section_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
   void require(std::string_view key) const;  // reports where the section, if present, lacks it and did not misspell it
-  void refuse_other_keys(const std::vector<std::string>& keys);
+  void refuse_other_keys(const std::vector<std::string>& keys, const std::vector<KeyRemedy>& remedies = {});
 
   void read(std::string_view key, const Dimension& due, Bound bound, double& target) const;
   void read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high) const;
@@ -37,6 +47,9 @@ class SectionReader {
 
   // Of the key's value; of the section where there is none.
   Span place_of(std::string_view key) const;
+
+  // In SI, where the key has one quantity of this dimension; reports nothing.
+  std::optional<double> stated(std::string_view key, const Dimension& dimension) const;
 
   // As the author wrote it.
   std::string text_of(std::string_view key) const;

@@ -73,6 +73,16 @@ class Check(CommandTest):
         self.refused("check", "broken_device.json", code="missing-key")
 
 
+    def test_a_surface_beyond_reach(self):
+        """Fails if a surface that the tool can never touch is compiled in silence, or one within reach is warned of."""
+        self.write("slide.json", LINEAR_DEVICE)
+        for at, warned in [("150 mm", True), ("90 mm", False)]:
+            self.write("tissue.json", '{ "dashpot": 1, "name": "tissue", "contact": { "at": "%s" }, "network": { "spring": "5 N/m" } }' % at)
+            said = self.dashpot("check", "tissue.json", "--device", "slide.json").stderr
+            self.assertEqual("[surface-out-of-reach]" in said, warned, said)
+        self.assertNotIn("[surface-out-of-reach]", self.dashpot("check", "tissue.json").stderr)
+
+
 class WrongCommandLine(CommandTest):
     def wrong(self, *arguments, mentions=""):
         done = self.dashpot(*arguments, status=COMMAND_LINE_WRONG)

@@ -19,7 +19,8 @@ CASES = ROOT / "tests/diagnostics/cases"
 
 BEYOND_THE_SCHEMAS = {
     # devices: values and units
-    "devices/band_reversed", "devices/brake_safe_damping_too_large", "devices/brake_unit_of_the_other_motion",
+    "devices/band_reversed", "devices/coil_lag_below_the_band", "devices/damping_at_the_tool", "devices/jitter_of_a_period",
+    "devices/limit_as_a_current", "devices/brake_safe_damping_too_large", "devices/brake_unit_of_the_other_motion",
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
     "devices/rate_is_a_period", "devices/units_run_together",
     # names

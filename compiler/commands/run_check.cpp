@@ -18,13 +18,13 @@ bool is_table(const std::string& path) {
   return ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".dat";
 }
 
-// What --columns is given for is a recording; else the header tells.
+// What --columns or --no-header is given for is a recording; else the header tells.
 bool is_recording(const std::string& path, const FitWords& words) {
   constexpr std::size_t head_lines = 200;
   Diagnostics unheard;
   std::vector<std::string> head;
   fitting::LineReader lines(path, fitting::ReadProgress());
-  if (words.columns || words.geometry || words.no_header || !lines.open(unheard)) return true;
+  if (words.columns || words.no_header || !lines.open(unheard)) return true;
   while (head.size() < head_lines)
     if (const auto line = lines.next(unheard)) head.emplace_back(*line);
     else break;

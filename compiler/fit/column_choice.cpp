@@ -395,7 +395,10 @@ class Chooser {
       if (!offer) return {};
       parts.push_back(std::string(rule_of(offer->role).word) + "=" + offer->text);
     }
-    return search_.command + " --columns " + shell_word(fmt::format("{}", fmt::join(parts, ",")));
+    const std::string columns = fmt::format("{}", fmt::join(parts, ","));
+    const bool has_primes = columns.find('\'') != std::string::npos;  // better to read between double quotes
+    const bool is_plain = columns.find_first_of("\"$`\\!") == std::string::npos;
+    return search_.command + " --columns " + (has_primes && is_plain ? '"' + columns + '"' : shell_word(columns));
   }
 
   std::optional<Offer> named_offer(const std::vector<Role>& group) const {
@@ -539,8 +542,6 @@ ColumnRequest request_of(Role role, std::string text) {
 
 std::string shell_word(const std::string& word) {
   if (!word.empty() && word.find_first_of(" ()[]{}'\"$&;|<>*?\\!#~") == std::string::npos) return word;
-  if (word.find('\'') == std::string::npos) return "'" + word + "'";
-  if (word.find_first_of("\"$`\\!") == std::string::npos) return "\"" + word + "\"";
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";

@@ -207,7 +207,7 @@ static inline int visco_elasto_plastic_is_within(const visco_elasto_plastic *sel
       && (self->K_spring_force >= -16000.521136406403) && (self->K_spring_force <= 16000.521136406403)
       && (self->sampled_position_change >= -20.00002) && (self->sampled_position_change <= 20.00002)
       && (self->sampled_Y_trial >= -36000.54755628937) && (self->sampled_Y_trial <= 36000.54755628937)
-      && (self->sampled_Y_excess >= -36001.04755678938) && (self->sampled_Y_excess <= 36001.04755678938)
+      && (self->sampled_Y_excess >= -36001.04755678937) && (self->sampled_Y_excess <= 36001.04755678937)
       && (self->sampled_position >= -10.00001) && (self->sampled_position <= 10.00001);
 }
 

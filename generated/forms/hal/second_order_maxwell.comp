@@ -273,9 +273,9 @@ static inline dashpot_command law_second_order_maxwell_step(law_second_order_max
 static inline int law_second_order_maxwell_is_within(const law_second_order_maxwell *self) {
   return
       (self->last_position >= -10.00001) && (self->last_position <= 10.00001)
-      && (self->relaxed_force >= -219560.89280751947) && (self->relaxed_force <= 219560.89280751947)
-      && (self->B2_K2_force >= -119800.40587550664) && (self->B2_K2_force <= 119800.40587550664)
-      && (self->B1_K1_force >= -99760.4869320128) && (self->B1_K1_force <= 99760.4869320128)
+      && (self->relaxed_force >= -219560.89280754214) && (self->relaxed_force <= 219560.89280754214)
+      && (self->B2_K2_force >= -119800.4058755066) && (self->B2_K2_force <= 119800.4058755066)
+      && (self->B1_K1_force >= -99760.48693203554) && (self->B1_K1_force <= 99760.48693203554)
       && (self->sampled_position_change >= -20.00002) && (self->sampled_position_change <= 20.00002)
       && (self->sampled_position >= -10.00001) && (self->sampled_position <= 10.00001);
 }

@@ -7,7 +7,9 @@
 #include <limits>
 
 #include "certify/motor_limits.hpp"
+#include "discretise/rounding.hpp"
 #include "law/cost.hpp"
+#include "linear/motion_map.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -20,16 +22,50 @@ double test_tolerance(const UpdateLaw& law) {
   return law.relative_error_bound + roundoff * double(2 * (8 + cost.additions + cost.multiplications));
 }
 
-// Where the test lets the law rest: half a unit deep, or, where the law keeps to its motor's limits, no deeper than the
-// motor holds in its first sample. A power of two is exact in every scalar.
-double rest_depth(const Compilation& c) {
-  constexpr double deepest = 0.5;
-  const double stiffness = to_double(c.form.linear.static_stiffness);
-  if (!c.law.sheds() || !(stiffness > 0)) return deepest;
+// What the motor holds in its first sample, where the law keeps to its limits.
+double largest_held(const Compilation& c) {
   double force = std::numeric_limits<double>::infinity();
   for (const double limit : {c.certificate.loop.max_force, largest_change(c.certificate.loop)})
-    if (limit > 0) force = std::min(force, limit);
-  return std::min(deepest, std::exp2(std::floor(std::log2(force / stiffness)) - 1));
+    if (limit > 0 && c.law.sheds()) force = std::min(force, limit);
+  return force;
+}
+
+Fields rest_at(double depth, double force, double allowed, double stiffness) {
+  return {{"depth", fmt::format("{:#}", depth)},
+          {"force", fmt::format("{:#}", force)},
+          {"allowed", fmt::format("{:#}", allowed)},
+          {"stiffness", fmt::format("{:#}", stiffness)}};
+}
+
+// Where the test lets the law rest: half a unit deep, or no deeper than the motor holds. A power of two is exact in
+// every scalar.
+std::vector<Fields> rest_on_spring(const Compilation& c) {
+  constexpr double deepest = 0.5;
+  const double stiffness = to_double(c.form.linear.static_stiffness), held = largest_held(c);
+  const double depth = stiffness > 0 && std::isfinite(held)
+                           ? std::min(deepest, std::exp2(std::floor(std::log2(held / stiffness)) - 1))
+                           : deepest;
+  return {rest_at(depth, stiffness * depth, test_tolerance(c.law) * stiffness, stiffness)};
+}
+
+// On the file's own curve, from where its cubics end inwards by halves.
+std::vector<Fields> rests_on_curve(const Compilation& c) {
+  constexpr int halvings = 6;
+  const MotionMap& map = *c.network.map;
+  const StaticCurve& curve = *c.network.static_curve;
+  const double kept = to_double(c.form.linear.static_stiffness) / map.stiffness;  // of a curve that is met at once
+  const double largest = kept * to_double(force_at(curve, Real(map.reach)));
+  const double roundings = test_tolerance(c.law) + 64 * unit_roundoff(c.law.scalar);
+  std::vector<Fields> rests;
+  for (int i = 0; i <= halvings; ++i) {
+    const double depth = std::ldexp(map.reach, -i), force = kept * to_double(force_at(curve, Real(depth)));
+    if (!(2 * force <= largest_held(c))) continue;
+    const double steepest = map.largest_tangent(0, depth),
+                 stiffness = kept * map.stiffness *
+                             (steepest * steepest + map.value_at(depth) * map.largest_curvature(0, depth));
+    rests.push_back(rest_at(depth, force, map.static_error * largest + roundings * stiffness * depth, stiffness));
+  }
+  return rests;
 }
 
 }  // namespace
@@ -43,15 +79,15 @@ CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
   fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.linear.static_stiffness));
   fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.linear.feedthrough_damping));
   fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
-  fields["rest_depth"] = fmt::format("{:#}", rest_depth(c));
   fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
   for (const Mode& mode : c.form.linear.modes)
     model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},
                                     {"relaxation_rate", fmt::format("{:#}", to_double(mode.relaxation_rate))}});
   model.lists["modes"];
-  // Forces of slips have no closed form along a ramp.
+  model.lists["rests"] = c.network.map ? rests_on_curve(c) : rest_on_spring(c);
+  // Forces of slips and behind a static curve have no closed form along a ramp.
   model.lists["closed_forms"];
-  if (!c.form.has_slips() && !c.law.sheds())
+  if (!c.form.has_slips() && !c.law.sheds() && !c.network.map)
     model.lists["closed_forms"].push_back(
         {{"decays", c.law.scheme == Scheme::exact ? "rate * period" : log1p + "(rate * period)"}});
   return model;

@@ -43,11 +43,9 @@ bool can_be_emitted(const Compilation& c, const EmissionOptions& options, Diagno
 
 bool takes_static_curve(const Compilation& c, const EmissionOptions& options, Diagnostics& diagnostics) {
   if (!c.network.static_curve) return true;
-  const Span place = c.network.static_curve->span;
-  for (const auto& [is_asked, name] : {std::pair(options.batch, "--batch"), {options.with_test, "--with-test"}})
-    if (is_asked)
-      diagnostics.report<DiagnosticCode::static_not_taken>(place, c.network.name, fmt::format("'{}'", name));
-  return !options.batch && !options.with_test;
+  if (options.batch)
+    diagnostics.report<DiagnosticCode::static_not_taken>(c.network.static_curve->span, c.network.name, "'--batch'");
+  return !options.batch;
 }
 
 bool can_be_c99(const Compilation& c, Diagnostics& diagnostics) {

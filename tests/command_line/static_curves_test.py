@@ -2,6 +2,7 @@
 import json
 import math
 import re
+import subprocess
 import unittest
 
 from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
@@ -100,11 +101,31 @@ class StaticCurvesTest(CommandTest):
         self.assertIn("emitted map", page)
         self.assertNotIn("Hysteresis</h2>", page)
 
+    # If this fails, a law's own test passes a law of another curve, or fails one of its own.
+    def test_with_test_holds_the_law_to_its_curve(self):
+        instantaneous = {**CONE, "static": {**CONE["static"], "is": "instantaneous"}}
+        self.write("cone.json", json.dumps(CONE))
+        self.write("at_once.json", json.dumps({**instantaneous, "name": "at_once"}))
+        for network, name, device in [(SPHERE, "sphere_on_gel", TRAINER), (SKIN, "skin_in_contact", TRAINER),
+                                      (LIGAMENT, "ligament", KNEE), ("cone.json", "cone", None), ("at_once.json", "at_once", None)]:
+            for choices in [[], ["--device", device, "--uncertified"] if device else ["--scalar", "float"]]:
+                with self.subTest(network=name, choices=choices):
+                    self.dashpot("compile", network, "--target", "c99", "--with-test", *choices)
+                    header = self.folder / f"{name}.h"
+                    self.assertIn("passed", self.run_in_c(name))
+                    wrong = header.read_text().replace(" tangent * ", " 1.01 * tangent * ")
+                    self.assertNotEqual(wrong, header.read_text())
+                    header.write_text(wrong)
+                    self.assertIn("failed", self.run_in_c(name))
+
+    def run_in_c(self, name):
+        program = self.folder / "law_test"
+        subprocess.run(["cc", "-std=c99", "-ffp-contract=off", "-o", program, self.folder / f"{name}_test.c", "-lm"], check=True)
+        return subprocess.run([program], capture_output=True, text=True).stdout
+
     # If this fails, something is written of a static curve that does not hold it.
     def test_what_takes_no_curve_says_so(self):
         self.refused("compile", SPHERE, "--batch", code="static-not-taken")
-        self.refused("compile", SPHERE, "--with-test", code="static-not-taken")
-        self.refused("compile", SPHERE, "--target", "c99", "--with-test", code="static-not-taken")
         self.refused("export", SKIN, "--to", "generic", code="not-exported")
         self.assertEqual(self.files(), [])
 

@@ -97,11 +97,14 @@ std::string choice_in_words(const Decomposition& decomposition, const PortUnits&
       choice.faithful->certified ? "" : "; nothing that errs so little is certified");
   if (choice.faithful->in_runs) text += in_runs;
   if (const Candidate* paper = named(decomposition, "paper")) text += " " + against_paper(choice, *paper, units);
-  if (decomposition.moves)
+  if (const auto& moves = decomposition.moves) {
     text +=
-        fmt::format(" If each value that the device file assumes is off by up to {:.0f} %, b is {:.4g} to {:.4g} {}{}.",
-                    100 * assumed_spread, decomposition.moves->least, decomposition.moves->most, units.damping,
-                    decomposition.moves->by.empty() ? "" : ", mostly because of " + decomposition.moves->by);
+        fmt::format(" If each value that the device file assumes is off by up to {:.0f} %, b ", 100 * assumed_spread);
+    text += is_same(moves->least, moves->most)
+                ? "stays as it is."
+                : fmt::format("is {:.4g} to {:.4g} {}{}.", moves->least, moves->most, units.damping,
+                              moves->by.empty() ? "" : ", mostly because of " + moves->by);
+  }
   if (zero_frequency_damping > 0 && choice.damping > zero_frequency_damping * (1 + same))
     text += fmt::format(" That is {:.3g} % more than the network damps in steady motion; the motor pushes it back.",
                         100 * (choice.damping / zero_frequency_damping - 1));

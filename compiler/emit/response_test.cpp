@@ -17,7 +17,7 @@ namespace {
 // How far rounding may take the force from the closed form, relative to the peak: the modes' bound, one roundoff for
 // each of the products and sums of a sample, and in double as many for the closed form's own.
 double test_tolerance(const UpdateLaw& law) {
-  const double roundoff = law.scalar == ScalarType::float64 ? 0x1p-53 : 0x1p-24;
+  const double roundoff = unit_roundoff(law.scalar);
   const Cost cost = cost_of(law, law.output);
   return law.relative_error_bound + roundoff * double(2 * (8 + cost.additions + cost.multiplications));
 }
@@ -76,20 +76,21 @@ CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
   fields["name"] = c.network.name;
   fields["scheme"] = name_of(c.law.scheme);
   fields["rate"] = fmt::format("{:#}", c.rate);
-  fields["static_stiffness"] = fmt::format("{:#}", to_double(c.form.linear.static_stiffness));
-  fields["feedthrough_damping"] = fmt::format("{:#}", to_double(c.form.linear.feedthrough_damping));
   fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
-  fields["tolerance"] = fmt::format("{:#}", test_tolerance(c.law));
-  for (const Mode& mode : c.form.linear.modes)
+  model.lists["rests"] = c.network.map ? rests_on_curve(c) : rest_on_spring(c);
+  model.lists["closed_forms"];
+  model.lists["modes"];
+  // Forces of slips and behind a static curve have no closed form along a ramp.
+  if (c.form.has_slips() || c.law.sheds() || c.network.map) return model;
+  const LinearForm& linear = c.form.linear;
+  model.lists["closed_forms"].push_back(
+      {{"static_stiffness", fmt::format("{:#}", to_double(linear.static_stiffness))},
+       {"feedthrough_damping", fmt::format("{:#}", to_double(linear.feedthrough_damping))},
+       {"tolerance", fmt::format("{:#}", test_tolerance(c.law))},
+       {"decays", c.law.scheme == Scheme::exact ? "rate * period" : log1p + "(rate * period)"}});
+  for (const Mode& mode : linear.modes)
     model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},
                                     {"relaxation_rate", fmt::format("{:#}", to_double(mode.relaxation_rate))}});
-  model.lists["modes"];
-  model.lists["rests"] = c.network.map ? rests_on_curve(c) : rest_on_spring(c);
-  // Forces of slips and behind a static curve have no closed form along a ramp.
-  model.lists["closed_forms"];
-  if (!c.form.has_slips() && !c.law.sheds() && !c.network.map)
-    model.lists["closed_forms"].push_back(
-        {{"decays", c.law.scheme == Scheme::exact ? "rate * period" : log1p + "(rate * period)"}});
   return model;
 }
 

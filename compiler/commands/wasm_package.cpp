@@ -8,6 +8,7 @@
 #include "commands/web_module.hpp"
 #include "emit/banner.hpp"
 #include "emit/template_text.hpp"
+#include "network/name_rules.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -47,10 +48,7 @@ CodeModel types_model(const Compilation& c) {
 
 // What npm and Node.js read. Its names have no capitals.
 std::string package_file(const Compilation& c) {
-  std::string name = c.network.name;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char l) { return l >= 'A' && l <= 'Z' ? char(l + 32) : l; });
-  const Json file = {{"name", name},
+  const Json file = {{"name", folded(c.network.name)},
                      {"version", "0.0.0"},
                      {"description", c.network.title.empty() ? c.network.name : c.network.title},
                      {"private", true},

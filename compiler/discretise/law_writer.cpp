@@ -1,18 +1,13 @@
 #include "discretise/law_writer.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "discretise/rounding.hpp"
+#include "network/name_rules.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-std::string lowered(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  return text;
-}
 
 std::string without_end(std::string name) {
   while (!name.empty() && name.back() == '_') name.pop_back();
@@ -43,7 +38,7 @@ LawWriter::LawWriter(UpdateLaw& law, motion port_motion)
 
 std::string LawWriter::unique(const std::string& name) {
   std::string candidate = without_end(name);  // as joined() will have it
-  for (int i = 2; !taken_.insert(lowered(candidate)).second; ++i) candidate = joined(name, std::to_string(i));
+  for (int i = 2; !taken_.insert(folded(candidate)).second; ++i) candidate = joined(name, std::to_string(i));
   return candidate;
 }
 

@@ -45,7 +45,7 @@ std::vector<DeckLine> deck_lines(const SourceFile& file, std::size_t width) {
 }
 
 std::optional<double> number_in(const DeckField& field, Diagnostics& diagnostics) {
-  std::string text = lower(field.text);
+  std::string text = folded(field.text);
   std::replace(text.begin(), text.end(), 'd', 'e');  // Fortran's exponent
   if (text.starts_with('+')) text.erase(0, 1);
   double value = 0;
@@ -54,13 +54,6 @@ std::optional<double> number_in(const DeckField& field, Diagnostics& diagnostics
   if (is_number) return value;
   diagnostics.report<DiagnosticCode::prony_not_a_number>(field.span, excerpt(field.text));
   return std::nullopt;
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  for (char& byte : result)
-    if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
-  return result;
 }
 
 }  // namespace dashpot::compiler

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "network/name_rules.hpp"
 #include "source/diagnostic.hpp"
 
 namespace dashpot::compiler {
@@ -27,7 +28,5 @@ std::vector<DeckLine> deck_lines(const SourceFile& file, std::size_t width = 0);
 
 // Of a field that is a decimal number (1.5, 2e-3, 2.d-3); reports anything else.
 std::optional<double> number_in(const DeckField& field, Diagnostics& diagnostics);
-
-std::string lower(std::string_view text);
 
 }  // namespace dashpot::compiler

@@ -8,7 +8,7 @@ namespace {
 
 std::string without_blanks(const std::string& text) {
   std::string result;
-  for (const char byte : lower(text))
+  for (const char byte : folded(text))
     if (byte != ' ') result += byte;
   return result;
 }
@@ -37,7 +37,7 @@ std::vector<MaterialSeries> read_abaqus(const SourceFile& file, Diagnostics& dia
     if (first.starts_with('*')) {
       const std::string keyword = without_blanks(first);
       if (keyword == "*material") material = parameter(line, "name");
-      inside = keyword == "*viscoelastic" && lower(parameter(line, "time")) == "prony";
+      inside = keyword == "*viscoelastic" && folded(parameter(line, "time")) == "prony";
       if (inside) found.push_back({material, {PronyOf::instantaneous, 1, {}}, line.span});
       continue;
     }

@@ -9,7 +9,7 @@
 namespace dashpot::compiler {
 namespace {
 
-bool is_word(const DeckField& field, std::string_view word) { return lower(field.text).substr(0, 4) == word; }
+bool is_word(const DeckField& field, std::string_view word) { return folded(field.text).substr(0, 4) == word; }
 
 // Constants 1, 2, … in pairs.
 PronySeries series_of(const std::map<int, DeckField>& constants, const Span& place, Diagnostics& diagnostics) {

@@ -20,7 +20,7 @@ class FebioReader {
 
   void search(const XmlTree& tree) {
     for (const auto& [key, child] : tree) {
-      const std::string type = lower(child.get("<xmlattr>.type", ""));
+      const std::string type = folded(child.get("<xmlattr>.type", ""));
       if ((key == "material" || key == "solid") && type.find("viscoelastic") != std::string::npos) add(child);
       else if (key != "<xmlattr>") search(child);
     }

@@ -28,7 +28,7 @@ class LsDynaReader {
   static std::string keyword_of(const DeckLine& line) {
     std::string word;
     for (const DeckField& field : line.fields) word += field.text;
-    return word.starts_with('*') ? lower(word) : "";
+    return word.starts_with('*') ? folded(word) : "";
   }
 
   // The next line that is no comment; null at the next keyword and at the end.

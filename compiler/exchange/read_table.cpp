@@ -11,7 +11,7 @@ namespace {
 
 std::optional<std::size_t> column_of(const DeckLine& header, std::string_view name) {
   for (std::size_t i = 0; i < header.fields.size(); ++i)
-    if (lower(header.fields[i].text) == name) return i;
+    if (folded(header.fields[i].text) == name) return i;
   return std::nullopt;
 }
 
@@ -35,7 +35,7 @@ std::vector<MaterialSeries> read_table(const SourceFile& file, PronyOf of, Diagn
     }
     const auto weight = number_in(line.fields[*weight_column], diagnostics);
     const DeckField& time_field = line.fields[*time_column];
-    if (weight && of == PronyOf::absolute && lower(time_field.text) == "inf") {
+    if (weight && of == PronyOf::absolute && folded(time_field.text) == "inf") {
       found.series.stiffness += *weight;
       continue;
     }

@@ -34,9 +34,9 @@ PronyRemarks remarks_of(const SourceFile& file) {
     const std::optional<std::string_view> text = comment(line);
     const std::size_t colon = text ? text->find(':') : std::string_view::npos;
     if (colon == std::string_view::npos) continue;
-    const std::string key = lower(without_blanks(text->substr(0, colon)));
+    const std::string key = folded(without_blanks(text->substr(0, colon)));
     const std::string words(without_blanks(text->substr(colon + 1)));
-    if (key == "of" && !remarks.of) remarks.of = prony_of(lower(words));
+    if (key == "of" && !remarks.of) remarks.of = prony_of(folded(words));
     if (key == "stiffness" && !remarks.stiffness) remarks.stiffness = words;
     if (key == "modulus" && !remarks.modulus) remarks.modulus = words;
   }

@@ -7,6 +7,7 @@
 
 #include "network/effect.hpp"
 #include "network/law.hpp"
+#include "network/name_rules.hpp"
 #include "source/nearest_name.hpp"
 
 namespace dashpot::compiler {
@@ -85,9 +86,8 @@ NodeIndex loose_end(const Element& element, const std::vector<std::size_t>& coun
 }
 
 // What others call the two ends; empty for any other name.
-std::string_view other_name_of_end(std::string name) {
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+std::string_view other_name_of_end(const std::string& stated) {
+  const std::string name = folded(stated);
   for (const std::string_view grounded : {"gnd", "grnd", "0", "earth", "base", "frame", "wall", "fixed", "world"})
     if (name == grounded) return "ground";
   for (const std::string_view moved : {"port", "tip", "hand", "handle", "probe", "stylus", "user"})

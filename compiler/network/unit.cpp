@@ -5,6 +5,8 @@
 #include <iterator>
 #include <optional>
 
+#include "network/name_rules.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -223,13 +225,6 @@ std::optional<std::string> split_prefixed(std::string_view symbol) {
   return split(symbol);
 }
 
-std::string in_small_letters(std::string_view text) {
-  std::string small(text);
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return small;
-}
-
 }  // namespace
 
 std::span<const UnitSymbol> unit_symbols() { return symbols; }
@@ -238,10 +233,10 @@ std::span<const UnitPrefix> unit_prefixes() { return prefixes; }
 std::variant<Unit, UnitFault> parse_unit(std::string_view text) { return UnitParser(text).parse(); }
 
 std::string unit_in_other_case(std::string_view symbol) {
-  const std::string small = in_small_letters(symbol);
+  const std::string small = folded(symbol);
   std::string found;
   const auto consider = [&](const std::string& known) {
-    if (in_small_letters(known) != small) return true;
+    if (folded(known) != small) return true;
     if (!found.empty()) return false;
     found = known;
     return true;

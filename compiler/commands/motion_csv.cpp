@@ -8,12 +8,11 @@
 #include "commands/uniform_period.hpp"
 #include "fit/column_choice.hpp"
 #include "fit/table_shape.hpp"
+#include "network/name_rules.hpp"
 #include "network/rate_limits.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-constexpr std::size_t head_lines = 200;  // tell how the table is written
 
 bool is_header(const std::vector<fitting::TableColumn>& columns) {
   return !columns_for(columns, fitting::Role::time).empty() && !columns_for(columns, fitting::Role::position).empty();
@@ -23,9 +22,7 @@ bool is_header(const std::vector<fitting::TableColumn>& columns) {
 bool is_answer(const fitting::TableColumn& column) {
   using fitting::Role;
   constexpr std::size_t shortest_word = 4;  // that is looked for within others
-  std::string title = column.title;
-  std::transform(title.begin(), title.end(), title.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string title = folded(column.title);
   for (const Role role : {Role::force, Role::stress}) {
     const bool has_unit = column.unit && fitting::unit_of_column(column, role);
     if (has_unit || !columns_for({column}, role).empty()) return true;
@@ -50,6 +47,13 @@ struct Column {
 class CsvTable {
  public:
   CsvTable(const SourceFile& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+
+  bool is_motion() {
+    find_dialect();
+    std::vector<fitting::TableColumn> columns;
+    for (const Cell& cell : find_header()) columns.push_back(fitting::table_column(cell.text));
+    return is_header(columns) && std::none_of(columns.begin(), columns.end(), is_answer);
+  }
 
   std::optional<Motion> read() {
     find_dialect();
@@ -91,7 +95,7 @@ class CsvTable {
   // Commas where nothing tells.
   void find_dialect() {
     std::vector<fitting::HeadLine> head;
-    for (Cell line = next_line(); !line.text.empty() && head.size() < head_lines; line = next_line())
+    for (Cell line = next_line(); !line.text.empty() && head.size() < fitting::head_lines; line = next_line())
       head.push_back({std::string(line.text), head.size() + 1});
     place_ = 0;
     dialect_ = fitting::dialect_of(head).value_or(fitting::Dialect());
@@ -101,7 +105,7 @@ class CsvTable {
   std::vector<Cell> find_header() {
     std::vector<Cell> first;
     std::size_t behind_first = 0;
-    for (std::size_t i = 0; i < head_lines; ++i) {
+    for (std::size_t i = 0; i < fitting::head_lines; ++i) {
       const Cell text = next_line();
       if (text.text.empty()) break;
       const std::vector<Cell> line = names_in(text);
@@ -280,22 +284,9 @@ std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnost
   return CsvTable(file, diagnostics).read();
 }
 
-bool is_motion(const std::vector<std::string>& first_lines) {
-  std::vector<fitting::HeadLine> head;
-  for (const std::string& line : first_lines)
-    if (line.find_first_not_of(" \t\r") != std::string::npos && head.size() < head_lines)
-      head.push_back({line, head.size() + 1});
-  const fitting::Dialect dialect = fitting::dialect_of(head).value_or(fitting::Dialect());
-  for (const fitting::HeadLine& line : head) {
-    std::string_view text = line.text;
-    text.remove_prefix(std::min(text.find_first_not_of(" \t#%"), text.size()));
-    while (!text.empty() && (text.back() == '\r' || text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
-    std::vector<fitting::TableColumn> columns;
-    for (const std::string_view field : fitting::fields_of(text, dialect))
-      columns.push_back(fitting::table_column(field));
-    if (is_header(columns)) return std::none_of(columns.begin(), columns.end(), is_answer);
-  }
-  return false;
+bool is_motion(const SourceFile& beginning) {
+  Diagnostics unheard;
+  return CsvTable(beginning, unheard).is_motion();
 }
 
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics) {

@@ -44,7 +44,7 @@ std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnost
 
 // Whether a table that begins so is a motion: a line that names time and position, and no force, stress or anything
 // else that answered them.
-bool is_motion(const std::vector<std::string>& first_lines);
+bool is_motion(const SourceFile& beginning);
 
 // Refuses a motion in degrees for a tool that moves in metres, and the other way round.
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics);

@@ -20,15 +20,14 @@ bool is_table(const std::string& path) {
 
 // What --columns or --no-header is given for is a recording; else the header tells.
 bool is_recording(const std::string& path, const FitWords& words) {
-  constexpr std::size_t head_lines = 200;
   Diagnostics unheard;
-  std::vector<std::string> head;
+  std::string head;
   fitting::LineReader lines(path, fitting::ReadProgress());
   if (words.columns || words.no_header || !lines.open(unheard)) return true;
-  while (head.size() < head_lines)
-    if (const auto line = lines.next(unheard)) head.emplace_back(*line);
+  while (lines.number() < fitting::head_lines)
+    if (const auto line = lines.next(unheard)) head.append(*line) += '\n';
     else break;
-  return !is_motion(head);
+  return !is_motion(SourceFile(path, head));
 }
 
 // What is no JSON is told of as a network.

@@ -13,7 +13,6 @@
 namespace dashpot::compiler::fitting {
 namespace {
 
-constexpr std::size_t head_lines = 200;
 constexpr std::size_t least_rows = 3;
 constexpr std::size_t most_reported = 5;  // cells of one file
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <system_error>
 
+#include "network/name_rules.hpp"
 #include "network/unit.hpp"
 #include "source/excerpt.hpp"
 
@@ -38,8 +39,7 @@ std::vector<std::string_view> blank_separated(std::string_view line) {
 
 // What stands for a number that is missing.
 bool is_gap(std::string_view field) {
-  std::string lower(field);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string lower = folded(field);
   return lower.empty() || lower == "nan" || lower == "na" || lower == "n/a" || lower == "inf" || lower == "-inf" ||
          lower == "null" || lower == "-nan" || lower == "+inf";
 }

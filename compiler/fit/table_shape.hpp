@@ -49,6 +49,9 @@ std::optional<double> number_of(std::string_view field, const Dialect& dialect);
 std::optional<TableShape> table_shape(const std::string& path, const std::vector<HeadLine>& head, bool has_header,
                                       Diagnostics& diagnostics);
 
+// Of the beginning of a table: they tell how it is written.
+inline constexpr std::size_t head_lines = 200;
+
 // How the fields of most lines are separated; nothing where no line is a row of numbers.
 std::optional<Dialect> dialect_of(const std::vector<HeadLine>& head);
 

@@ -18,7 +18,7 @@ double largest(const std::vector<double>& table) {
   return most;
 }
 
-// What is no number says nothing.
+// A bound that came out as NaN bounds nothing.
 double at_least(double value) { return std::isnan(value) ? -infinity : value; }
 double at_most(double value) { return std::isnan(value) ? infinity : value; }
 
@@ -244,10 +244,7 @@ Amount Magnitudes::combined(const SlipAnswerRow& row, const Amount& change, cons
   Amount all = exactly(0);
   double terms = 0;
   const auto add = [&](const Amount& term, double factor) {
-    for (const auto& [at, share] : term.shares) all.shares[at] += factor * share;
-    all.constant += factor * term.constant;
-    all.rest += std::abs(factor) * term.rest;
-    all.has_kept_share |= term.has_kept_share;
+    all = plus(all, term, factor);
     terms += std::abs(factor) * magnitude(term);
   };
   add(change, row.by_change);
@@ -333,11 +330,8 @@ Amount Magnitudes::tightened(Amount value) const {
       const auto own = value.shares.find(at);
       if (own == value.shares.end() || own->second == 0 || share == 0) continue;
       const double factor = own->second / share;
-      Amount less = value;
-      for (const auto& [other, part] : known.shares) less.shares[other] -= factor * part;
+      Amount less = plus(value, known, -factor);
       less.shares.erase(at);
-      less.constant -= factor * known.constant;
-      less.rest += std::abs(factor) * known.rest;
       less.low = -infinity, less.high = infinity;
       if (factor > 0) value.low = std::max(value.low, lowest(less));
       else value.high = std::min(value.high, highest(less));
@@ -395,10 +389,8 @@ Amount Magnitudes::product(const Amount& a, const Amount& b) const {
   if (a.has_kept_share && b.has_kept_share) return sized(infinity);
   const Amount &factor = a.shares.empty() ? a : b, &other = a.shares.empty() ? b : a;
   Amount all = sized(magnitude(a) * magnitude(b));
-  if (factor.shares.empty() && factor.rest == 0) {
-    all = scaled(other, factor.constant);
-  } else if (factor.shares.empty()) {
-    all = scaled(other, factor.constant);
+  if (factor.shares.empty()) all = scaled(other, factor.constant);
+  if (factor.shares.empty() && factor.rest > 0) {
     all.rest += factor.rest * magnitude(other);
     all = within(all, -infinity, infinity);
   }

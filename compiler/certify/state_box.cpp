@@ -54,6 +54,24 @@ Magnitudes anchored(const UpdateLaw& law, const InputRange& range) {
 // Of all attempts, in statements: a few seconds. A contact on a limited motor has many cases.
 constexpr std::size_t most_effort = 2'500'000;
 
+StateBox named(const std::vector<double>& states, const Anchors& anchors, const UpdateLaw& law) {
+  std::map<std::size_t, std::string> names;
+  std::size_t at = 0;
+  for (const Variable& v : law.variables)
+    for (std::size_t place = 0; place < v.size; ++place, ++at)
+      if (v.role == Role::state) names[at] = state_name(v, place);
+  StateBox box;
+  auto value = states.begin();
+  for (const auto& [state, name] : names) {
+    const double low = 0 - *value++;
+    box[name] = {low, *value++};
+  }
+  for (const Anchored& anchored : anchors)
+    for (const Share& share : anchored.shares)
+      box[names.at(anchored.at)].others.emplace_back(names.at(share.at), share.factor);
+  return box;
+}
+
 std::optional<StateBox> box_by(Magnitudes run, const UpdateLaw& law, int rounds, std::size_t& effort) {
   std::vector<double> states = run.states();
   for (int round = 0; round < rounds && effort + run.effort() < most_effort; ++round) {
@@ -62,22 +80,7 @@ std::optional<StateBox> box_by(Magnitudes run, const UpdateLaw& law, int rounds,
     states = extrapolated(states, next, after_steps(run, next, 1));
     const std::vector<double> wide = widened(run, law, states);
     if (!std::all_of(wide.begin(), wide.end(), [](double bound) { return std::isfinite(bound); })) break;
-    if (!is_within(after_steps(run, wide, 1), wide)) continue;
-    StateBox box;
-    std::map<std::size_t, std::string> names;
-    std::size_t at = 0;
-    for (const Variable& v : law.variables)
-      for (std::size_t place = 0; place < v.size; ++place, ++at)
-        if (v.role == Role::state) names[at] = state_name(v, place);
-    auto value = wide.begin();
-    for (const auto& [state, name] : names) {
-      const double low = 0 - *value++;
-      box[name] = {low, *value++};
-    }
-    for (const Anchored& anchored : run.anchors())
-      for (const Share& share : anchored.shares)
-        box[names.at(anchored.at)].others.emplace_back(names.at(share.at), share.factor);
-    return box;
+    if (is_within(after_steps(run, wide, 1), wide)) return named(wide, run.anchors(), law);
   }
   effort += run.effort();
   return std::nullopt;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
+#include <map>
 #include <set>
 #include <string_view>
 

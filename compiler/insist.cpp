@@ -341,7 +341,7 @@ void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, D
   double least = noticeably * error;
   for (const MendedDevice& other : mended(*c.device)) {
     const PortDevice port = c.port.replaced_by(other.device);
-    const double again = SlipRuns(c, choices, port).errors_of(c.law).worst();
+    const double again = SlipRuns(c, choices, port).error_of(c.law);
     if (again < least) best = other, least = again;
   }
   if (best)
@@ -368,14 +368,11 @@ void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, D
 }
 
 // What an error of up to so much is like: the worst and the mildest of the runs.
-void tell_of_runs(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
-  if (c.law.tunable) return;
-  SlipRuns runs(c, choices, c.port);
-  const std::vector<double> errors = runs.errors_of(c.law).by_motion;
-  const auto [least, most] = std::minmax_element(errors.begin(), errors.end());
-  const auto name = [&](auto place) { return runs.trial().motions()[std::size_t(place - errors.begin())].name; };
-  diagnostics.note<DiagnosticCode::worst_and_mildest_run>({}, name(most), in_percent(*most), name(least),
-                                                          in_percent(*least));
+void tell_of_runs(const std::vector<SlipRunError>& runs, Diagnostics& diagnostics) {
+  const auto [least, most] = std::minmax_element(
+      runs.begin(), runs.end(), [](const SlipRunError& a, const SlipRunError& b) { return a.error < b.error; });
+  diagnostics.note<DiagnosticCode::worst_and_mildest_run>({}, most->motion, in_percent(most->error), least->motion,
+                                                          in_percent(least->error));
 }
 
 }  // namespace
@@ -385,7 +382,7 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
   if (c.device && slips.error > choices.tolerance * (1 + 1e-9)) {
     diagnostics.report<DiagnosticCode::felt_error_behind_slips>(c.network.name_span, in_percent(slips.error),
                                                                 in_percent(choices.tolerance));
-    tell_of_runs(c, choices, diagnostics);
+    tell_of_runs(slips.runs, diagnostics);
     tell_what_errs_less_in_runs(c, choices, diagnostics);
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }

@@ -97,6 +97,7 @@ class SlipChooser {
     slips.limit = limit_;
     slips.least_error = least_;
     slips.error = best.merit.error();
+    slips.runs = best.runs;
     for (const SlipOption& option : options_) slips.merits.push_back(option.merit);
     if (options_.size() == 1) return with_reasons(std::move(slips), "");
     const std::string reason = fmt::format(
@@ -121,6 +122,7 @@ SlipDecomposition asked_for(SlipRuns& runs, const Candidate& beside, SlipLaw law
   const SlipOption option = runs.run(beside, runs.plan(law));
   SlipDecomposition slips = option.made.decomposition.slips;
   slips.limit = slips.least_error = slips.error = option.merit.error();
+  slips.runs = option.runs;
   slips.merits = {option.merit};
   return with_reasons(std::move(slips), "asked for");
 }

@@ -57,13 +57,13 @@ std::vector<FeltForce> SlipRuns::felt_of(const UpdateLaw& law) {
   return felt;
 }
 
-TrialError SlipRuns::errors_of(const UpdateLaw& law) {
+double SlipRuns::error_of(const UpdateLaw& law) {
   const std::vector<FeltForce> felt = felt_of(law);
-  return trial_error(*trial_, felt);
+  return trial_error(*trial_, felt).worst();
 }
 
 SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
-  SlipOption option{plan, made_with_room(beside, plan), {}, {}};
+  SlipOption option{plan, made_with_room(beside, plan), {}, {}, {}};
   option.merit.law = plan.law;
   const Compilation& made = option.made;
   option.felt = felt_of(made.law);
@@ -73,6 +73,8 @@ SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
     square += felt.square_velocity;
   }
   const TrialError error = trial_error(*trial_, option.felt);
+  for (std::size_t m = 0; m < error.by_motion.size(); ++m)
+    option.runs.push_back({trial_->motions()[m].name, error.by_motion[m]});
   SlipLawMerit& merit = option.merit;
   merit.peak_error = error.peak;
   merit.rms_error = error.rms;

@@ -17,6 +17,7 @@ struct SlipOption {
   Compilation made;
   std::vector<FeltForce> felt;  // one a motion
   SlipLawMerit merit;
+  std::vector<SlipRunError> runs;
 };
 
 class SlipRuns {
@@ -41,8 +42,8 @@ class SlipRuns {
   // Made with room, and run through all motions.
   SlipOption run(const Candidate& beside, const SlipPlan& plan);
 
-  // Of a law that has been made, run through all motions.
-  TrialError errors_of(const UpdateLaw& law);
+  // Of a law that has been made, run through all motions [1].
+  double error_of(const UpdateLaw& law);
 
  private:
   std::vector<FeltForce> felt_of(const UpdateLaw& law);

@@ -55,6 +55,12 @@ struct SlipLawMerit {
   double error() const { return peak_error > rms_error ? peak_error : rms_error; }
 };
 
+// How much a law errs in one motion.
+struct SlipRunError {
+  std::string motion;  // "a sine of 5 Hz and ±0.001 m"
+  double error = 0;    // the larger of peak and root mean square [1]
+};
+
 struct ComponentSplit {
   NormalTree rendered;  // of a tree what the law computes; under the gated law without the dampers beside the slips
   std::vector<std::size_t> rendered_elements;  // the same of a part that is no tree
@@ -79,6 +85,7 @@ struct SlipDecomposition {
   double limit = 0;                      // the error that the choice among them kept to [1]
   double least_error = 0;                // of the laws that it could choose from [1]
   double error = 0;                      // of the choice [1]
+  std::vector<SlipRunError> runs;        // of the choice; none where it has not been run
   double hysteresis = 0;                 // displacement that does not end a slide for the command [m]
   unsigned memory = 0;                   // N + n: samples that an estimate reaches back from the hold that it acts in
   double ramp = 1;                       // ρ: what the way of a ramp makes in a sample at most, of the whole [1]

@@ -97,16 +97,16 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
 }
 
 // The encoder's range at the tool, against where the surface lies.
-void warn_of_surface(const Contact& contact, const Network& network, const Device& device, Diagnostics& diagnostics) {
-  const encoder_description& encoder = device.description.encoder;
+void warn_of_surface(const Contact& contact, const Compilation& c, Diagnostics& diagnostics) {
+  const encoder_description& encoder = c.device->description.encoder;
   if (encoder.range_low == encoder.range_high) return;  // unlimited
-  const bool has_arm = device.description.motion != network.port_motion;
-  const double arm = has_arm ? device.description.arm_radius : 1;
-  const double low = arm * encoder.range_low, high = arm * encoder.range_high;
+  const double scale = c.port.at_tool().position_scale(), low = scale * encoder.range_low,
+               high = scale * encoder.range_high;
   // The tissue lies beyond the surface, to the positive side.
   if (contact.at < high) return;
-  const char* const unit = network.port_motion == motion::rotation ? "rad" : "m";
-  diagnostics.report<DiagnosticCode::surface_out_of_reach>(contact.span, contact.at, unit, device.name, low, high,
+  const std::string unit = port_units(c.network.port_motion).position;
+  const bool has_arm = c.device->description.motion != c.network.port_motion;
+  diagnostics.report<DiagnosticCode::surface_out_of_reach>(contact.span, contact.at, unit, c.device->name, low, high,
                                                            unit);
   diagnostics.note<DiagnosticCode::surface_reach_remedy>({}, has_arm ? " or its \"arm_radius\"" : "");
 }
@@ -204,8 +204,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   warn_about_validity(result.form.linear, result.network, diagnostics);
   std::optional<PortDevice> port = device ? PortDevice::of(*device, result.network, diagnostics) : PortDevice::ideal();
   if (!port) return std::nullopt;
-  if (device && result.network.contact) warn_of_surface(*result.network.contact, result.network, *device, diagnostics);
   result.port = std::move(*port);
+  if (device && result.network.contact) warn_of_surface(*result.network.contact, result, diagnostics);
   times.enter("decomposition");
   const Device* const on = device ? &*device : nullptr;
   const bool is_tunable = has_tunables(result.network);

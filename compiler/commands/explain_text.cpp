@@ -82,7 +82,7 @@ std::string currents_text(const Compilation& c) {
   return text.empty() ? "" : "currents              " + text + "\n";
 }
 
-// What motor and brake together have to make when the tool is pushed as far and as fast as 'valid' says, and held.
+// What motor and brake together have to make when the tool is pushed as far and as fast as 'valid' says.
 std::string push_text(const Compilation& c, const PortUnits& units) {
   constexpr double most_samples = 1e6;
   if (!c.device || !c.network.valid.displacement) return "";
@@ -105,10 +105,10 @@ std::string push_text(const Compilation& c, const PortUnits& units) {
     most = std::max(most, std::abs(now.damping * rate + now.force));
   }
   const double limit = c.certificate.loop.max_force;
-  std::string text = fmt::format("a push of {:.4g} {} at {:.4g} {} takes up to {:.4g} {} of motor and brake", depth,
-                                 units.position, rate, units.velocity, most, units.force);
+  std::string text = fmt::format("a push of {:.4g} {} at {:.4g} {} takes up to {:.4g} {} of motor and brake together",
+                                 depth, units.position, rate, units.velocity, most, units.force);
   if (limit > 0) text += fmt::format("; the motor gives {:.4g} {}", limit, units.force);
-  if (limit > 0 && most > limit) text += ", and what the brake does not make of the rest is missing";
+  if (limit > 0 && most > limit) text += ": the rest is felt only as far as the brake makes it";
   return "over 'valid'          " + text + "\n";
 }
 

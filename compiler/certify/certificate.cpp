@@ -291,11 +291,12 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
   result.loop = loop;
   if (law.tunable) settle_box(law, loop, result);
   else result.bound = bound_of(law, loop, slips);
-  if (result.bound.proof != Proof::none && !law.tunable) {
-    result.minimum_damping = missing_damping(result.bound, loop, surely_told(law));
-    result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
-  }
+  const double told = surely_told(law);
+  const bool may_add = result.bound.proof != Proof::none && !law.tunable;
+  if (may_add) result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
   const Rational assured = assured_damping(loop, surely_told(law));
+  if (may_add) result.bound = under_jitter(result.bound, linear_motor_constants(law), slips, loop, assured);
+  if (may_add) result.minimum_damping = missing_damping(result.bound, loop, told);
   result.assured = assured.convert_to<double>();
   result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
   if (motor) result.energy = check_energy_lemma(*motor);

@@ -75,6 +75,12 @@ double stiffness_of(const MotorConstants& linear, const std::optional<SlipMotor>
 
 bool is_enough(const std::optional<double>& wanted, double given) { return given == 0 || (wanted && *wanted <= given); }
 
+// b ≥ β′ ((1 + 2n) T + L + S)
+double needed_by(const Gains& gains, const SampledLoop& loop, double slew_time) {
+  const double late = (1 + 2.0 * loop.delay_samples) * loop.longest_hold() + time_of_lag(loop) + slew_time;
+  return gains.all() * late + gains.dampers * loop.longest_hold() / loop.sample_period * margin;
+}
+
 // Whether the hold certificate asks for the same, which is known to the last bit: up to a slack between the two of
 // which nothing else that is proved of a law can be (certificate.cpp).
 constexpr double as_good_as_one = 1 - 1e-9;
@@ -124,6 +130,14 @@ std::optional<double> damping_for_slew(const MotorConstants& motor, double used,
   return 2 * gains.all() * loop.longest_hold() * std::sqrt(used / (3 * loop.motor_slew)) * margin;
 }
 
+std::optional<double> needed_sample_by_sample(const MotorConstants& linear, const std::optional<SlipMotor>& slips,
+                                              const SampledLoop& loop) {
+  const Gains gains = gains_of(linear, slips, loop);
+  const double needed = needed_by(gains, loop, 0);
+  const bool is_known = gains.hindrance.empty() && loop.motor_slew == 0 && std::isfinite(needed);
+  return is_known ? std::optional(needed) : std::nullopt;
+}
+
 double covered_discontinuity(double slew, double spare_damping, double stiffness, double sample_period) {
   if (!(slew > 0 && spare_damping > 0 && stiffness > 0)) return 0;
   // F0² − (6 ρ x/K − 3/2 ρT) F0 + (½ + B) (ρT)² ≤ 0
@@ -154,8 +168,7 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
   if (limits.reason.empty()) {
     const double slew_time =
         loop.motor_slew > 0 ? 2 * loop.longest_hold() * std::sqrt(*limits.slew_needed / (3 * loop.motor_slew)) : 0;
-    const double late = (1 + 2.0 * loop.delay_samples) * loop.longest_hold() + time_of_lag(loop) + slew_time;
-    limits.needed = gains.all() * late + gains.dampers * loop.longest_hold() / loop.sample_period * margin;
+    limits.needed = needed_by(gains, loop, slew_time);
     if (is_same_statement(gains, linear, slips, loop) && needed >= limits.needed * as_good_as_one)
       limits.needed = needed;
     // Behind a contact the brake leaves a free tool alone, which touches late.

@@ -61,6 +61,11 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
 MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<double>& needed,
                                   const Rational& assured);
 
+// β′ ((1 + 2n) T + L) [N·s/m], which is enough under any jitter up to the device's, whether the law sheds or not; empty
+// where it is not known, and where the motor's slew is limited.
+std::optional<double> needed_sample_by_sample(const MotorConstants& linear, const std::optional<SlipMotor>& slips,
+                                              const SampledLoop& loop);
+
 // In words, with the unit of damping; empty where it is covered.
 std::string why_not_covered(const MotorLimits& limits, const std::string& unit);
 

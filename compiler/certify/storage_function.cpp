@@ -8,6 +8,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <numbers>
 
+#include "certify/common_storage.hpp"
 #include "linear/real_traits.hpp"
 
 namespace dashpot::compiler {
@@ -17,6 +18,7 @@ namespace {
 namespace checker = dashpot_check;
 
 constexpr std::size_t most_states_in_digits = 30;  // beyond, 50 digits take seconds
+constexpr std::size_t most_states_in_common = 18;  // beyond, so does the search of one P for all holds
 
 using Complex = std::complex<double>;
 
@@ -246,6 +248,8 @@ class StorageSearch {
 
   double supremum() const { return supremum_; }
 
+  std::size_t states() const { return loop_.states.size(); }
+
   std::optional<StorageProof> at(double damping, bool in_doubles) const {
     if (!(damping > 0)) return std::nullopt;
     const std::vector<double> scale = scales(recursion<double>(loop_, lag_), lag_, hold_, damping, angle_);
@@ -256,7 +260,54 @@ class StorageSearch {
     return StorageProof{damping, *storage, in_doubles};
   }
 
+  // One for all holds that is next to the best: from `damping`, where there is one.
+  std::optional<StorageProof> best_for_all(double damping) const {
+    const std::vector<double> scale = scales(recursion<double>(loop_, lag_), lag_, hold_, damping, angle_);
+    const std::optional<checker::Storage> first = found_storage<double>(loop_, lag_, hold_, damping, scale);
+    if (!first) return std::nullopt;
+    const Eigen::Index n = Eigen::Index(states());
+    CommonStorage start{1, Dense<double>(n, n)};
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j)
+        start.P(i, j) = start.P(j, i) =
+            (*first)[std::size_t(i)][std::size_t(j)] * scale[std::size_t(i)] * scale[std::size_t(j)];
+    const double unit = std::sqrt(hold_ / damping);
+    std::vector<HoldInequality> holds;
+    for (const checker::Hold& hold : checker::holds(device_)) holds.push_back(inequality(hold, scale, unit, damping));
+    const std::optional<CommonStorage> best = least_common_storage(holds, start, 1e-4);
+    if (!best) return std::nullopt;
+    checker::Storage storage(states());
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j)
+        storage[std::size_t(i)].push_back(best->P(i, j) / (scale[std::size_t(i)] * scale[std::size_t(j)]));
+    const double least = best->damping * damping;
+    if (!checker::proves(loop_, device_, storage, least)) return std::nullopt;
+    return StorageProof{least, storage, true};
+  }
+
  private:
+  // In the coordinates of the search: states over `scale`, inputs over `unit`, dampings over `damping`.
+  HoldInequality inequality(const checker::Hold& hold, const std::vector<double>& scale, double unit,
+                            double damping) const {
+    const Lag lag{nearest<double>(hold.decay), nearest<double>(hold.share), nearest<double>(hold.spread)};
+    const Recursion<double> r = recursion<double>(loop_, lag);
+    const Eigen::Index n = r.A.rows(), all = n + (lag.spread == 0 ? 1 : 2);
+    HoldInequality result{Dense<double>::Zero(n, all), Dense<double>::Zero(all, all), Dense<double>::Zero(all, all)};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double by = scale[std::size_t(i)];
+      for (Eigen::Index j = 0; j < n; ++j) result.next(i, j) = r.A(i, j) * scale[std::size_t(j)] / by;
+      result.next(i, n) = r.B(i, 0) * unit / by;
+      result.constant(i, n) = result.constant(n, i) = r.C(0, i) * by * unit / 2;
+    }
+    const double share = damping * unit * unit / nearest<double>(hold.longest);
+    result.constant(n, n) = -r.stiffness * unit * unit / 2;
+    result.damping(n, n) = share;
+    if (all == n + 1) return result;
+    result.constant(n - 1, n + 1) = result.constant(n + 1, n - 1) = scale.back() * unit / 2;
+    result.damping(n + 1, n + 1) = share / lag.spread;
+    return result;
+  }
+
   const checker::LoopForm& loop_;
   const checker::Device& device_;
   double hold_;  // the longest [s]
@@ -284,18 +335,19 @@ std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::siz
   return std::nullopt;
 }
 
-// One P for holds of all lengths, behind an amplifier's lag: the least damping at which the P of the longest serves
-// all.
-std::optional<StorageProof> jittered_proof(const StorageSearch& search) {
-  std::optional<StorageProof> best;
-  double fails = 0, serves = 0;  // relative to the supremum, beyond it
-  for (serves = 0.01; serves < 100 && !best; serves *= 2) {
-    best = search.at(search.supremum() * (1 + serves), true);
-    if (!best) fails = serves;
-  }
-  for (int i = 0; i < 8 && best; ++i) {
-    const double middle = (fails + best->damping / search.supremum() - 1) / 2;
-    if (std::optional<StorageProof> proof = search.at(search.supremum() * (1 + middle), true)) best = proof;
+// One P for holds of all lengths, behind an amplifier's lag, if not more than `most` is needed. Of many states the P of
+// the longest has to serve all.
+std::optional<StorageProof> jittered_proof(const StorageSearch& search, double most) {
+  constexpr double most_tried = 100, near_enough = 1.01;  // relative to the supremum
+  if (search.states() <= most_states_in_common)
+    for (double serves = 2; serves < most_tried; serves *= 2)
+      if (std::optional<StorageProof> proof = search.best_for_all(search.supremum() * serves))
+        return proof->damping <= most ? proof : std::nullopt;
+  double fails = 1, serves = std::min(most_tried, most / search.supremum());
+  std::optional<StorageProof> best = search.at(search.supremum() * serves, true);
+  while (best && serves > near_enough * fails) {
+    const double middle = std::sqrt(fails * serves);
+    if (std::optional<StorageProof> proof = search.at(search.supremum() * middle, true)) best = proof, serves = middle;
     else fails = middle;
   }
   return best;
@@ -354,7 +406,7 @@ checker::Program checked_program(const MotorConstants& motor) {
 }
 
 std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
-                                          std::optional<double> stated) {
+                                          std::optional<double> stated, double most) {
   const std::optional<EstimatorFactors> factors =
       motor.follows_estimate() ? estimator_factors(loop) : EstimatorFactors{};
   if (!factors) return std::nullopt;
@@ -371,10 +423,11 @@ std::optional<StorageProof> storage_proof(const MotorConstants& motor, const Sam
   }
   const NeededDamping needed(motor, loop, *factors);
   const StorageSearch search(form, device, sampled_bound(needed, loop.sample_period, most_terms / 10));
+  if (search.supremum() > most) return std::nullopt;
   for (const bool in_doubles : {true, false})
     if (stated && *stated > search.supremum() && (in_doubles || n <= most_states_in_digits))
       if (std::optional<StorageProof> proof = search.at(*stated, in_doubles)) return proof;
-  return loop.amplifier_lag > 0 && loop.jitter > 0 ? jittered_proof(search) : punctual_proof(search, n);
+  return loop.amplifier_lag > 0 && loop.jitter > 0 ? jittered_proof(search, most) : punctual_proof(search, n);
 }
 
 }  // namespace dashpot::compiler

@@ -8,6 +8,7 @@
 // nothing here has to be believed.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "certify/certificate.hpp"
@@ -32,8 +33,9 @@ dashpot_check::Program checked_program(const MotorConstants& motor);
 
 // For `stated` where that is proved. Else not more than 1e-8 above the supremum over all frequencies, if doubles do and
 // samples are punctual, else as little above as is found; with jitter times T_max/T, and behind an amplifier's lag what
-// one P for all holds needs. Empty where nothing is proved.
+// one P for all holds needs. Empty where nothing is proved, and where more than `most` is necessary.
 std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
-                                          std::optional<double> stated = std::nullopt);
+                                          std::optional<double> stated = std::nullopt,
+                                          double most = std::numeric_limits<double>::infinity());
 
 }  // namespace dashpot::compiler

@@ -1,6 +1,7 @@
 """`dashpot compile --certificate` and `dashpot verify`."""
 import concurrent.futures
 import json
+import os
 import random
 import re
 import subprocess
@@ -13,6 +14,7 @@ BOARD = SOURCE / "runtime/devices/board_mps2.json"
 TWENTY = SOURCE / "tests/responses/networks/twenty_branches.json"
 BRIDGE = SOURCE / "networks/paper/bridge.json"
 KELVINS = SOURCE / "networks/paper/generalised_kelvin_two.json"
+KELVIN_FOUR = SOURCE / "networks/paper/generalised_kelvin_four.json"
 
 # Two relaxations of one rate, which are one mode, and a third.
 EQUAL = """{"parallel": [{"series": [{"spring": 10}, {"damper": 1}]}, {"series": [{"spring": 20}, {"damper": 2}]},
@@ -218,20 +220,28 @@ class Verify(CommandTest):
                 self.assertTrue(done.stdout.endswith("; not certified\n"), done.stdout)
 
     def test_grades(self):
-        """Fails if header, certificate or verify's word call certified under jitter what is proved for a constant period only."""
+        """Fails if header, certificate or verify's word call certified under jitter what is proved for a constant period only, or the other way round."""
         device = json.loads(BOARD.read_text())
-        for lag, grade in [("0 s", "certified"), ("0.2 ms", "certified for a constant period only")]:
-            device["motor"]["amplifier_lag"] = lag
-            self.write("device.json", json.dumps(device))
-            header, certificate = self.emitted([FIG_5, "--device", "device.json"], "law")
-            passivity = json.loads(certificate)["passivity"]
-            self.assertEqual((passivity["certified"], passivity["grade"], passivity["constant_period_only"]), (True, grade, lag != "0 s"))
-            banner = re.sub(r"\s*\n//\s*", " ", header[:header.index("#pragma once")])
-            self.assertIn("certified for a constant period only: any motion, samples at" if lag != "0 s" else "certified for any motion", banner)
-            self.assertEqual("any jitter up to" in banner, lag == "0 s")
-            self.assertTrue(self.verify(header, certificate, "graded").stdout.endswith(f"; {grade}\n"))
-            told = json.loads(self.dashpot("explain", FIG_5, "--device", "device.json", "--json").stdout)["certificate"]
-            self.assertEqual((told["grade"], told["constant_period_only"]), (grade, lag != "0 s"))
+        constant = "certified for a constant period only"
+        cases = [("0 s", "0.5 ms", "certified"), ("0.2 ms", "0.1 ms", "certified"), ("0.2 ms", "1 ms", constant), ("0.2 ms", "0 s", constant)]
+        for lag, jitter, grade in cases:
+            with self.subTest(lag=lag, jitter=jitter):
+                device["motor"]["amplifier_lag"], device["loop"]["jitter"] = lag, jitter
+                self.write("device.json", json.dumps(device))
+                header, certificate = self.emitted([KELVIN_FOUR, "--device", "device.json"], "law")
+                passivity, is_constant = json.loads(certificate)["passivity"], grade == constant
+                self.assertEqual((passivity["certified"], passivity["grade"], passivity["constant_period_only"]), (True, grade, is_constant))
+                banner = re.sub(r"\s*\n//\s*", " ", header[:header.index("#pragma once")])
+                self.assertIn(f"{constant}: any motion, samples at" if is_constant else "certified for any motion", banner)
+                self.assertEqual("any jitter up to" in banner, not is_constant)
+                self.assertEqual("jitter not covered" in banner, is_constant and jitter != "0 s")
+                self.assertTrue(self.verify(header, certificate, "graded").stdout.endswith(f"; {grade}\n"))
+                self.write("law.hpp", header)
+                self.write("law.json", certificate)
+                checked = subprocess.run([os.environ["DASHPOT_CHECK"], "law.hpp", "law.json"], cwd=self.folder, capture_output=True, text=True)
+                self.assertEqual((checked.returncode, "of one length" in checked.stdout), (0, is_constant), checked.stdout)
+                told = json.loads(self.dashpot("explain", KELVIN_FOUR, "--device", "device.json", "--json").stdout)["certificate"]
+                self.assertEqual((told["grade"], told["constant_period_only"]), (grade, is_constant))
 
     def test_code_in_the_banner(self):
         """Fails if code in front of a header's own is taken for a part of its banner, however it is written there."""

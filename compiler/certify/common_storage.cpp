@@ -1,0 +1,165 @@
+#include "certify/common_storage.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+namespace dashpot::compiler {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+Matrix matrix_of(const HoldInequality& of, const CommonStorage& at) {
+  const Eigen::Index n = at.P.rows();
+  Matrix M = of.constant + at.damping * of.damping - of.next.transpose() * at.P * of.next;
+  M.topLeftCorner(n, n) += at.P;
+  return M;
+}
+
+// log det, or nothing where the matrix is not positive.
+std::optional<double> log_determinant(const Matrix& M) {
+  const Eigen::LLT<Matrix> factors(M);
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  const double sum = factors.matrixLLT().diagonal().array().log().sum();
+  return std::isfinite(sum) ? std::optional(2 * sum) : std::nullopt;
+}
+
+Matrix inverse_of(const Matrix& M) { return Eigen::LLT<Matrix>(M).solve(Matrix::Identity(M.rows(), M.cols())); }
+
+// t b less the logarithms of all determinants: what Newton's method makes small.
+class Barrier {
+ public:
+  Barrier(const std::vector<HoldInequality>& all, Eigen::Index states) : all_(all), n_(states) {
+    for (Eigen::Index i = 0; i < n_; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j) entries_.emplace_back(i, j);
+  }
+
+  std::optional<double> value(const CommonStorage& at, double t) const {
+    std::optional<double> sum = log_determinant(at.P);
+    for (const HoldInequality& one : all_) {
+      const std::optional<double> found = sum ? log_determinant(matrix_of(one, at)) : std::nullopt;
+      sum = found ? std::optional(*sum + *found) : std::nullopt;
+    }
+    return sum ? std::optional(t * at.damping - *sum) : std::nullopt;
+  }
+
+  // Newton's step and the square of its decrement.
+  std::pair<CommonStorage, double> step(const CommonStorage& at, double t) const {
+    const Eigen::Index count = Eigen::Index(entries_.size());
+    Vector gradient = Vector::Zero(count + 1);
+    Matrix hessian = Matrix::Zero(count + 1, count + 1);
+    gradient(count) = t;
+    const Matrix inverse = inverse_of(at.P);
+    gradient.head(count) -= on_entries(inverse);
+    add_products(inverse, 1, hessian);
+    for (const HoldInequality& one : all_) {
+      const Matrix W = inverse_of(matrix_of(one, at));
+      const Matrix before = W.topLeftCorner(n_, n_), across = W.topRows(n_) * one.next.transpose(),
+                   after = one.next * W * one.next.transpose(), weighed = W * one.damping * W;
+      gradient.head(count) += on_entries(after - before);
+      gradient(count) -= W.cwiseProduct(one.damping).sum();
+      add_products(before, 1, hessian);
+      add_products(across, -1, hessian);
+      add_products(across.transpose(), -1, hessian);
+      add_products(after, 1, hessian);
+      hessian.row(count).head(count) +=
+          on_entries(weighed.topLeftCorner(n_, n_) - one.next * weighed * one.next.transpose());
+      hessian(count, count) += weighed.cwiseProduct(one.damping).sum();
+    }
+    const Vector unit = hessian.diagonal().cwiseSqrt().cwiseInverse();
+    const Matrix scaled = unit.asDiagonal() * hessian * unit.asDiagonal();
+    const Vector moved =
+        -(unit.asDiagonal() * scaled.selfadjointView<Eigen::Lower>().ldlt().solve(Vector(unit.cwiseProduct(gradient))));
+    CommonStorage step{moved(count), Matrix(n_, n_)};
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto [i, j] = entries_[std::size_t(k)];
+      step.P(i, j) = step.P(j, i) = moved(k);
+    }
+    return {step, -gradient.dot(moved)};
+  }
+
+ private:
+  // tr(X E) for every E of the basis: one entry and its mirror.
+  Vector on_entries(const Matrix& X) const {
+    Vector traces(Eigen::Index(entries_.size()));
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const auto [i, j] = entries_[k];
+      traces(Eigen::Index(k)) = i == j ? X(i, i) : X(i, j) + X(j, i);
+    }
+    return traces;
+  }
+
+  // factor · tr(E X E′ Xᵀ) for all pairs of the basis, in the lower half.
+  void add_products(const Matrix& X, double factor, Matrix& to) const {
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+      const auto [i, j] = entries_[k];
+      for (std::size_t l = 0; l <= k; ++l) {
+        const auto [r, s] = entries_[l];
+        const double share = (i == j ? 1 : 2) * (r == s ? 0.5 : 1);
+        to(Eigen::Index(k), Eigen::Index(l)) += factor * share * (X(j, r) * X(i, s) + X(j, s) * X(i, r));
+      }
+    }
+  }
+
+  const std::vector<HoldInequality>& all_;
+  Eigen::Index n_;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> entries_;  // of P, by rows up to the diagonal
+};
+
+// From a pair that fulfils all with room to spare towards the least b; ends below 0.
+CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, double excess) {
+  constexpr int most_steps = 150;
+  const Barrier barrier(all, at.P.rows());
+  double dimensions = double(at.P.rows());
+  for (const HoldInequality& one : all) dimensions += double(one.constant.rows());
+  double t = dimensions / std::abs(at.damping);
+  for (int i = 0; i < most_steps && at.damping > 0; ++i) {
+    const std::optional<double> before = barrier.value(at, t);
+    const auto [step, decrement] = barrier.step(at, t);
+    if (!before || !std::isfinite(decrement) || decrement < 0) break;
+    if (decrement < 0.1) {  // near enough to the path, where b is no more than dimensions/t above the least
+      if (dimensions / t < excess * std::abs(at.damping)) break;
+      t *= 8;
+      continue;
+    }
+    std::optional<CommonStorage> better;
+    for (double length = 1; length > 1e-8 && !better; length /= 2) {
+      const CommonStorage tried{at.damping + length * step.damping, at.P + length * step.P};
+      const std::optional<double> value = barrier.value(tried, t);
+      if (value && *value < *before - length * decrement / 10) better = tried;
+    }
+    if (!better) break;
+    at = std::move(*better);
+  }
+  return at;
+}
+
+}  // namespace
+
+std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
+                                                  double excess) {
+  const Eigen::Index n = start.P.rows();
+  std::vector<HoldInequality> by_damping = holds, by_slack;
+  // P stays below a bound, ρ I − P ⪰ 0: where the input does not reach a state, nothing else keeps it from growing.
+  const Matrix one = Matrix::Identity(n, n);
+  by_damping.push_back({std::sqrt(2.0) * one, 1000 * start.P.trace() * one, Matrix::Zero(n, n)});
+  CommonStorage at{-std::numeric_limits<double>::infinity(), start.P};
+  for (const HoldInequality& hold : by_damping) {
+    HoldInequality slack = hold;
+    slack.constant += start.damping * slack.damping;
+    slack.damping.setIdentity();
+    const Eigen::SelfAdjointEigenSolver<Matrix> values(matrix_of(slack, {0, at.P}), Eigen::EigenvaluesOnly);
+    const double lacking = -values.eigenvalues().minCoeff();
+    at.damping = std::max(at.damping, lacking > 0 ? 2 * lacking : lacking / 2);
+    by_slack.push_back(std::move(slack));
+  }
+  // With the b that came in: how much is lacking at the least, in b's place; nothing, once it is below 0.
+  at = least(by_slack, std::move(at), 1e-3);
+  if (!(at.damping < 0)) return std::nullopt;
+  at.damping = start.damping;
+  return least(by_damping, std::move(at), excess);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,31 @@
+// One storage function for several holds: the least damping b for which a single P serves all of them. With one hold a
+// Riccati equation has the answer; with several it is a semidefinite program, solved here by Newton's method along the
+// central path of its logarithmic barrier (Boyd & Vandenberghe 2004, chapter 11). Nothing of it has to be believed:
+// what is found is rounded and checked with integers.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+namespace dashpot::compiler {
+
+// M = [P, 0; 0, 0] − Fᵀ P F + constant + b · damping ⪰ 0, over the states and behind them the inputs.
+struct HoldInequality {
+  Eigen::MatrixXd next;      // F, states × (states and inputs)
+  Eigen::MatrixXd constant;  // symmetric
+  Eigen::MatrixXd damping;   // symmetric, nonnegative
+};
+
+struct CommonStorage {
+  double damping = 0;  // b
+  Eigen::MatrixXd P;
+};
+
+// In: a positive P, which need not serve any hold, and a b that is large enough for some P. Out: the pair whose b is no
+// more than `excess` (relative) above the least, or what has been reached where rounding ends the search before that;
+// empty where no P is found for the b that came in.
+std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
+                                                  double excess);
+
+}  // namespace dashpot::compiler

@@ -13,8 +13,9 @@ std::string covered(const Certificate& c) {
   if (c.bound.any_value) regimes += ", any values within their ranges between changes";
   if (c.bound.constant_period_only)
     return fmt::format("any motion{}, samples at {:.6g} Hz", regimes, 1 / c.loop.sample_period) +
-           (c.loop.jitter > 0 ? ", jitter not covered: the amplifier lags, and nothing is proved of it with this damping"
-                              : "");
+           (c.loop.jitter > 0
+                ? ", jitter not covered: the amplifier lags, and nothing is proved of it with this damping"
+                : "");
   const std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";
   if (c.bound.proof == Proof::sampled)
     return fmt::format("any motion{}, samples at {:.6g} Hz{}", regimes, 1 / c.loop.sample_period, jitter);

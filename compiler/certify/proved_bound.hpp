@@ -16,8 +16,8 @@ inline constexpr double most_storage_excess = 1e-8;
 // function proves, with its P; behind an amplifier's lag for punctual samples.
 PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop);
 
-// Of a bound that is proved for punctual samples, behind an amplifier's lag: one under the device's jitter, by one P for
-// holds of all lengths or sample by sample, where `assured` is enough for it; else the bound as it is. `linear` and
+// Of a bound that is proved for punctual samples, behind an amplifier's lag: one under the device's jitter, by one P
+// for holds of all lengths or sample by sample, where `assured` is enough for it; else the bound as it is. `linear` and
 // `slips` as in the certificate [N·s/m].
 PassivityBound under_jitter(PassivityBound bound, const MotorConstants& linear, const std::optional<SlipMotor>& slips,
                             const SampledLoop& loop, const Rational& assured);

@@ -77,7 +77,7 @@ namespace {
 // The device as it is described, apart from what the conditions say.
 device_description simulated_description(const CompiledCase& one, const Conditions& conditions) {
   device_description d = one.device.description;
-  if (one.compilation->certificate.bound.proof != compiler::Proof::hold) d.loop.jitter = 0;
+  if (one.compilation->certificate.bound.constant_period_only) d.loop.jitter = 0;
   if (!conditions.encoder_steps) d.encoder.step = 0;
   d.encoder.rounding = conditions.rounding;
   d.mechanics.coulomb_friction = conditions.friction;

@@ -7,6 +7,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <limits>
 
+#include "certify/adaptive_window.hpp"
 #include "certify/box_motor.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/proved_bound.hpp"
@@ -44,7 +45,7 @@ PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop&
   const SampledBound found = sampled_bound(NeededDamping(motor, loop, estimator), loop.sample_period, terms);
   PassivityBound bound;
   bound.proof = Proof::sampled;
-  bound.needed = found.needed + besides;
+  bound.needed = besides > 0 ? std::nextafter(found.needed + besides, HUGE_VAL) : found.needed;
   bound.frequency = found.frequency;
   bound.reason = hindrance_to_hold(motor, loop);
   bound.constant_period_only = loop.amplifier_lag > 0;
@@ -115,15 +116,11 @@ PassivityBound prompt_bound(const std::optional<MotorConstants>& motor, const Sa
   }
   if (!motor->follows_estimate()) return sampled_statement(*motor, loop, {}, 0, terms);
   if (const auto linear = estimator_factors(loop)) return sampled_statement(*motor, loop, *linear, 0, terms);
-  const std::optional<double> gain = adaptive_window_gain(loop);
-  if (!gain || motor->estimate_drives_modes()) {
-    bound.reason = not_proved_for(loop);
-    return bound;
-  }
-  MotorConstants position_driven = *motor;
-  position_driven.velocity_gain = 0;
-  const double besides = std::abs(motor->velocity_gain) * *gain * (1 + 1e-15);
-  return sampled_statement(position_driven, loop, {}, besides, terms);
+  const std::optional<double> besides = damping_for_estimate(*motor, loop);
+  bound.reason = not_proved_for(loop);
+  if (besides) bound = sampled_statement(position_driven(*motor), loop, {}, *besides, terms);
+  if (besides && bound.proof != Proof::none) bound.reason = hindrance_to_hold(*motor, loop);
+  return bound;
 }
 
 }  // namespace

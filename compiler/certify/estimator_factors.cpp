@@ -6,6 +6,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 #include <dashpot/estimators/kalman.hpp>
 
+#include "certify/adaptive_window.hpp"
 #include "linear/real.hpp"
 
 namespace dashpot::compiler {
@@ -78,22 +79,6 @@ std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop) {
     case estimator_kind::kalman: return steady_kalman(loop.velocity, loop.sample_period, loop.joint_encoder_step);
     default: return std::nullopt;
   }
-}
-
-std::optional<double> adaptive_window_gain(const SampledLoop& loop) {
-  if (!loop.has_device || loop.velocity.estimator != estimator_kind::foaw) return std::nullopt;
-  const unsigned longest = std::min(std::max(loop.velocity.window, 1u), longest_window);
-  double square = 0;
-  for (unsigned age = 0; age < longest; ++age) {
-    double largest = 0;
-    for (unsigned n = age + 1; n <= longest; ++n) {
-      const double count = n, j = age;
-      const double best_fit = 6 * (j + 1) * (count - j) / (count * (count + 1) * (count + 2));
-      largest = std::max(largest, loop.velocity.best_fit ? best_fit : 1 / count);
-    }
-    square += largest;
-  }
-  return std::sqrt(square) * (1 + 1e-12);
 }
 
 std::optional<double> estimate_gain(const SampledLoop& loop) {

@@ -33,12 +33,6 @@ struct EstimatorFactors {
 // rounded, no longer dies away.
 std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);
 
-// An adaptive window (FOAW) chooses at every sample one of the averages over n = 1 … N one-sample differences, with
-// weights w_{n,j}. Whatever it chooses, ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ with γ² = Σ_j max_n w_{n,j}: by Jensen's inequality
-// v̂_k² ≤ Σ_j w_{n(k),j} (Δu_{k−j}/T)², and each difference is used at most once at every age j. For the end fit,
-// w = 1/n, γ² = 1 + 1/2 + … + 1/N. Empty for other estimators.
-std::optional<double> adaptive_window_gain(const SampledLoop& loop);
-
 // γ of ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ for any motion, not below it: Σ|taps| Π 1/(1 − |p|); 1 for Butterworth's filters, which never
 // amplify, or that of an adaptive window. Empty where nothing is known.
 std::optional<double> estimate_gain(const SampledLoop& loop);

@@ -70,6 +70,12 @@ bool MotorConstants::estimate_drives_modes() const {
 
 bool MotorConstants::follows_estimate() const { return velocity_gain != 0 || estimate_drives_modes(); }
 
+MotorConstants position_driven(MotorConstants motor) {
+  motor.velocity_gain = 0;
+  for (MotorMode& mode : motor.modes) mode.velocity_drive = 0;
+  return motor;
+}
+
 Rational exact_decay(const MotorConstants& motor, const MotorMode& mode) {
   return motor.loss_is_emitted ? Rational(1) - Rational(mode.loss) : Rational(mode.decay);
 }

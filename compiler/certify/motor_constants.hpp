@@ -38,6 +38,9 @@ struct MotorConstants {
   bool estimate_drives_modes() const;
 };
 
+// Without what it makes of the estimate.
+MotorConstants position_driven(MotorConstants motor);
+
 // a, exactly.
 Rational exact_decay(const MotorConstants& motor, const MotorMode& mode);
 

@@ -1,5 +1,6 @@
 #include "certify/proved_bound.hpp"
 
+#include "certify/adaptive_window.hpp"
 #include "certify/motor_limits.hpp"
 
 namespace dashpot::compiler {
@@ -9,7 +10,7 @@ namespace {
 std::optional<SampledLoop> loop_of(const PassivityBound& bound, const std::optional<MotorConstants>& motor,
                                    const SampledLoop& loop) {
   const bool is_plain = motor && bound.proof == Proof::sampled && !bound.any_regime && !bound.any_value;
-  if (!is_plain || loop.motor_slew > 0 || (motor->follows_estimate() && !estimator_factors(loop))) return std::nullopt;
+  if (!is_plain || loop.motor_slew > 0) return std::nullopt;
   SampledLoop spoken_of = loop;
   if (bound.constant_period_only) spoken_of.jitter = 0;
   return spoken_of;
@@ -21,7 +22,9 @@ PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const Sa
   PassivityBound bound = passivity_bound(motor, loop);
   const std::optional<SampledLoop> spoken_of = loop_of(bound, motor, loop);
   if (!spoken_of) return bound;
-  std::optional<StorageProof> proof = storage_proof(*motor, *spoken_of);
+  const bool adapts = motor->follows_estimate() && adaptive_window_gain(loop);
+  std::optional<StorageProof> proof =
+      adapts ? adaptive_storage_proof(*motor, *spoken_of) : storage_proof(*motor, *spoken_of);
   if (!proof || proof->damping > bound.needed * (1 + most_storage_excess)) return bound;
   bound.needed = proof->damping;
   bound.storage = std::move(proof->storage);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/adaptive_window.hpp"
+
 namespace dashpot::compiler {
 namespace {
 
@@ -108,9 +110,7 @@ std::optional<double> quantisation_gain(const MotorConstants& motor, const Sampl
   if (!motor.follows_estimate()) return sum_of_pulse(motor, loop, {});
   if (const auto linear = estimator_factors(loop)) return sum_of_pulse(motor, loop, *linear);
   if (!adaptive_window_gain(loop) || motor.estimate_drives_modes()) return std::nullopt;
-  MotorConstants position_driven = motor;
-  position_driven.velocity_gain = 0;
-  return sum_of_pulse(position_driven, loop, {}) + 2 * std::abs(motor.velocity_gain) / loop.sample_period;
+  return sum_of_pulse(position_driven(motor), loop, {}) + 2 * std::abs(motor.velocity_gain) / loop.sample_period;
 }
 
 std::optional<double> estimate_pulse(const SampledLoop& loop) {

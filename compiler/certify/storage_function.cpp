@@ -209,6 +209,11 @@ std::vector<double> runtime_coefficients(const velocity_description& v, double T
       }
       return all;
     }
+    case estimator_kind::foaw: {  // of every window that it may choose
+      std::vector<double> all;
+      for (double m = 1; m <= n; ++m) all.push_back(v.best_fit ? 6 / (m * (m + 1) * (m + 2) * T) : 1 / (m * T));
+      return all;
+    }
     default: return {};
   }
 }
@@ -371,6 +376,7 @@ checker::Device checked_device(const SampledLoop& loop) {
                          loop.delay_samples,
                          1,
                          v.order,
+                         v.best_fit,
                          "difference of two samples",
                          {1 / loop.sample_period}};
   if (!loop.has_device) return device;

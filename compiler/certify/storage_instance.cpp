@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/adaptive_window.hpp"
 #include "linear/real.hpp"
 
 namespace dashpot::compiler {
@@ -220,6 +221,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
 std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
                                         const std::optional<MotorConstants>& motor, SampledLoop loop) {
   if (!motor || bound.proof == Proof::none || loop.motor_slew > 0) return std::nullopt;
+  if (motor->follows_estimate() && adaptive_window_gain(loop)) return std::nullopt;  // the theorem is of one recursion
   if (bound.constant_period_only) loop.jitter = 0;
   std::optional<StorageProof> proof;
   if (bound.storage) proof = {bound.needed, *bound.storage};

@@ -35,8 +35,10 @@ struct Device {
   double sample_period, jitter, amplifier_lag, brake_tolerance, largest_speed, critical_speed, residual_damping;
   double device_damping, cutoff, acceleration, joint_encoder_step;
   unsigned delay_samples, window, order;
+  bool best_fit;
   std::string estimator;
   std::vector<double> estimator_coefficients;
+  unsigned chosen = 1;  // of an adaptive window's lengths, the one that the sample takes
 };
 
 // The loop as one linear recursion: w is the tool's displacement over the hold that follows, u the position at the
@@ -63,6 +65,8 @@ std::vector<Hold> holds(const Device& device);
 // (Cx + pe) w + eρ, dissipation b (w²/T + ρ²/(κT)), q = e^{−T/τ}, p = (1 − q) τ/T, κ = p ((1 + q)/2 − p). M is concave
 // in q, affine in p and falls with κ. Nonnegative is what is L Lᵀ + R in integers, R diagonally dominant.
 bool proves(const LoopForm& loop, const Device& device, const Storage& storage, const Rational& damping);
+// The same of a header's program; where its window adapts, one P for all that a sample may take: M of each is ⪰ 0.
+bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping);
 
 // β of a motor that position alone drives, without lag: V⁺ − V ≤ m w + β w² with V = ½ k0 u² + Σ F²/(2 c) and
 // β = k0/2 + Σ c/(1 + a) + |the answer within a sample that no mode explains|; n samples late, β (1 + 2n).

@@ -139,4 +139,11 @@ bool proves(const LoopForm& loop, const Device& device, const Storage& storage, 
          });
 }
 
+bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping) {
+  const unsigned choices = device.estimator == "foaw" ? std::max(device.window, 1u) : 1;
+  for (device.chosen = 1; device.chosen <= choices; ++device.chosen)
+    if (!proves(loop_form(program, device), device, storage, damping)) return false;
+  return true;
+}
+
 }  // namespace dashpot_check

@@ -54,15 +54,20 @@ Form estimate(const Device& device, LoopForm& loop) {
     const Form innovation = arriving + Form{{"innovation", leak}, {"estimate", -period}};
     return keep("innovation", innovation), keep("estimate", Form{{"estimate", 1}} + gain * innovation);
   }
-  const bool slope = device.estimator == "least_squares", is_mean = device.estimator == "backward_difference";
-  if (!slope && !is_mean && device.estimator != "difference of two samples")
+  const bool adapts = device.estimator == "foaw", is_mean = device.estimator == "backward_difference";
+  const bool slope = adapts ? device.best_fit : device.estimator == "least_squares";
+  if (!adapts && !slope && !is_mean && device.estimator != "difference of two samples")
     throw Unknown("nothing is known of the estimator " + device.estimator);
-  const unsigned n = slope || is_mean ? std::max(device.window, 1u) : 1;
+  if (adapts && device.amplifier_lag != 0)  // the force that is lacking is of two windows
+    throw Unknown("the window adapts, and the amplifier lags");
+  const unsigned longest = adapts || slope || is_mean ? std::max(device.window, 1u) : 1;
+  const unsigned n = adapts ? device.chosen : longest;
+  at = adapts ? n - 1 : 0;
   const Rational rate = coefficient((slope ? 6.0L / (n * (n + 1.0L) * (n + 2.0L)) : 1.0L / n) / T);
   Form sum;
-  for (unsigned j = 0, age = device.delay_samples; j < n; ++j, ++age) {
+  for (unsigned j = 0, age = device.delay_samples; j < longest; ++j, ++age) {
     if (j > 0) keep(displacement(age), {{displacement(age - 1), 1}});
-    sum[displacement(age)] = rate * (slope ? (j + 1) * (n - j) : 1);
+    if (j < n) sum[displacement(age)] = rate * (slope ? (j + 1) * (n - j) : 1);
   }
   return sum;
 }

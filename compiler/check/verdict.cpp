@@ -7,7 +7,8 @@ namespace dashpot_check {
 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Device, sample_period, jitter, amplifier_lag, brake_tolerance, largest_speed,
                                    critical_speed, residual_damping, device_damping, cutoff, acceleration,
-                                   joint_encoder_step, delay_samples, window, order, estimator, estimator_coefficients)
+                                   joint_encoder_step, delay_samples, window, order, best_fit, estimator,
+                                   estimator_coefficients)
 
 namespace {
 
@@ -47,7 +48,7 @@ Verdict verdict(const std::string& header, const std::string& certificate) {
     if (passivity.at("proof") == "hold")
       require(needed >= hold_stiffness(loop, device) * longest, "the hold certificate asks for more damping");
     else
-      require(!storage.is_null() && proves(loop, device, storage.at("matrix"), needed),
+      require(!storage.is_null() && proves(program, device, storage.at("matrix"), needed),
               "no storage function proves the damping that is stated");
     const Rational share = share_at_speed(device), told = share * (1 - Rational(device.brake_tolerance));
     const Rational assured = told * brake + share * Rational(device.residual_damping) + Rational(device.device_damping);

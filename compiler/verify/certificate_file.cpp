@@ -54,6 +54,7 @@ Json json_of(const SampledLoop& loop) {
           {"estimator", loop.has_device ? name_of(v.estimator) : "difference of two samples"},
           {"window", v.window},
           {"order", v.order},
+          {"best_fit", v.best_fit},
           {"cutoff", v.cutoff},
           {"acceleration", v.acceleration},
           {"joint_encoder_step", loop.joint_encoder_step},

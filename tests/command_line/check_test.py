@@ -8,7 +8,7 @@ import re
 import subprocess
 import unittest
 
-from dashpot_command import FIG_5, PANTOGRAPH, SOURCE, CommandTest
+from dashpot_command import FIG_5, INPUT_REFUSED, PANTOGRAPH, SOURCE, CommandTest
 
 CHECK = os.environ["DASHPOT_CHECK"]
 PAPER = SOURCE / "networks/paper"
@@ -146,6 +146,46 @@ class CheckTest(CommandTest):
         for old, new in CODE:
             self.assertIn(old, header)
             self.assertFalse(self.accepts(header.replace(old, new, 1), certificate), new)
+
+    def adaptive_device(self, **edits):
+        device = json.loads(PANTOGRAPH.read_text())
+        device["velocity"] = {"estimator": "foaw", "window": 10, **edits}
+        del device["motor"]["amplifier_lag"]
+        device["assumed"].remove("motor.amplifier_lag")
+        return self.write("adaptive.json", json.dumps(device))
+
+    # A motor that follows an adaptive window would be refused, or pay for it as much as without a storage function; or
+    # be proved by one of the windows alone, or by those of another fit.
+    def test_adaptive_window(self):
+        for fit, most in (("end", 1.4), ("best", 1.35)):
+            for decomposition in ("virtual", "zero-frequency", "faithful"):
+                header, certificate = self.compiled([PAPER / "second_order_maxwell.json", "--device", self.adaptive_device(fit=fit),
+                                                     "--decomposition", decomposition])
+                if "velocity_gain" not in certificate["constants"]: continue
+                accepted, words = self.said(header, certificate)
+                self.assertTrue(accepted, words)
+                self.assertRegex(words, "for holds of any lengths up to 0.00015")
+                gain, needed = certificate["constants"]["velocity_gain"][0], certificate["passivity"]["needed_damping"]
+                spring = certificate["constants"]["static_stiffness"][0] + 2 * certificate["constants"]["step_stiffness"][0]
+                self.assertLess(needed, 1.5 * (most * abs(gain) + 3 * spring * 0.0001 / 2))
+                edits = {"less": lambda c: c["passivity"].update(needed_damping=needed * 0.97),
+                         "longer": lambda c: c["loop"].update(window=11), "later": lambda c: c["loop"].update(delay_samples=2),
+                         "fit": lambda c: c["loop"].update(best_fit=fit == "end"),
+                         "hold": lambda c: c["passivity"].update(proof="hold"),
+                         "lag": lambda c: c["loop"].update(amplifier_lag=1e-6),
+                         "one": lambda c: c["loop"]["estimator_coefficients"].pop(),
+                         "other": lambda c: c["loop"]["estimator_coefficients"].reverse(),
+                         "none": lambda c: c.update(storage=None)}
+                for what, edit in edits.items():
+                    edited = json.loads(json.dumps(certificate))
+                    edit(edited)
+                    self.assertFalse(self.accepts(header, edited), what)
+                more = re.sub(r"(velocity_gain = -?)(\d)", r"\g<1>1\2", header)
+                self.assertNotEqual(more, header)
+                self.assertFalse(self.accepts(more, certificate))
+                for edited in (more, header):
+                    files = self.write("law.json", json.dumps(certificate)), self.write("law.hpp", edited)
+                    self.dashpot("verify", "--allow-uncertified", *files, status=0 if edited == header else INPUT_REFUSED)
 
     # A law that lacks damping on its device would pass for one that has it.
     def test_lacking_damping(self):

@@ -1,0 +1,112 @@
+#include "certify/adaptive_window.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <dashpot/estimators/any_estimator.hpp>
+#include <sstream>
+
+#include "certify/hold_bound.hpp"
+#include "emit/embedded_templates.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double unit = 0x1p-23;  // of the tables' whole numbers
+
+bool adapts(const SampledLoop& loop) { return loop.has_device && loop.velocity.estimator == estimator_kind::foaw; }
+
+unsigned longest(const SampledLoop& loop) { return std::clamp(loop.velocity.window, 1u, longest_window); }
+
+std::string_view table(bool best_fit, bool is_positive) {
+  const std::string name =
+      fmt::format("{}_fit_{}.txt", best_fit ? "best" : "end", is_positive ? "positive" : "negative");
+  for (const EmbeddedTemplate& file : embedded_templates())
+    if (file.name == name) return file.text;
+  return {};
+}
+
+// Not below the largest |g + Σ e/(z − a)| at any frequency: each e/(z − a) lies in a disk around e a/(1 − a²) of the
+// radius |e|/(1 − a²), and disks add. Empty where a mode does not relax.
+std::optional<Rational> largest_response(const MotorConstants& motor) {
+  Rational centre = motor.velocity_gain, radius = 0;
+  for (const MotorMode& mode : motor.modes) {
+    const Rational a = exact_decay(motor, mode), e = mode.velocity_drive;
+    if (e == 0) continue;
+    if (abs(a) >= 1) return std::nullopt;
+    centre += e * a / (1 - a * a);
+    radius += abs(e) / (1 - a * a);
+  }
+  return Rational(abs(centre) + radius);
+}
+
+}  // namespace
+
+std::optional<WindowStorage> window_storage(const SampledLoop& loop, double gain) {
+  if (!adapts(loop) || loop.amplifier_lag > 0) return std::nullopt;
+  const std::string_view text = table(loop.velocity.best_fit, gain > 0);
+  const std::string head = fmt::format("\ndelay {}, longest {}:", loop.delay_samples, longest(loop));
+  const std::size_t found = text.find(head);
+  if (found == text.npos) return std::nullopt;
+  std::istringstream numbers(std::string(text.substr(found + head.size(), 4000)));
+  const auto next = [&] {
+    long value = 0;
+    numbers >> value;
+    return double(value) * unit;
+  };
+  WindowStorage result{next(), dashpot_check::Storage(loop.delay_samples + longest(loop))};
+  for (std::size_t i = 0; i < result.storage.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j) result.storage[i].push_back(next());
+  return result;
+}
+
+std::optional<double> adaptive_window_gain(const SampledLoop& loop) {
+  if (!adapts(loop)) return std::nullopt;
+  double square = 0;
+  for (unsigned age = 0; age < longest(loop); ++age) {
+    double largest = 0;
+    for (unsigned n = age + 1; n <= longest(loop); ++n) {
+      const double count = n, j = age;
+      const double best_fit = 6 * (j + 1) * (count - j) / (count * (count + 1) * (count + 2));
+      largest = std::max(largest, loop.velocity.best_fit ? best_fit : 1 / count);
+    }
+    square += largest;
+  }
+  return std::sqrt(square) * (1 + 1e-12);
+}
+
+std::optional<double> damping_for_estimate(const MotorConstants& motor, const SampledLoop& loop) {
+  const std::optional<double> gain = adaptive_window_gain(loop);
+  if (!gain) return std::nullopt;
+  const std::optional<WindowStorage> known =
+      motor.estimate_drives_modes() ? std::nullopt : window_storage(loop, motor.velocity_gain);
+  const std::optional<Rational> response = largest_response(motor);
+  if (!response) return std::nullopt;
+  return ceiling(Rational(known ? known->factor : *gain) * *response);
+}
+
+std::optional<StorageProof> adaptive_storage_proof(const MotorConstants& motor, const SampledLoop& loop) {
+  const std::optional<WindowStorage> known = window_storage(loop, motor.velocity_gain);
+  if (!known || motor.estimate_drives_modes()) return std::nullopt;
+  const std::optional<StorageProof> beside = storage_proof(position_driven(motor), loop);
+  if (!beside) return std::nullopt;
+  const Rational gain = abs(Rational(motor.velocity_gain)), T = loop.sample_period;
+  StorageProof proof = *beside;
+  proof.damping = ceiling(Rational(beside->damping) + Rational(known->factor) * gain * (T + Rational(loop.jitter)) / T);
+  // Both remember q0 … q_delay; what is remembered for the estimate alone stands before the modes.
+  const std::size_t shared = loop.delay_samples + 1, more = known->storage.size() - shared;
+  const auto place = [&](std::size_t i) { return i < shared ? i : i + more; };
+  proof.storage = known->storage;
+  for (std::size_t i = proof.storage.size(); i < beside->storage.size() + more; ++i)
+    proof.storage.emplace_back(i + 1, 0.0);
+  for (std::size_t i = 0; i < known->storage.size(); ++i)
+    for (double& value : proof.storage[i]) value *= std::abs(motor.velocity_gain) / loop.sample_period;
+  for (std::size_t i = 0; i < beside->storage.size(); ++i)
+    for (std::size_t j = 0; j <= i; ++j) proof.storage[place(i)][place(j)] += beside->storage[i][j];
+  if (!dashpot_check::proves(checked_program(motor), checked_device(loop), proof.storage, proof.damping))
+    return std::nullopt;
+  return proof;
+}
+
+}  // namespace dashpot::compiler

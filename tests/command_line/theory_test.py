@@ -1,4 +1,5 @@
 """The theorem behind the storage functions of sampled loops, in Coq, and instances of it: `compile --proof`."""
+import json
 import re
 import subprocess
 import unittest
@@ -53,6 +54,13 @@ class TheoryTest(CommandTest):
         self.refused("compile", FIG_5, SOURCE / "networks/paper/kelvin.json", "--proof", "law.v",
                      code="certificate-of-several", status=COMMAND_LINE_WRONG)
         self.assertEqual(self.files(), [])
+        device = json.loads(PANTOGRAPH.read_text())
+        device["velocity"] = {"estimator": "foaw", "window": 8}
+        device["motor"].pop("amplifier_lag")
+        device["assumed"].remove("motor.amplifier_lag")
+        adaptive = self.write("adaptive.json", json.dumps(device))
+        self.refused("compile", FIG_5, "--device", adaptive, "--uncertified", "--decomposition", "paper", "--proof", "law.v",
+                     code="no-storage-function")
 
 
 if __name__ == "__main__":

@@ -80,6 +80,17 @@ TEST(AdaptiveWindow, KnownFactors) {
   EXPECT_NEAR(window_storage(adaptive_loop(1, 2), -1)->factor, 25.0 / 24, 4e-6);
 }
 
+// A storage function of one window alone, the longest, would pass for one of all.
+TEST(AdaptiveWindow, EveryWindowIsLookedAt) {
+  for (const double gain : {1.0, -1.0}) {
+    const SampledLoop fixed = differencing_loop(0.001, 8);
+    const std::optional<StorageProof> proof = storage_proof(damper_motor(gain), fixed);
+    ASSERT_TRUE(proof);
+    EXPECT_TRUE(is_proved(damper_motor(gain), fixed, proof->storage, proof->damping));
+    EXPECT_FALSE(is_proved(damper_motor(gain), adaptive_loop(0.001, 8), proof->storage, proof->damping));
+  }
+}
+
 // Beyond the tables a factor would be made up, or what is there in their place not be told.
 TEST(AdaptiveWindow, BeyondTheTables) {
   SampledLoop lagging = adaptive_loop(0.001, 8);

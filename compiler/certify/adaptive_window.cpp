@@ -13,7 +13,9 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double unit = 0x1p-23;  // of the tables' whole numbers
+constexpr double unit = 0x1p-23;         // of the tables' whole numbers
+constexpr std::size_t most_states = 32;  // of a storage function beyond the tables: more take seconds to check
+constexpr double strictness = 1e-9;      // of its matrices, so that they bear rounding
 
 bool adapts(const SampledLoop& loop) { return loop.has_device && loop.velocity.estimator == estimator_kind::foaw; }
 
@@ -25,6 +27,32 @@ std::string_view table(bool best_fit, bool is_positive) {
   for (const EmbeddedTemplate& file : embedded_templates())
     if (file.name == name) return file.text;
   return {};
+}
+
+// The largest weight that a difference may have at an age.
+double largest_weight(const SampledLoop& loop, unsigned age) {
+  double largest = 0;
+  for (unsigned n = age + 1; n <= longest(loop); ++n) {
+    const double count = n, j = age;
+    const double best_fit = 6 * (j + 1) * (count - j) / (count * (count + 1) * (count + 2));
+    largest = std::max(largest, loop.velocity.best_fit ? best_fit : 1 / count);
+  }
+  return largest;
+}
+
+// Of γ: P_jj = Σ_{i ≥ j} max_n w_{n,i}/(2γ), so that V falls by v̂²/(2γ) at least and rises by γ w²/2.
+std::optional<WindowStorage> diagonal_storage(const SampledLoop& loop) {
+  const std::size_t states = loop.delay_samples + longest(loop);
+  if (states > most_states) return std::nullopt;
+  const double gain = *adaptive_window_gain(loop);
+  WindowStorage result{gain + strictness * double(states + 1), dashpot_check::Storage(states)};
+  double sum = 0;
+  for (std::size_t i = states; i-- > 0;) {
+    if (i >= loop.delay_samples) sum += largest_weight(loop, unsigned(i) - loop.delay_samples);
+    result.storage[i].assign(i + 1, 0.0);
+    result.storage[i][i] = sum / (2 * gain) + strictness * double(states - i);
+  }
+  return result;
 }
 
 // Not below the largest |g + Σ e/(z − a)| at any frequency: each e/(z − a) lies in a disk around e a/(1 − a²) of the
@@ -48,7 +76,7 @@ std::optional<WindowStorage> window_storage(const SampledLoop& loop, double gain
   const std::string_view text = table(loop.velocity.best_fit, gain > 0);
   const std::string head = fmt::format("\ndelay {}, longest {}:", loop.delay_samples, longest(loop));
   const std::size_t found = text.find(head);
-  if (found == text.npos) return std::nullopt;
+  if (found == text.npos) return diagonal_storage(loop);
   std::istringstream numbers(std::string(text.substr(found + head.size(), 4000)));
   const auto next = [&] {
     long value = 0;
@@ -64,15 +92,7 @@ std::optional<WindowStorage> window_storage(const SampledLoop& loop, double gain
 std::optional<double> adaptive_window_gain(const SampledLoop& loop) {
   if (!adapts(loop)) return std::nullopt;
   double square = 0;
-  for (unsigned age = 0; age < longest(loop); ++age) {
-    double largest = 0;
-    for (unsigned n = age + 1; n <= longest(loop); ++n) {
-      const double count = n, j = age;
-      const double best_fit = 6 * (j + 1) * (count - j) / (count * (count + 1) * (count + 2));
-      largest = std::max(largest, loop.velocity.best_fit ? best_fit : 1 / count);
-    }
-    square += largest;
-  }
+  for (unsigned age = 0; age < longest(loop); ++age) square += largest_weight(loop, age);
   return std::sqrt(square) * (1 + 1e-12);
 }
 

@@ -3,7 +3,7 @@
 //
 // For the gain g of an estimate that drives no states there is a table: the least damping with one storage function for
 // all windows, as a multiple of |g|, by the sign of g, the delay and N. The tables are data, windows/*.txt, in whole
-// numbers; windows/search.py finds them. Beyond them, Cauchy and Schwarz.
+// numbers; windows/search.py finds them. Beyond them, Jensen, Cauchy and Schwarz.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ struct WindowStorage {
   dashpot_check::Storage storage;  // P over the remembered displacements q0 … q_{delay+N−1} of |g| = 1, T = 1
 };
 
-// Of a gain of that sign. Empty for other estimators, windows beyond 15, delays beyond 3, and behind an amplifier's
-// lag.
+// Of a gain of that sign; beyond windows of 15 or delays of 3, of γ. Empty for other estimators, where more than 32
+// displacements are remembered, and behind an amplifier's lag.
 std::optional<WindowStorage> window_storage(const SampledLoop& loop, double gain);
 
 // γ of ‖v̂‖₂ ≤ γ ‖Δu/T‖₂, not below it; γ² = Σ_j max_n w_{n,j}: by Jensen's inequality v̂_k² ≤ Σ_j w_{n(k),j}
@@ -30,7 +30,7 @@ std::optional<double> adaptive_window_gain(const SampledLoop& loop);
 std::optional<double> damping_for_estimate(const MotorConstants& motor, const SampledLoop& loop);
 
 // The storage functions of what position drives and of the table added up: V of the whole motor. Proved for every
-// window; empty where the table does not reach.
+// window; empty where there is none of the estimate.
 std::optional<StorageProof> adaptive_storage_proof(const MotorConstants& motor, const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -91,16 +91,22 @@ TEST(AdaptiveWindow, EveryWindowIsLookedAt) {
   }
 }
 
-// Beyond the tables a factor would be made up, or what is there in their place not be told.
+// Beyond the tables more than γ would be asked for, or less, or no storage function be told that is known.
 TEST(AdaptiveWindow, BeyondTheTables) {
   SampledLoop lagging = adaptive_loop(0.001, 8);
   lagging.amplifier_lag = 0.0002;
-  for (const SampledLoop& loop : {adaptive_loop(0.001, 16), adaptive_loop(0.001, 8, 4), lagging}) {
-    EXPECT_FALSE(window_storage(loop, 2));
+  for (const auto& [loop, has_storage] :
+       {std::pair(adaptive_loop(0.001, 16), true), std::pair(adaptive_loop(0.001, 32), true),
+        std::pair(adaptive_loop(0.001, 16, 0, true), true), std::pair(adaptive_loop(0.001, 8, 4), true),
+        std::pair(adaptive_loop(0.001, 1, 9), true), std::pair(adaptive_loop(0.001, 33), false),
+        std::pair(lagging, false)}) {
+    SCOPED_TRACE(::testing::Message() << loop.velocity.window << " " << loop.delay_samples);
+    EXPECT_EQ(window_storage(loop, 2).has_value(), has_storage);
     const PassivityBound bound = proved_bound(damper_motor(-2), loop);
     EXPECT_EQ(bound.proof, Proof::sampled);
-    EXPECT_FALSE(bound.storage);
-    EXPECT_NEAR(bound.needed, 2 * *adaptive_window_gain(loop), 1e-9);
+    ASSERT_EQ(bound.storage.has_value(), has_storage);
+    EXPECT_NEAR(bound.needed, 2 * *adaptive_window_gain(loop), 1e-7);
+    EXPECT_TRUE(!has_storage || is_proved(damper_motor(-2), loop, *bound.storage, bound.needed));
   }
   EXPECT_FALSE(window_storage(differencing_loop(0.001, 8), 2));
   EXPECT_FALSE(adaptive_window_gain(differencing_loop(0.001, 8)));

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "certify/hold_bound.hpp"
-#include "emit/embedded_templates.hpp"
+#include "certify/window_tables.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -24,7 +24,7 @@ unsigned longest(const SampledLoop& loop) { return std::clamp(loop.velocity.wind
 std::string_view table(bool best_fit, bool is_positive) {
   const std::string name =
       fmt::format("{}_fit_{}.txt", best_fit ? "best" : "end", is_positive ? "positive" : "negative");
-  for (const EmbeddedTemplate& file : embedded_templates())
+  for (const WindowTable& file : window_tables())
     if (file.name == name) return file.text;
   return {};
 }

@@ -7,8 +7,9 @@ import unittest
 from dashpot_command import COMMAND_LINE_WRONG, FIG_5, PANTOGRAPH, SOURCE, CommandTest
 
 THEORY = SOURCE / "compiler/certify/proof"
-# Without lag by both inputs of the states, and with delay, lag and filter.
-LAWS = [[FIG_5], [SOURCE / "networks/paper/bridge.json", "--state-input", "velocity"], [FIG_5, "--device", PANTOGRAPH]]
+# Without lag by both inputs of the states, with delay, lag and filter, and behind a lag for holds of many lengths.
+LAWS = [[FIG_5], [SOURCE / "networks/paper/bridge.json", "--state-input", "velocity"], [FIG_5, "--device", "punctual.json"],
+        [SOURCE / "networks/paper/kelvin.json", "--device", "late.json"]]
 # Of Coq's real numbers, and no others.
 AXIOMS = {"ClassicalDedekindReals.sig_forall_dec", "ClassicalDedekindReals.sig_not_dec",
           "FunctionalExtensionality.functional_extensionality_dep"}
@@ -39,10 +40,15 @@ class TheoryTest(CommandTest):
         self.assert_no_more_axioms(self.coqc("Certificates.v", CERTIFICATES), AXIOMS)
         self.assert_no_more_axioms(self.coqc("Sliding.v", SLIPS), AXIOMS)
         self.assert_no_more_axioms(self.coqc("Holds.v", HOLDS), INTEGRALS)
+        device = json.loads(PANTOGRAPH.read_text())
+        late = device | {"velocity": {"estimator": "backward_difference", "window": 1}}
+        self.write("late.json", json.dumps(late | {"loop": device["loop"] | {"delay_samples": 0}}))
+        self.write("punctual.json", json.dumps(device | {"loop": device["loop"] | {"jitter": "0 s"}}))
         for number, law in enumerate(LAWS):
             with self.subTest(law=law):
                 self.dashpot("compile", *law, "--proof", "law.v")
                 text = (self.folder / "law.v").read_text()
+                self.assertEqual(text.count("gamma :="), 6 if "late.json" in law else 1)
                 self.assert_no_more_axioms(self.coqc(f"Law{number}.v", text), AXIOMS)
                 if number > 0: continue
                 lowered = re.sub(r"beta := (\d+)", lambda beta: f"beta := {int(beta[1]) * 99999 // 100000}", text)

@@ -83,7 +83,9 @@ class FitText {
   }
 
   std::string path() const {
-    std::string text = "\nsizes that were tried\n  relaxations  slips  springpots  parameters         rms  criterion\n";
+    std::string text =
+        "\nsizes that were tried, before elements that the data do without are left out\n  relaxations  slips  "
+        "springpots  parameters         rms  criterion\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
       const PathEntry& entry = fit_.path[i];
       const std::size_t slips = entry.model.count(TermKind::stop) + entry.model.count(TermKind::sliding);

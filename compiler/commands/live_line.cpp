@@ -10,39 +10,42 @@
 
 namespace dashpot::compiler {
 
-LiveLine::LiveLine(bool rotary) : rotary_(rotary), terminal_(::isatty(STDOUT_FILENO) == 1) {}
+LiveLine::LiveLine(bool rotary)
+    : rotary_(rotary), terminal_(::isatty(STDOUT_FILENO) == 1), interval_(terminal_ ? 0.1 : 1.0), next_(interval_) {}
 
 void LiveLine::show(const telemetry_record& record) {
   ++records_;
+  time_ = record.time;
+  energy_ = record.energy;
   latest_ = std::max(latest_, record.lateness);
   motor_ = std::max(motor_, std::abs(record.motor_force));
   brake_ = std::max(brake_, record.damping);
   if (record.tripped != fault::none) ++faults_;
-  if (record.time < next_) return;
-  print(record);
-  next_ = record.time + (terminal_ ? 0.1 : 1.0);
-  last_time_ = record.time;
-  records_ = 0;
-  latest_ = 0;
-  motor_ = brake_ = 0;
+  if (time_ >= next_) print();
 }
 
-void LiveLine::print(const telemetry_record& record) {
-  const double elapsed = record.time - last_time_;
+void LiveLine::print() {
+  const double elapsed = time_ - last_time_;
   const double rate = elapsed > 0 ? double(records_) / elapsed : 0;
   const char* force = rotary_ ? "N m" : "N";
   const char* damping = rotary_ ? "N m s/rad" : "N s/m";
   const std::string line = fmt::format(
       "{}{:7.1f} s  {:7.0f} Hz  late {:6.0f} us  motor up to {:9.4f} {}  brake up to {:8.4f} {}  energy {:9.5f} J  "
       "faults {}{}",
-      terminal_ ? "\r" : "", record.time, rate, double(latest_) * 1e-3, motor_, force, brake_, damping, record.energy,
-      faults_, terminal_ ? "" : "\n");
+      terminal_ ? "\r" : "", time_, rate, double(latest_) * 1e-3, motor_, force, brake_, damping, energy_, faults_,
+      terminal_ ? "" : "\n");
   std::fputs(line.c_str(), stdout);  // nobody has to read along
   std::fflush(stdout);
   shown_ = true;
+  next_ = time_ + interval_;
+  last_time_ = time_;
+  records_ = 0;
+  latest_ = 0;
+  motor_ = brake_ = 0;
 }
 
 void LiveLine::finish() {
+  if (records_ > 0) print();
   if (terminal_ && shown_) std::fputs("\n", stdout);
 }
 

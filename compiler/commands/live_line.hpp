@@ -13,15 +13,18 @@ class LiveLine {
   explicit LiveLine(bool rotary);
 
   void show(const telemetry_record& record);  // from the writer's thread
-  void finish();                              // leaves the last line standing
+  void finish();                              // tells of what came after the last line, and leaves that standing
 
  private:
-  void print(const telemetry_record& record);
+  void print();
 
   bool rotary_;
   bool terminal_;
+  double interval_;       // between lines [s]
   double next_ = 0;       // [s]
-  double last_time_ = 0;  // [s]
+  double last_time_ = 0;  // of the line before [s]
+  double time_ = 0;       // of the newest record [s]
+  double energy_ = 0;     // [J]
   std::uint64_t records_ = 0;
   std::int64_t latest_ = 0;  // largest lateness since the last line [ns]
   double motor_ = 0;         // largest force since the last line, its magnitude [N] or [N·m]

@@ -1,0 +1,50 @@
+// write_instances COUNT STATES FOLDER: storage functions of random laws on random devices as `compile --proof` writes
+// them, FOLDER/0.v …, each with the damping that it proves and with less. COUNT laws, of at most STATES states. A line
+// for each: its number, that of the instance with all of the damping, the share of it, whether dashpot-check's code
+// proves it, and whether there is an instance.
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+
+#include "certified_loop.hpp"
+#include "certify/storage_instance.hpp"
+
+namespace dashpot::testing {
+namespace {
+
+void write_instances(int laws, int most_states, const std::string& folder) {
+  int found = 0, number = 0;
+  for (std::uint64_t seed = 1; found < laws; ++seed) {
+    const CompiledCase one = random_case(seed);
+    if (!one.compilation || !one.compilation->certificate.bound.storage) continue;
+    compiler::PassivityBound bound = one.compilation->certificate.bound;
+    compiler::SampledLoop loop = one.compilation->certificate.loop;
+    const auto motor = compiler::motor_constants(one.compilation->law);
+    const bool is_one_recursion = !motor->follows_estimate() || compiler::estimator_factors(loop);
+    if (!is_one_recursion || int(bound.storage->size()) > most_states || bound.needed == 0) continue;
+    ++found;
+    if (bound.constant_period_only) loop.jitter = 0;
+    const double all = bound.needed;
+    const int whole = number;
+    Random random(seed);
+    for (const double share : {1.0, 1 - random.log_uniform(1e-12, 1e-2), 1 - random.log_uniform(1e-4, 0.3)}) {
+      bound.needed = all * share;
+      const compiler::StorageProof proof = {bound.needed, *bound.storage};
+      const dashpot_check::Device device = compiler::checked_device(loop);
+      const bool is_proved = dashpot_check::proves(dashpot_check::loop_form(compiler::checked_program(*motor), device),
+                                                   device, proof.storage, proof.damping);
+      const auto instance = compiler::coq_instance("law", bound, motor, loop);
+      if (instance) std::ofstream(folder + "/" + std::to_string(number) + ".v") << *instance;
+      std::cout.precision(17);
+      std::cout << number++ << ' ' << whole << ' ' << share << ' ' << is_proved << ' ' << instance.has_value() << '\n';
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dashpot::testing
+
+int main(int count, char** words) {
+  if (count != 4) return std::cerr << "write_instances COUNT STATES FOLDER\n", 2;
+  dashpot::testing::write_instances(std::atoi(words[1]), std::atoi(words[2]), words[3]);
+}

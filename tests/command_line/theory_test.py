@@ -19,6 +19,8 @@ CERTIFICATES = "Require Import Loop.\nPrint Assumptions nothing_is_extracted.\nP
 SLIPS = "Require Import Slips.\n" + "".join(f"Print Assumptions {theorem}.\n" for theorem in (
     "nothing_is_extracted", "nothing_is_extracted_when_late", "relaxing_holds", "relaxing_follows", "at_once_holds",
     "at_once_follows", "behind_holds", "behind_follows", "slip_takes_in", "sliding_holds"))
+CLAMP = ("Require Import Clamp.\nPrint Assumptions nothing_is_extracted_from_a_clipped_force.\n"
+         "Print Assumptions clips_at_limit.\n")
 HOLDS = "Require Import Hold.\nPrint Assumptions lagging_hold.\nPrint Assumptions least_dissipation_of_shorter_holds.\n"
 
 
@@ -37,10 +39,11 @@ class TheoryTest(CommandTest):
     # The theorem would not be proved, or rest on more than it is said to; a law's instance would not be accepted, or one
     # with a hundred-thousandth less damping would be.
     def test_theory_and_instances(self):
-        for name in ("Forms.v", "Loop.v", "Hold.v", "Sums.v", "Slips.v"):
+        for name in ("Forms.v", "Loop.v", "Hold.v", "Sums.v", "Slips.v", "Clamp.v"):
             self.coqc(name, (THEORY / name).read_text())
         self.assert_no_more_axioms(self.coqc("Certificates.v", CERTIFICATES), AXIOMS)
         self.assert_no_more_axioms(self.coqc("Sliding.v", SLIPS), AXIOMS)
+        self.assert_no_more_axioms(self.coqc("Clipped.v", CLAMP), AXIOMS)
         self.assert_no_more_axioms(self.coqc("Holds.v", HOLDS), INTEGRALS)
         device = json.loads(PANTOGRAPH.read_text())
         late = device | {"velocity": {"estimator": "backward_difference", "window": 1}}

@@ -17,11 +17,25 @@ using RationalMatrix = std::vector<std::vector<Rational>>;
 
 std::string list_of(const std::vector<std::string>& items) { return fmt::format("[{}]", fmt::join(items, "; ")); }
 
-std::string row_text(const std::vector<Integer>& row) {
-  std::vector<std::string> items;
-  for (const Integer& value : row) items.push_back(value.str());
-  return list_of(items);
+// Binary digits that Coq computes with: of A, of the share of V that pays for the others, and of witnesses, which have
+// no more than Real.
+struct Precision {
+  unsigned kept, slack;
+  int witness;
+};
+
+// In hexadecimal, which Coq reads four times as fast.
+std::string number_text(const Integer& value) {
+  return (value < 0 ? "-0x" : "0x") + Integer(abs(value)).str(0, std::ios_base::hex);
 }
+
+std::vector<std::string> texts(const std::vector<Integer>& row) {
+  std::vector<std::string> items;
+  for (const Integer& value : row) items.push_back(number_text(value));
+  return items;
+}
+
+std::string row_text(const std::vector<Integer>& row) { return list_of(texts(row)); }
 
 std::string rows_text(const IntegerMatrix& rows) {
   std::vector<std::string> items;
@@ -33,8 +47,8 @@ std::string rows_text(const IntegerMatrix& rows) {
 std::string form_text(const IntegerMatrix& form) {
   std::vector<std::string> items;
   for (std::size_t i = 0; i < form.size(); ++i)
-    items.push_back(
-        fmt::format("({}, {})", form[i][i].str(), row_text({form[i].begin() + std::ptrdiff_t(i) + 1, form[i].end()})));
+    items.push_back(fmt::format("({}, {})", number_text(form[i][i]),
+                                row_text({form[i].begin() + std::ptrdiff_t(i) + 1, form[i].end()})));
   return list_of(items);
 }
 
@@ -56,17 +70,22 @@ IntegerMatrix scaled(const RationalMatrix& matrix, unsigned digits) {
   return result;
 }
 
+// Rounded down, as Z.shiftr does.
+Integer without_last(const Integer& value, unsigned digits) {
+  if (value >= 0) return value >> digits;
+  return -((-value + (Integer(1) << digits) - 1) >> digits);
+}
+
 Rational power_of_two(int exponent) {
   return exponent >= 0 ? Rational(Integer(1) << exponent) : Rational(1, Integer(1) << -exponent);
 }
 
 // Columns of L and k with M − k L Lᵀ diagonally dominant, tried with smaller and smaller margins.
-std::optional<std::string> witness(const IntegerMatrix& M) {
+std::optional<std::string> witness(const IntegerMatrix& M, int fraction) {
   const std::size_t n = M.size();
   Integer largest = 0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, M[i][i]);
   if (largest == 0) return "([], 1%positive)";
-  constexpr int fraction = 160;  // of the binary digits of Real
   const int exponent = std::max(0, int(msb(largest)) / 2 - fraction);
   const Integer k = Integer(1) << (2 * exponent);
   std::vector<std::vector<Real>> unit(n, std::vector<Real>(n));
@@ -97,7 +116,7 @@ std::optional<std::string> witness(const IntegerMatrix& M) {
       }
       dominant = own >= off;
     }
-    if (dominant) return fmt::format("({}, {}%positive)", rows_text(columns), k.str());
+    if (dominant) return fmt::format("({}, {}%positive)", rows_text(columns), number_text(k));
   }
   return std::nullopt;
 }
@@ -107,7 +126,8 @@ std::optional<std::string> witness(const IntegerMatrix& M) {
 namespace {
 
 std::optional<std::string> coq_instance(const std::string& name, const dashpot_check::LoopForm& loop,
-                                        const dashpot_check::Device& device, const StorageProof& proof) {
+                                        const dashpot_check::Device& device, const StorageProof& proof,
+                                        const Precision& precision) {
   const std::size_t n = loop.states.size();
   const std::vector<dashpot_check::Hold> holds = dashpot_check::holds(device);
   const bool lags = device.amplifier_lag > 0;
@@ -142,19 +162,27 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   };
   RationalMatrix E(1, std::vector<Rational>(lags ? n : 0));
   if (lags) E[0][n - 1] = power_of_two(unit[n - 1]);
-  unsigned A_digits = 0, S_digits = std::max(digits_of(E), 200u);
+  unsigned A_digits = precision.kept, S_digits = std::max(digits_of(E), 200u);
   for (const dashpot_check::Hold& hold : holds) {
     A_digits = std::max(A_digits, digits_of(recursion(hold.decay)));
     S_digits = std::max(S_digits, digits_of(answer(hold.share)));
   }
-  const unsigned P_digits = digits_of(P) + 200;  // so that whole numbers are fine enough for L
+  const unsigned P_digits = digits_of(P), dropped = A_digits - precision.kept;
+  const Integer slack = Integer(1) << precision.slack;
   const IntegerMatrix stored = scaled(P, P_digits);
   const std::vector<Integer> lacking = lags ? scaled(E, S_digits)[0] : std::vector<Integer>(n);
   const Integer stiffness = scaled(loop.stiffness, S_digits);
-  // 2 eA² eP eS (what goes in + V − V⁺), as Loop.v has it
-  const auto balance = [&](const IntegerMatrix& A, const std::vector<Integer>& C, const Integer& beta,
+  Integer magnitude = 0;  // of all of P
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) magnitude += abs(stored[i][j]);
+  // What goes in + V − V⁺ by the leading digits of A, less what the others may take: `near` of Loop.v.
+  const auto balance = [&](const IntegerMatrix& whole, const std::vector<Integer>& C, const Integer& beta,
                            const Integer& gamma) {
-    const Integer s = Integer(1) << (2 * A_digits + P_digits);
+    IntegerMatrix A = whole;
+    for (std::vector<Integer>& row : A)
+      for (Integer& value : row) value = without_last(value, dropped);
+    const Integer s = slack << (2 * precision.kept), t = s << P_digits;
+    const Integer more = (slack + 1) << (S_digits + 1);
     IntegerMatrix M(n + 2, std::vector<Integer>(n + 2)), PA(n, std::vector<Integer>(n + 1));
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < n; ++k)
@@ -162,20 +190,25 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
           if (A[k][j] != 0) PA[i][j] += stored[i][k] * A[k][j];
     for (std::size_t i = 0; i <= n; ++i)
       for (std::size_t j = 0; j <= n; ++j) {
-        Integer sum = i < n && j < n ? Integer(stored[i][j] << (2 * A_digits)) : Integer(0);
+        Integer sum = 0;
         for (std::size_t k = 0; k < n; ++k)
-          if (A[k][i] != 0) sum -= A[k][i] * PA[k][j];
-        M[i][j] = sum << (S_digits + 1);
+          if (A[k][i] != 0) sum += A[k][i] * PA[k][j];
+        M[i][j] = -more * sum;
+        if (i < n && j < n) M[i][j] += (s * stored[i][j]) << (S_digits + 1);
       }
     for (std::size_t i = 0; i < n; ++i) {
-      M[i][n] += s * C[i], M[n][i] += s * C[i];
-      M[i][n + 1] += s * lacking[i], M[n + 1][i] += s * lacking[i];
+      M[i][n] += t * C[i], M[n][i] += t * C[i];
+      M[i][n + 1] += t * lacking[i], M[n + 1][i] += t * lacking[i];
     }
-    M[n][n] += s * (2 * beta - stiffness);
-    M[n + 1][n + 1] += s * 2 * gamma;
+    M[n][n] += t * (2 * beta - stiffness);
+    M[n + 1][n + 1] += t * 2 * gamma;
+    for (std::size_t i = 0; i <= n; ++i) M[i][i] -= more * slack * magnitude * (n + 1);
     return M;
   };
-  const std::optional<std::string> of_P = witness(stored);
+  IntegerMatrix fine = stored;
+  for (std::vector<Integer>& row : fine)
+    for (Integer& value : row) value <<= S_digits;
+  const std::optional<std::string> of_P = witness(fine, precision.witness);
   std::vector<std::string> part_texts, witness_texts;
   for (std::size_t part = 0; part < holds.size(); part += corners) {
     const dashpot_check::Hold &first = holds[part], &last = holds[part + corners - 1];
@@ -184,36 +217,52 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
     std::vector<std::string> witnesses;
     for (std::size_t corner = part; corner < part + corners; ++corner) {
       const auto found = witness(balance(scaled(recursion(holds[corner].decay), A_digits),
-                                         scaled(answer(holds[corner].share), S_digits)[0], beta, gamma));
+                                         scaled(answer(holds[corner].share), S_digits)[0], beta, gamma),
+                                 precision.witness);
       if (!found) return std::nullopt;
       witnesses.push_back(*found);
     }
     witness_texts.push_back(list_of(witnesses));
+    const auto of = [&](const dashpot_check::Hold& hold) {
+      return lags ? std::pair{fmt::format("recursion ({})",
+                                          number_text(scaled(recursion(hold.decay), A_digits)[n - 1][n - 1])),
+                              fmt::format("command ({})", number_text(scaled(answer(hold.share), S_digits)[0][n - 1]))}
+                  : std::pair{std::string("recursion"), std::string("command")};
+    };
     part_texts.push_back(fmt::format(
-        "{{| A1 := {};\n     A2 := {};\n     C1 := {};\n     C2 := {};\n     beta := {}; gamma := {} |}}",
-        rows_text(scaled(recursion(first.decay), A_digits)), rows_text(scaled(recursion(last.decay), A_digits)),
-        row_text(scaled(answer(first.share), S_digits)[0]), row_text(scaled(answer(last.share), S_digits)[0]),
-        beta.str(), gamma.str()));
+        "{{| A1 := {}; A2 := {};\n     C1 := {}; C2 := {};\n     beta := {}; gamma := {} |}}", of(first).first,
+        of(last).first, of(first).second, of(last).second, number_text(beta), number_text(gamma)));
   }
   if (!of_P) return std::nullopt;
-  const auto power = [](unsigned digits) { return (Integer(1) << digits).str(); };
+  const auto power = [](unsigned digits) { return number_text(Integer(1) << digits); };
+  // A and C, behind a lag by the one entry of each in which holds differ.
+  std::vector<std::string> A_rows, C_row = texts(scaled(answer(0), S_digits)[0]);
+  for (const std::vector<Integer>& row : scaled(recursion(0), A_digits)) {
+    std::vector<std::string> items = texts(row);
+    if (lags && A_rows.size() + 1 == n) items[n - 1] = "decay";
+    A_rows.push_back(list_of(items));
+  }
+  if (lags) C_row[n - 1] = "share";
   return fmt::format(
       "(* '{}': whatever the tool does, no energy is taken out of the loop with {} N.s/m of damping (N.m.s/rad of a\n"
       "   rotation) at holds of up to {} s. Written by dashpot. In a copy of compiler/certify/proof, or of an\n"
       "   installation's share/dashpot/proof, with this file beside the others, coqc accepts it:\n"
       "     coqc -R . Dashpot Forms.v\n     coqc -R . Dashpot Loop.v\n     coqc -R . Dashpot THIS_FILE.v *)\n"
       "Require Import ZArith List Reals Forms Loop.\nImport ListNotations.\nLocal Open Scope Z_scope.\n\n"
+      "Definition recursion{} : list (list Z) := {}.\nDefinition command{} : list Z := {}.\n"
       "Definition law : loop := {{|\n  states := {}; E := {}; k0 := {};\n  P := {};\n  eP := {}; eA := {}; eS := {};\n"
-      "  parts := {} |}}.\nDefinition of_P : witness := {}.\nDefinition of_parts : list (list witness) := {}.\n\n"
+      "  parts := {} |}}.\nDefinition leading : digits := {{| kept := {}; dropped := {}; slack := {} |}}.\n"
+      "Definition of_P : witness := {}.\nDefinition of_parts : list (list witness) := {}.\n\n"
       "Theorem law_is_sound : sound law.\n"
-      "Proof. apply (sound_if_accepted law of_P of_parts). vm_cast_no_check (eq_refl true). Qed.\n"
+      "Proof. apply (sound_if_accepted law leading of_P of_parts). vm_cast_no_check (eq_refl true). Qed.\n"
       "Theorem nothing_is_extracted_from_this_law : forall holds, Forall (is_motion law) holds ->\n"
       "  (0 <= work law 0 (repeat 0 (states law)) holds)%R.\n"
       "Proof. exact (nothing_is_extracted law law_is_sound). Qed.\nPrint Assumptions "
       "nothing_is_extracted_from_this_law.\n",
-      name, proof.damping, holds.back().longest.convert_to<double>(), n,
-      row_text(lags ? lacking : std::vector<Integer>{}), stiffness.str(), form_text(stored), power(P_digits),
-      power(A_digits), power(S_digits), list_of(part_texts), *of_P, list_of(witness_texts));
+      name, proof.damping, holds.back().longest.convert_to<double>(), lags ? " (decay : Z)" : "", list_of(A_rows),
+      lags ? " (share : Z)" : "", list_of(C_row), n, row_text(lags ? lacking : std::vector<Integer>{}),
+      number_text(stiffness), form_text(stored), power(P_digits), power(A_digits), power(S_digits), list_of(part_texts),
+      power(precision.kept), dropped, power(precision.slack), *of_P, list_of(witness_texts));
 }
 
 }  // namespace
@@ -228,7 +277,10 @@ std::optional<std::string> coq_instance(const std::string& name, const Passivity
   else if (bound.proof == Proof::hold) proof = storage_proof(*motor, loop);
   if (!proof) return std::nullopt;
   const dashpot_check::Device device = checked_device(loop);
-  return coq_instance(name, dashpot_check::loop_form(checked_program(*motor), device), device, *proof);
+  const dashpot_check::LoopForm form = dashpot_check::loop_form(checked_program(*motor), device);
+  for (const Precision& precision : {Precision{80, 48, 56}, Precision{112, 64, 72}, Precision{240, 120, 160}})
+    if (auto instance = coq_instance(name, form, device, *proof, precision)) return instance;
+  return std::nullopt;
 }
 
 }  // namespace dashpot::compiler

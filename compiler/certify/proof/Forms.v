@@ -201,3 +201,111 @@ Proof.
   assert (D0 : forall v n, dot v (repeat 0 n) = 0) by (induction v; intros [|n]; simpl; rewrite ?IHv; lra).
   induction M as [|[d v] M IH]; intros [|n]; simpl; rewrite ?IH, ?D0; lra.
 Qed.
+
+(* ---------- short coefficients in place of long ones ---------- *)
+(* Without the last k binary digits, rounded down. *)
+Definition shorter (k : Z) (A : list (list Z)) : list (list Z) := map (map (fun a => Z.shiftr a k)) A.
+Fixpoint magnitude (M : sym) : Z := match M with (d, v) :: M' => (Z.abs d + 2 * size v + magnitude M')%Z | [] => 0%Z end.
+Fixpoint ones (m : nat) : sym := match m with O => [] | S n => (1%Z, []) :: ones n end.
+Fixpoint sum_of_sizes (m : nat) (x : list R) : R :=
+  match m, x with S n, y :: x' => Rabs y + sum_of_sizes n x' | _, _ => 0 end.
+Lemma sum_of_sizes_positive : forall m x, 0 <= sum_of_sizes m x.
+Proof. induction m as [|m IH]; intros [|y x]; cbn; try lra. pose proof (Rabs_pos y). pose proof (IH x). lra. Qed.
+Lemma quad_ones_positive : forall m x, 0 <= quad (ones m) x.
+Proof.
+  induction m as [|m IH]; intros [|y x]; cbn; rewrite ?dot_nil; try lra. pose proof (Rle_0_sqr y) as Y. unfold Rsqr in Y.
+  pose proof (IH x). lra.
+Qed.
+Lemma sizes_by_squares : forall m x, sum_of_sizes m x * sum_of_sizes m x <= INR m * quad (ones m) x.
+Proof.
+  induction m as [|m IH]; intros [|y x]; cbn [sum_of_sizes ones quad]; rewrite ?dot_nil; try lra; try (cbn; lra).
+  specialize (IH x). rewrite S_INR. set (n := INR m) in *. set (s := sum_of_sizes m x) in *. set (q := quad (ones m) x) in *.
+  assert (Y : Rabs y * Rabs y = y * y) by (rewrite <- Rabs_mult; apply Rabs_pos_eq, Rle_0_sqr).
+  set (a := Rabs y) in *. rewrite <- Y. pose proof (sum_of_sizes_positive m x) as P. fold s in P.
+  pose proof (quad_ones_positive m x) as Q. fold q in Q. pose proof (pos_INR m) as N. fold n in N.
+  enough (2 * (a * s) <= n * (a * a) + q) by lra.
+  destruct (Req_dec n 0) as [Z|Z].
+  - rewrite Z in *. assert (s = 0) by nra. nra.
+  - apply Rmult_le_reg_l with n; [lra|]. pose proof (Rle_0_sqr (n * a - s)) as D. unfold Rsqr in D. lra.
+Qed.
+Lemma size_positive : forall v, 0 <= IZR (size v).
+Proof. intros v. apply (IZR_le 0). induction v; cbn [size]; lia. Qed.
+Lemma magnitude_positive : forall M, 0 <= IZR (magnitude M).
+Proof.
+  induction M as [|[d v] M IH]; cbn [magnitude]; [lra|]. pose proof (size_positive v). rewrite !plus_IZR, mult_IZR.
+  pose proof (IZR_le 0 (Z.abs d) ltac:(lia)). lra.
+Qed.
+Lemma dot_bounded : forall v x b, 0 <= b -> Forall (fun y => Rabs y <= b) x -> Rabs (dot v x) <= IZR (size v) * b.
+Proof.
+  intros v x b B H. revert v. induction H as [|y x Y _ IH]; intros [|a v]; cbn [dot]; rewrite ?Rabs_R0;
+    try (apply Rmult_le_pos; [apply size_positive | exact B]).
+  apply Rle_trans with (1 := Rabs_triang _ _). cbn [size]. rewrite Rabs_mult, plus_IZR, abs_IZR. specialize (IH v).
+  pose proof (Rmult_le_compat_l _ _ _ (Rabs_pos (IZR a)) Y). lra.
+Qed.
+Lemma quad_bounded : forall M x b, 0 <= b -> Forall (fun y => Rabs y <= b) x -> quad M x <= IZR (magnitude M) * (b * b).
+Proof.
+  intros M x b B H. revert M. induction H as [|y x Y H IH]; intros [|[d v] M]; cbn [quad];
+    try (apply Rmult_le_pos; [apply magnitude_positive | apply Rle_0_sqr]).
+  cbn [magnitude]. rewrite !plus_IZR, mult_IZR, abs_IZR. specialize (IH M). pose proof (dot_bounded v x b B H) as D.
+  pose proof (Rle_abs (IZR d * (y * y))) as U. rewrite Rabs_mult, (Rabs_pos_eq (y * y)) in U by apply Rle_0_sqr.
+  pose proof (Rle_abs (y * dot v x)) as W. rewrite Rabs_mult in W.
+  assert (YY : y * y <= b * b).
+  { rewrite <- (Rabs_pos_eq (y * y)), Rabs_mult by apply Rle_0_sqr. apply Rmult_le_compat; try apply Rabs_pos; exact Y. }
+  pose proof (Rmult_le_compat_l _ _ _ (Rabs_pos (IZR d)) YY).
+  pose proof (Rmult_le_compat _ _ _ _ (Rabs_pos y) (Rabs_pos (dot v x)) Y D). lra.
+Qed.
+Lemma shift_leaves : forall a k, (0 <= k)%Z ->
+  exists r, IZR a = IZR (2 ^ k) * IZR (Z.shiftr a k) + r /\ 0 <= r <= IZR (2 ^ k).
+Proof.
+  intros a k K. rewrite Z.shiftr_div_pow2 by exact K. assert (P : (0 < 2 ^ k)%Z) by (apply Z.pow_pos_nonneg; lia).
+  exists (IZR (a mod 2 ^ k)). rewrite <- mult_IZR, <- plus_IZR, <- Z.div_mod by lia. split; [reflexivity|].
+  pose proof (Z.mod_pos_bound a _ P). split; [apply (IZR_le 0) | apply IZR_le]; lia.
+Qed.
+Lemma dot_shorter : forall k, (0 <= k)%Z -> forall v m x, (length v <= m)%nat ->
+  Rabs (dot v x - IZR (2 ^ k) * dot (map (fun a => Z.shiftr a k) v) x) <= IZR (2 ^ k) * sum_of_sizes m x.
+Proof.
+  intros k K. assert (P : 0 <= IZR (2 ^ k)) by (apply (IZR_le 0), Z.pow_nonneg; lia).
+  assert (Q : forall m x, 0 <= IZR (2 ^ k) * sum_of_sizes m x).
+  { intros. apply Rmult_le_pos; [exact P | apply sum_of_sizes_positive]. }
+  induction v as [|a v IH]; intros m [|y x] L; cbn [dot map]; rewrite ?Rmult_0_r, ?Rminus_0_r, ?Rabs_R0; try apply Q.
+  destruct m as [|m]; cbn [length] in L; [lia|]. cbn [sum_of_sizes]. specialize (IH m x ltac:(lia)).
+  destruct (shift_leaves a k K) as (r & E & B). rewrite E.
+  replace ((IZR (2 ^ k) * IZR (Z.shiftr a k) + r) * y + dot v x
+      - IZR (2 ^ k) * (IZR (Z.shiftr a k) * y + dot (map (fun a0 => Z.shiftr a0 k) v) x))
+    with (r * y + (dot v x - IZR (2 ^ k) * dot (map (fun a0 => Z.shiftr a0 k) v) x)) by ring.
+  apply Rle_trans with (1 := Rabs_triang _ _). rewrite Rabs_mult, (Rabs_pos_eq r) by lra.
+  pose proof (Rmult_le_compat_r (Rabs y) r (IZR (2 ^ k)) (Rabs_pos y) ltac:(lra)). lra.
+Qed.
+(* What a form makes of the long coefficients is what it makes of the short ones, but for a share 1/n and a little. *)
+Lemma quad_shorter : forall P k n m A x,
+  (forall z, 0 <= quad P z) -> (0 <= k)%Z -> Forall (fun r => (length r <= m)%nat) A ->
+  let q := IZR (2 ^ k) in let N := IZR (Zpos n) in
+  N * quad P (image A x)
+  <= (N + 1) * (q * q) * (quad P (image (shorter k A) x) + N * IZR (magnitude P) * (INR m * quad (ones m) x)).
+Proof.
+  intros P k n m A x HP K L q N. assert (PN : 0 < N) by (apply (IZR_lt 0); lia).
+  assert (Pq : 0 <= q) by (apply (IZR_le 0), Z.pow_nonneg; lia).
+  assert (Q0 : 0 < q) by (apply (IZR_lt 0), Z.pow_pos_nonneg; lia).
+  set (t := / (N + 1)). assert (T : 0 < t < 1).
+  { unfold t. split; [apply Rinv_0_lt_compat; lra|]. rewrite <- Rinv_1. apply Rinv_lt_contravar; lra. }
+  assert (T1 : 1 - t = N / (N + 1)) by (unfold t; field; lra).
+  set (B := image (shorter k A) x). set (D := map (fun r => dot r x - q * dot (map (fun a => Z.shiftr a k) r) x) A).
+  assert (E : image A x = on_line t (map (fun z => z / ((1 - t) / q)) B) (map (fun z => z / t) D)).
+  { unfold B, D, image, shorter. clear - T Q0. induction A as [|r A IH]; cbn [map on_line]; [reflexivity|].
+    rewrite <- IH. f_equal. field. lra. }
+  assert (LD : length (map (fun z => z / ((1 - t) / q)) B) = length (map (fun z => z / t) D)).
+  { unfold B, D, image, shorter. rewrite !map_length. reflexivity. }
+  pose proof (convex P t _ _ LD HP ltac:(lra)) as C. rewrite <- E, !quad_scale in C.
+  assert (QD : quad P D <= IZR (magnitude P) * (q * sum_of_sizes m x * (q * sum_of_sizes m x))).
+  { apply quad_bounded; [apply Rmult_le_pos; [exact Pq | apply sum_of_sizes_positive]|].
+    unfold D. apply Forall_map. apply Forall_impl with (2 := L). intros r Lr. exact (dot_shorter k K r m x Lr). }
+  pose proof (Rmult_le_compat_l _ _ _ (Rle_0_sqr q) (sizes_by_squares m x)) as S.
+  apply (Rmult_le_compat_l _ _ _ (magnitude_positive P)) in S. unfold Rsqr in S.
+  set (y := INR m * quad (ones m) x) in *. set (u := sum_of_sizes m x) in *.
+  apply Rmult_le_compat_l with (r := N) in C; [|lra]. fold B in C.
+  replace (N * ((1 - t) * (quad P B / ((1 - t) / q) / ((1 - t) / q)) + t * (quad P D / t / t)))
+    with ((N + 1) * (q * q) * quad P B + N * (N + 1) * quad P D) in C.
+  - assert (QD2 : quad P D <= IZR (magnitude P) * (q * q * y)) by (apply Rle_trans with (1 := QD); lra).
+    apply (Rmult_le_compat_l (N * (N + 1))) in QD2; [|apply Rmult_le_pos; lra]. apply Rle_trans with (1 := C). lra.
+  - rewrite T1. unfold t. field. lra.
+Qed.

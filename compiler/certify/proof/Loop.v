@@ -54,18 +54,63 @@ Definition sound (c : loop) : Prop :=
   shape c = true /\ never_negative (P c) /\ Forall (fun p => Forall never_negative (corners c p)) (parts c).
 
 (* ---------- the checker ---------- *)
+(* It computes with the leading digits of A, which may have hundreds, and pays for the others: with a share 1/slack of what
+   is stored after the hold, and with a little of the square of every state and input. *)
+Definition width (A : list (list Z)) : nat := fold_right (fun row m => Nat.max (length row) m) O A.
+Lemma within_width : forall A, Forall (fun row => (length row <= width A)%nat) A.
+Proof.
+  induction A as [|row A IH]; constructor; cbn; [lia|]. apply Forall_impl with (2 := IH). fold (width A). intros. lia.
+Qed.
+Record digits := { kept : positive; dropped : nat; slack : positive }.   (* eA = kept 2^dropped *)
+Definition near (c : loop) (r : digits) (A : list (list Z)) (C : list Z) (beta gamma : Z) : sym :=
+  let w := unit_at (states c) in
+  let rho := unit_at (S (states c)) in
+  let m := width A in
+  let s := (Zpos (slack r) * (Zpos (kept r) * Zpos (kept r)))%Z in
+  let t := (Zpos (eP c) * s)%Z in
+  let more := (Zpos (eS c) * (Zpos (slack r) + 1))%Z in
+  mix 1 (mix t (mix 1 (cross C w) 1 (cross (E c) rho)) t (mix (2 * beta - k0 c) (self w) (2 * gamma) (self rho)))
+      1 (mix (2 * s * Zpos (eS c)) (P c) (- more)
+             (mix 1 (pull (P c) (shorter (Z.of_nat (dropped r)) A))
+                  (2 * (Zpos (slack r) * magnitude (P c) * Z.of_nat m)) (ones m))).
+Definition keeps (c : loop) (r : digits) : bool := (Zpos (eA c) =? Zpos (kept r) * 2 ^ Z.of_nat (dropped r))%Z.
+Lemma near_is_enough : forall c r A C b g, never_negative (P c) -> keeps c r = true ->
+  never_negative (near c r A C b g) -> never_negative (balance c A C b g).
+Proof.
+  intros c r A C b g HP HK H x. specialize (H x). unfold near, balance in *.
+  unfold keeps in HK. apply Z.eqb_eq in HK. rewrite HK.
+  pose proof (quad_shorter (P c) (Z.of_nat (dropped r)) (slack r) (width A) A x HP ltac:(lia) (within_width A)) as Q.
+  rewrite !quad_mix, quad_pull in *. rewrite ?opp_IZR, ?mult_IZR, ?plus_IZR, ?mult_IZR, <- ?INR_IZR_INZ in *.
+  set (q := IZR (2 ^ Z.of_nat (dropped r))) in *. set (N := IZR (Z.pos (slack r))) in *.
+  set (e := IZR (Z.pos (kept r))) in *. set (eSc := IZR (Z.pos (eS c))) in *. set (ePc := IZR (Z.pos (eP c))) in *.
+  set (QA := quad (P c) (image A x)) in *. set (QB := quad (P c) (image (shorter (Z.of_nat (dropped r)) A) x)) in *.
+  set (mag := IZR (magnitude (P c))) in *. set (o := quad (ones (width A)) x) in *.
+  set (m := INR (width A)) in *. set (p := quad (P c) x) in *.
+  set (W := quad (self (unit_at (states c))) x) in *. set (V := quad (self (unit_at (S (states c)))) x) in *.
+  set (X1 := quad (cross C (unit_at (states c))) x) in *. set (X2 := quad (cross (E c) (unit_at (S (states c)))) x) in *.
+  assert (PN : 0 < N) by (apply (IZR_lt 0); lia). assert (PS : 0 < eSc) by (apply (IZR_lt 0); lia).
+  apply (Rmult_le_compat_l (q * q)) in H; [|apply Rle_0_sqr]. rewrite Rmult_0_r in H.
+  apply (Rmult_le_compat_l (2 * eSc)) in Q; [|lra].
+  apply Rmult_le_reg_l with (1 := PN). rewrite Rmult_0_r. apply Rle_trans with (1 := H). lra.
+Qed.
 Definition witness := (list (list Z) * positive)%type.
 Definition accepts_form (f : sym * witness) : bool := psd_by (fst (snd f)) (snd (snd f)) (fst f).
 (* Where nothing lies between, one corner is all four. *)
 Definition is_exact (p : part) : bool :=
   if list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p) then if list_eq_dec Z.eq_dec (C1 p) (C2 p) then true else false else false.
-Definition accepts_part (c : loop) (f : part * list witness) : bool :=
+Definition near_corners (c : loop) (r : digits) (p : part) : list sym :=
+  [near c r (A1 p) (C1 p) (beta p) (gamma p); near c r (A1 p) (C2 p) (beta p) (gamma p);
+   near c r (A2 p) (C1 p) (beta p) (gamma p); near c r (A2 p) (C2 p) (beta p) (gamma p)].
+Definition accepts_part (c : loop) (r : digits) (f : part * list witness) : bool :=
   if is_exact (fst f) then
-    match snd f with w :: _ => accepts_form (balance c (A1 (fst f)) (C1 (fst f)) (beta (fst f)) (gamma (fst f)), w) | [] => false end
-  else Nat.leb 4 (length (snd f)) && forallb accepts_form (combine (corners c (fst f)) (snd f)).
-Definition accepts (c : loop) (of_P : witness) (of_parts : list (list witness)) : bool :=
-  shape c && accepts_form (P c, of_P)
-  && Nat.eqb (length (parts c)) (length of_parts) && forallb (accepts_part c) (combine (parts c) of_parts).
+    match snd f with
+    | w :: _ => accepts_form (near c r (A1 (fst f)) (C1 (fst f)) (beta (fst f)) (gamma (fst f)), w)
+    | [] => false
+    end
+  else Nat.leb 4 (length (snd f)) && forallb accepts_form (combine (near_corners c r (fst f)) (snd f)).
+Definition accepts (c : loop) (r : digits) (of_P : witness) (of_parts : list (list witness)) : bool :=
+  shape c && keeps c r && accepts_form (times (Zpos (eS c)) (P c), of_P)
+  && Nat.eqb (length (parts c)) (length of_parts) && forallb (accepts_part c r) (combine (parts c) of_parts).
 
 Lemma accepted_form : forall M w, accepts_form (M, w) = true -> never_negative M.
 Proof. intros M [L k] H x. exact (psd_by_sound L k M H x). Qed.
@@ -76,24 +121,34 @@ Proof.
   - apply andb_prop in H as [H _]. exact (accepted_form M w H).
   - apply andb_prop in H as [_ H]. exact (IH ws (le_S_n _ _ L) H).
 Qed.
-Lemma accepted_parts : forall c ps ws, length ps = length ws -> forallb (accepts_part c) (combine ps ws) = true ->
+Lemma accepted_parts : forall c r, never_negative (P c) -> keeps c r = true ->
+  forall ps ws, length ps = length ws -> forallb (accepts_part c r) (combine ps ws) = true ->
   Forall (fun p => Forall never_negative (corners c p)) ps.
 Proof.
+  intros c r HP HK.
   induction ps as [|p ps IH]; intros [|w ws] L H; cbn [combine forallb length] in *; try discriminate; constructor.
   - apply andb_prop in H as [H _]. unfold accepts_part in H. cbn [fst snd] in H.
-    destruct (is_exact p) eqn:X.
-    { destruct w as [|w0 w]; [discriminate|]. apply accepted_form in H. unfold is_exact in X.
+    unfold corners. destruct (is_exact p) eqn:X.
+    { destruct w as [|w0 w]; [discriminate|]. apply accepted_form, (near_is_enough c r _ _ _ _ HP HK) in H.
+      unfold is_exact in X.
       destruct (list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p)) as [EA|]; [|discriminate].
       destruct (list_eq_dec Z.eq_dec (C1 p) (C2 p)) as [EC|]; [|discriminate].
-      unfold corners. rewrite <- EA, <- EC. repeat (apply Forall_cons; [exact H|]). apply Forall_nil. }
-    apply andb_prop in H as [H1 H2]. apply Nat.leb_le in H1. exact (accepted_forms (corners c p) w H1 H2).
+      rewrite <- EA, <- EC. repeat (apply Forall_cons; [exact H|]). apply Forall_nil. }
+    apply andb_prop in H as [H1 H2]. apply Nat.leb_le in H1. pose proof (accepted_forms (near_corners c r p) w H1 H2) as F.
+    unfold near_corners in F. inversion F as [|? ? M11 R1]; inversion R1 as [|? ? M12 R2]; inversion R2 as [|? ? M21 R3];
+      inversion R3 as [|? ? M22 R4]; subst.
+    repeat apply Forall_cons; try apply Forall_nil; apply (near_is_enough c r _ _ _ _ HP HK); assumption.
   - apply andb_prop in H as [_ H]. apply (IH ws); [lia | exact H].
 Qed.
-Lemma sound_if_accepted : forall c of_P of_parts, accepts c of_P of_parts = true -> sound c.
+Lemma sound_if_accepted : forall c r of_P of_parts, accepts c r of_P of_parts = true -> sound c.
 Proof.
-  intros c of_P of_parts H. unfold accepts in H.
-  apply andb_prop in H as [H H0]. apply andb_prop in H as [H H1]. apply andb_prop in H as [H H2].
-  apply Nat.eqb_eq in H1. split; [exact H | split; [exact (accepted_form _ _ H2) | exact (accepted_parts c _ _ H1 H0)]].
+  intros c r of_P of_parts H. unfold accepts in H.
+  apply andb_prop in H as [H H0]. apply andb_prop in H as [H H1].
+  apply andb_prop in H as [H H2]. apply andb_prop in H as [H H3].
+  apply Nat.eqb_eq in H1. assert (HP : never_negative (P c)).
+  { intros x. pose proof (accepted_form _ _ H2 x) as Q. rewrite quad_times in Q.
+    apply Rmult_le_reg_l with (IZR (Zpos (eS c))); [apply (IZR_lt 0); lia | lra]. }
+  split; [exact H | split; [exact HP | exact (accepted_parts c r HP H3 _ _ H1 H0)]].
 Qed.
 
 (* ---------- one hold ---------- *)

@@ -37,12 +37,6 @@ std::vector<std::string> texts(const std::vector<Integer>& row) {
 
 std::string row_text(const std::vector<Integer>& row) { return list_of(texts(row)); }
 
-std::string rows_text(const IntegerMatrix& rows) {
-  std::vector<std::string> items;
-  for (const std::vector<Integer>& row : rows) items.push_back(row_text(row));
-  return list_of(items);
-}
-
 // Every diagonal entry with what is right of it.
 std::string form_text(const IntegerMatrix& form) {
   std::vector<std::string> items;
@@ -116,7 +110,11 @@ std::optional<std::string> witness(const IntegerMatrix& M, int fraction) {
       }
       dominant = own >= off;
     }
-    if (dominant) return fmt::format("({}, {}%positive)", rows_text(columns), number_text(k));
+    if (!dominant) continue;
+    std::vector<std::string> items;  // columns from their diagonal entry on
+    for (std::size_t j = 0; j < n; ++j)
+      items.push_back(row_text({columns[j].begin() + std::ptrdiff_t(j), columns[j].end()}));
+    return fmt::format("({}, {}%positive)", list_of(items), number_text(k));
   }
   return std::nullopt;
 }

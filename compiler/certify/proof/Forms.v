@@ -129,11 +129,14 @@ Proof.
   pose proof (split_row v y x) as S. pose proof (Rle_0_sqr y) as Y. unfold Rsqr in Y.
   assert (0 <= (IZR d - IZR (size v)) * (y * y)) by (apply Rmult_le_pos; lra). lra.
 Qed.
-Fixpoint gram (L : list (list Z)) : sym := match L with [] => [] | c :: L' => mix 1 (self c) 1 (gram L') end.
+(* L L', of columns of L from their diagonal entry on *)
+Fixpoint gram (L : list (list Z)) : sym :=
+  match L with [] => [] | c :: L' => mix 1 (self c) 1 ((0%Z, []) :: gram L') end.
 Lemma gram_psd : forall L x, 0 <= quad (gram L) x.
 Proof.
   induction L as [|c L IH]; intros x; cbn [gram]; rewrite ?quad_nil; [lra|].
-  rewrite quad_mix, quad_self. pose proof (Rle_0_sqr (dot c x)) as S. unfold Rsqr in S. pose proof (IH x). lra.
+  rewrite quad_mix, quad_self. pose proof (Rle_0_sqr (dot c x)) as S. unfold Rsqr in S.
+  destruct x as [|y x]; cbn [quad]; rewrite ?dot_nil; [lra|]. pose proof (IH x). lra.
 Qed.
 Definition psd_by (L : list (list Z)) (k : positive) (M : sym) : bool :=
   let R := mix 1 M (- Zpos k) (gram L) in dominant (length R) R.

@@ -62,22 +62,22 @@ Proof.
   induction A as [|row A IH]; constructor; cbn; [lia|]. apply Forall_impl with (2 := IH). fold (width A). intros. lia.
 Qed.
 Record digits := { kept : positive; dropped : nat; slack : positive }.   (* eA = kept 2^dropped *)
-Definition near (c : loop) (r : digits) (A : list (list Z)) (C : list Z) (beta gamma : Z) : sym :=
+Definition near_pull (c : loop) (r : digits) (A : list (list Z)) : sym :=
+  mix 1 (pull (P c) (shorter (Z.of_nat (dropped r)) A))
+      (2 * (Zpos (slack r) * magnitude (P c) * Z.of_nat (width A))) (ones (width A)).
+Definition near (c : loop) (r : digits) (pulled : sym) (C : list Z) (beta gamma : Z) : sym :=
   let w := unit_at (states c) in
   let rho := unit_at (S (states c)) in
-  let m := width A in
   let s := (Zpos (slack r) * (Zpos (kept r) * Zpos (kept r)))%Z in
   let t := (Zpos (eP c) * s)%Z in
   let more := (Zpos (eS c) * (Zpos (slack r) + 1))%Z in
   mix 1 (mix t (mix 1 (cross C w) 1 (cross (E c) rho)) t (mix (2 * beta - k0 c) (self w) (2 * gamma) (self rho)))
-      1 (mix (2 * s * Zpos (eS c)) (P c) (- more)
-             (mix 1 (pull (P c) (shorter (Z.of_nat (dropped r)) A))
-                  (2 * (Zpos (slack r) * magnitude (P c) * Z.of_nat m)) (ones m))).
+      1 (mix (2 * s * Zpos (eS c)) (P c) (- more) pulled).
 Definition keeps (c : loop) (r : digits) : bool := (Zpos (eA c) =? Zpos (kept r) * 2 ^ Z.of_nat (dropped r))%Z.
 Lemma near_is_enough : forall c r A C b g, never_negative (P c) -> keeps c r = true ->
-  never_negative (near c r A C b g) -> never_negative (balance c A C b g).
+  never_negative (near c r (near_pull c r A) C b g) -> never_negative (balance c A C b g).
 Proof.
-  intros c r A C b g HP HK H x. specialize (H x). unfold near, balance in *.
+  intros c r A C b g HP HK H x. specialize (H x). unfold near, near_pull, balance in *.
   unfold keeps in HK. apply Z.eqb_eq in HK. rewrite HK.
   pose proof (quad_shorter (P c) (Z.of_nat (dropped r)) (slack r) (width A) A x HP ltac:(lia) (within_width A)) as Q.
   rewrite !quad_mix, quad_pull in *. rewrite ?opp_IZR, ?mult_IZR, ?plus_IZR, ?mult_IZR, <- ?INR_IZR_INZ in *.
@@ -99,12 +99,14 @@ Definition accepts_form (f : sym * witness) : bool := psd_by (fst (snd f)) (snd 
 Definition is_exact (p : part) : bool :=
   if list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p) then if list_eq_dec Z.eq_dec (C1 p) (C2 p) then true else false else false.
 Definition near_corners (c : loop) (r : digits) (p : part) : list sym :=
-  [near c r (A1 p) (C1 p) (beta p) (gamma p); near c r (A1 p) (C2 p) (beta p) (gamma p);
-   near c r (A2 p) (C1 p) (beta p) (gamma p); near c r (A2 p) (C2 p) (beta p) (gamma p)].
+  let M1 := near_pull c r (A1 p) in
+  let M2 := near_pull c r (A2 p) in
+  [near c r M1 (C1 p) (beta p) (gamma p); near c r M1 (C2 p) (beta p) (gamma p);
+   near c r M2 (C1 p) (beta p) (gamma p); near c r M2 (C2 p) (beta p) (gamma p)].
 Definition accepts_part (c : loop) (r : digits) (f : part * list witness) : bool :=
   if is_exact (fst f) then
     match snd f with
-    | w :: _ => accepts_form (near c r (A1 (fst f)) (C1 (fst f)) (beta (fst f)) (gamma (fst f)), w)
+    | w :: _ => accepts_form (near c r (near_pull c r (A1 (fst f))) (C1 (fst f)) (beta (fst f)) (gamma (fst f)), w)
     | [] => false
     end
   else Nat.leb 4 (length (snd f)) && forallb accepts_form (combine (near_corners c r (fst f)) (snd f)).

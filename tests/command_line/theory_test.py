@@ -18,7 +18,7 @@ INTEGRALS = AXIOMS | {"Classical_Prop.classic"}
 CERTIFICATES = "Require Import Loop.\nPrint Assumptions nothing_is_extracted.\nPrint Assumptions sound_if_accepted.\n"
 SLIPS = "Require Import Slips.\n" + "".join(f"Print Assumptions {theorem}.\n" for theorem in (
     "nothing_is_extracted", "nothing_is_extracted_when_late", "relaxing_holds", "relaxing_follows", "at_once_holds",
-    "at_once_follows", "behind_holds", "behind_follows", "slip_takes_in", "sliding_holds"))
+    "at_once_follows", "behind_holds", "behind_follows", "elements_take_in", "slip_takes_in", "sliding_holds"))
 CLAMP = ("Require Import Clamp.\nPrint Assumptions nothing_is_extracted_from_a_clipped_force.\n"
          "Print Assumptions clips_at_limit.\n")
 HOLDS = "Require Import Hold.\nPrint Assumptions lagging_hold.\nPrint Assumptions least_dissipation_of_shorter_holds.\n"
@@ -32,7 +32,7 @@ class TheoryTest(CommandTest):
         return done.stdout
 
     def assert_no_more_axioms(self, printed, axioms):
-        found = set(re.findall(r"^([A-Za-z_.]+)\s*(?::|$)", printed, re.M)) - {"Axioms"}
+        found = set(re.findall(r"^([\w.']+)\s*(?::|$)", printed, re.M)) - {"Axioms"}
         self.assertTrue(found)
         self.assertLessEqual(found, axioms)
 

@@ -186,26 +186,118 @@ Proof.
   cbn. destruct A as (M & _ & _ & V). pose proof (springs_follow Ks Fs w ys t P L M). lra.
 Qed.
 
+(* What is behind the springs, element by element, by a step of backward Euler: the displacement d takes the force p of
+   an element to q. A damper has c = B over the sample period. *)
+Inductive part := spring_inside (K : R) | damper_inside (c : R) | slip_inside (Y : R).
+Definition may_be (e : part) (p : R) : Prop := match e with slip_inside Y => - Y <= p <= Y | _ => True end.
+Definition obeys (e : part) (p d q : R) : Prop :=
+  match e with
+  | spring_inside K => 0 < K /\ q = p + K * d
+  | damper_inside c => 0 < c /\ q = c * d
+  | slip_inside Y => - Y <= q <= Y /\ (0 < d -> q = Y) /\ (d < 0 -> q = - Y)
+  end.
+Definition stored_in (e : part) (p : R) : R := match e with spring_inside K => p * p / (2 * K) | _ => 0 end.
+Definition remembered_in (e : part) (p : R) : R := match e with damper_inside c => p * p / (2 * c) | _ => 0 end.
+Lemma part_takes_in : forall e p d q, may_be e p -> obeys e p d q ->
+  may_be e q /\ stored_in e q - stored_in e p <= q * d /\ remembered_in e q - remembered_in e p <= q * d - p * d.
+Proof.
+  intros [K|c|Y] p d q M O; cbn in *.
+  - destruct O as [P ->]. pose proof (Rmult_le_pos _ _ (Rlt_le _ _ P) (Rle_0_sqr d)) as S. unfold Rsqr in S.
+    assert (E : (p + K * d) * (p + K * d) / (2 * K) - p * p / (2 * K) = p * d + K * (d * d) / 2) by (field; lra).
+    repeat split; lra.
+  - destruct O as [P ->]. pose proof (Rmult_le_pos _ _ (Rlt_le _ _ P) (Rle_0_sqr d)) as S. unfold Rsqr in S.
+    assert (I2 : 0 < / (2 * c)) by (apply Rinv_0_lt_compat; lra).
+    pose proof (Rmult_le_pos _ _ (Rle_0_sqr (c * d - p)) (Rlt_le _ _ I2)) as T. unfold Rsqr in T.
+    assert (E : c * d * d - p * d - (c * d * (c * d) / (2 * c) - p * p / (2 * c))
+                = (c * d - p) * (c * d - p) * / (2 * c)) by (field; lra).
+    repeat split; lra.
+  - destruct O as (B & U & L). destruct (Rtotal_order d 0) as [D|[->|D]].
+    + rewrite (L D) in *. repeat split; nra.
+    + repeat split; lra.
+    + rewrite (U D) in *. repeat split; nra.
+Qed.
+
+(* Nodes are numbered; an element ends at nodes or at the ground. Forces ps of the elements and Fs of the springs balance
+   when they do the same work on any displacements z of the nodes. *)
+Definition at_node (z : nat -> R) (node : option nat) : R := match node with Some i => z i | None => 0 end.
+Definition element_between := (part * (option nat * option nat))%type.
+Definition stretch (z : nat -> R) (e : element_between) : R := at_node z (fst (snd e)) - at_node z (snd (snd e)).
+Definition balance (es : list element_between) (ends : list (option nat)) (ps Fs : list R) : Prop :=
+  forall z, product Fs (map (at_node z) ends) = product ps (map (stretch z) es).
+Fixpoint each (P : part -> R -> Prop) (es : list element_between) (ps : list R) : Prop :=
+  match es, ps with e :: es', p :: ps' => P (fst e) p /\ each P es' ps' | [], [] => True | _, _ => False end.
+Fixpoint step_each (z : nat -> R) (es : list element_between) (ps qs : list R) : Prop :=
+  match es, ps, qs with
+  | e :: es', p :: ps', q :: qs' => obeys (fst e) p (stretch z e) q /\ step_each z es' ps' qs'
+  | [], [], [] => True
+  | _, _, _ => False
+  end.
+Fixpoint of_each (f : part -> R -> R) (es : list element_between) (ps : list R) : R :=
+  match es, ps with e :: es', p :: ps' => f (fst e) p + of_each f es' ps' | _, _ => 0 end.
+(* However the step is solved: with the ends of the springs, and what finds the forces and displacements after it. *)
+Definition elements_inside (es : list element_between) (ends : list (option nat))
+  (solve : list R -> list R -> R -> list R * (nat -> R)) : network :=
+  {| inside := list R;
+     consistent ps Fs := each may_be es ps /\ balance es ends ps Fs;
+     stored := of_each stored_in es; remembered := of_each remembered_in es;
+     advance ps Fs w := let (qs, z) := solve ps Fs w in (qs, map (at_node z) ends) |}.
+Definition solves (es : list element_between) (ends : list (option nat)) (Ks : list R) solve : Prop :=
+  forall ps Fs w, length Fs = length Ks -> each may_be es ps -> balance es ends ps Fs ->
+    let (qs, z) := solve ps Fs w : list R * (nat -> R) in
+    step_each z es ps qs /\ balance es ends qs (stretched Ks Fs w (map (at_node z) ends)).
+Lemma step_each_takes_in : forall z es ps qs, each may_be es ps -> step_each z es ps qs -> each may_be es qs /\
+  of_each stored_in es qs - of_each stored_in es ps <= product qs (map (stretch z) es) /\
+  of_each remembered_in es qs - of_each remembered_in es ps
+    <= product qs (map (stretch z) es) - product ps (map (stretch z) es).
+Proof.
+  induction es as [|e es IH]; intros [|p ps] [|q qs] M S; cbn in *; try contradiction; [repeat split; lra|].
+  destruct M as [M1 M]. destruct S as [S1 S]. destruct (part_takes_in _ _ _ _ M1 S1) as (A & B & C).
+  destruct (IH ps qs M S) as (D & E & F). repeat split; try assumption; lra.
+Qed.
+Lemma of_each_positive : forall f es ps, (forall e p, In e es -> 0 <= f (fst e) p) -> 0 <= of_each f es ps.
+Proof.
+  induction es as [|e es IH]; intros [|p ps] H; cbn; try lra.
+  apply Rplus_le_le_0_compat; [apply H; left; reflexivity | apply IH; intros; apply H; right; assumption].
+Qed.
+Definition positive_part (e : part) : Prop :=
+  match e with spring_inside K => 0 < K | damper_inside c => 0 < c | slip_inside Y => 0 <= Y end.
+Theorem elements_take_in : forall es ends Ks solve, Forall (fun K => 0 < K) Ks -> length ends = length Ks ->
+  Forall (fun e => positive_part (fst e)) es -> solves es ends Ks solve -> takes_in (elements_inside es ends solve) Ks.
+Proof.
+  intros es ends Ks solve PK L PE S. split; [exact PK | split].
+  - rewrite Forall_forall in PE. intros ps. cbn.
+    split; apply of_each_positive; intros e p I; specialize (PE e I); destruct (fst e) as [K|c|Y]; cbn in *; try lra;
+      (apply Rmult_le_pos; [apply Rle_0_sqr | left; apply Rinv_0_lt_compat; lra]).
+  - intros ps Fs w LF [M B]. cbn in *. specialize (S ps Fs w LF M B). destruct (solve ps Fs w) as [qs z].
+    destruct S as [S B2]. destruct (step_each_takes_in z es ps qs M S) as (M2 & V & W).
+    rewrite (B z), (B2 z). repeat split; try assumption. rewrite map_length. exact L.
+Qed.
+
 (* One slip behind one spring, whose force is cut off at the yield force. *)
 Definition cut (Y F : R) : R := Rmax (- Y) (Rmin Y F).
-Definition slip (K Y : R) : network :=
-  {| inside := unit; consistent _ Fs := match Fs with [F] => - Y <= F <= Y | _ => False end;
-     stored _ := 0; remembered _ := 0;
-     advance i Fs w := match Fs with [F] => (i, [w - (cut Y (F + K * w) - F) / K]) | _ => (i, []) end |}.
-Definition slipping (K Y : R) : element := behind (slip K Y) [K].
-Lemma slip_takes_in : forall K Y, 0 < K -> 0 <= Y -> takes_in (slip K Y) [K].
+Definition one_slip (Y : R) : list element_between := [(slip_inside Y, (Some O, None))].
+Definition slide (K Y : R) (ps Fs : list R) (w : R) : list R * (nat -> R) :=
+  match Fs with
+  | [F] => ([cut Y (F + K * w)], fun _ => w - (cut Y (F + K * w) - F) / K)
+  | _ => (ps, fun _ => 0)
+  end.
+Definition slipping (K Y : R) : element := behind (elements_inside (one_slip Y) [Some O] (slide K Y)) [K].
+Lemma slip_takes_in : forall K Y, 0 < K -> 0 <= Y -> takes_in (elements_inside (one_slip Y) [Some O] (slide K Y)) [K].
 Proof.
-  intros K Y HK HY. split; [repeat constructor; exact HK|]. split; [cbn; intros; lra|].
-  intros i Fs w L C. cbn in *. destruct Fs as [|F [|G Fs]]; try contradiction. cbn.
-  set (x := w - (cut Y (F + K * w) - F) / K).
-  replace (F + K * (w - x)) with (cut Y (F + K * w)) by (unfold x; field; lra).
-  assert (E : x = (F + K * w - cut Y (F + K * w)) / K) by (unfold x; field; lra). rewrite E.
-  assert (HI : 0 < / K) by (apply Rinv_0_lt_compat; exact HK). set (t := F + K * w). unfold Rdiv.
-  assert (B : - Y <= cut Y t <= Y /\ 0 <= cut Y t * (t - cut Y t) /\ 0 <= (cut Y t - F) * (t - cut Y t)).
-  { unfold cut, Rmax, Rmin. destruct (Rle_dec Y t) as [T|T]; destruct (Rle_dec (- Y) _) as [U|U]; nra. }
-  destruct B as (B & W & V).
-  pose proof (Rmult_le_pos _ _ W (Rlt_le _ _ HI)). pose proof (Rmult_le_pos _ _ V (Rlt_le _ _ HI)).
-  repeat split; try apply B; lra.
+  intros K Y HK HY. apply elements_take_in;
+    [constructor; [exact HK | constructor] | reflexivity | constructor; [exact HY | constructor] |].
+  intros ps Fs w L M B. destruct Fs as [|F [|]]; try discriminate. destruct ps as [|p [|]]; cbn in M; try tauto.
+  destruct M as [M _]. specialize (B (fun _ => 1)). unfold stretch, at_node in B. cbn in B.
+  assert (E : p = F) by lra. subst p.
+  cbn. set (x := w - (cut Y (F + K * w) - F) / K). unfold stretch, at_node. cbn.
+  assert (E : x = (F + K * w - cut Y (F + K * w)) * / K) by (unfold x; field; lra).
+  assert (HI : 0 < / K) by (apply Rinv_0_lt_compat; exact HK).
+  assert (C : - Y <= cut Y (F + K * w) <= Y /\ (0 < x -> cut Y (F + K * w) = Y) /\ (x < 0 -> cut Y (F + K * w) = - Y)).
+  { rewrite E. clear E x B L. generalize (F + K * w) as t. intros t. unfold cut, Rmax, Rmin.
+    destruct (Rle_dec Y t) as [T|T]; destruct (Rle_dec (- Y) _) as [U|U]; repeat split; intros; try lra; nra. }
+  split; [split; [|exact I]|].
+  - rewrite Rminus_0_r. exact C.
+  - intros z. cbn. unfold stretch, at_node. cbn. unfold x. field. lra.
 Qed.
 
 (* ---------- side by side ---------- *)

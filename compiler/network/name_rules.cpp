@@ -102,6 +102,7 @@ void UniqueNames::add(const Text& name, Diagnostics& diagnostics) {
   if (is_new) return;
   diagnostics.report<DiagnosticCode::name_taken>(name.span, excerpt(name.text));
   diagnostics.note<DiagnosticCode::first_given_here>(known->second);
+  diagnostics.note<DiagnosticCode::write_instead>({}, free_name(name.text));
 }
 
 std::string UniqueNames::free_name(const std::string& wanted) const {

@@ -252,10 +252,7 @@ class FitPage {
     if (!has(which)) return "";
     const std::optional<fitting::Interval>& interval = element.*which;
     if (!interval) return "<td></td>";
-    return "<td>" +
-           escaped(quantity_text(interval->low, unit_of(element.kind, units_), 4) + " … " +
-                   quantity_text(interval->high, unit_of(element.kind, units_), 4)) +
-           "</td>";
+    return "<td>" + escaped(interval_text(*interval, unit_of(element.kind, units_))) + "</td>";
   }
 
   std::string elements_table() const {

@@ -66,8 +66,7 @@ class FitText {
   }
 
   std::string between(const Interval& interval, const FittedElement& element) const {
-    return fmt::format("{} … {}", quantity_text(interval.low, unit_of(element.kind, units_), 4),
-                       quantity_text(interval.high, unit_of(element.kind, units_), 4));
+    return interval_text(interval, unit_of(element.kind, units_));
   }
 
   std::string elements() const {

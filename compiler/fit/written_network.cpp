@@ -160,6 +160,14 @@ std::string quantity_text(double value, const std::string& unit, int digits) {
   return fmt::format("{:.{}g} {}", value, digits, unit);
 }
 
+std::string interval_text(const Interval& interval, const std::string& unit) {
+  constexpr int least = 4, most = 15;
+  const double width = interval.high - interval.low, size = std::max(std::abs(interval.low), std::abs(interval.high));
+  const int digits =
+      width > 0 ? std::clamp(static_cast<int>(std::ceil(std::log10(size / width))) + 2, least, most) : least;
+  return quantity_text(interval.low, unit, digits) + " … " + quantity_text(interval.high, unit, digits);
+}
+
 void round_values(std::vector<FittedElement>& elements, const Model& model, motion port_motion, int extra) {
   const PortUnits units = port_units(port_motion);
   for (FittedElement& element : elements) {

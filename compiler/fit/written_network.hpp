@@ -40,6 +40,9 @@ std::string tree_text(const std::vector<FittedElement>& elements, Form form);
 // A number with its unit, so many significant digits, a prefix of the unit where one serves.
 std::string quantity_text(double value, const std::string& unit, int digits);
 
+// Both ends with their unit, in as many digits as tell how wide it is; four or more.
+std::string interval_text(const Interval& interval, const std::string& unit);
+
 // In: a network as it was written and read back; the names are those of `elements_of`. Out: its terms with their
 // weights, so that what is told of the file is told of what stands in it.
 Model model_of(const Network& network, Form form);

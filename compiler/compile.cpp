@@ -92,8 +92,8 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
   choice.largest_error = settler.largest_error(choice, c.certificate.added_damping / (steepest * steepest));
   c.decomposition.in_words =
       choice_in_words(c.decomposition, port_units(c.network.port_motion), device.max_damping().value_or(0),
-                      to_double(zero_frequency_damping(c.form.linear)), to_double(c.form.linear.feedthrough_damping),
-                      what_is_beside_slips(c.form));
+                      c.network.map.has_value(), to_double(zero_frequency_damping(c.form.linear)),
+                      to_double(c.form.linear.feedthrough_damping), what_is_beside_slips(c.form));
 }
 
 // The encoder's range at the tool, against where the surface lies.

@@ -81,20 +81,24 @@ std::string reason_for_faithful(const Candidate& chosen, const Choices& choices)
 }
 
 std::string choice_in_words(const Decomposition& decomposition, const PortUnits& units, double reach,
-                            double zero_frequency_damping, double feedthrough_damping, Beside beside) {
+                            bool is_behind_curve, double zero_frequency_damping, double feedthrough_damping,
+                            Beside beside) {
   const Candidate& choice = decomposition.choice();
   if (!choice.faithful) return "";
+  const std::string taken =
+      fmt::format("'faithful' takes b = {:.4g} of the brake's {:.4g} {}", choice.damping, reach, units.damping) +
+      (is_behind_curve ? ", which is what it is worth behind the curve where that is steepest," : "");
   if (beside == Beside::nothing)
     return fmt::format(
-        "All of the network is behind slips: 'faithful' takes b = {:.4g} of the brake's {:.4g} {} beside them.{} What "
-        "is felt of the slips depends on the motion: 'dashpot run --motion' measures it.",
-        choice.damping, reach, units.damping, choice.faithful->in_runs ? in_runs : "");
-  std::string text = fmt::format(
-      "'faithful' takes b = {:.4g} of the brake's {:.4g} {}, and the felt force{} errs by up to {} % in the band "
-      "({}){}.",
-      choice.damping, reach, units.damping, beside == Beside::linear ? " of what is beside the slips" : "",
-      in_percent(choice.largest_error), allowance(*choice.faithful, decomposition.tolerance),
-      choice.faithful->certified ? "" : "; nothing that errs so little is certified");
+        "All of the network is behind slips: {} beside them.{} What is felt of the slips depends on the motion: "
+        "'dashpot "
+        "run --motion' measures it.",
+        taken, choice.faithful->in_runs ? in_runs : "");
+  std::string text =
+      fmt::format("{} and the felt force{} errs by up to {} % in the band ({}){}.",
+                  is_behind_curve ? taken : taken + ",", beside == Beside::linear ? " of what is beside the slips" : "",
+                  in_percent(choice.largest_error), allowance(*choice.faithful, decomposition.tolerance),
+                  choice.faithful->certified ? "" : "; nothing that errs so little is certified");
   if (choice.faithful->in_runs) text += in_runs;
   if (const Candidate* paper = named(decomposition, "paper")) text += " " + against_paper(choice, *paper, units);
   if (const auto& moves = decomposition.moves) {

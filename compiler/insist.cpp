@@ -66,7 +66,9 @@ Device with_brake(Device device, double damping) {
 class Remedies {
  public:
   Remedies(const Compilation& c, const Choices& choices)
-      : c_(c), choices_(choices), scale_(c.port.replaced_by(with_brake(*c.device, 1)).max_damping().value_or(0)) {}
+      : c_(c),
+        choices_(choices),
+        scale_(c.port.at_tool().replaced_by(with_brake(*c.device, 1)).max_damping().value_or(0)) {}
 
   // At the tool, in four digits: what is missing for the law as it is, or room for all that it would be told.
   std::optional<double> brake(double enough) const {
@@ -340,9 +342,9 @@ void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, D
   std::optional<MendedDevice> best;
   double least = noticeably * error;
   for (const MendedDevice& other : mended(*c.device)) {
-    const PortDevice port = c.port.replaced_by(other.device);
-    const double again = SlipRuns(c, choices, port).error_of(c.law);
-    if (again < least) best = other, least = again;
+    // Compiled again: less may then be added to the brake for passivity, and what is added is felt.
+    const std::optional<Compilation> again = compiled(c.network, choices, other.device);
+    if (again && again->decomposition.slips.error < least) best = other, least = again->decomposition.slips.error;
   }
   if (best)
     return diagnostics.note<DiagnosticCode::errs_less_on_another_device>({}, best->cause, best->change,

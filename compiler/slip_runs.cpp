@@ -57,11 +57,6 @@ std::vector<FeltForce> SlipRuns::felt_of(const UpdateLaw& law) {
   return felt;
 }
 
-double SlipRuns::error_of(const UpdateLaw& law) {
-  const std::vector<FeltForce> felt = felt_of(law);
-  return trial_error(*trial_, felt).worst();
-}
-
 SlipOption SlipRuns::run(const Candidate& beside, const SlipPlan& plan) {
   SlipOption option{plan, made_with_room(beside, plan), {}, {}, {}};
   option.merit.law = plan.law;

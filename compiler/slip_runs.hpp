@@ -42,9 +42,6 @@ class SlipRuns {
   // Made with room, and run through all motions.
   SlipOption run(const Candidate& beside, const SlipPlan& plan);
 
-  // Of a law that has been made, run through all motions [1].
-  double error_of(const UpdateLaw& law);
-
  private:
   std::vector<FeltForce> felt_of(const UpdateLaw& law);
   UpdateLaw by_motor(int times) const;

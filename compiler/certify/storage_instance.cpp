@@ -241,9 +241,13 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
     A_rows.push_back(list_of(items));
   }
   if (lags) C_row[n - 1] = "share";
+  // Behind a lag the theorem is of the holds that there are, punctual or jittering; else of all shorter ones too.
+  const std::string lengths = !lags               ? "up to "
+                              : device.jitter > 0 ? fmt::format("{} to ", device.sample_period - device.jitter)
+                                                  : "";
   return fmt::format(
       "(* '{}': whatever the tool does, no energy is taken out of the loop with {} N.s/m of damping (N.m.s/rad of a\n"
-      "   rotation) at holds of up to {} s. Written by dashpot. In a copy of compiler/certify/proof, or of an\n"
+      "   rotation) at holds of {}{} s. Written by dashpot. In a copy of compiler/certify/proof, or of an\n"
       "   installation's share/dashpot/proof, with this file beside the others, coqc accepts it:\n"
       "     coqc -R . Dashpot Forms.v\n     coqc -R . Dashpot Loop.v\n     coqc -R . Dashpot THIS_FILE.v *)\n"
       "Require Import ZArith List Reals Forms Loop.\nImport ListNotations.\nLocal Open Scope Z_scope.\n\n"
@@ -257,8 +261,8 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
       "  (0 <= work law 0 (repeat 0 (states law)) holds)%R.\n"
       "Proof. exact (nothing_is_extracted law law_is_sound). Qed.\nPrint Assumptions "
       "nothing_is_extracted_from_this_law.\n",
-      name, proof.damping, holds.back().longest.convert_to<double>(), lags ? " (decay : Z)" : "", list_of(A_rows),
-      lags ? " (share : Z)" : "", list_of(C_row), n, row_text(lags ? lacking : std::vector<Integer>{}),
+      name, proof.damping, lengths, holds.back().longest.convert_to<double>(), lags ? " (decay : Z)" : "",
+      list_of(A_rows), lags ? " (share : Z)" : "", list_of(C_row), n, row_text(lags ? lacking : std::vector<Integer>{}),
       number_text(stiffness), form_text(stored), power(P_digits), power(A_digits), power(S_digits), list_of(part_texts),
       power(precision.kept), dropped, power(precision.slack), *of_P, list_of(witness_texts));
 }

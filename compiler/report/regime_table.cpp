@@ -107,6 +107,17 @@ std::string table(const Group& group, const Network& network) {
   return html + "</table></div>\n";
 }
 
+// In which runs the law that is taken errs most and least.
+std::string worst_run(const SlipDecomposition& slips) {
+  if (slips.runs.empty()) return "";
+  const auto [least, most] =
+      std::minmax_element(slips.runs.begin(), slips.runs.end(),
+                          [](const SlipRunError& a, const SlipRunError& b) { return a.error < b.error; });
+  return fmt::format(
+      "<p>With the law that is taken, what is felt errs by up to {} % of the force, in {}; least in {}, by {} %.</p>\n",
+      number_text(100 * most->error), escaped(most->motion), escaped(least->motion), number_text(100 * least->error));
+}
+
 // What each law does in runs of the whole network.
 std::string merits_table(const SlipDecomposition& slips, const Network& network) {
   if (slips.merits.empty()) return "";
@@ -114,16 +125,16 @@ std::string merits_table(const SlipDecomposition& slips, const Network& network)
   std::string html = fmt::format(
       "<h3>Candidates in runs of the whole</h3>\n<p>Each law behind all slips that can have it, in runs around yield: "
       "sines at both ends of the band and a drag with reversals; within "
-      "{} % the largest brake is taken.</p>\n<div class=\"wide\"><table class=\"candidates\"><thead><tr>"
+      "{} % the largest brake is taken.</p>\n{}<div class=\"wide\"><table class=\"candidates\"><thead><tr>"
       "<th class=\"word\">law</th><th>peak error [%]</th><th>rms error [%]</th><th>mean brake [{}]</th>"
-      "<th>minimum damping [{}]</th><th>motor noise [{}]</th></tr></thead><tbody>\n",
-      number_text(100 * slips.limit), units.damping, units.damping, units.force);
+      "<th>minimum damping [{}]</th><th>certified</th><th>motor noise [{}]</th></tr></thead><tbody>\n",
+      number_text(100 * slips.limit), worst_run(slips), units.damping, units.damping, units.force);
   for (const SlipLawMerit& merit : slips.merits)
-    html +=
-        fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                    name_of(merit.law), number_text(100 * merit.peak_error), number_text(100 * merit.rms_error),
-                    number_text(merit.mean_damping), merit.minimum_damping ? number_text(*merit.minimum_damping) : "–",
-                    merit.motor_noise ? number_text(*merit.motor_noise) : "not linear");
+    html += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+        name_of(merit.law), number_text(100 * merit.peak_error), number_text(100 * merit.rms_error),
+        number_text(merit.mean_damping), merit.minimum_damping ? number_text(*merit.minimum_damping) : "–",
+        merit.certified ? "yes" : "no", merit.motor_noise ? number_text(*merit.motor_noise) : "not linear");
   return html + "</tbody></table></div>\n";
 }
 

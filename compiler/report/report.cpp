@@ -76,15 +76,18 @@ void add_comments(const Compilation& c, CodeModel& model) {
                                        {"text", escaped(comment.text)}});
 }
 
+// Candidates are of what is beside the slips. Without a device they differ by nothing that can be shown there.
+bool has_candidates(const Compilation& c) { return is_linear(c) || (c.device && !c.form.is_all_behind_slips()); }
+
 void add_linear_parts(const Compilation& c, CodeModel& model) {
   for (const char* list : {"canonical", "agreement", "candidates", "felt_error", "regimes"}) model.lists[list];
-  if (!is_linear(c)) {
-    model.lists["regimes"].push_back({{"regimes", regimes_html(c)}});
-    return;
-  }
-  model.lists["canonical"].push_back({{"form", canonical_form_html(c)}});
-  if (!c.network.contact && !c.network.map) model.lists["agreement"].push_back({{"body", agreement_html(c)}});
-  model.lists["candidates"].push_back({{"choice", escaped(c.decomposition.choice().name)},
+  if (!is_linear(c)) model.lists["regimes"].push_back({{"regimes", regimes_html(c)}});
+  else model.lists["canonical"].push_back({{"form", canonical_form_html(c)}});
+  if (is_linear(c) && !c.network.contact && !c.network.map)
+    model.lists["agreement"].push_back({{"body", agreement_html(c)}});
+  if (!has_candidates(c)) return;
+  model.lists["candidates"].push_back({{"where", is_linear(c) ? "" : " beside the slips"},
+                                       {"choice", escaped(c.decomposition.choice().name)},
                                        {"reason", escaped(in_four_digits(c.decomposition.reason))},
                                        {"in_words", in_words_html(c.decomposition.in_words)},
                                        {"table", candidates_table_html(c)}});
@@ -206,8 +209,8 @@ std::string live_json(const Compilation& c, const std::string& module) {
 
 std::string data_json(const Compilation& c, const std::optional<std::string>& module) {
   std::string json = "{\"name\":" + json_literal(c.network.name);
-  if (is_linear(c)) json += ",\"pareto\":" + candidates_json(c);
-  if (const std::string errors = is_linear(c) ? felt_error_json(c) : ""; !errors.empty())
+  if (has_candidates(c)) json += ",\"pareto\":" + candidates_json(c);
+  if (const std::string errors = has_candidates(c) ? felt_error_json(c) : ""; !errors.empty())
     json += ",\"felt_error\":" + errors;
   if (module) json += ",\"live\":" + live_json(c, *module);
   return json + "}";

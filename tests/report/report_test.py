@@ -319,6 +319,19 @@ class Pages(unittest.TestCase):
                 self.assert_simulates(network)
                 self.assert_quiet()
 
+    def test_slips_on_a_device_tell_the_whole_choice(self):
+        """Fails if the page of a network with slips keeps to itself, on a device, what was chosen beside the slips and why, how the candidates
+        err over the band, or by how much and in which motion the law behind the slips does."""
+        self.open(SOURCE / "networks/paper/visco_elasto_plastic.json", "--device", PANTOGRAPH)
+        text = "return document.getElementById('{}').textContent"
+        beside = self.browser.run(text.format("candidates"))
+        self.assertIn("beside the slips", beside)
+        self.assertIn("'faithful' takes b =", beside)
+        self.assertRegex(self.browser.run(text.format("regimes")), r"what is felt errs by up to [\d.]+ % of the force, in a (sine|drag)")
+        names = ", ".join(self.browser.run(f"{DATA}.felt_error.candidates.map((c) => c.name)"))
+        self.assertIn("faithful", names)
+        self.assert_quiet()
+
     def test_every_slip_keeps_its_name(self):
         """Fails if one of several slips shares the name, the regimes or the candidates of another, or if what is said of a ring of slips is said
         of a network without."""

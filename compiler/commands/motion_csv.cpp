@@ -186,7 +186,7 @@ class CsvTable {
                                fitting::Role role, Motion& motion) {
     const std::vector<std::size_t> found = columns_for(columns, role);
     if (found.empty() && role != fitting::Role::velocity)
-      fail<DiagnosticCode::csv_missing_column>(header.front().span, name_of(role));
+      fail<DiagnosticCode::csv_missing_column>(header.front().span, name_of(role), fitting::other_names_of(role));
     if (found.size() > 1) fail<DiagnosticCode::csv_column_twice>(header[found[1]].span, name_of(role));
     if (found.size() != 1) return std::nullopt;
     const fitting::TableColumn& named = columns[found.front()];

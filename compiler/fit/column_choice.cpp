@@ -548,6 +548,17 @@ std::string shell_word(const std::string& word) {
 }
 
 const char* name_of(Role role) { return rule_of(role).word; }
+
+std::string other_names_of(Role role) {
+  const RoleRule& rule = rule_of(role);
+  std::string text;
+  for (std::size_t i = 0; i < rule.names.size(); ++i) {
+    if (rule.names[i] == rule.word) continue;
+    if (!text.empty()) text += i + 1 == rule.names.size() ? " or " : ", ";
+    text += "'" + rule.names[i] + "'";
+  }
+  return text;
+}
 const std::vector<std::string>& names_of(Role role) { return rule_of(role).names; }
 
 TableColumn table_column(std::string_view text) {

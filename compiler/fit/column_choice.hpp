@@ -27,6 +27,8 @@ enum class Role {
   velocity,  // of a motion to simulate; no recording is fitted by it
 };
 const char* name_of(Role role);
+// As headers may spell it beside that: "'t', 'zeit' or 'elapsedtime'"; capitals, blanks and signs do not matter there.
+std::string other_names_of(Role role);
 const std::vector<std::string>& names_of(Role role);  // as headers spell it: letters and digits only, lower case
 
 // A column as the header tells of it: "Load (N)", "time [s]", "force_N" and "t/s" are a name with its unit.

@@ -2,10 +2,11 @@
 import csv
 import io
 import math
+import re
 import struct
 import unittest
 
-from dashpot_command import (COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, CommandTest, codes,
+from dashpot_command import (COMMAND_LINE_WRONG, FIG_5, INPUT_REFUSED, KELVIN, MAXWELL, PANTOGRAPH, SOURCE, CommandTest, codes,
                              network)
 
 COLUMNS = "time,position,velocity,force,damping,motor_force"
@@ -230,6 +231,11 @@ class Table(SimulateTest):
         self.refuses(table([(0, 0)], "when,position"), "csv-missing-column")
         done = self.refuses(table([(0, 0)], "when,where"), "csv-missing-column")
         self.assertEqual(codes(done.stderr), ["csv-missing-column"] * 2)
+        names = re.findall(r"'([^']+)'", " ".join(re.findall("its name may also be (.*) \\[", done.stderr)))
+        listed = (SOURCE / "networks/README.md").read_text().replace(" ", "").replace("\n", "")
+        self.assertGreater(len(names), 15)
+        for name in names:
+            self.assertIn(f"`{name}`", listed)
 
     def test_a_column_twice(self):
         """Fails if one of two columns of the same name is taken in silence."""

@@ -240,8 +240,10 @@ std::pair<double, double> largest_need(const Recursion<double>& r, const Lag& la
 
 class StorageSearch {
  public:
-  StorageSearch(const checker::LoopForm& loop, const checker::Device& device, const SampledBound& bound)
-      : loop_(loop),
+  StorageSearch(const checker::Program& program, const checker::LoopForm& loop, const checker::Device& device,
+                const SampledBound& bound)
+      : program_(program),
+        loop_(loop),
         device_(device),
         hold_(device.sample_period + device.jitter),
         lag_(lag_of(hold_, device.amplifier_lag)) {
@@ -261,7 +263,7 @@ class StorageSearch {
     const std::optional<checker::Storage> storage = in_doubles
                                                         ? found_storage<double>(loop_, lag_, hold_, damping, scale)
                                                         : found_storage<Real>(loop_, lag_, hold_, damping, scale);
-    if (!storage || !checker::proves(loop_, device_, *storage, damping)) return std::nullopt;
+    if (!storage || !checker::proves(program_, device_, *storage, damping)) return std::nullopt;
     return StorageProof{damping, *storage, in_doubles};
   }
 
@@ -286,7 +288,7 @@ class StorageSearch {
       for (Eigen::Index j = 0; j <= i; ++j)
         storage[std::size_t(i)].push_back(best->P(i, j) / (scale[std::size_t(i)] * scale[std::size_t(j)]));
     const double least = best->damping * damping;
-    if (!checker::proves(loop_, device_, storage, least)) return std::nullopt;
+    if (!checker::proves(program_, device_, storage, least)) return std::nullopt;
     return StorageProof{least, storage, true};
   }
 
@@ -313,6 +315,7 @@ class StorageSearch {
     return result;
   }
 
+  const checker::Program& program_;
   const checker::LoopForm& loop_;
   const checker::Device& device_;
   double hold_;  // the longest [s]
@@ -321,9 +324,9 @@ class StorageSearch {
 };
 
 // Empty where the estimator's coefficients, as rounded, are not what the checker derives.
-std::optional<checker::LoopForm> loop_form_of(const MotorConstants& motor, const checker::Device& device) {
+std::optional<checker::LoopForm> loop_form_of(const checker::Program& program, const checker::Device& device) {
   try {
-    return checker::loop_form(checked_program(motor), device);
+    return checker::loop_form(program, device);
   } catch (const checker::Unknown&) {
     return std::nullopt;
   }
@@ -365,11 +368,6 @@ checker::Device checked_device(const SampledLoop& loop) {
   checker::Device device{loop.sample_period,
                          loop.jitter,
                          loop.amplifier_lag,
-                         loop.tolerance,
-                         loop.largest_speed,
-                         loop.critical_speed,
-                         loop.residual_damping,
-                         loop.device_damping,
                          v.cutoff,
                          v.acceleration,
                          loop.joint_encoder_step,
@@ -417,7 +415,8 @@ std::optional<StorageProof> storage_proof(const MotorConstants& motor, const Sam
       motor.follows_estimate() ? estimator_factors(loop) : EstimatorFactors{};
   if (!factors) return std::nullopt;
   const checker::Device device = checked_device(loop);
-  const std::optional<checker::LoopForm> known = loop_form_of(motor, device);
+  const checker::Program program = checked_program(motor);
+  const std::optional<checker::LoopForm> known = loop_form_of(program, device);
   if (!known) return std::nullopt;
   const checker::LoopForm& form = *known;
   const std::size_t n = form.states.size();
@@ -428,7 +427,7 @@ std::optional<StorageProof> storage_proof(const MotorConstants& motor, const Sam
     return idle;
   }
   const NeededDamping needed(motor, loop, *factors);
-  const StorageSearch search(form, device, sampled_bound(needed, loop.sample_period, most_terms / 10));
+  const StorageSearch search(program, form, device, sampled_bound(needed, loop.sample_period, most_terms / 10));
   if (search.supremum() > most) return std::nullopt;
   for (const bool in_doubles : {true, false})
     if (stated && *stated > search.supremum() && (in_doubles || n <= most_states_in_digits))

@@ -30,10 +30,9 @@ struct Program {
 };
 Program program_of(const std::string& header);
 
-// What the certificate tells of the device, in SI.
+// What the certificate tells of the loop, in SI.
 struct Device {
-  double sample_period, jitter, amplifier_lag, brake_tolerance, largest_speed, critical_speed, residual_damping;
-  double device_damping, cutoff, acceleration, joint_encoder_step;
+  double sample_period, jitter, amplifier_lag, cutoff, acceleration, joint_encoder_step;
   unsigned delay_samples, window, order;
   bool best_fit;
   std::string estimator;
@@ -59,23 +58,15 @@ struct Hold {
 std::vector<Hold> holds(const Device& device);
 
 // Whether P proves that `damping` b [N·s/m] is enough for any motion and all holds up to the longest. With
-// V = ½ k0 u² + xᵀPx, V⁺ − V ≤ (k0 u + Cx) w + b w²/T for all x and w when P ⪰ 0 and
+// V = ½ k0 u² + xᵀPx, V⁺ − V ≤ (k0 u + Cx) w + b w²/T for all x and w when k0 ≥ 0, P ⪰ 0 and
 //     M = [ P − AᵀPA,  ½C − AᵀPB;  ·,  b/T − ½k0 − BᵀPB ] ⪰ 0.
 // A lag τ adds e, the force that is lacking, e⁺ = q e + …, and the independent input ρ = ∫ (e^{−s/τ} − p) u̇ ds: work
 // (Cx + pe) w + eρ, dissipation b (w²/T + ρ²/(κT)), q = e^{−T/τ}, p = (1 − q) τ/T, κ = p ((1 + q)/2 − p). M is concave
-// in q, affine in p and falls with κ. Nonnegative is what is L Lᵀ + R in integers, R diagonally dominant.
-bool proves(const LoopForm& loop, const Device& device, const Storage& storage, const Rational& damping);
-// The same of a header's program; where its window adapts, one P for all that a sample may take: M of each is ⪰ 0.
+// in q, affine in p and falls with κ. Of a window that adapts, one P has to serve every length that a sample may take.
 bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping);
 
-// β of a motor that position alone drives, without lag: V⁺ − V ≤ m w + β w² with V = ½ k0 u² + Σ F²/(2 c) and
-// β = k0/2 + Σ c/(1 + a) + |the answer within a sample that no mode explains|; n samples late, β (1 + 2n).
-Rational hold_stiffness(const LoopForm& loop, const Device& device);
-
-struct Verdict {
-  bool proved = false, is_known = true;  // is_known: of a law and a certificate of which something is known here
-  std::string words;
-};
-Verdict verdict(const std::string& header, const std::string& certificate);
+// 0: the certificate's statement is proved; 1: it is not true, or not proved by this; 3: nothing is known here. In
+// words.
+std::pair<int, std::string> verdict(const std::string& header, const std::string& certificate);
 
 }  // namespace dashpot_check

@@ -159,11 +159,11 @@ class TextsVerification {
   void check_apart() {
     const PassivityBound& bound = compiled_->certificate.bound;
     if (compiled_->certificate.loop.motor_slew > 0 || (bound.proof == Proof::sampled && !bound.storage)) return;
-    const dashpot_check::Verdict verdict =
+    const auto [status, words] =
         dashpot_check::verdict(emitted(*compiled_, false).at(0), std::string(certificate_file_.text()));
-    if (!verdict.proved)
+    if (status != 0)
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "independent check",
-                                                                 excerpt(verdict.words));
+                                                                 excerpt(words));
   }
 
   bool recompile() {

@@ -31,8 +31,8 @@ void write_instances(int laws, int most_states, const std::string& folder) {
       bound.needed = all * share;
       const compiler::StorageProof proof = {bound.needed, *bound.storage};
       const dashpot_check::Device device = compiler::checked_device(loop);
-      const bool is_proved = dashpot_check::proves(dashpot_check::loop_form(compiler::checked_program(*motor), device),
-                                                   device, proof.storage, proof.damping);
+      const bool is_proved =
+          dashpot_check::proves(compiler::checked_program(*motor), device, proof.storage, proof.damping);
       const auto instance = compiler::coq_instance("law", bound, motor, loop);
       if (instance) std::ofstream(folder + "/" + std::to_string(number) + ".v") << *instance;
       std::cout.precision(17);

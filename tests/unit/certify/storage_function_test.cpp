@@ -158,11 +158,20 @@ TEST(StorageFunction, LiftsABoundToTheJitter) {
   const PassivityBound lifted = under_jitter(punctual, motor, std::nullopt, loop, Rational(needed));
   EXPECT_FALSE(lifted.constant_period_only);
   EXPECT_EQ(lifted.needed, needed);
-  EXPECT_TRUE(dashpot_check::proves(dashpot_check::loop_form(checked_program(motor), checked_device(loop)),
-                                    checked_device(loop), *lifted.storage, needed));
+  EXPECT_TRUE(dashpot_check::proves(checked_program(motor), checked_device(loop), *lifted.storage, needed));
   const PassivityBound left = under_jitter(punctual, motor, std::nullopt, loop, Rational(needed * 0.9999));
   EXPECT_TRUE(left.constant_period_only);
   EXPECT_EQ(left.needed, punctual.needed);
+}
+
+// A spring that pushes would be proved, whose energy no motion of the tool bounds.
+TEST(StorageFunction, NotOfASpringThatPushes) {
+  const SampledLoop loop = plain_loop(punctual_period);
+  const dashpot_check::Storage nothing = {{0}};
+  for (const double stiffness : {1.0, 0.0, -1.0})
+    EXPECT_EQ(dashpot_check::proves(checked_program(spring_motor(stiffness)), checked_device(loop), nothing, 0.001),
+              stiffness >= 0)
+        << stiffness;
 }
 
 }  // namespace

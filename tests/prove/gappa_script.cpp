@@ -51,21 +51,30 @@ class Script {
   Script(const compiler::Compilation& compilation, const compiler::InputRange& range, const compiler::StateBox& box)
       : c_(compilation), law_(compilation.law), range_(range), box_(box) {}
 
-  std::string text() {
+  std::vector<std::string> texts() {
     define(law_.output, outputs_);
     define(law_.update, nexts_);
     assume_inputs();
     bound_force();
     bound_states();
+    std::vector<std::string> all = {text(goals_, "")};
+    for (const auto& [state, goals] : by_cases_) all.push_back(text(goals, case_by_case(state)));
+    return all;
+  }
+
+ private:
+  std::string text(const std::vector<std::string>& goals, const std::string& hint) const {
     std::string all =
         fmt::format("@rnd = float<{}, ne>;\n", law_.scalar == compiler::ScalarType::float64 ? "ieee_64" : "ieee_32");
     for (const std::string& name : floats_) all += fmt::format("{0} = rnd({0}_any);\n", name);
     for (const auto& [name, value] : constants_) all += fmt::format("{} = {};\n", name, exact(value));
-    return all + definitions_ + "{ " + joined(assumptions_, " /\\\n  ") + " ->\n  " + joined(goals_, " /\\\n  ") +
-           " }\n";
+    std::vector<std::string> assumptions = assumptions_;
+    for (const auto& [state, proved] : by_cases_)
+      if (hint.empty()) assumptions.push_back(proved.front());
+    return all + definitions_ + "{ " + joined(assumptions, " /\\\n  ") + " ->\n  " + joined(goals, " /\\\n  ") +
+           " }\n" + hint;
   }
 
- private:
   static std::string joined(const std::vector<std::string>& all, const char* between) {
     std::string text;
     for (const std::string& one : all) text += (text.empty() ? "" : between) + one;
@@ -122,11 +131,22 @@ class Script {
   }
 
   void bound_force() {
-    const double share =
-        8 * compiler::unit_roundoff(law_.scalar);  // of the certificate's, which has one more for every mode
     const std::string force = scalar_name(law_.variables[law_.force], 0);
-    goals_.push_back(
-        fmt::format("|{0} - {0}_real| <= {1}", force, exact(share * compiler::sum_of_terms(law_, range_, box_))));
+    const double sum = compiler::sum_of_terms(law_, range_, box_);
+    goals_.push_back(fmt::format("|{0} - {0}_real| <= {1}", force, exact(own_share() * sum)));
+    double modes = 0;
+    for (const Statement& statement : law_.update)
+      for (std::size_t place = 0; place < law_.variables[statement.target].size; ++place)
+        if (loss_of(statement.value, place))
+          modes += box_.at(scalar_name(law_.variables[statement.target], place)).magnitude();
+    if (modes > sum * (1 + 1e-9))
+      throw std::logic_error("the modes are no part of the sum that the certificate speaks of");
+  }
+
+  // Of what the certificate states: the force's own operations, and what is left beside that and the modes' own errors.
+  double own_share() const { return 8 * compiler::unit_roundoff(law_.scalar); }
+  double share_of_sums() const {
+    return c_.certificate.energy.rounding_share - law_.relative_error_bound - own_share();
   }
 
   // An error decays at the rate α: what a step may add is α of what the banner states for all of them.
@@ -135,11 +155,22 @@ class Script {
       for (std::size_t place = 0; place < law_.variables[statement.target].size; ++place) {
         const std::string state = scalar_name(law_.variables[statement.target], place);
         const double largest = box_.at(state).magnitude();
-        goals_.push_back(fmt::format("|{}next| <= {}", state, exact(largest)));
-        if (const std::optional<double> loss = loss_of(statement.value, place))
-          goals_.push_back(fmt::format("|{0}next - {0}next_real| <= {1}", state,
-                                       exact(law_.relative_error_bound * *loss * largest / (1 + 1e-5))));
+        const std::optional<double> loss = loss_of(statement.value, place);
+        const double share = loss ? law_.relative_error_bound * *loss / (1 + 1e-5) : share_of_sums();
+        const bool by_cases = loss && law_.mode_form == compiler::ModeForm::delta;
+        std::vector<std::string>& goals = by_cases ? by_cases_[state] : goals_;
+        goals.push_back(fmt::format("|{}next| <= {}", state, exact(largest)));
+        goals.push_back(fmt::format("|{0}next - {0}next_real| <= {1}", state, exact(share * largest)));
       }
+  }
+
+  // A force and what it loses go together, which intervals show where they are short: of the force, and of what drives
+  // it.
+  std::string case_by_case(const std::string& state) const {
+    std::string ranges = state + " in 8";
+    for (const char* drive : {"sampled_position_change_", "sampled_velocity_"})
+      if (appears(drive)) ranges += fmt::format(", {} in 8", drive);
+    return fmt::format("{0}next, {0}next - {0}next_real $ {1};\n", state, ranges);
   }
 
   // α of the mode that the expression advances; empty where it advances none.
@@ -148,7 +179,9 @@ class Script {
     compiler::each_expression(law_, id, [&](const compiler::Expression& e) {
       if (e.operation != Operation::constant) return;
       const compiler::Coefficient& c = law_.coefficients[e.coefficient];
-      if (c.role == compiler::ConstantRole::decay) loss = 1 - c.values[c.values.size() == 1 ? 0 : place];
+      const double value = c.values[c.values.size() == 1 ? 0 : place];
+      if (c.role == compiler::ConstantRole::decay) loss = 1 - value;
+      if (c.role == compiler::ConstantRole::loss) loss = value;
     });
     return loss;
   }
@@ -161,13 +194,14 @@ class Script {
   std::vector<std::string> floats_, assumptions_, goals_;
   std::map<std::string, double> constants_;
   std::string definitions_;
+  std::map<std::string, std::vector<std::string>> by_cases_;  // goals of each state that are proved apart
 };
 
 }  // namespace
 
-std::string gappa_script(const compiler::Compilation& compilation, const compiler::InputRange& range,
-                         const compiler::StateBox& box) {
-  return Script(compilation, range, box).text();
+std::vector<std::string> gappa_scripts(const compiler::Compilation& compilation, const compiler::InputRange& range,
+                                       const compiler::StateBox& box) {
+  return Script(compilation, range, box).texts();
 }
 
 }  // namespace dashpot::testing

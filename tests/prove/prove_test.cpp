@@ -52,10 +52,13 @@ compiler::InputRange device_range() {
 
 struct Subject {
   fs::path file;
+  compiler::ScalarType scalar = compiler::ScalarType::float64;
   compiler::Compilation compilation() const {
     const compiler::SourceFile source = read(file);
     compiler::Diagnostics diagnostics;
-    auto result = compiler::compile(source, {}, std::nullopt, diagnostics);
+    compiler::Choices choices;
+    choices.scalar = scalar;
+    auto result = compiler::compile(source, choices, std::nullopt, diagnostics);
     // Behind slips (21) as printed, where there is one: of the steady law Eva does not see that the box holds.
     if (result && result->form.has_slips()) {
       compiler::Choices printed;
@@ -172,14 +175,24 @@ void expect_unsafe_when_broken(const Subject& subject) {
   EXPECT_NE(said.find("out of bounds"), said.npos) << said;
 }
 
+// Laws whose sums are compensated, in double and in float: errors and what is carried of them cancel, which Gappa does
+// not see. What their banners say of rounding is derived alone.
+const std::set<std::string> compensated = {"brain", "heel_fat_pad", "polymer", "soft_adhesive"},
+                            compensated_in_float = {"brain", "polymer", "soft_adhesive"};
+
 void expect_proved_by_gappa(const Subject& subject) {
   const compiler::Compilation compilation = subject.compilation();
+  const auto& without = subject.scalar == compiler::ScalarType::float64 ? compensated : compensated_in_float;
+  ASSERT_EQ(compilation.law.mode_form == compiler::ModeForm::compensated, without.count(subject.name()) > 0);
+  if (without.count(subject.name()) > 0) return;
   const auto box = compiler::state_box(compilation.law, device_range());
   ASSERT_TRUE(box);
   const TemporaryFolder folder;
-  write_text(folder.path() / "step.gappa", gappa_script(compilation, device_range(), *box));
-  const Finished done = run_command(fmt::format("timeout 60 gappa '{}/step.gappa'", folder.path().string()));
-  EXPECT_EQ(done.status, 0) << done.output << text_of(folder.path() / "step.gappa");
+  for (const std::string& script : gappa_scripts(compilation, device_range(), *box)) {
+    write_text(folder.path() / "step.gappa", script);
+    const Finished done = run_command(fmt::format("timeout 60 gappa '{}/step.gappa'", folder.path().string()));
+    EXPECT_EQ(done.status, 0) << done.output << script;
+  }
 }
 
 void expect_c_form_is_evaluate(const Subject& subject) {
@@ -254,10 +267,15 @@ void register_proofs() {
     }
     add("CForm", subject, expect_c_form_is_evaluate, "true");
     // Behind a static curve |w| stays below w'|u|, which intervals do not show.
-    if (beyond_eva.count(subject.name()) > 0 || compilation.network.map) continue;
-    add("Eva", subject, expect_proved_by_eva, "frama-c");
-    if (is_linear(compilation.network)) add("Gappa", subject, expect_proved_by_gappa, "gappa");
+    if (compilation.network.map) continue;
+    if (is_linear(compilation.network)) {
+      add("Gappa", subject, expect_proved_by_gappa, "gappa");
+      add("GappaFloat", {file, compiler::ScalarType::float32}, expect_proved_by_gappa, "gappa");
+    }
+    if (beyond_eva.count(subject.name()) == 0) add("Eva", subject, expect_proved_by_eva, "frama-c");
   }
+  // In float that would be twenty propositions of some ten seconds each.
+  add("Gappa", {DASHPOT_SOURCE "/tests/responses/networks/twenty_branches.json"}, expect_proved_by_gappa, "gappa");
 }
 
 // The farthest and fastest of what goes in, slowly, every other sample and at random, and twenty times as much: what a

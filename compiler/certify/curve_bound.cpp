@@ -41,16 +41,27 @@ class CurveNeed {
   CurveNeed(const MotorConstants& motor, double damping, const Network& network, const std::optional<SlipMotor>& slips,
             const SampledLoop& tool, double coil_lag)
       : map_(*network.map), tool_(tool), coil_lag_(coil_lag), motor_(motor), brake_(damping) {
-    const bool is_one_sided = network.contact.has_value();
+    is_one_sided_ = network.contact.has_value();
+    besides_ = slips ? yield_forces(network) : 0;
+    const bool is_a_contact_of_springs = is_one_sided_ && besides_ == 0 && slips->springs_alone;
+    is_stepwise_ = tool.delay_samples == 0 && (!slips || is_a_contact_of_springs);
+    farthest_ = tool.travel + std::abs(map_.start);
+    unsettled_ = motor_.step_stiffness;
+    for (const MotorMode& mode : motor_.modes) {
+      const double a = exact_decay(motor_, mode).convert_to<double>();
+      modes_.push_back({a, a > 0 ? mode.position_drive / a : mode.position_drive});
+      if (a > 0) unsettled_ -= modes_.back().stiffness;
+    }
+    unsettled_ = std::abs(unsettled_) * margin;
     static_stiffness_ = std::abs(motor_.static_stiffness);
     step_stiffness_ = std::abs(motor_.step_stiffness);
-    other_end_ = is_one_sided ? 0 : map_.value_at(tool.travel);
-    besides_ = slips ? yield_forces(network) : 0;
     share_ = assured_share(tool).convert_to<double>();
   }
 
   // S + curvature − what the brake has, at the worst place, and beside it what a lag and an estimate cost.
   double lacking(double needed_behind, double cost_of_estimate) const {
+    if (is_stepwise_)
+      needed_behind = std::max(needed_behind, hold_stiffness(motor_).convert_to<double>() * tool_.longest_hold());
     double least = std::numeric_limits<double>::infinity();
     for (const double constants : {0.0, 1.0, 2.0, 4.0, 8.0}) {
       if (coil_lag_ > 0 ? constants == 0 : constants > 0) continue;
@@ -70,11 +81,36 @@ class CurveNeed {
       const double before = std::max(from - reach, 0.0), after = to + reach;
       const double steepest = map_.largest_tangent(before, after);
       const double flattest = flattest_within(from - brake_reach, to + brake_reach);
-      const double bend = (0.5 + tool_.delay_samples) * hold * force(after) * map_.largest_curvature(before, after);
+      const double bend = hold * cost_of_bend(before, after, steepest, map_.largest_curvature(before, after), reach);
       most =
           std::max(most, needed_behind * steepest * steepest + bend - share_ * settled * brake_ * flattest * flattest);
     });
     return most;
+  }
+
+  // Of what is held while the map bends, over Δu² [N/m].
+  double cost_of_bend(double from, double to, double steepest, double curvature, double reach) const {
+    if (!is_stepwise_) return (0.5 + tool_.delay_samples) * force(from, to) * curvature;
+    const double w = map_.value_at(to), turn = curvature * reach / 2;
+    double sum = static_stiffness_ * w * curvature / 2 + unsettled_ * steepest * turn;
+    if (is_one_sided_) sum += cost_of_leaving(steepest, turn);
+    for (const Relaxing& mode : modes_) {
+      const double far_from_rest = mode.stiffness * way_from_rest(from, to) * curvature / 2;
+      const double while_relaxing =
+          mode.stiffness * turn * (steepest + turn / (2 * (1 - mode.decay))) / (1 + mode.decay);
+      sum += mode.decay < 1 ? std::min(far_from_rest, while_relaxing) : far_from_rest;
+    }
+    return sum;
+  }
+
+  // Of a contact that lets go within the step: what is held to the end of it, gq + Σ (1 − a) F, acts on e.
+  double cost_of_leaving(double steepest, double turn) const {
+    double sum = (static_stiffness_ + step_stiffness_ + unsettled_) * steepest * turn;
+    for (const Relaxing& mode : modes_) {
+      const double share = mode.stiffness * (1 - mode.decay) / (1 + mode.decay);
+      sum += share * turn * (steepest + turn / 2);
+    }
+    return sum;
   }
 
   // On both sides of where the curve begins it is the same.
@@ -87,29 +123,47 @@ class CurveNeed {
     if (tool_.amplifier_lag == 0) return 0;
     const double steepest = map_.steepest();
     double most = 0;
-    each_stretch([&](double from, double to) { most = std::max(most, force(to) * map_.largest_curvature(from, to)); });
+    each_stretch(
+        [&](double from, double to) { most = std::max(most, force(from, to) * map_.largest_curvature(from, to)); });
     const double stiffness = hold_stiffness(motor_).convert_to<double>();
     return (stiffness * steepest * steepest + most / 2) * time_of_lag(tool_);
   }
 
-  double force(double distance) const {
-    const double w = map_.value_at(distance);
-    return static_stiffness_ * w + step_stiffness_ * (w + other_end_) + besides_;
+  // Largest |M| over a stretch.
+  double force(double from, double to) const {
+    return static_stiffness_ * map_.value_at(to) + step_stiffness_ * way_from_rest(from, to) + besides_;
+  }
+
+  // How far in w a place is from any other within the tool's range, which ends somewhere on either side of it.
+  double way_from_rest(double from, double to) const {
+    if (is_one_sided_) return map_.value_at(to);
+    const double across = map_.value_at(to) + map_.value_at(std::max(tool_.travel - from, 0.0));
+    return std::max(across, map_.value_at(tool_.travel) - map_.value_at(from));
   }
 
   template <class Take>
   void each_stretch(Take take) const {
     const double width = map_.width() / stretches_of_cell;
-    for (std::size_t i = 0; i < map_.cubics() * stretches_of_cell; ++i) take(double(i) * width, double(i + 1) * width);
-    take(map_.reach, map_.reach);
+    for (std::size_t i = 0; i < map_.cubics() * stretches_of_cell && double(i) * width <= farthest_; ++i)
+      take(double(i) * width, double(i + 1) * width);
+    if (map_.reach <= farthest_) take(map_.reach, map_.reach);
   }
+
+  struct Relaxing {
+    double decay, stiffness;  // a, c [N/m]
+  };
 
   const MotionMap& map_;
   const SampledLoop& tool_;
+  std::vector<Relaxing> modes_;
   double coil_lag_;
   MotorConstants motor_;
   double brake_;  // b_w
-  double static_stiffness_, step_stiffness_, other_end_, besides_, share_;
+  double static_stiffness_, step_stiffness_, besides_, share_;
+  double unsettled_;   // of the step stiffness, what is no mode's
+  double farthest_;    // that the tool goes from where the map begins
+  bool is_one_sided_;  // behind a contact
+  bool is_stepwise_;   // without delay, and linear but for a contact: each step obeys its own inequality
 };
 
 // The law sheds, since a motor that clips is not passive behind a map. Shed forces store less, and nothing that is late

@@ -15,7 +15,13 @@
 // ‖e‖ ≤ (β w′²_most + ½ |M w″|_most) L ‖v‖, with L as in motor_limits.hpp; what it makes of the estimate, κ w′² v̂,
 // costs κ γ T/h w′²_most as long as ‖v̂‖ ≤ γ ‖Δu/h‖.
 //
-// |M| ≤ k0 w + Σ c_i (w + w₋) + Σ Y, with w₋ that of the other end of the tool's travel, 0 behind a contact.
+// |M| ≤ k0 w + Σ c_i Δ + Σ Y, with Δ the way in w from anywhere within the tool's travel, behind a contact from the
+// surface. In a prompt loop without slips, or behind a contact without dampers at the tool, a mode's share of the bend,
+// ½ |w″| c Δ, is at most, its decay being a,
+//
+//     ½ |w″| r c (w′ + ½ |w″| r / 2(1 − a)) / (1 + a)
+//
+// since what it stores falls by more than the bend can give where it is far from rest.
 #pragma once
 
 #include "certify/certificate.hpp"

@@ -100,16 +100,18 @@ Compilation on(const Case& one, double damping) {
   return std::move(*c);
 }
 
-// Energy that has gone in at its least, or where nothing is late what is given out beside what was stored; and the
-// largest amount that was exchanged in a period.
+// At its least: energy that has gone in, that which was stored at the beginning included, and where nothing is late
+// less what is stored; and the largest amount that was exchanged in a period.
 struct Balance {
   double least = 0, largest = 0;
 };
 
 class Attack {
  public:
-  Attack(const Compilation& c, const Loop& loop, double damping) : law_(c.law), loop_(loop), damping_(damping) {
-    law_.reset(0);
+  Attack(const Compilation& c, const Loop& loop, double damping, double place = 0)
+      : law_(c.law), loop_(loop), damping_(damping), place_(place) {
+    law_.reset(place);
+    energy_ = law_.stored_energy();
     for (unsigned i = 0; i < loop.delay; ++i) late_.push_back({0, 0});
   }
 
@@ -117,11 +119,7 @@ class Attack {
   void go(double wanted, double share = 1) {
     const double hold = loop_.period + loop_.jitter, most = loop_.speed * hold;
     late_.push_back(law_.step(place_, 0));
-    if (loop_.delay == 0) {
-      const double beside = energy_ - law_.stored_energy();
-      most_beside_ = std::max(most_beside_, beside);
-      balance_.least = std::min(balance_.least, beside - most_beside_);
-    }
+    if (loop_.delay == 0) balance_.least = std::min(balance_.least, energy_ - law_.stored_energy());
     const command<double> held = late_.front();
     late_.pop_front();
     const double next = std::clamp(std::clamp(wanted, place_ - most, place_ + most), -loop_.travel, loop_.travel);
@@ -141,18 +139,17 @@ class Attack {
   Loop loop_;
   double damping_;
   std::deque<command<double>> late_;
-  double place_ = 0, energy_ = 0, most_beside_ = 0;
+  double place_, energy_ = 0;
   Balance balance_;
 };
 
-// Waits at one end, goes to a place, and trembles there.
-Balance after_trembling(const Compilation& c, const Loop& loop, double damping, double end, double place, double size) {
-  Attack attack(c, loop, damping);
+constexpr int trembles = 400;
+
+// Begins at rest at a place, and trembles there.
+Balance after_trembling(const Compilation& c, const Loop& loop, double damping, double place) {
+  Attack attack(c, loop, damping, place);
   const double most = loop.speed * (loop.period + loop.jitter);
-  for (int k = 0; k < 4 * loop.travel / most + 3000; ++k) attack.go(end);
-  for (int k = 0; k < 4 * loop.travel / most && attack.place() != place; ++k) attack.go(place);
-  const int round = 2 * (1 + int(loop.delay) * 2);  // late by n samples, a slower one takes most
-  for (int k = 0; k < 600; ++k) attack.go(place + (k % round < round / 2 ? size : -size) / 2);
+  for (int k = 0; k < trembles; ++k) attack.go(place + (k % 2 == 0 ? most : 0));
   return attack.balance();
 }
 
@@ -183,10 +180,9 @@ TEST(StaticCurves, CertifiedLawsGiveOutNoEnergy) {
   EXPECT_GT(certified, int(repetitions(60, 1000)) * 9 / 10);
 }
 
-// If this fails, the certificate asks for much more damping than some motion needs: with half of it two laws of three
-// give out energy where the tool waits, comes and trembles. Of nine tenths this is shown for fewer: the certificate
-// counts the steepest place within reach, and every mode as far from rest as it can be.
-TEST(StaticCurves, MostLawsGiveOutEnergyWithHalf) {
+// If this fails, the certificate asks for more damping than some motion needs: with nine tenths of it four laws of five
+// give out energy where the tool trembles at the worst of a hundred places. With all of it none does at any.
+TEST(StaticCurves, MostLawsGiveOutEnergyWithNineTenths) {
   int cases = 0, gains = 0;
   for (std::uint64_t seed = 1; seed <= repetitions(40, 300); ++seed) {
     Case one = random_curve(seed, false);
@@ -196,22 +192,20 @@ TEST(StaticCurves, MostLawsGiveOutEnergyWithHalf) {
     const Compilation c = on(one, needed);
     ASSERT_TRUE(c.certificate.certified) << c.certificate.bound.reason << " " << one.network;
     ++cases;
-    const double most = one.loop.speed * (one.loop.period + one.loop.jitter);
-    const auto gains_with = [&](double damping, double end, double place) {
-      const Balance balance = after_trembling(c, one.loop, damping, end, place, most);
-      return balance.least < -rounding * 5000 * balance.largest;
+    const auto gains_with = [&](double damping, double place) {
+      const Balance balance = after_trembling(c, one.loop, damping, place);
+      return balance.least < -rounding * trembles * balance.largest;
     };
     bool gained = false;
-    for (int i = -4; i <= 4; ++i)
-      for (const double end : {-one.loop.travel, 0.0, one.loop.travel}) {
-        const double place = one.loop.travel * i / 4;
-        gained = gained || gains_with(0.5 * needed, end, place);
-        EXPECT_FALSE(gains_with(needed, end, place)) << seed << " " << place << " " << one.network;
-      }
+    for (int i = 0; i <= 100; ++i) {
+      const double place = one.loop.travel * i / 100;
+      gained = gained || gains_with(0.9 * needed, place);
+      EXPECT_FALSE(gains_with(needed, place)) << seed << " " << place << " " << one.network;
+    }
     gains += gained;
   }
   RecordProperty("gains", gains);
-  EXPECT_GE(gains, 2 * cases / 3) << "of " << cases;
+  EXPECT_GE(gains, 4 * cases / 5) << "of " << cases;
 }
 
 }  // namespace

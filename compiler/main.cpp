@@ -210,6 +210,10 @@ void describe_fit(CLI::App& app, CommandLine& line) {
   command->add_option("--springpots", fit.springpots, "Springpots, default none")
       ->check(CLI::IsMember({"none", "auto"}))
       ->option_text("none|auto");
+  command->add_option("--shape", fit.shape, "A static curve in front of the network, default none")
+      ->check(CLI::IsMember({"none", "power", "exponential", "table", "auto"}))
+      ->option_text("none|power|exponential|table|auto");
+  command->add_flag("--elastic", fit.elastic, "One spring, and nothing that relaxes");
   command->add_flag("--gain-per-file", fit.gain_per_file, "Specimens that differ by a factor");
   command->add_option("--modes", fit.modes, "So many relaxations, instead of what the criterion says")
       ->check(CLI::Range(0, 1000))
@@ -219,9 +223,6 @@ void describe_fit(CLI::App& app, CommandLine& line) {
   command->add_option("--hold-out", fit.hold_out, "Recordings that are predicted and not fitted")
       ->expected(-1)
       ->option_text("RECORDING…");
-  // Refused by name until networks have static curves; not offered.
-  command->add_option("--shape", fit.shape)->group("");
-  command->add_flag("--elastic", fit.elastic)->group("");
 }
 
 const std::map<std::string, PronyFormat> prony_formats = {{"abaqus", PronyFormat::abaqus},

@@ -76,6 +76,22 @@ std::string fit_json(const Fit& fit, const std::vector<Recording>& recordings) {
             {"effective_samples", number(fit.effective_samples)},
             {"criterion", number(fit.criterion)},
             {"condition", number(fit.condition)}};
+  if (fit.model.curve) {
+    json["static"] = {{"kind", word_of(fit.model.curve->kind())},
+                      {"is", curve_stiffness(fit.model).is_instantaneous ? "instantaneous" : "equilibrium"}};
+    for (const FittedCurveValue& value : fit.curve_values)
+      json["static"]["values"].push_back({{"name", value.name},
+                                          {"value", number(value.value)},
+                                          {"displacement", number(value.quantity.displacement)},
+                                          {"interval", interval_json(value.interval)},
+                                          {"bootstrap", interval_json(value.spread)},
+                                          {"leaving_a_file_out", interval_json(value.left_out)}});
+  }
+  for (const ShapeTried& one : fit.shapes)
+    json["shapes"].push_back({{"kind", one.kind ? Json(word_of(*one.kind)) : Json(nullptr)},
+                              {"parameters", one.parameters},
+                              {"rms", number(one.rms)},
+                              {"criterion", number(one.criterion)}});
   json["elements"] = Json::array();
   for (const FittedElement& element : fit.elements)
     json["elements"].push_back({{"name", element.name},

@@ -259,7 +259,7 @@ class FitPage {
     const auto head = [&](std::optional<fitting::Interval> FittedElement::*which, const char* title) {
       return has(which) ? fmt::format("<th>{}</th>", title) : std::string();
     };
-    std::string text = "<div class=\"wide\"><table><thead><tr><th>element</th><th>value</th>" +
+    std::string text = curve_text() + "<div class=\"wide\"><table><thead><tr><th>element</th><th>value</th>" +
                        head(&FittedElement::interval, "95 %") + head(&FittedElement::spread, "bootstrap") +
                        head(&FittedElement::left_out, "leaving a file out") + "</tr></thead><tbody>\n";
     for (const FittedElement& element : fit_.elements)
@@ -267,6 +267,17 @@ class FitPage {
               cell(&FittedElement::interval, element) + cell(&FittedElement::spread, element) +
               cell(&FittedElement::left_out, element) + "</tr>\n";
     return text + "</tbody></table></div>\n";
+  }
+
+  std::string curve_text() const {
+    if (fit_.curve_values.empty()) return "";
+    std::string text = fmt::format("<p>Behind a static curve, {}:", word_of(fit_.model.curve->kind()));
+    for (const FittedCurveValue& value : fit_.curve_values) {
+      text += (&value == &fit_.curve_values.front() ? " " : "; ") + escaped(value.name + " " + value.text);
+      if (value.interval)
+        text += escaped(fmt::format(" ({:.4g} … {:.4g}, 95 %)", value.interval->low, value.interval->high));
+    }
+    return text + ".</p>\n";
   }
 
   std::string findings() const {

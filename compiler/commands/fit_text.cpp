@@ -34,7 +34,7 @@ class FitText {
     for (const FileScore& file : fit_.files) text += file_text(file);
     if (!fit_.held_out.empty()) text += "\nheld out\n";
     for (const FileScore& file : fit_.held_out) text += file_text(file);
-    return text + elements() + path();
+    return text + elements() + shapes() + path();
   }
 
  private:
@@ -70,13 +70,42 @@ class FitText {
   }
 
   std::string elements() const {
-    std::string text = "\nelements\n";
+    std::string text;
+    if (!fit_.curve_values.empty()) {
+      text += fmt::format("\nstatic curve, {}, {}\n", word_of(fit_.model.curve->kind()),
+                          curve_stiffness(fit_.model).is_instantaneous ? "at once" : "at rest");
+      for (const FittedCurveValue& value : fit_.curve_values) {
+        text += fmt::format("  {} {}", value.name, value.text);
+        if (value.interval) text += ", 95 %: " + between(*value.interval, value);
+        if (value.spread) text += ", bootstrap: " + between(*value.spread, value);
+        if (value.left_out) text += ", leaving a file out: " + between(*value.left_out, value);
+        text += "\n";
+      }
+    }
+    text += "\nelements\n";
     for (const FittedElement& element : fit_.elements) {
       text += fmt::format("  {} {}", element.name, element.text);
       if (element.interval) text += ", 95 %: " + between(*element.interval, element);
       if (element.spread) text += ", bootstrap: " + between(*element.spread, element);
       if (element.left_out) text += ", leaving a file out: " + between(*element.left_out, element);
       text += "\n";
+    }
+    return text;
+  }
+
+  std::string between(const Interval& interval, const FittedCurveValue& value) const {
+    const std::string unit = unit_of(value.quantity, units_);
+    return fmt::format("{:.4g} … {:.4g}{}{}", interval.low, interval.high, unit.empty() ? "" : " ", unit);
+  }
+
+  std::string shapes() const {
+    if (fit_.shapes.empty()) return "";
+    std::string text =
+        "\nshapes that were tried, each at its best size\n  shape        parameters         rms  criterion\n";
+    for (const ShapeTried& one : fit_.shapes) {
+      const bool is_chosen = one.kind == (fit_.model.curve ? std::optional(fit_.model.curve->kind()) : std::nullopt);
+      text += fmt::format("{} {:<11}  {:>10}  {:>10}  {:>9.2f}\n", is_chosen ? "*" : " ",
+                          one.kind ? word_of(*one.kind) : "straight", one.parameters, error(one.rms), one.criterion);
     }
     return text;
   }
@@ -141,6 +170,7 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
         diagnostics.report<DiagnosticCode::fit_slips_or_softening>({});
         diagnostics.note<DiagnosticCode::fit_reversal_remedy>({});
         break;
+      case Kind::shape_is_straight: diagnostics.report<DiagnosticCode::fit_shape_is_straight>({}, found.name); break;
       case Kind::loading_only:
         diagnostics.report<DiagnosticCode::fit_loading_only>({});
         diagnostics.note<DiagnosticCode::fit_reversal_remedy>({});

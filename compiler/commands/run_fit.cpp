@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "commands/commands.hpp"
 #include "commands/fit_output.hpp"
@@ -82,6 +83,8 @@ class FitCommand {
   }
 
  private:
+  static constexpr const char* needs_a_motion = "it is fitted to forces over positions";
+
   bool refuse(const std::string& value, const std::string& what) {
     diagnostics_.report<DiagnosticCode::fit_wrong_quantity>({}, value, what);
     return false;
@@ -93,10 +96,6 @@ class FitCommand {
   }
 
   bool take_words() {
-    if (words_.shape || words_.elastic) {
-      diagnostics_.report<DiagnosticCode::fit_waits_for_shapes>({}, words_.shape ? "--shape" : "--elastic");
-      return false;
-    }
     if (words_.relaxation && words_.creep) return contradicts("--relaxation", "--creep", "a recording is one of them");
     read_.columns.is_relaxation = words_.relaxation;
     read_.columns.is_creep = words_.creep;
@@ -108,7 +107,7 @@ class FitCommand {
       read_.columns.requests = *requests;
     }
     if (words_.geometry && !(read_.geometry = parse_geometry(*words_.geometry, diagnostics_))) return false;
-    return take_quantities() && take_sizes() && take_start();
+    return take_quantities() && take_sizes() && take_shape() && take_start();
   }
 
   bool take_quantities() {
@@ -170,6 +169,31 @@ class FitCommand {
                          "slips are fitted to positions over time");
     if (words_.gain_per_file && words_.recordings.size() < 2)
       return contradicts("--gain-per-file", "one recording", "its gain is in the network");
+    return true;
+  }
+
+  bool take_shape() {
+    const std::string shape = words_.shape.value_or("none");
+    static const std::map<std::string, ShapeChoice> shapes = {{"none", ShapeChoice::none},
+                                                              {"power", ShapeChoice::power},
+                                                              {"exponential", ShapeChoice::exponential},
+                                                              {"table", ShapeChoice::table},
+                                                              {"auto", ShapeChoice::automatic}};
+    choices_.reduction.shape = shapes.at(shape);
+    choices_.reduction.is_elastic = words_.elastic;
+    const char* other = words_.creep                ? "--creep"
+                        : words_.relaxation         ? "--relaxation"
+                        : words_.control == "force" ? "--control force"
+                                                    : nullptr;
+    if (shape != "none" && other != nullptr) return contradicts("--shape", other, needs_a_motion);
+    if (!words_.elastic) return true;
+    if (other != nullptr) return contradicts("--elastic", other, needs_a_motion);
+    if (words_.modes || words_.slips != "none" || words_.springpots != "none")
+      return contradicts("--elastic",
+                         words_.modes             ? "--modes"
+                         : words_.slips != "none" ? "--slips"
+                                                  : "--springpots",
+                         "an elastic network is one spring");
     return true;
   }
 
@@ -237,6 +261,8 @@ class FitCommand {
 
   bool are_alike() {
     const Recording& first = recordings_.front();
+    if (first.kind == RecordingKind::frequency && (choices_.reduction.shape != ShapeChoice::none || words_.elastic))
+      return contradicts(words_.elastic ? "--elastic" : "--shape", "a spectrum", needs_a_motion);
     for (const std::vector<Recording>* list : {&recordings_, &held_out_})
       for (const Recording& recording : *list)
         if (recording.kind != first.kind) {

@@ -72,6 +72,7 @@ class Findings {
     look_at_reach(ElementKind::spring);
     look_at_reach(ElementKind::damper);
     if (is_motion()) look_at_travel();
+    look_at_curve();
     look_at_intervals();
     look_at_left_out();
     if (!fit_.choices.reduction.beside.empty() && problem_.files() > 1) add(Finding::Kind::offsets_absorb);
@@ -101,7 +102,8 @@ class Findings {
   void look_at_floor() {
     if (!fit_.floor.is_certified() && fit_.floor.model.residual_sum > 1e-20 * problem_.target().squaredNorm())
       add(Finding::Kind::floor_not_certified, "", {fit_.floor.largest_cosine});
-    const bool is_linear = fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) == 0;
+    const bool is_linear =
+        !fit_.model.curve && fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) == 0;
     const double neighbours = lag_one_of_floor();
     if (is_linear && fit_.noise && fit_.floor_rms > 3 * *fit_.noise && neighbours > 0.5)
       add(Finding::Kind::floor_above_noise, "", {fit_.floor_rms, *fit_.noise});
@@ -142,11 +144,28 @@ class Findings {
       add(Finding::Kind::beyond_reach, least->name, {widest_spread}, most->name);
   }
 
+  // A table that somewhere rises less than before.
+  bool softens() const {
+    if (!fit_.model.curve || fit_.model.curve->kind() != CurveShape::Kind::table) return false;
+    std::vector<double> slopes = fit_.model.curve->parameters();
+    slopes.push_back(0);
+    return !std::is_sorted(slopes.begin(), slopes.end());
+  }
+
+  // So little bent that a spring would do as well.
+  void look_at_curve() {
+    if (!fit_.model.curve) return;
+    const CurveShape& curve = *fit_.model.curve;
+    const double half = curve.reach() / 2, straight = curve.force_at(curve.reach()) / 2;
+    if (std::abs(curve.force_at(half) - straight) < 0.005 * straight)
+      add(Finding::Kind::shape_is_straight, word_of(curve.kind()));
+  }
+
   void look_at_travel() {
     const Travel travel = travel_of(problem_.recordings());
     const bool has_slips = fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) > 0;
     const bool asked = fit_.choices.reduction.slips != SlipChoice::none;
-    if ((has_slips || asked) && !travel.has_reversal) add(Finding::Kind::slips_or_softening);
+    if ((has_slips || asked || softens()) && !travel.has_reversal) add(Finding::Kind::slips_or_softening);
     const bool is_one_rate = travel.fastest < 1.5 * travel.slowest;
     if (!travel.has_reversal && !travel.has_hold) add(Finding::Kind::loading_only);
     if (is_one_rate) add(Finding::Kind::one_rate, "", {travel.fastest});

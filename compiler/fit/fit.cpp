@@ -53,7 +53,8 @@ class Fitter {
 
   std::optional<Fit> run(const std::vector<Recording>& held_out) {
     search();
-    if (fit_.model.terms.empty() || elements_of(whole_, fit_.model).empty()) {
+    const bool has_no_curve = fit_.model.curve && curve_stiffness(fit_.model).value == 0;
+    if (fit_.model.terms.empty() || elements_of(whole_, fit_.model).empty() || has_no_curve) {
       diagnostics_.report<DiagnosticCode::fit_nothing_resists>({});
       return std::nullopt;
     }
@@ -89,6 +90,7 @@ class Fitter {
     fit_.chosen = reduction.chosen;
     size_was_met_ = reduction.is_converged;
     fit_.effective_samples = reduction.effective_samples;
+    fit_.shapes = std::move(reduction.shapes);
     fit_.model = std::move(reduction.model);
     if (is_thinned) fit_.model = tidied(refined(whole_, fit_.model, gains_are_free(), {3, 1e-5}));
     fit_.parameters = parameter_count(fit_.model, gains_are_free());
@@ -124,7 +126,7 @@ class Fitter {
   void lower_floor_to(const Model& model) {
     const std::size_t plain =
         model.count(TermKind::spring) + model.count(TermKind::damper) + model.count(TermKind::offset);
-    const bool is_linear = plain + branches_of(model).size() == model.terms.size();
+    const bool is_linear = !model.curve && plain + branches_of(model).size() == model.terms.size();
     if (is_linear && model.residual_sum < fit_.floor.model.residual_sum) fit_.floor.model = model;
   }
 
@@ -147,13 +149,25 @@ class Fitter {
       element.spread = spread(drawn, element.quantity);
       if (fit_.left_out.size() > 1) element.left_out = spread(fit_.left_out, element.quantity);
     }
+    fit_.curve_values = curve_values_of(fit_.model, fit_.choices.port_motion);
+    for (FittedCurveValue& value : fit_.curve_values) {
+      value.interval = uncertainty_->interval(value.quantity);
+      value.spread = spread(drawn, value.quantity);
+      if (fit_.left_out.size() > 1) value.left_out = spread(fit_.left_out, value.quantity);
+    }
   }
 
   // As few digits as the intervals ask for, more only where they would cost residual.
   std::optional<Model> write_values() {
     for (int extra = 0;; ++extra) {
       round_values(fit_.elements, fit_.model, fit_.choices.port_motion, extra);
-      const std::optional<Network> network = read_back(bare_network_text(fit_), diagnostics_);
+      for (FittedCurveValue& value : fit_.curve_values) value.text.clear();
+      std::optional<Network> network = read_back(bare_network_text(fit_), diagnostics_);
+      if (network && !fit_.curve_values.empty()) {
+        const double stiffness = curve_stiffness(model_of(*network, fit_.choices.form)).value;
+        round_values(fit_.curve_values, fit_.model, stiffness, fit_.choices.port_motion, extra);
+        network = read_back(bare_network_text(fit_), diagnostics_);
+      }
       if (!network) return std::nullopt;
       for (FittedElement& element : fit_.elements)
         for (const Element& read : network->elements)
@@ -214,7 +228,7 @@ class Fitter {
       const Block& block = problem.blocks()[file];
       VectorXd sum = VectorXd::Zero(block.count);
       for (std::size_t j = 0; j < model.terms.size(); ++j)
-        sum += model.weights[static_cast<Index>(j)] * unit_column(problem.signal(file), model.terms[j]);
+        sum += model.weights[static_cast<Index>(j)] * unit_column(problem.signal(file, model.curve), model.terms[j]);
       answer.segment(block.begin, block.count) = model.gains[file] * sum;
     }
     return answer;

@@ -56,6 +56,7 @@ struct Finding {
     beyond_reach,         // name, other: elements too far apart to be compiled [factor]
     no_intervals,         // [effective samples, parameters]
     slips_or_softening,
+    shape_is_straight,  // name: of the curve
     loading_only,
     one_rate,
     no_hold,
@@ -83,7 +84,9 @@ struct Fit {
   std::size_t chosen = 0;
   Model model;  // before rounding
   std::vector<FittedElement> elements;
-  std::string text;  // of the network file
+  std::vector<FittedCurveValue> curve_values;  // of the static curve
+  std::vector<ShapeTried> shapes;              // where there was a choice of them
+  std::string text;                            // of the network file
   std::string network_name;
   double effective_samples = 0;
   std::size_t parameters = 0;

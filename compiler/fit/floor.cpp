@@ -19,8 +19,9 @@ constexpr double shortest_time = 1e-3;  // of a motion [s]: below it nothing is 
 // Each file compressed by itself, so that its gain may change.
 class CompressedFiles {
  public:
-  CompressedFiles(const Problem& problem, const std::vector<Term>& terms) : either_sign_(signed_terms(terms)) {
-    const MatrixXd all = problem.columns(terms);
+  CompressedFiles(const Problem& problem, const std::vector<Term>& terms, const std::optional<CurveShape>& curve)
+      : either_sign_(signed_terms(terms)) {
+    const MatrixXd all = problem.columns(terms, curve);
     for (const Block& block : problem.blocks())
       files_.push_back(
           compressed(all.middleRows(block.begin, block.count), problem.target().segment(block.begin, block.count)));
@@ -61,7 +62,7 @@ double largest_cosine(const Problem& problem, const VectorXd& left, const std::v
   const double length = left.norm();
   if (length == 0) return 0;
   for (const double time : times) {
-    Model one{{{TermKind::maxwell, time, 0, 0, 0}}, VectorXd::Ones(1), gains, 0};
+    const Model one{{{TermKind::maxwell, time, 0, 0, 0}}, VectorXd::Ones(1), gains};
     const MatrixXd columns = model_columns(problem, one);
     const double size = columns.col(0).norm();
     const double cosine = size > 0 ? columns.col(0).dot(left) / (size * length) : 0;
@@ -102,14 +103,15 @@ std::vector<Term> plain_terms(const Problem& problem) {
   return terms;
 }
 
-Model solve_weights(const Problem& problem, std::vector<Term> terms, std::vector<double> gains) {
+Model solve_weights(const Problem& problem, std::vector<Term> terms, std::vector<double> gains,
+                    const std::optional<CurveShape>& curve) {
   if (gains.empty()) gains.assign(problem.files(), 1.0);
-  const NonNegativeSolution solution = CompressedFiles(problem, terms).solve(gains);
-  return {std::move(terms), solution.weights, std::move(gains), solution.residual_sum};
+  const NonNegativeSolution solution = CompressedFiles(problem, terms, curve).solve(gains);
+  return {std::move(terms), solution.weights, std::move(gains), solution.residual_sum, curve};
 }
 
-Model solve_weights_and_gains(const Problem& problem, std::vector<Term> terms) {
-  const CompressedFiles files(problem, terms);
+Model solve_weights_and_gains(const Problem& problem, std::vector<Term> terms, const std::optional<CurveShape>& curve) {
+  const CompressedFiles files(problem, terms, curve);
   std::vector<double> gains(files.size(), 1.0);
   NonNegativeSolution solution = files.solve(gains);
   for (int turn = 0; turn < 100; ++turn) {
@@ -120,7 +122,7 @@ Model solve_weights_and_gains(const Problem& problem, std::vector<Term> terms) {
     solution = files.solve(gains, solution.weights);
     if (before - solution.residual_sum <= 1e-9 * before) break;
   }
-  return {std::move(terms), solution.weights, std::move(gains), solution.residual_sum};
+  return {std::move(terms), solution.weights, std::move(gains), solution.residual_sum, curve};
 }
 
 Floor linear_floor(const Problem& problem, const std::vector<Term>& beside, bool gains_are_free, double per_decade,

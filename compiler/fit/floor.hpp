@@ -19,10 +19,12 @@ TimeRange resolved_thresholds(const Problem& problem);
 std::vector<double> even_grid(const TimeRange& range, double per_decade);
 
 // Weights of fixed terms: what is left is convex. Gains stay as they are given, 1 where there are none.
-Model solve_weights(const Problem& problem, std::vector<Term> terms, std::vector<double> gains);
+Model solve_weights(const Problem& problem, std::vector<Term> terms, std::vector<double> gains,
+                    const std::optional<CurveShape>& curve = {});
 
 // Gains of the files by turns with the weights, their mean held at 1.
-Model solve_weights_and_gains(const Problem& problem, std::vector<Term> terms);
+Model solve_weights_and_gains(const Problem& problem, std::vector<Term> terms,
+                              const std::optional<CurveShape>& curve = {});
 
 // Any linear network equals a spring, a damper and Maxwell branches side by side (Foster), whose weights are the
 // solution of a convex problem. So its optimum on a grid fine enough bounds every linear network from below. The

@@ -23,6 +23,14 @@ std::string range_text(double low, double high, const std::string& unit) {
   return fmt::format("[{}, {}]", quoted(quantity_text(low, unit, 4)), quoted(quantity_text(high, unit, 4)));
 }
 
+// As the file writes numbers: a power bare, all else with its unit, where "1/m" takes no prefix.
+std::string range_text(const Interval& interval, const std::string& unit) {
+  if (unit.empty()) return fmt::format("[{:.4g}, {:.4g}]", interval.low, interval.high);
+  if (unit.starts_with("1/"))
+    return fmt::format("[\"{:.4g} {}\", \"{:.4g} {}\"]", interval.low, unit, interval.high, unit);
+  return range_text(interval.low, interval.high, unit);
+}
+
 // A bound that holds what was measured, whatever its digits: rounded outwards.
 double outwards(double value, double direction) {
   if (value == 0) return 0;
@@ -76,14 +84,24 @@ std::string recordings_text(const Fit& fit, const Problem& problem) {
 }
 
 // `which` of the elements that have it.
-std::string intervals_text(const Fit& fit, const char* key, std::optional<Interval> FittedElement::*which) {
+std::string intervals_text(const Fit& fit, const char* key, std::optional<Interval> FittedElement::*which,
+                           std::optional<Interval> FittedCurveValue::*of_curve) {
   const PortUnits units = port_units(fit.choices.port_motion);
   std::string text;
+  for (const FittedCurveValue& value : fit.curve_values)
+    if (const std::optional<Interval>& interval = value.*of_curve)
+      text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ",\n      ", value.name,
+                          range_text(*interval, unit_of(value.quantity, units)));
   for (const FittedElement& element : fit.elements)
     if (const std::optional<Interval>& interval = element.*which)
       text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ",\n      ", element.name,
                           range_text(interval->low, interval->high, unit_of(element.kind, units)));
   return text.empty() ? "" : fmt::format(",\n    \"{}\": {{\n      {} }}", key, text);
+}
+
+std::string static_line(const Fit& fit) {
+  if (fit.curve_values.empty() || fit.curve_values.front().text.empty()) return "";
+  return fmt::format("  \"static\": {},\n", static_text(fit.curve_values, fit.model, fit.choices.port_motion));
 }
 
 }  // namespace
@@ -116,9 +134,9 @@ std::string error_text(double rms, const Fit& fit, const Problem& problem, int d
 }
 
 std::string bare_network_text(const Fit& fit) {
-  return fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n  \"motion\": \"{}\",\n  \"network\": {}\n}}\n",
+  return fmt::format("{{\n  \"dashpot\": 1,\n  \"name\": \"{}\",\n  \"motion\": \"{}\",\n{}  \"network\": {}\n}}\n",
                      fit.network_name, fit.choices.port_motion == motion::rotation ? "rotation" : "translation",
-                     tree_text(fit.elements, fit.choices.form));
+                     static_line(fit), tree_text(fit.elements, fit.choices.form));
 }
 
 std::string network_text(const Fit& fit, const Problem& problem) {
@@ -130,6 +148,7 @@ std::string network_text(const Fit& fit, const Problem& problem) {
   text += fmt::format("  \"source\": {},\n", quoted(fit.choices.source));
   text +=
       fmt::format("  \"motion\": \"{}\",\n", fit.choices.port_motion == motion::rotation ? "rotation" : "translation");
+  text += static_line(fit);
   text += fmt::format("  \"network\": {},\n", tree_text(fit.elements, fit.choices.form));
   if (fit.choices.contact)
     text += fmt::format("  \"contact\": {{ \"at\": \"{}\" }},\n",
@@ -140,9 +159,9 @@ std::string network_text(const Fit& fit, const Problem& problem) {
   text += fmt::format("    \"rms\": \"{}\", \"r_squared\": {:.6g}, \"linear_floor\": \"{}\",\n",
                       error_text(fit.rms, fit, problem), fit.r_squared, error_text(fit.floor_rms, fit, problem));
   text += fmt::format("    \"parameters\": {}, \"effective_samples\": {:.4g}", fit.parameters, fit.effective_samples);
-  text += intervals_text(fit, "intervals", &FittedElement::interval);
-  text += intervals_text(fit, "bootstrap", &FittedElement::spread);
-  text += intervals_text(fit, "leaving_a_file_out", &FittedElement::left_out);
+  text += intervals_text(fit, "intervals", &FittedElement::interval, &FittedCurveValue::interval);
+  text += intervals_text(fit, "bootstrap", &FittedElement::spread, &FittedCurveValue::spread);
+  text += intervals_text(fit, "leaving_a_file_out", &FittedElement::left_out, &FittedCurveValue::left_out);
   return text + " }\n}\n";
 }
 

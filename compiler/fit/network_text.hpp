@@ -5,7 +5,7 @@
 
 namespace dashpot::compiler::fitting {
 
-// With the name and the tree alone: enough to read the values back.
+// With the name, the tree and the curve, as far as there is its text: enough to read the values back.
 std::string bare_network_text(const Fit& fit);
 
 // With source, validity and what is known of the fit. Validity is what the recordings themselves covered: the fastest

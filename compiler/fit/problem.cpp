@@ -42,7 +42,7 @@ Problem::Problem(const std::vector<Recording>& recordings, Form form, Weighting 
     : recordings_(&recordings), form_(form) {
   find_scales();
   for (std::size_t file = 0; file < recordings.size(); ++file)
-    signals_.push_back(signal_of(recordings[file], file, form, band_));
+    signals_.push_back(signal_of(recordings[file], file, form, band_, {}));
   weigh(weighting, most_rows);
 }
 
@@ -65,6 +65,12 @@ void Problem::find_scales() {
   band_ = {0.1 / duration_, 10 / shortest_step_};
 }
 
+double Problem::curve_reach() const {
+  if (largest_reach_ == 0) return 0;
+  const double step = std::pow(10, std::floor(std::log10(largest_reach_)) - 2);
+  return std::ceil(largest_reach_ / step * (1 - 1e-12)) * step;
+}
+
 void Problem::weigh(Weighting weighting, std::size_t most_rows) {
   std::vector<double> target, weights;
   for (const Recording& recording : *recordings_) {
@@ -85,29 +91,41 @@ void Problem::weigh(Weighting weighting, std::size_t most_rows) {
   weights_ = Eigen::Map<VectorXd>(weights.data(), static_cast<Index>(weights.size()));
 }
 
+const std::vector<Signal>& Problem::signals(const std::optional<CurveShape>& curve) const {
+  if (!curve) return signals_;
+  if (curve_ != curve) {
+    behind_curve_.clear();
+    for (std::size_t file = 0; file < signals_.size(); ++file)
+      behind_curve_.push_back(signal_of((*recordings_)[file], file, form_, band_, curve));
+    curve_ = curve;
+  }
+  return behind_curve_;
+}
+
 template <class OfSignal>
-VectorXd Problem::gathered(OfSignal of_signal) const {
+VectorXd Problem::gathered(const std::optional<CurveShape>& curve, OfSignal of_signal) const {
+  const std::vector<Signal>& signals = this->signals(curve);
   VectorXd column(target_.size());
   Index row = 0;
-  for (std::size_t file = 0; file < signals_.size(); ++file) {
+  for (std::size_t file = 0; file < signals.size(); ++file) {
     if (kept_[file].empty()) continue;
-    const VectorXd whole = of_signal(signals_[file]);
+    const VectorXd whole = of_signal(signals[file]);
     for (const Index kept : kept_[file]) column[row++] = whole[kept];
   }
   return column.cwiseProduct(weights_);
 }
 
-VectorXd Problem::column(const Term& term) const {
-  return gathered([&](const Signal& signal) { return unit_column(signal, term); });
+VectorXd Problem::column(const Term& term, const std::optional<CurveShape>& curve) const {
+  return gathered(curve, [&](const Signal& signal) { return unit_column(signal, term); });
 }
 
-VectorXd Problem::slope(const Term& term, Shape shape) const {
-  return gathered([&](const Signal& signal) { return column_slope(signal, term, shape); });
+VectorXd Problem::slope(const Term& term, Shape shape, const std::optional<CurveShape>& curve) const {
+  return gathered(curve, [&](const Signal& signal) { return column_slope(signal, term, shape); });
 }
 
-MatrixXd Problem::columns(const std::vector<Term>& terms) const {
+MatrixXd Problem::columns(const std::vector<Term>& terms, const std::optional<CurveShape>& curve) const {
   MatrixXd matrix(target_.size(), static_cast<Index>(terms.size()));
-  for (std::size_t j = 0; j < terms.size(); ++j) matrix.col(static_cast<Index>(j)) = column(terms[j]);
+  for (std::size_t j = 0; j < terms.size(); ++j) matrix.col(static_cast<Index>(j)) = column(terms[j], curve);
   return matrix;
 }
 
@@ -141,7 +159,7 @@ std::size_t Model::count(TermKind kind) const {
 }
 
 MatrixXd model_columns(const Problem& problem, const Model& model) {
-  MatrixXd columns = problem.columns(model.terms);
+  MatrixXd columns = problem.columns(model.terms, model.curve);
   for (std::size_t file = 0; file < model.gains.size(); ++file)
     if (model.gains[file] != 1)
       columns.middleRows(problem.blocks()[file].begin, problem.blocks()[file].count) *= model.gains[file];
@@ -154,6 +172,7 @@ VectorXd residual(const Problem& problem, const Model& model) {
 
 std::size_t parameter_count(const Model& model, bool gains_are_free) {
   std::size_t count = gains_are_free ? model.gains.size() - 1 : 0;
+  if (model.curve) count += model.curve->parameters().size();
   for (std::size_t j = 0; j < model.terms.size(); ++j)
     if (model.weights[static_cast<Index>(j)] != 0) count += 1 + shape_count(model.terms[j]);
   return count;

@@ -27,7 +27,9 @@ class Problem {
   Problem(const std::vector<Recording>& recordings, Form form, Weighting weighting, std::size_t most_rows);
 
   const std::vector<Recording>& recordings() const { return *recordings_; }
-  const Signal& signal(std::size_t file) const { return signals_[file]; }
+  const Signal& signal(std::size_t file, const std::optional<CurveShape>& curve = {}) const {
+    return signals(curve)[file];
+  }
   Form form() const { return form_; }
   std::size_t files() const { return signals_.size(); }
   const std::vector<Block>& blocks() const { return blocks_; }
@@ -37,9 +39,10 @@ class Problem {
   // Each row times its weight.
   const Eigen::VectorXd& target() const { return target_; }
   const Eigen::VectorXd& weights() const { return weights_; }
-  Eigen::VectorXd column(const Term& term) const;
-  Eigen::VectorXd slope(const Term& term, Shape shape) const;
-  Eigen::MatrixXd columns(const std::vector<Term>& terms) const;
+  // With a curve, of terms that lie behind it.
+  Eigen::VectorXd column(const Term& term, const std::optional<CurveShape>& curve = {}) const;
+  Eigen::VectorXd slope(const Term& term, Shape shape, const std::optional<CurveShape>& curve = {}) const;
+  Eigen::MatrixXd columns(const std::vector<Term>& terms, const std::optional<CurveShape>& curve = {}) const;
 
   // Without the rows of one file.
   Problem without(std::size_t file) const;
@@ -49,17 +52,22 @@ class Problem {
   double shortest_step() const { return shortest_step_; }  // [s]
   double duration() const { return duration_; }            // of the longest recording [s]
   double largest_reach() const { return largest_reach_; }  // of a position from rest [m]
+  double curve_reach() const;                              // the same, in three digits and not below [m]
   Band band() const { return band_; }
 
  private:
+  const std::vector<Signal>& signals(const std::optional<CurveShape>& curve) const;
   template <class OfSignal>
-  Eigen::VectorXd gathered(OfSignal of_signal) const;
+  Eigen::VectorXd gathered(const std::optional<CurveShape>& curve, OfSignal of_signal) const;
   void find_scales();
   void weigh(Weighting weighting, std::size_t most_rows);
 
   const std::vector<Recording>* recordings_;
   Form form_;
   std::vector<Signal> signals_;
+  // Behind the curve that was asked for last: many columns are of one curve.
+  mutable std::optional<CurveShape> curve_;
+  mutable std::vector<Signal> behind_curve_;
   std::vector<std::vector<Eigen::Index>> kept_;  // rows of each file
   std::vector<Block> blocks_;
   Eigen::VectorXd target_, weights_;
@@ -74,6 +82,7 @@ struct Model {
   Eigen::VectorXd weights;    // one a term; spring [N/m], damper [N·s/m], Maxwell branch and stop [N/m], offset [N]
   std::vector<double> gains;  // of each file's force sensor; 1 unless they are fitted
   double residual_sum = 0;    // of the weighted rows
+  std::optional<CurveShape> curve = {};  // behind which the terms lie; only of motions
 
   std::size_t count(TermKind kind) const;
 };
@@ -83,7 +92,8 @@ Eigen::MatrixXd model_columns(const Problem& problem, const Model& model);
 // target − model, weighted.
 Eigen::VectorXd residual(const Problem& problem, const Model& model);
 
-// Numbers that were chosen by the data: weights above zero, times, thresholds, exponents, gains but one.
+// Numbers that were chosen by the data: weights above zero, times, thresholds, exponents, a curve's parameters, gains
+// but one.
 std::size_t parameter_count(const Model& model, bool gains_are_free);
 
 std::vector<bool> signed_terms(const std::vector<Term>& terms);

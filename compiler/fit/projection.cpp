@@ -16,14 +16,30 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double& value_of(Model& model, const Unknown& unknown) {
+double value_of(const Model& model, const Unknown& unknown) {
   switch (unknown.kind) {
     case Unknown::Kind::time: return model.terms[unknown.index].time;
     case Unknown::Kind::threshold: return model.terms[unknown.index].threshold;
     case Unknown::Kind::exponent: return model.terms[unknown.index].exponent;
+    case Unknown::Kind::curve: return model.curve->parameters()[unknown.index];
     case Unknown::Kind::gain: break;
   }
   return model.gains[unknown.index];
+}
+
+void set_value(Model& model, const Unknown& unknown, double value) {
+  switch (unknown.kind) {
+    case Unknown::Kind::time: model.terms[unknown.index].time = value; return;
+    case Unknown::Kind::threshold: model.terms[unknown.index].threshold = value; return;
+    case Unknown::Kind::exponent: model.terms[unknown.index].exponent = value; return;
+    case Unknown::Kind::curve: model.curve->set_parameter(unknown.index, value); return;
+    case Unknown::Kind::gain: model.gains[unknown.index] = value; return;
+  }
+}
+
+// Of one that is not searched by its logarithm.
+bool is_additive(const Unknown& unknown) {
+  return unknown.kind == Unknown::Kind::exponent || unknown.kind == Unknown::Kind::curve;
 }
 
 TimeRange bounds_of(const Problem& problem, const Model& model, const Unknown& unknown) {
@@ -36,6 +52,7 @@ TimeRange bounds_of(const Problem& problem, const Model& model, const Unknown& u
     }
     case Unknown::Kind::threshold: return {resolved_thresholds(problem).shortest, resolved_thresholds(problem).longest};
     case Unknown::Kind::exponent: return {0.005, 0.995};
+    case Unknown::Kind::curve: return {range_of(model.curve->kind()).least, range_of(model.curve->kind()).most};
     case Unknown::Kind::gain: break;
   }
   return {0.2, 5};
@@ -72,7 +89,7 @@ class Projection {
  private:
   void clamp(Model& model, const Unknown& unknown) const {
     const TimeRange range = bounds_of(problem_, model, unknown);
-    value_of(model, unknown) = std::clamp(value_of(model, unknown), range.shortest, range.longest);
+    set_value(model, unknown, std::clamp(value_of(model, unknown), range.shortest, range.longest));
   }
 
   Linear solve(Model& model) const {
@@ -124,11 +141,10 @@ class Projection {
     Model moved = model_;
     for (std::size_t k = 0; k < unknowns_.size(); ++k) {
       const double change = std::clamp(step[static_cast<Index>(k)], -1.0, 1.0);
-      double& value = value_of(moved, unknowns_[k]);
-      const double before = value;
-      value = unknowns_[k].kind == Unknown::Kind::exponent ? value + change : value * std::exp(change);
+      const double before = value_of(moved, unknowns_[k]);
+      set_value(moved, unknowns_[k], is_additive(unknowns_[k]) ? before + change : before * std::exp(change));
       clamp(moved, unknowns_[k]);
-      if (unknowns_[k].kind == Unknown::Kind::time) move_initial_forces(moved, before, value);
+      if (unknowns_[k].kind == Unknown::Kind::time) move_initial_forces(moved, before, value_of(moved, unknowns_[k]));
     }
     Linear linear = solve(moved);
     if (!(moved.residual_sum < model_.residual_sum)) return false;
@@ -155,6 +171,15 @@ class Projection {
   double damping_ = 1e-3, last_progress_ = 0;
 };
 
+// By a central difference, whose error is below the noise of any recording.
+VectorXd curve_slope(const Problem& problem, const Model& model, const Unknown& unknown) {
+  constexpr double reach = 1e-4;
+  Model more = model, less = model;
+  set_value(more, unknown, value_of(model, unknown) + reach);
+  set_value(less, unknown, value_of(model, unknown) - reach);
+  return (residual(problem, less) - residual(problem, more)) / (2 * reach);
+}
+
 Shape shape_of(Unknown::Kind kind) {
   return kind == Unknown::Kind::time        ? Shape::time
          : kind == Unknown::Kind::threshold ? Shape::threshold
@@ -171,6 +196,8 @@ std::vector<Unknown> unknowns_of(const Model& model, bool gains_are_free) {
     if (kind == TermKind::stop || kind == TermKind::sliding) unknowns.push_back({Unknown::Kind::threshold, j});
     if (kind == TermKind::springpot) unknowns.push_back({Unknown::Kind::exponent, j});
   }
+  for (std::size_t k = 0; model.curve && k < model.curve->parameters().size(); ++k)
+    unknowns.push_back({Unknown::Kind::curve, k});
   // The first gain is held: a common factor is in the weights.
   for (std::size_t file = 1; gains_are_free && file < model.gains.size(); ++file)
     unknowns.push_back({Unknown::Kind::gain, file});
@@ -186,13 +213,14 @@ VectorXd unknown_slope(const Problem& problem, const Model& model, const Unknown
         (problem.target() - residual(problem, model)).segment(block.begin, block.count);
     return slope;
   }
+  if (unknown.kind == Unknown::Kind::curve) return curve_slope(problem, model, unknown);
   const double weight = model.weights[static_cast<Index>(unknown.index)];
   if (weight == 0) return VectorXd::Zero(problem.rows());
   const Term& term = model.terms[unknown.index];
-  slope = weight * problem.slope(term, shape_of(unknown.kind));
+  slope = weight * problem.slope(term, shape_of(unknown.kind), model.curve);
   for (std::size_t j = 0; j < model.terms.size(); ++j)
     if (unknown.kind == Unknown::Kind::time && is_initial_of(model.terms[j], term))
-      slope += model.weights[static_cast<Index>(j)] * problem.slope(model.terms[j], Shape::time);
+      slope += model.weights[static_cast<Index>(j)] * problem.slope(model.terms[j], Shape::time, model.curve);
   for (std::size_t file = 0; file < model.gains.size(); ++file)
     if (model.gains[file] != 1)
       slope.segment(problem.blocks()[file].begin, problem.blocks()[file].count) *= model.gains[file];

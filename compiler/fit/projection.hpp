@@ -1,4 +1,4 @@
-// Variable projection: times, thresholds, exponents and gains improved, weights solved for inside.
+// Variable projection: times, thresholds, exponents, curves and gains improved, weights solved for inside.
 #pragma once
 
 #include "fit/problem.hpp"
@@ -12,14 +12,15 @@ struct ProjectionLimits {
 
 // A number of a model that is not a weight.
 struct Unknown {
-  enum class Kind { time, threshold, exponent, gain };
+  enum class Kind { time, threshold, exponent, curve, gain };
 
   Kind kind;
-  std::size_t index;  // of the term, or of the file
+  std::size_t index;  // of the term, of the curve's parameter, or of the file
 };
 std::vector<Unknown> unknowns_of(const Model& model, bool gains_are_free);
 
-// ∂(model)/∂(unknown), weighted, with the model's weights in it: of logarithms, but for an exponent's own value.
+// ∂(model)/∂(unknown), weighted, with the model's weights in it: of logarithms, but for an exponent's own value and a
+// curve's parameters.
 Eigen::VectorXd unknown_slope(const Problem& problem, const Model& model, const Unknown& unknown);
 
 // Levenberg–Marquardt on the logarithms with Kaufman's Jacobian J = (I − QQᵀ)(∂A/∂θ)x (Kaufman 1975, BIT 15:49), steps

@@ -21,6 +21,7 @@ using Eigen::VectorXd;
 constexpr double times_per_decade = 4;
 constexpr double thresholds_per_decade = 6;
 constexpr double neighbours = 2.5;  // grid columns whose shapes differ by at most this factor stand for one element
+constexpr std::size_t least_stretches = 4, most_stretches = 16;  // of a table
 constexpr ProjectionLimits quick{12, 1e-5};
 constexpr ProjectionLimits thorough{60, 1e-11};
 
@@ -36,8 +37,13 @@ double shape_of(const Term& term) {
   return term.kind == TermKind::maxwell ? term.time : term.kind == TermKind::springpot ? term.exponent : term.threshold;
 }
 
+// With room for as many weights.
+Model without_terms(const Model& model) {
+  return {{}, VectorXd(model.weights.size()), model.gains, model.residual_sum, model.curve};
+}
+
 Model selection(const Model& model, const std::vector<bool>& keep) {
-  Model left{{}, VectorXd(model.weights.size()), model.gains, model.residual_sum};
+  Model left = without_terms(model);
   Index count = 0;
   for (std::size_t j = 0; j < model.terms.size(); ++j)
     if (keep[j]) left.terms.push_back(model.terms[j]), left.weights[count++] = weight_of(model, j);
@@ -74,7 +80,7 @@ bool are_neighbours(const Term& a, const Term& b) {
 
 // Pairs, never whole runs: a broad spectrum is one long run.
 Model merged_in_pairs(const Model& model) {
-  Model result{{}, VectorXd(model.weights.size()), model.gains, model.residual_sum};
+  Model result = without_terms(model);
   Index count = 0;
   for (std::size_t j = 0; j < model.terms.size(); ++j) {
     const bool pairs = j + 1 < model.terms.size() && are_neighbours(model.terms[j], model.terms[j + 1]);
@@ -99,17 +105,35 @@ class Reducer {
       : problem_(problem), choices_(choices), progress_(progress) {}
 
   Reduction run() {
-    Reduction best = reduction_from(start());
+    std::vector<Model> rich = starts();
+    for (Model& model : rich) model = pruned(refine(std::move(model), {30, 1e-7}));
+    effective_ = effective_samples(problem_, *std::min_element(rich.begin(), rich.end(), has_less_left));
+    Reduction best = reduction_down(std::move(rich.front()));
+    std::vector<ShapeTried> shapes{tried(best.model)};
+    for (std::size_t i = 1; i < rich.size(); ++i) {
+      Reduction other = reduction_down(std::move(rich[i]));
+      shapes.push_back(tried(other.model));
+      take_better(best, std::move(other));
+    }
     if (choices_.springpots)
       for (const Model& with : springpot_starts(best)) take_better(best, reduction_from(with));
     if (choices_.slips == SlipChoice::viscous) take_better(best, with_viscous_slips(best));
+    if (shapes.size() > 1) best.shapes = std::move(shapes);
     return best;
   }
 
  private:
-  std::vector<Term> grid_terms() const {
+  // Spring, damper and offsets.
+  std::vector<Term> plain() const {
     std::vector<Term> terms = plain_terms(problem_);
+    if (choices_.is_elastic) terms.assign(1, {TermKind::spring, 0, 0, 0, 0});
     terms.insert(terms.end(), choices_.beside.begin(), choices_.beside.end());
+    return terms;
+  }
+
+  std::vector<Term> grid_terms() const {
+    std::vector<Term> terms = plain();
+    if (choices_.is_elastic) return terms;
     for (const double time : even_grid(resolved_times(problem_), times_per_decade))
       terms.push_back({TermKind::maxwell, time, 0, 0, 0});
     if (choices_.slips != SlipChoice::none)
@@ -118,9 +142,69 @@ class Reducer {
     return terms;
   }
 
-  Model start() const {
-    Model model = choices_.gains_are_free ? solve_weights_and_gains(problem_, grid_terms())
-                                          : solve_weights(problem_, grid_terms(), {});
+  static bool has_less_left(const Model& a, const Model& b) { return a.residual_sum < b.residual_sum; }
+
+  std::vector<Model> starts() const {
+    const auto wants = [&](ShapeChoice one) {
+      return choices_.shape == one || choices_.shape == ShapeChoice::automatic;
+    };
+    std::vector<Model> list;
+    if (wants(ShapeChoice::none)) list.push_back(start({}));
+    if (wants(ShapeChoice::power)) list.push_back(best_start(powers()));
+    if (wants(ShapeChoice::exponential)) list.push_back(best_start(exponentials()));
+    if (wants(ShapeChoice::table)) list.push_back(table_start());
+    return list;
+  }
+
+  std::vector<CurveShape> powers() const {
+    std::vector<CurveShape> curves;
+    for (const double exponent : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 9.0})
+      curves.push_back(CurveShape::power(exponent, problem_.curve_reach()));
+    return curves;
+  }
+
+  std::vector<CurveShape> exponentials() const {
+    std::vector<CurveShape> curves;
+    for (const double steepness : {0.5, 1.0, 2.0, 3.0, 4.5, 6.5, 9.0, 13.0})
+      curves.push_back(CurveShape::exponential(steepness, problem_.curve_reach()));
+    return curves;
+  }
+
+  Model best_start(const std::vector<CurveShape>& curves) const {
+    Model best;
+    best.residual_sum = std::numeric_limits<double>::infinity();
+    for (const CurveShape& curve : curves)
+      if (Model model = start(curve); best.terms.empty() || has_less_left(model, best)) best = std::move(model);
+    return best;
+  }
+
+  // From the best closed form, or from a straight line: a table may soften.
+  Model table_start() const {
+    std::vector<CurveShape> curves = powers();
+    for (const CurveShape& curve : exponentials()) curves.push_back(curve);
+    curves.push_back(CurveShape::power(1, problem_.curve_reach()));
+    Model model = best_start(curves);
+    model.curve = model.curve->sampled(least_stretches);
+    model = refine(std::move(model), quick);
+    for (std::size_t stretches = 2 * least_stretches; stretches <= most_stretches; stretches *= 2) {
+      Model finer = model;
+      finer.curve = model.curve->sampled(stretches);
+      finer = refine(std::move(finer), quick);
+      const double effective = effective_samples(problem_, finer);
+      if (score(finer, effective) >= score(model, effective)) break;
+      model = std::move(finer);
+    }
+    return model;
+  }
+
+  ShapeTried tried(const Model& model) const {
+    return {model.curve ? std::optional(model.curve->kind()) : std::nullopt, parameters(model),
+            std::sqrt(model.residual_sum / problem_.weighed_rows()), score(model, effective_)};
+  }
+
+  Model start(const std::optional<CurveShape>& curve) const {
+    Model model = choices_.gains_are_free ? solve_weights_and_gains(problem_, grid_terms(), curve)
+                                          : solve_weights(problem_, grid_terms(), {}, curve);
     model = with_plain_terms(merged_in_pairs(tidied(std::move(model))));
     for (const std::size_t file : choices_.in_motion)
       for (std::size_t j = 0; j < model.terms.size(); ++j)
@@ -136,9 +220,7 @@ class Reducer {
 
   // Spring, damper and offsets take part in every step, whatever weight they have at first.
   Model with_plain_terms(Model model) const {
-    std::vector<Term> wanted = plain_terms(problem_);
-    wanted.insert(wanted.end(), choices_.beside.begin(), choices_.beside.end());
-    for (const Term& term : wanted) {
+    for (const Term& term : plain()) {
       const bool is_there = std::any_of(model.terms.begin(), model.terms.end(), [&](const Term& other) {
         return other.kind == term.kind && other.file == term.file;
       });
@@ -155,11 +237,11 @@ class Reducer {
     return criterion(problem_, model, effective, choices_.gains_are_free);
   }
 
-  Reduction reduction_from(Model model) {
+  Reduction reduction_from(Model model) const { return reduction_down(pruned(refine(std::move(model), {30, 1e-7}))); }
+
+  Reduction reduction_down(Model model) const {
     Reduction result;
-    model = pruned(refine(std::move(model), {30, 1e-7}));
-    result.effective_samples = effective_ > 0 ? effective_ : effective_samples(problem_, model);
-    if (effective_ == 0) effective_ = result.effective_samples;
+    result.effective_samples = effective_;
     for (;;) {
       result.path.push_back({model, score(model, effective_), parameter_count(model, choices_.gains_are_free),
                              std::sqrt(model.residual_sum / problem_.weighed_rows())});
@@ -193,7 +275,7 @@ class Reducer {
       const Term &x = model.terms[a], &y = model.terms[b];
       return std::pair(x.kind, shape_of(x)) < std::pair(y.kind, shape_of(y));
     });
-    Model result{{}, VectorXd(model.weights.size()), model.gains, model.residual_sum};
+    Model result = without_terms(model);
     for (std::size_t k = 0; k < order.size(); ++k) {
       result.terms.push_back(model.terms[order[k]]);
       result.weights[static_cast<Index>(k)] = weight_of(model, order[k]);
@@ -227,12 +309,12 @@ class Reducer {
       const bool pairs = j + 1 < model.terms.size() && model.terms[j + 1].kind == model.terms[j].kind;
       if (pairs) candidates.push_back(with_merged(model, j));
     }
-    return scored(std::move(candidates), model.gains);
+    return scored(std::move(candidates), model);
   }
 
   // All their columns side by side, compressed once.
-  std::vector<Option> scored(std::vector<Model> candidates, const std::vector<double>& gains) const {
-    Model all{{}, {}, gains, 0};
+  std::vector<Option> scored(std::vector<Model> candidates, const Model& from) const {
+    Model all{{}, {}, from.gains, 0, from.curve};
     std::vector<std::vector<std::size_t>> places;
     for (const Model& candidate : candidates) {
       places.emplace_back();

@@ -43,6 +43,39 @@ double value_of(const Model& model, const ElementQuantity& quantity) {
          (quantity.times_threshold ? term.threshold : 1);
 }
 
+CurveStiffness curve_stiffness(const Model& model) {
+  CurveStiffness at_rest, at_once{0, true};
+  for (std::size_t j = 0; j < model.terms.size(); ++j) {
+    const TermKind kind = model.terms[j].kind;
+    const bool holds = kind == TermKind::spring || kind == TermKind::stop || kind == TermKind::sliding;
+    if (holds) at_rest.value += weight_of(model, j);
+    if (kind == TermKind::maxwell || kind == TermKind::springpot) at_once.value += weight_of(model, j);
+  }
+  return at_rest.value > 0 ? at_rest : at_once;
+}
+
+double value_of(const Model& model, const CurveQuantity& quantity) {
+  switch (quantity.kind) {
+    case CurveQuantity::Kind::power: return model.curve->parameters()[0];
+    case CurveQuantity::Kind::rate: return std::exp(model.curve->parameters()[0]) / model.curve->reach();
+    case CurveQuantity::Kind::force: break;
+  }
+  return model.curve->force_at(quantity.displacement) * curve_stiffness(model).value;
+}
+
+std::vector<CurveQuantity> curve_quantities(const CurveShape& curve) {
+  if (curve.kind() == CurveShape::Kind::table) {
+    std::vector<CurveQuantity> forces;
+    const std::size_t stretches = curve.parameters().size() + 1;
+    for (std::size_t i = 1; i <= stretches; ++i)
+      forces.push_back({CurveQuantity::Kind::force, curve.reach() * double(i) / double(stretches)});
+    return forces;
+  }
+  const bool is_power = curve.kind() == CurveShape::Kind::power;
+  return {{is_power ? CurveQuantity::Kind::power : CurveQuantity::Kind::rate, 0},
+          {CurveQuantity::Kind::force, curve.reach()}};
+}
+
 Uncertainty::Uncertainty(const Problem& problem, const Model& model, double effective, bool gains_are_free)
     : model_(model),
       weight_place_(model.terms.size(), -1),
@@ -59,9 +92,11 @@ Uncertainty::Uncertainty(const Problem& problem, const Model& model, double effe
     jacobian.col(next++) = scale * columns.col(static_cast<Index>(j));
   }
   for (const Unknown& unknown : unknowns) {
-    if (unknown.kind != Unknown::Kind::gain && weight_of(model, unknown.index) == 0) continue;
+    const bool is_of_model = unknown.kind == Unknown::Kind::gain || unknown.kind == Unknown::Kind::curve;
+    if (!is_of_model && weight_of(model, unknown.index) == 0) continue;
     if (unknown.kind == Unknown::Kind::time) time_place_[unknown.index] = next;
     if (unknown.kind == Unknown::Kind::threshold) threshold_place_[unknown.index] = next;
+    if (unknown.kind == Unknown::Kind::curve) curve_place_.push_back(next);
     jacobian.col(next++) = unknown_slope(problem, model, unknown);
   }
   jacobian.conservativeResize(Eigen::NoChange, next);
@@ -85,6 +120,28 @@ std::optional<Interval> Uncertainty::interval(const ElementQuantity& quantity) c
   const double value = value_of(model_, quantity);
   if (is_signed(model_.terms[quantity.term])) return Interval{value - reach, value + reach};
   return Interval{value * std::exp(-reach), value * std::exp(reach)};
+}
+
+// By its slope in every number that it depends on: the curve's parameters, and weights that make its stiffness.
+std::optional<Interval> Uncertainty::interval(const CurveQuantity& quantity) const {
+  if (!is_told_) return std::nullopt;
+  constexpr double reach = 1e-5;
+  const double value = value_of(model_, quantity);
+  VectorXd share = VectorXd::Zero(covariance_.rows());
+  const auto add = [&](Index place, const auto& move) {
+    Model more = model_, less = model_;
+    move(more, reach);
+    move(less, -reach);
+    share[place] = std::log(value_of(more, quantity) / value_of(less, quantity)) / (2 * reach);
+  };
+  for (std::size_t k = 0; k < curve_place_.size(); ++k)
+    add(curve_place_[k],
+        [&](Model& model, double by) { model.curve->set_parameter(k, model.curve->parameters()[k] + by); });
+  for (std::size_t j = 0; j < weight_place_.size(); ++j)
+    if (weight_place_[j] >= 0)
+      add(weight_place_[j], [&](Model& model, double by) { model.weights[static_cast<Index>(j)] *= std::exp(by); });
+  const double half = quantile_ * std::sqrt(std::max(0.0, share.dot(covariance_ * share)));
+  return Interval{value * std::exp(-half), value * std::exp(half)};
 }
 
 std::vector<Model> leave_one_out(const Problem& problem, const Model& model, bool gains_are_free) {
@@ -120,9 +177,7 @@ std::vector<Model> block_bootstrap(const Problem& problem, const Model& model, d
   return models;
 }
 
-std::optional<Interval> spread(const std::vector<Model>& models, const ElementQuantity& quantity) {
-  std::vector<double> values;
-  for (const Model& model : models) values.push_back(value_of(model, quantity));
+std::optional<Interval> spread(std::vector<double> values) {
   if (values.size() < 2) return std::nullopt;
   std::sort(values.begin(), values.end());
   const auto at = [&](double share) {

@@ -17,13 +17,33 @@ struct ElementQuantity {
 };
 double value_of(const Model& model, const ElementQuantity& quantity);
 
+// A number of the static curve that a model lies behind, above zero: its power or its rate [1/m], or its force [N] at
+// the end of a stretch of a table, of the others at the reach.
+struct CurveQuantity {
+  enum class Kind { power, rate, force };
+
+  Kind kind;
+  double displacement = 0;  // of a force [m]
+};
+double value_of(const Model& model, const CurveQuantity& quantity);
+std::vector<CurveQuantity> curve_quantities(const CurveShape& curve);
+
+// What the static curve of a network is made of: its springs and those in front of slips, or where there are none, all
+// Maxwell branches and springpots [N/m]. `is_instantaneous` of the second.
+struct CurveStiffness {
+  double value = 0;
+  bool is_instantaneous = false;
+};
+CurveStiffness curve_stiffness(const Model& model);
+
 struct Interval {
   double low;
   double high;
 };
 
-// J in (ln k, ln τ, ln d); Cov = s² (JᵀJ)⁻¹ n/n_e, s² = RSS/(n − p), with Student's t of n_e − p degrees of freedom.
-// With noise whose neighbours resemble each other the ordinary formula, n_e = n, covers 29 % where it says 95.
+// J in (ln k, ln τ, ln d) and a curve's parameters; Cov = s² (JᵀJ)⁻¹ n/n_e, s² = RSS/(n − p), with Student's t of n_e −
+// p degrees of freedom. With noise whose neighbours resemble each other the ordinary formula, n_e = n, covers 29 %
+// where it says 95.
 class Uncertainty {
  public:
   Uncertainty(const Problem& problem, const Model& model, double effective, bool gains_are_free);
@@ -31,12 +51,14 @@ class Uncertainty {
   // Fewer than p + 5 effective samples: what is left is the model's error, and no interval can be had from it.
   bool is_told() const { return is_told_; }
   std::optional<Interval> interval(const ElementQuantity& quantity) const;  // 95 %
-  double condition() const { return condition_; }                           // of J with columns of length one
+  std::optional<Interval> interval(const CurveQuantity& quantity) const;
+  double condition() const { return condition_; }  // of J with columns of length one
 
  private:
   const Model& model_;
   Eigen::MatrixXd covariance_;
   std::vector<Eigen::Index> weight_place_, time_place_, threshold_place_;  // in the covariance; −1 where there is none
+  std::vector<Eigen::Index> curve_place_;
   double quantile_ = 0;
   double condition_ = 1;
   bool is_told_ = false;
@@ -51,6 +73,12 @@ std::vector<Model> block_bootstrap(const Problem& problem, const Model& model, d
                                    int draws);
 
 // 2.5 % to 97.5 % of what the models say.
-std::optional<Interval> spread(const std::vector<Model>& models, const ElementQuantity& quantity);
+std::optional<Interval> spread(std::vector<double> values);
+template <class Quantity>
+std::optional<Interval> spread(const std::vector<Model>& models, const Quantity& quantity) {
+  std::vector<double> values;
+  for (const Model& model : models) values.push_back(value_of(model, quantity));
+  return spread(std::move(values));
+}
 
 }  // namespace dashpot::compiler::fitting

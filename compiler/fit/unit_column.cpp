@@ -270,25 +270,7 @@ Term shaped(Term term, Shape shape, double change) {
   return term;
 }
 
-Column difference(const Signal& signal, const Term& term, Shape shape) {
-  constexpr double reach = 1e-4;  // the error of a central difference, reach² / 6, is below the noise of any recording
-  return (unit_column(signal, shaped(term, shape, reach)) - unit_column(signal, shaped(term, shape, -reach))) /
-         (2 * reach);
-}
-
-}  // namespace
-
-Signal signal_of(const Recording& recording, std::size_t file, Form form, const Band& band) {
-  Signal signal{&recording, file, {}, {}, {}, band, form};
-  if (recording.kind != RecordingKind::motion) return signal;
-  signal.steps = steps_of(recording.time);
-  signal.drive = form == Form::stiffness ? recording.position : recording.force;
-  signal.change.assign(signal.drive.size(), 0.0);
-  for (std::size_t i = 1; i < signal.drive.size(); ++i) signal.change[i] = signal.drive[i] - signal.drive[i - 1];
-  return signal;
-}
-
-Column unit_column(const Signal& signal, const Term& term) {
+Column straight_column(const Signal& signal, const Term& term) {
   switch (term.kind) {
     case TermKind::spring: return spring(signal);
     case TermKind::damper: return damper(signal);
@@ -304,10 +286,52 @@ Column unit_column(const Signal& signal, const Term& term) {
   return {};
 }
 
-Column column_slope(const Signal& signal, const Term& term, Shape shape) {
+Column difference(const Signal& signal, const Term& term, Shape shape) {
+  constexpr double reach = 1e-4;  // the error of a central difference, reach² / 6, is below the noise of any recording
+  return (straight_column(signal, shaped(term, shape, reach)) - straight_column(signal, shaped(term, shape, -reach))) /
+         (2 * reach);
+}
+
+Column straight_slope(const Signal& signal, const Term& term, Shape shape) {
   if (term.kind == TermKind::maxwell) return maxwell_slope(signal, term.time);
   if (term.kind == TermKind::stop) return stop_history_slope(signal, term.threshold);
   return difference(signal, term, shape);
+}
+
+void put_behind(Signal& signal, const CurveShape& curve) {
+  for (double& drive : signal.drive) {
+    const CurveShape::Place place = curve.at(drive);
+    drive = place.value;
+    signal.lever.push_back(place.tangent);
+  }
+}
+
+// A sensor's offset is none of the tissue's force.
+Column levered(const Signal& signal, const Term& term, Column column) {
+  if (signal.lever.empty() || term.kind == TermKind::offset) return column;
+  return column.cwiseProduct(Eigen::Map<const Column>(signal.lever.data(), signal.rows()));
+}
+
+}  // namespace
+
+Signal signal_of(const Recording& recording, std::size_t file, Form form, const Band& band,
+                 const std::optional<CurveShape>& curve) {
+  Signal signal{&recording, file, {}, {}, {}, {}, band, form};
+  if (recording.kind != RecordingKind::motion) return signal;
+  signal.steps = steps_of(recording.time);
+  signal.drive = form == Form::stiffness ? recording.position : recording.force;
+  if (curve) put_behind(signal, *curve);
+  signal.change.assign(signal.drive.size(), 0.0);
+  for (std::size_t i = 1; i < signal.drive.size(); ++i) signal.change[i] = signal.drive[i] - signal.drive[i - 1];
+  return signal;
+}
+
+Column unit_column(const Signal& signal, const Term& term) {
+  return levered(signal, term, straight_column(signal, term));
+}
+
+Column column_slope(const Signal& signal, const Term& term, Shape shape) {
+  return levered(signal, term, straight_slope(signal, term, shape));
 }
 
 }  // namespace dashpot::compiler::fitting

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "fit/curve_shape.hpp"
 #include "fit/recording.hpp"
 #include "fit/term.hpp"
 
@@ -21,7 +23,8 @@ struct Signal {
   std::size_t file;            // its place among all
   std::vector<double> steps;   // [s]
   std::vector<double> change;  // of what drives the network, from row to row: position [m], or force [N]
-  std::vector<double> drive;   // position [m], or force [N]
+  std::vector<double> drive;   // position [m], or force [N]; behind a curve w [m]
+  std::vector<double> lever;   // w′ at each row, of a motion behind a curve; else empty
   Band band;                   // of a springpot's ladder
   Form form;
 
@@ -32,7 +35,10 @@ struct Signal {
   }
 };
 
-Signal signal_of(const Recording& recording, std::size_t file, Form form, const Band& band);
+// Behind a curve the network is driven by w, and its force is felt w′ times (theory, section 11): the tangent at the
+// row, which is what was measured there. The secant to the row before would be that of half a step earlier.
+Signal signal_of(const Recording& recording, std::size_t file, Form form, const Band& band,
+                 const std::optional<CurveShape>& curve = {});
 
 // Force [N] (position [m] in the compliance form) of the term with weight one, at each row; left limits.
 Eigen::VectorXd unit_column(const Signal& signal, const Term& term);

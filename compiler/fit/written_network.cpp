@@ -79,12 +79,13 @@ class ElementList {
   int branches_ = 0, slips_ = 0, springpots_ = 0;
 };
 
+constexpr int curve_digits = 9;  // of displacements: the reach has three, and a table is cut in 16
+
 // Rounding a value to D digits moves it by at most 0.5·10^(1−D) of itself.
-int digits_for(const FittedElement& element) {
+int digits_for(const std::optional<Interval>& known, double value) {
   constexpr int least = 4, most = 15;
-  const std::optional<Interval>& known = element.interval;
   if (!known) return least;
-  const double half = (known->high - known->low) / (2 * std::abs(element.value));
+  const double half = (known->high - known->low) / (2 * std::abs(value));
   if (!(half > 0)) return most;
   return std::clamp(static_cast<int>(std::ceil(1 - std::log10(half / 5))), least, most);
 }
@@ -173,9 +174,62 @@ void round_values(std::vector<FittedElement>& elements, const Model& model, moti
   for (FittedElement& element : elements) {
     const double exact = value_of(model, element.quantity);
     element.value = exact;
-    const int digits = std::min(17, digits_for(element) + extra);
+    const int digits = std::min(17, digits_for(element.interval, element.value) + extra);
     element.text = quantity_text(exact, unit_of(element.kind, units), digits);
   }
+}
+
+std::string unit_of(const CurveQuantity& quantity, const PortUnits& units) {
+  switch (quantity.kind) {
+    case CurveQuantity::Kind::power: return "";
+    case CurveQuantity::Kind::rate: return "1/" + units.position;
+    case CurveQuantity::Kind::force: break;
+  }
+  return units.force;
+}
+
+std::vector<FittedCurveValue> curve_values_of(const Model& model, motion port_motion) {
+  std::vector<FittedCurveValue> values;
+  if (!model.curve) return values;
+  for (const CurveQuantity& quantity : curve_quantities(*model.curve)) {
+    std::string name = quantity.kind == CurveQuantity::Kind::power  ? "power"
+                       : quantity.kind == CurveQuantity::Kind::rate ? "rate"
+                                                                    : "force";
+    if (model.curve->kind() == CurveShape::Kind::table)
+      name += " at " + quantity_text(quantity.displacement, port_units(port_motion).position, curve_digits);
+    values.push_back({std::move(name), quantity, value_of(model, quantity), "", {}, {}, {}});
+  }
+  return values;
+}
+
+void round_values(std::vector<FittedCurveValue>& values, const Model& model, double stiffness, motion port_motion,
+                  int extra) {
+  const PortUnits units = port_units(port_motion);
+  // Neighbours of a table have to rise as they do.
+  const int more = model.curve && model.curve->kind() == CurveShape::Kind::table ? 2 + extra : extra;
+  for (FittedCurveValue& value : values) {
+    value.value = value_of(model, value.quantity);
+    const int digits = std::min(17, digits_for(value.interval, value.value) + more);
+    if (value.quantity.kind == CurveQuantity::Kind::force) value.value *= stiffness / curve_stiffness(model).value;
+    const std::string unit = unit_of(value.quantity, units);
+    value.text = unit == units.force ? quantity_text(value.value, unit, digits)
+                 : unit.empty()      ? fmt::format("{:.{}g}", value.value, digits)
+                                     : fmt::format("{:.{}g} {}", value.value, digits, unit);
+  }
+}
+
+std::string static_text(const std::vector<FittedCurveValue>& values, const Model& model, motion port_motion) {
+  const std::string unit = port_units(port_motion).position;
+  const std::string is = curve_stiffness(model).is_instantaneous ? ", \"is\": \"instantaneous\"" : "";
+  if (model.curve->kind() != CurveShape::Kind::table)
+    return fmt::format("{{ \"{}\": {}, \"force\": \"{}\", \"at\": \"{}\"{} }}", word_of(model.curve->kind()),
+                       model.curve->kind() == CurveShape::Kind::power ? values[0].text : "\"" + values[0].text + "\"",
+                       values[1].text, quantity_text(model.curve->reach(), unit, curve_digits), is);
+  std::string rows = fmt::format("[\"0 {}\", \"0 {}\"]", unit, port_units(port_motion).force);
+  for (const FittedCurveValue& value : values)
+    rows +=
+        fmt::format(", [\"{}\", \"{}\"]", quantity_text(value.quantity.displacement, unit, curve_digits), value.text);
+  return fmt::format("{{ \"table\": [{}]{} }}", rows, is);
 }
 
 std::string tree_text(const std::vector<FittedElement>& elements, Form form) {
@@ -247,6 +301,7 @@ Model model_of(const Network& network, Form form) {
     }
   }
   model.weights = Eigen::Map<Eigen::VectorXd>(weights.data(), static_cast<Index>(weights.size()));
+  if (network.static_curve) model.curve = CurveShape::of(*network.static_curve, curve_stiffness(model).value);
   return model;
 }
 

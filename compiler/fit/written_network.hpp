@@ -23,6 +23,27 @@ struct FittedElement {
   std::optional<std::string> springpot;  // its other keys, as they are written
 };
 
+// A number of the static curve.
+struct FittedCurveValue {
+  std::string name;  // "power", "rate", "force", "force at 3 mm"
+  CurveQuantity quantity;
+  double value;      // as it stands in the file [1], [1/m] or [N]
+  std::string text;  // "2.3", "612 1/m", "5.722 N"
+  std::optional<Interval> interval, spread, left_out;
+};
+
+// Empty for a model without a curve.
+std::vector<FittedCurveValue> curve_values_of(const Model& model, motion port_motion);
+std::string unit_of(const CurveQuantity& quantity, const PortUnits& units);
+
+// As digits of elements. In: the stiffness of the network as it was written, behind which the curve is to be the
+// model's.
+void round_values(std::vector<FittedCurveValue>& values, const Model& model, double stiffness, motion port_motion,
+                  int extra);
+
+// What stands under "static".
+std::string static_text(const std::vector<FittedCurveValue>& values, const Model& model, motion port_motion);
+
 const char* word_of(ElementKind kind);  // "spring", "damper", "slip"
 std::string unit_of(ElementKind kind, const PortUnits& units);
 
@@ -44,7 +65,7 @@ std::string quantity_text(double value, const std::string& unit, int digits);
 std::string interval_text(const Interval& interval, const std::string& unit);
 
 // In: a network as it was written and read back; the names are those of `elements_of`. Out: its terms with their
-// weights, so that what is told of the file is told of what stands in it.
+// weights, behind its curve, so that what is told of the file is told of what stands in it.
 Model model_of(const Network& network, Form form);
 
 }  // namespace dashpot::compiler::fitting

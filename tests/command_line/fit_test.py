@@ -165,7 +165,7 @@ int main() {
                    "--geometry", "column:area=1mm^2,length=1mm"]
         brain = [RECORDINGS / "brain/brain_relax_amedieu2004.csv", "--relaxation", "--modes", "2",
                  "--columns", "time=t:s,modulus=relax_normalised:N/m"]
-        provoked = {"fit-waits-for-shapes", "fit-wrong-quantity", "fit-choices-contradict"}  # see test_refuses
+        provoked = {"fit-wrong-quantity", "fit-choices-contradict"}  # see test_refuses
         for words, told in (
                 (["nothing.csv"], {"fit-nothing-resists"}),
                 (["zener.csv", "--modes", "9"], {"fit-size-not-met"}),
@@ -173,6 +173,7 @@ int main() {
                 (["moving.csv"], {"fit-in-motion"}),
                 (["late.csv"], {"fit-late-force"}),
                 (["triangles.csv"], {"fit-no-hold"}),
+                (["zener.csv", "--shape", "power"], {"fit-shape-is-straight"}),
                 (["ramp.csv"], {"fit-loading-only", "fit-one-rate"}),
                 (["slow.csv", "--relaxation"], {"fit-slower-than-record"}),
                 (["sliding.csv", "--columns", "time=time:s,position=position:m,force=force:N", "--slips", "viscous"],
@@ -204,11 +205,37 @@ int main() {
                  "--scale", "1kPa", "--geometry", "punch:radius=5mm", "--modes", "2", "-o", "brain.json")
         self.dashpot("check", "brain.json")
 
+    def test_tissue_that_stiffens(self):
+        """Fails if a curve that the recordings show is not found, told, written and compiled, or what was tried is not shown."""
+        rows = "".join(f"{i / 100},{x!r},{2 * (math.exp(3 * x) - 1) / (math.exp(6) - 1) + 1e-3 * math.sin(37 * i)!r}\n"
+                       for i in range(400) for x in [1 - math.cos(i / 40)])
+        self.write("stiff.csv", "time [s],position [mm],force [N]\n" + rows)
+        done = self.fit("stiff.csv", "--shape", "auto", "--elastic", "-o", "stiff.json", "--report", "stiff.html")
+        self.assertRegex(done.stdout, r"\* exponential +2 ")
+        self.assertRegex(done.stdout, r"  straight +1 ")
+        self.assertIn("static curve, exponential, at rest", done.stdout)
+        self.assertNotIn("[fit-floor-above-noise]", done.stderr)
+        self.assertIn("Behind a static curve, exponential: rate", (self.folder / "stiff.html").read_text())
+        network = json.loads((self.folder / "stiff.json").read_text())
+        self.assertEqual(set(network["static"]), {"exponential", "force", "at"})
+        self.assertEqual(set(network["fit"]["intervals"]), {"rate", "force", "K0"})
+        told = self.told("stiff.csv", "--shape", "exponential", "--elastic")
+        low, high = told["static"]["values"][0]["interval"]
+        self.assertTrue(low < 3000 < high)
+        self.assertAlmostEqual(told["static"]["values"][1]["value"], 2, delta=2e-3)
+        self.dashpot("compile", "stiff.json", "-o", ".")
+        self.assertIn("[fit-floor-above-noise]", self.fit("stiff.csv").stderr)
+        table = self.told("stiff.csv", "--shape", "table", "--elastic")["static"]
+        self.assertEqual((table["kind"], table["is"]), ("table", "equilibrium"))
+        self.assertIn(len(table["values"]), (4, 8, 16))
+
     def test_refuses(self):
         """Fails if a choice that makes no sense, or is not there yet, passes."""
         self.write("zener.csv", recording())
         for words, code in (
-                (["--shape", "power"], "fit-waits-for-shapes"), (["--elastic"], "fit-waits-for-shapes"),
+                (["--shape", "power", "--control", "force"], "fit-choices-contradict"),
+                (["--shape", "auto", "--relaxation"], "fit-choices-contradict"), (["--elastic", "--creep"], "fit-choices-contradict"),
+                (["--elastic", "--modes", "2"], "fit-choices-contradict"), (["--elastic", "--slips", "auto"], "fit-choices-contradict"),
                 (["--columns", "thyme=t:s"], "columns-malformed"), (["--columns", "time"], "columns-malformed"),
                 (["--geometry", "cube:edge=1mm"], "geometry-malformed"), (["--geometry", "punch:radius=1s"], "geometry-malformed"),
                 (["--geometry", "needle:radius=2mm,length=1mm,outer=1mm"], "geometry-malformed"),
@@ -222,6 +249,9 @@ int main() {
             self.assertIn(f"[{code}]", done.stderr, words)
         self.dashpot("fit", status=COMMAND_LINE_WRONG)
         self.dashpot("fit", "zener.csv", "--weight", "some", status=COMMAND_LINE_WRONG)
+        self.dashpot("fit", "zener.csv", "--shape", "sphere", status=COMMAND_LINE_WRONG)
+        spectrum = self.write("spectrum.csv", "omega [rad/s],storage [N/m],loss [N/m]\n1,1,1\n2,2,1\n3,3,1\n")
+        self.assertIn("--shape with a spectrum", self.dashpot("fit", spectrum, "--shape", "auto", status=INPUT_REFUSED).stderr)
         self.dashpot("fit", "zener.csv", "-o", "zener.csv", status=COMMAND_LINE_WRONG)
         self.assertIn("[cannot-read-file]", self.dashpot("fit", "none.csv", status=INPUT_REFUSED).stderr)
         self.assertIn("[recordings-differ]", self.dashpot(

@@ -170,8 +170,10 @@ class LawBuilder {
   void write_update() {
     slips_.write_update(change_);
     brake_.write_update(contact_ ? contact_->released() : no_variable);
-    modes_.write_update(modes_.follows_position() ? writer_.kept(change_) : nothing,
-                        modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing);
+    // One after the other, so that every compiler has the states in the same order.
+    const VariableId velocity = modes_.follows_velocity() ? writer_.kept(law_.velocity) : nothing;
+    const VariableId change = modes_.follows_position() ? writer_.kept(change_) : nothing;
+    modes_.write_update(change, velocity);
     if (law_.rest_position != no_variable)
       writer_.assign(law_.update, law_.rest_position,
                      writer_.read(writer_.kept(contact_ ? contact_->now() : law_.position)),

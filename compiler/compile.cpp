@@ -43,7 +43,7 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
     again.device = device;
     Candidate& candidate = again.decomposition.candidates[again.decomposition.chosen];
     CandidateSettler(present, c.form, c.decomposition, choices, port, c.rate).settle(candidate);
-    if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, device, port, c.rate);
+    if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
     return c.form.has_slips() ? damping_on_another_device(again, choices, port) : candidate.damping;
   };
   const std::vector<VariedDevice> devices = with_assumed_varied(*c.device);
@@ -74,7 +74,7 @@ void settle_choice(Compilation& c, const Network& present, const Choices& choice
     c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, false, unit);
     return;
   }
-  if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, *c.device, device, c.rate);
+  if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, device, c.rate);
   c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
 }
 
@@ -224,8 +224,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);
   if (is_tunable) {
     result.decomposition.reason = "position driven, so that a change of parameters injects no energy";
-    std::optional<UpdateLaw> law =
-        discretise_tunable(result.network, result.form, result.decomposition, choices, result.rate, on, diagnostics);
+    std::optional<UpdateLaw> law = discretise_tunable(result.network, result.form, result.decomposition, choices,
+                                                      result.rate, result.port, diagnostics);
     if (!law) return std::nullopt;
     result.law = std::move(*law);
   } else {

@@ -132,7 +132,7 @@ bool is_lost_over_box(const Compilation& c, const Candidate& other, const Choice
   if (!has_tunables(c.network) || c.decomposition.choice().certified != true) return false;
   Decomposition changed = c.decomposition;
   changed.candidates[changed.chosen] = other;
-  return !is_certified_over_box(c.network, c.form, changed, choices, *c.device, device, c.rate);
+  return !is_certified_over_box(c.network, c.form, changed, choices, device, c.rate);
 }
 
 }  // namespace

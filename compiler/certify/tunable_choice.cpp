@@ -12,13 +12,12 @@ namespace {
 class BoxChoice {
  public:
   BoxChoice(const Network& network, const NormalForm& form, const Decomposition& decomposition, const Choices& choices,
-            const Device& device, const PortDevice& port, double rate)
+            const PortDevice& port, double rate)
       : network_(network),
         present_(at_default(network)),
         form_(form),
         decomposition_(decomposition),
         choices_(choices),
-        device_(device),
         port_(port),
         rate_(rate),
         settler_(present_, form, decomposition_, choices, port, rate) {}
@@ -35,7 +34,7 @@ class BoxChoice {
     Decomposition tried = decomposition_;
     tried.candidates[tried.chosen] = result.candidate;
     Diagnostics unheard;
-    std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, &device_, unheard);
+    std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, port_, unheard);
     if (!law) return std::nullopt;
     const SampledLoop loop = sampled_loop(port_, 1 / rate_);
     const Certificate certificate = certify(*law, loop, slip_motor(network_, form_, tried, choices_, loop));
@@ -56,7 +55,6 @@ class BoxChoice {
   const NormalForm& form_;
   const Decomposition& decomposition_;
   const Choices& choices_;
-  const Device& device_;
   const PortDevice& port_;
   double rate_;
   CandidateSettler settler_;
@@ -65,14 +63,14 @@ class BoxChoice {
 }  // namespace
 
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
-                     const Choices& choices, const Device& device, const PortDevice& port, double rate) {
+                     const Choices& choices, const PortDevice& port, double rate) {
   Candidate& faithful = decomposition.candidates[decomposition.chosen];
   const double feedthrough = to_double(form.linear.feedthrough_damping);
   const double reach = port.max_damping().value_or(feedthrough);
   std::vector<Candidate> candidates;
   std::vector<EvaluatedOption> options;
   {
-    BoxChoice box(network, form, decomposition, choices, device, port, rate);
+    BoxChoice box(network, form, decomposition, choices, port, rate);
     for (const double damping : {faithful.damping, std::min(feedthrough, reach)}) {
       if (!candidates.empty() && damping == candidates.front().damping) continue;
       const auto weighed = box.weighed(faithful, damping);
@@ -88,10 +86,9 @@ void choose_over_box(const Network& network, const NormalForm& form, Decompositi
 }
 
 bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                           const Choices& choices, const Device& device, const PortDevice& port, double rate) {
+                           const Choices& choices, const PortDevice& port, double rate) {
   const Candidate& choice = decomposition.choice();
-  const auto weighed =
-      BoxChoice(network, form, decomposition, choices, device, port, rate).weighed(choice, choice.damping);
+  const auto weighed = BoxChoice(network, form, decomposition, choices, port, rate).weighed(choice, choice.damping);
   return weighed && weighed->option.certified;
 }
 

@@ -11,10 +11,10 @@ namespace dashpot::compiler {
 // default values and by what the certificate over the whole range of the parameters asks for. Ensures: the candidate
 // has the one that faithful_rule.hpp takes. Lists nothing for a brake that cannot give b∞.
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
-                     const Choices& choices, const Device& device, const PortDevice& port, double rate);
+                     const Choices& choices, const PortDevice& port, double rate);
 
 // Whether the chosen damping and state input are certified over the whole range of the parameters.
 bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,
-                           const Choices& choices, const Device& device, const PortDevice& port, double rate);
+                           const Choices& choices, const PortDevice& port, double rate);
 
 }  // namespace dashpot::compiler

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "decompose/observer.hpp"
-#include "decompose/port_device.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -92,15 +91,12 @@ BrakeRule uncapped_rule(const Network& network, const Decomposition& decompositi
 
 }  // namespace
 
-BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const Device* device) {
-  Diagnostics already_reported;  // by decompose()
-  const std::optional<PortDevice> port =
-      device ? PortDevice::of(*device, network, already_reported) : std::optional(PortDevice::ideal());
-  BrakeRule rule = uncapped_rule(network, decomposition, port ? port->reference_frequency() : 0);
+BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const PortDevice& device) {
+  BrakeRule rule = uncapped_rule(network, decomposition, device.reference_frequency());
   // Where a surface can be left, more would have to be compensated in the samples of a touch.
   if (network.contact && rule.rule != brake_rule::constant)
     rule = {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
-  if (port) rule.max_damping = port->max_damping();
+  rule.max_damping = device.max_damping();
   return rule;
 }
 

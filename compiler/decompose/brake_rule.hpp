@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "decompose/decomposition.hpp"
+#include "decompose/port_device.hpp"
 
 namespace dashpot::compiler {
 
@@ -22,6 +23,6 @@ struct BrakeRule {
 // In: the linear part of a network at its default values, and what was chosen for it. Out: the same choice as a rule
 // for all values. Ensures: the rule gives the chosen damping at the default values, within rounding, and never less
 // than zero.
-BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const Device* device);
+BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const PortDevice& device);
 
 }  // namespace dashpot::compiler

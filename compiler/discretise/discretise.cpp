@@ -265,7 +265,7 @@ void warn_about_rate_and_scalar(const Network& network, const NormalForm& form, 
 
 std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
                                             const Decomposition& decomposition, const Choices& choices, double rate,
-                                            const Device* device, Diagnostics& diagnostics) {
+                                            const PortDevice& device, Diagnostics& diagnostics) {
   const Real sample_period = 1 / Real(rate);
   UpdateLaw law = blank_law(decomposition.choice(), choices, sample_period);
   law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, form.linear, decomposition, choices,

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "decompose/decomposition.hpp"
+#include "decompose/port_device.hpp"
 #include "law/update_law.hpp"
 #include "linear/normal_form.hpp"
-#include "network/device.hpp"
 #include "network/network.hpp"
 
 namespace dashpot::compiler {
@@ -24,6 +24,6 @@ void warn_about_rate_and_scalar(const Network& network, const NormalForm& form, 
 // tunable_tables_of() refuses.
 std::optional<UpdateLaw> discretise_tunable(const Network& network, const NormalForm& form,
                                             const Decomposition& decomposition, const Choices& choices, double rate,
-                                            const Device* device, Diagnostics& diagnostics);
+                                            const PortDevice& device, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -264,7 +264,7 @@ Network at_default(const Network& network) {
 
 std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network, const LinearForm& form,
                                                const Decomposition& decomposition, const Choices& choices,
-                                               const Real& sample_period, const Device* device,
+                                               const Real& sample_period, const PortDevice& device,
                                                Diagnostics& diagnostics) {
   const auto tunables =
       std::count_if(network.parameters.begin(), network.parameters.end(), [](const Parameter& p) { return p.tunable; });

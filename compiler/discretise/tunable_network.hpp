@@ -19,7 +19,7 @@ Network at_default(const Network& network);
 // there is room for; more slips outside a tree than are compiled there without tunables.
 std::optional<TunableTables> tunable_tables_of(const Network& linear, const Network& network, const LinearForm& form,
                                                const Decomposition& decomposition, const Choices& choices,
-                                               const Real& sample_period, const Device* device,
+                                               const Real& sample_period, const PortDevice& device,
                                                Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -82,7 +82,9 @@ std::string PartDecomposer::refusal_of(SlipLaw law, const SlipPlan& plan) const 
                : fmt::format("nothing bounds the estimator '{}'", device_.estimator_name());
   }
   if (!device_.estimate_memory())
-    return fmt::format("the estimator '{}' never forgets or is not linear", device_.estimator_name());
+    return fmt::format(
+        "the estimator '{}' {}", device_.estimator_name(),
+        device_.divides_by_varying_interval() ? "divides by intervals that vary" : "never forgets or is not linear");
   return device_.amplifier_lag() > 0 ? "the amplifier lags, and so never forgets" : "";
 }
 

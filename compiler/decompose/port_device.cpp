@@ -15,14 +15,15 @@ using std::numbers::pi;
 // Σ h²: the variance that white noise of unit variance in the position leaves in the estimate. The estimator itself
 // answers the impulse: of a filter far below the rate the coefficients of a transfer function are mostly rounding. It
 // is done where a whole window changes the sum no more.
-double noise_power_gain(any_estimator<double> estimator) {
+double noise_power_gain(any_estimator<double> estimator, double sample_period) {
   constexpr int most_samples = 1 << 22;  // beyond, a filter forgets more slowly than any loop runs
   estimator.reset(0);
+  const auto period_ns = static_cast<std::uint64_t>(std::llround(sample_period * 1e9));
   device_sample impulse;
   impulse.position = 1;
   double sum = 0;
   for (int i = 0, unchanged = 0; i < most_samples && (sum == 0 || unchanged <= int(longest_window));
-       ++i, impulse.position = 0) {
+       ++i, impulse.position = 0, impulse.timestamp_ns += period_ns) {
     const double answer = estimator.update(impulse), more = sum + answer * answer;
     unchanged = more == sum ? unchanged + 1 : 0;
     sum = more;
@@ -92,6 +93,10 @@ double PortDevice::band_high() const {
 }
 double PortDevice::largest_estimator_gain() const {
   if (is_ideal()) return 1;
+  if (divides_by_varying_interval()) {
+    const double shortest = sample_period() - device_->description.loop.jitter;
+    return shortest > 0 ? sample_period() / shortest : std::numeric_limits<double>::infinity();
+  }
   return estimator_is_linear() ? estimator().max_gain() : std::numeric_limits<double>::infinity();
 }
 
@@ -122,6 +127,8 @@ std::optional<unsigned> PortDevice::estimate_memory() const {
   switch (velocity.estimator) {
     case estimator_kind::backward_difference:
     case estimator_kind::least_squares: return delay + velocity.window;
+    case estimator_kind::interval_difference:
+      return divides_by_varying_interval() ? std::nullopt : std::optional(delay + 1);
     default: return std::nullopt;  // a sensor's reading is of an instant, not of the hold before
   }
 }
@@ -135,6 +142,12 @@ double PortDevice::reference_frequency() const {
 PortDevice::Estimator PortDevice::estimator() const {
   const device_description& d = device_->description;
   return Estimator(d.velocity, d.loop.sample_period, d.encoder.step);
+}
+
+bool PortDevice::divides_by_varying_interval() const {
+  if (is_ideal()) return false;
+  const device_description& d = device_->description;
+  return d.velocity.estimator == estimator_kind::interval_difference && d.loop.jitter > 0;
 }
 
 bool PortDevice::estimator_is_linear() const {
@@ -158,7 +171,10 @@ std::complex<double> PortDevice::motor_response(double angular_frequency) const 
 }
 
 // A linear estimator with gain 1 at rest follows the displacement in the long run; the others do not promise it.
-bool PortDevice::estimate_sums_to_displacement() const { return estimator_is_linear(); }
+// Nor does one that divides by the time that has passed, while the law counts in nominal periods.
+bool PortDevice::estimate_sums_to_displacement() const {
+  return estimator_is_linear() && !divides_by_varying_interval();
+}
 
 std::optional<double> PortDevice::velocity_noise() const {
   if (is_ideal()) return 0;
@@ -166,7 +182,7 @@ std::optional<double> PortDevice::velocity_noise() const {
   if (d.velocity.estimator == estimator_kind::sensor) return d.velocity.noise * position_scale_;
   if (!estimator_is_linear()) return std::nullopt;
   const double quantum = d.encoder.step / std::sqrt(12.0);
-  return quantum * position_scale_ * std::sqrt(noise_power_gain(estimator()));
+  return quantum * position_scale_ * std::sqrt(noise_power_gain(estimator(), d.loop.sample_period));
 }
 
 }  // namespace dashpot::compiler

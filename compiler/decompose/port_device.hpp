@@ -42,8 +42,10 @@ class PortDevice {
   std::complex<double> motor_response(double angular_frequency) const;
   double encoder_step() const;  // at the tool [m] or [rad]; 0 for an ideal device
   bool estimator_is_linear() const;
+  bool divides_by_varying_interval() const;    // the estimate, by the time between samples that are not punctual
   bool estimate_sums_to_displacement() const;  // so that velocity-driven slow modes do not drift
-  // Samples that an estimate reaches back from the hold that it acts in; empty where it never forgets or is not linear.
+  // Samples that an estimate reaches back from the hold that it acts in; empty where it never forgets, is not linear
+  // or divides by intervals that vary.
   std::optional<unsigned> estimate_memory() const;
   double largest_estimator_gain() const;  // max |G|; infinite where it is not linear
   double sample_period() const;           // [s]

@@ -58,6 +58,7 @@ const std::vector<EstimatorKeys> estimator_keys = {
     {estimator_kind::super_twisting, {"acceleration"}, {}},
     {estimator_kind::tracking_differentiator, {"acceleration"}, {"filter_factor"}},
     {estimator_kind::sensor, {}, {"noise", "bandwidth"}},
+    {estimator_kind::interval_difference, {}, {}},
 };
 
 const std::vector<std::string> all_velocity_keys = {"estimator",    "window",        "order", "cutoff",   "fit",

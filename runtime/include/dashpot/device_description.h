@@ -16,7 +16,8 @@ enum {
   dashpot_estimator_kind_kalman,
   dashpot_estimator_kind_super_twisting,
   dashpot_estimator_kind_tracking_differentiator,
-  dashpot_estimator_kind_sensor
+  dashpot_estimator_kind_sensor,
+  dashpot_estimator_kind_interval_difference
 };
 
 typedef struct dashpot_loop_description {

@@ -21,6 +21,7 @@ enum class estimator_kind : unsigned char {
   super_twisting,           // acceleration (bound)
   tracking_differentiator,  // acceleration (bound), filter_factor
   sensor,                   // noise, bandwidth
+  interval_difference,      //
 };
 
 // What any loop can be asked for. A device file that states more is refused.

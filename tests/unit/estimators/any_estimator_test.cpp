@@ -38,7 +38,7 @@ device_sample next_sample(std::mt19937& random, const device_sample& before) {
   const int moved = move(random);
   sample.position += moved * step;
   sample.velocity = moved * step / sample_period;
-  sample.timestamp_ns += 1'000'000;
+  sample.timestamp_ns += 1'000'000 + std::uniform_int_distribution<int>(-200'000, 200'000)(random);
   if (moved != 0) sample.edge_time_ns = sample.timestamp_ns - 300'000;
   return sample;
 }
@@ -80,6 +80,10 @@ TEST(AnyEstimator, IsTheEstimatorDescribed) {
               });
   expect_same(estimator_kind::sensor, sensor<double>(200, sample_period),
               [](auto& estimator, const device_sample& sample) { return estimator.update(sample.velocity); });
+  expect_same(estimator_kind::interval_difference, interval_difference<double>(sample_period),
+              [](auto& estimator, const device_sample& sample) {
+                return estimator.update(sample.position, sample.timestamp_ns);
+              });
 }
 
 // `best_fit` is a choice between two estimators; ignored, one would never run.
@@ -116,6 +120,7 @@ TEST(AnyEstimator, HasTheTransferFunctionOfWhatItHolds) {
   expect_same_transfer(estimator_kind::butterworth, low_pass<double>(4, 90, sample_period));
   expect_same_transfer(estimator_kind::kalman, kalman<double>(3, step, sample_period));
   expect_same_transfer(estimator_kind::sensor, sensor<double>(200, sample_period));
+  expect_same_transfer(estimator_kind::interval_difference, interval_difference<double>(sample_period));
 }
 
 // A gain or a transfer function for a nonlinear estimator would be an invention; a linear one without would be refused.
@@ -131,7 +136,8 @@ TEST(AnyEstimator, DeclaresTheMemoryOfFiniteEstimators) {
   for (const estimator_kind kind : all_estimators) {
     const bool is_finite = kind == estimator_kind::backward_difference || kind == estimator_kind::least_squares ||
                            kind == estimator_kind::foaw;
-    EXPECT_EQ(any(kind).memory(), is_finite ? 12U : 0U) << name_of(kind);
+    const unsigned memory = kind == estimator_kind::interval_difference ? 1U : is_finite ? 12U : 0U;
+    EXPECT_EQ(any(kind).memory(), memory) << name_of(kind);
   }
 }
 
@@ -142,7 +148,7 @@ static_assert(designed_by_the_compiler.delay() > 0);
 
 // A name that does not lead back to its kind would make a device file mean something else.
 TEST(EstimatorNames, LeadBackToTheirKinds) {
-  EXPECT_EQ(std::size(all_estimators), 9U);
+  EXPECT_EQ(std::size(all_estimators), 10U);
   for (const estimator_kind kind : all_estimators) {
     ASSERT_NE(estimator_from_name(name_of(kind)), nullptr) << name_of(kind);
     EXPECT_EQ(*estimator_from_name(name_of(kind)), kind);
@@ -152,7 +158,7 @@ TEST(EstimatorNames, LeadBackToTheirKinds) {
 // The names are part of the device file format.
 TEST(EstimatorNames, AreThoseOfTheFormat) {
   for (const char* name : {"backward_difference", "least_squares", "butterworth", "inverse_time", "foaw", "kalman",
-                           "super_twisting", "tracking_differentiator", "sensor"})
+                           "super_twisting", "tracking_differentiator", "sensor", "interval_difference"})
     EXPECT_NE(estimator_from_name(name), nullptr) << name;
   for (const char* name : {"", "foa", "foaw ", "Foaw", "low_pass"})
     EXPECT_EQ(estimator_from_name(name), nullptr) << name;

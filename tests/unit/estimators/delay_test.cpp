@@ -44,6 +44,7 @@ const tuned position_estimators[] = {
     {"kalman", described(estimator_kind::kalman)},
     {"super_twisting", described(estimator_kind::super_twisting)},
     {"tracking_differentiator", described(estimator_kind::tracking_differentiator)},
+    {"interval_difference", described(estimator_kind::interval_difference)},
 };
 
 void PrintTo(const tuned& printed, std::ostream* out) { *out << printed.name; }

@@ -17,13 +17,14 @@ dashpot::kalman<float> predicted(10, 30e-6, 1e-3);
 dashpot::super_twisting<float> twisted(10, 1e-3);
 dashpot::tracking_differentiator<float> tracked(10, 5, 1e-3);
 dashpot::sensor<float> measured(200, 1e-3);
+dashpot::interval_difference<float> timed(1e-3);
 dashpot::any_estimator<float> chosen(described, 1e-4, 1e-4);
 
 }  // namespace
 
 extern "C" float estimate(float position, std::uint64_t edge_time_ns, std::uint64_t timestamp_ns) {
   float sum = difference.update(position) + slope.update(position) + filtered.update(position);
-  sum += inverse.update(position, edge_time_ns, timestamp_ns);
+  sum += inverse.update(position, edge_time_ns, timestamp_ns) + timed.update(position, timestamp_ns);
   sum += end_fit.update(position) + best_fit.update(position);
   sum += predicted.update(position) + twisted.update(position) + tracked.update(position);
   return sum + measured.update(position);
@@ -39,6 +40,7 @@ extern "C" void come_to_rest(float position) {
   predicted.reset(position);
   twisted.reset(position);
   tracked.reset(position);
+  timed.reset(position);
   chosen.reset(position);
 }
 

@@ -127,7 +127,8 @@ TEST(Device, MayUseEveryEstimator) {
       {R"("estimator": "super_twisting", "acceleration": "5 m/s^2")", estimator_kind::super_twisting},
       {R"("estimator": "tracking_differentiator", "acceleration": "5 m/s^2", "filter_factor": 3)",
        estimator_kind::tracking_differentiator},
-      {R"("estimator": "sensor", "noise": "1 mm/s", "bandwidth": "200 Hz")", estimator_kind::sensor}};
+      {R"("estimator": "sensor", "noise": "1 mm/s", "bandwidth": "200 Hz")", estimator_kind::sensor},
+      {R"("estimator": "interval_difference")", estimator_kind::interval_difference}};
   ASSERT_EQ(std::size(examples), std::size(all_estimators));
   for (const EstimatorExample& example : examples) {
     const DeviceRun run(device_with(R"("encoder": {"resolution": "30 um"}, "velocity": {)" + example.keys + "}"));

@@ -89,7 +89,8 @@ TEST(LedDevice, AtEveryDelayAndLag) {
 TEST(LedDevice, WithEveryEstimator) {
   for (const estimator_kind kind :
        {estimator_kind::least_squares, estimator_kind::butterworth, estimator_kind::inverse_time, estimator_kind::foaw,
-        estimator_kind::kalman, estimator_kind::tracking_differentiator, estimator_kind::sensor}) {
+        estimator_kind::kalman, estimator_kind::tracking_differentiator, estimator_kind::sensor,
+        estimator_kind::interval_difference}) {
     SCOPED_TRACE(int(kind));
     device_description device = punctual_arm();
     device.velocity.estimator = kind;

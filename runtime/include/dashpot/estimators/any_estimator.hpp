@@ -7,6 +7,7 @@
 #include <dashpot/estimators/estimator_fault.hpp>
 #include <dashpot/estimators/estimator_names.hpp>
 #include <dashpot/estimators/foaw.hpp>
+#include <dashpot/estimators/interval_difference.hpp>
 #include <dashpot/estimators/inverse_time.hpp>
 #include <dashpot/estimators/kalman.hpp>
 #include <dashpot/estimators/least_squares.hpp>
@@ -36,6 +37,7 @@ class any_estimator {
     const Scalar position = static_cast<Scalar>(sample.position);
     if (kind_ == estimator_kind::inverse_time)
       return chosen_.inverse.update(position, sample.edge_time_ns, sample.timestamp_ns);
+    if (kind_ == estimator_kind::interval_difference) return chosen_.timed.update(position, sample.timestamp_ns);
     return update_from_position(position);
   }
 
@@ -52,6 +54,7 @@ class any_estimator {
       case estimator_kind::backward_difference: return chosen_.difference.window();
       case estimator_kind::least_squares: return chosen_.slope.window();
       case estimator_kind::foaw: return chosen_.adaptive.longest_window();
+      case estimator_kind::interval_difference: return 1;
       default: return 0;
     }
   }
@@ -64,6 +67,7 @@ class any_estimator {
       case estimator_kind::butterworth: return chosen_.filtered.max_gain();
       case estimator_kind::kalman: return chosen_.predicted.max_gain();
       case estimator_kind::sensor: return chosen_.measured.max_gain();
+      case estimator_kind::interval_difference: return chosen_.timed.max_gain();
       default: return 0;
     }
   }
@@ -76,6 +80,7 @@ class any_estimator {
       case estimator_kind::butterworth: return widen<longest_window>(chosen_.filtered.transfer());
       case estimator_kind::kalman: return widen<longest_window>(chosen_.predicted.transfer());
       case estimator_kind::sensor: return widen<longest_window>(chosen_.measured.transfer());
+      case estimator_kind::interval_difference: return widen<longest_window>(chosen_.timed.transfer());
       default: return {};
     }
   }
@@ -91,6 +96,7 @@ class any_estimator {
     constexpr explicit alternative(const super_twisting<Scalar>& it) noexcept : twisted(it) {}
     constexpr explicit alternative(const tracking_differentiator<Scalar>& it) noexcept : tracked(it) {}
     constexpr explicit alternative(const sensor<Scalar>& it) noexcept : measured(it) {}
+    constexpr explicit alternative(const interval_difference<Scalar>& it) noexcept : timed(it) {}
 
     backward_difference<Scalar, longest_window> difference;
     least_squares<Scalar, longest_window> slope;
@@ -101,6 +107,7 @@ class any_estimator {
     super_twisting<Scalar> twisted;
     tracking_differentiator<Scalar> tracked;
     sensor<Scalar> measured;
+    interval_difference<Scalar> timed;
   };
 
   static constexpr alternative build(const velocity_description& wanted, double period, double step) noexcept {
@@ -117,6 +124,7 @@ class any_estimator {
       case estimator_kind::super_twisting: return alternative(super_twisting<Scalar>(wanted.acceleration, period));
       case estimator_kind::tracking_differentiator:
         return alternative(tracking_differentiator<Scalar>(wanted.acceleration, wanted.filter_factor, period));
+      case estimator_kind::interval_difference: return alternative(interval_difference<Scalar>(period));
       case estimator_kind::sensor: break;
     }
     return alternative(sensor<Scalar>(wanted.bandwidth, period));
@@ -132,6 +140,7 @@ class any_estimator {
       case estimator_kind::super_twisting: return chosen_.twisted.update(position);
       case estimator_kind::tracking_differentiator: return chosen_.tracked.update(position);
       case estimator_kind::inverse_time:
+      case estimator_kind::interval_difference:
       case estimator_kind::sensor: break;
     }
     return 0;
@@ -148,6 +157,7 @@ class any_estimator {
       case estimator_kind::kalman: return verb(self.chosen_.predicted);
       case estimator_kind::super_twisting: return verb(self.chosen_.twisted);
       case estimator_kind::tracking_differentiator: return verb(self.chosen_.tracked);
+      case estimator_kind::interval_difference: return verb(self.chosen_.timed);
       case estimator_kind::sensor: break;
     }
     return verb(self.chosen_.measured);

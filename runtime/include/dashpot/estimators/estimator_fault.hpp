@@ -50,6 +50,7 @@ constexpr estimator_fault fault_in(const velocity_description& wanted, double sa
     case estimator_kind::tracking_differentiator:
       return acceleration != fault::none ? acceleration : unless(wanted.filter_factor >= 1, fault::filter_factor);
     case estimator_kind::sensor: return unless(wanted.bandwidth >= 0, fault::bandwidth);
+    case estimator_kind::interval_difference: return fault::none;
   }
   return fault::none;
 }

@@ -16,18 +16,21 @@ constexpr const char* name_of(estimator_kind kind) noexcept {
     case estimator_kind::super_twisting: return "super_twisting";
     case estimator_kind::tracking_differentiator: return "tracking_differentiator";
     case estimator_kind::sensor: return "sensor";
+    case estimator_kind::interval_difference: return "interval_difference";
   }
   return "";
 }
 
-// Linear and time-invariant: has a pulse transfer function, and sums to the displacement in the long run.
+// Linear and, at a constant period, time-invariant: has a pulse transfer function, and there sums to the displacement
+// in the long run.
 constexpr bool is_linear(estimator_kind kind) noexcept {
   switch (kind) {
     case estimator_kind::backward_difference:
     case estimator_kind::least_squares:
     case estimator_kind::butterworth:
     case estimator_kind::kalman:
-    case estimator_kind::sensor: return true;
+    case estimator_kind::sensor:
+    case estimator_kind::interval_difference: return true;
     case estimator_kind::inverse_time:
     case estimator_kind::foaw:
     case estimator_kind::super_twisting:
@@ -46,6 +49,7 @@ inline constexpr estimator_kind all_estimators[] = {
     estimator_kind::super_twisting,
     estimator_kind::tracking_differentiator,
     estimator_kind::sensor,
+    estimator_kind::interval_difference,
 };
 
 constexpr bool is_same_name(const char* a, const char* b) noexcept {

@@ -7,6 +7,7 @@
 #include <dashpot/estimators/any_estimator.hpp>
 #include <sstream>
 
+#include "certify/estimator_factors.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/window_tables.hpp"
 
@@ -55,6 +56,22 @@ std::optional<WindowStorage> diagonal_storage(const SampledLoop& loop) {
   return result;
 }
 
+// b and p as above. Each older estimate stores a little less, so that every matrix bears rounding.
+std::optional<WindowStorage> interval_storage(const SampledLoop& loop) {
+  const double shortest = loop.sample_period - loop.jitter, longest_hold = loop.longest_hold();
+  const std::size_t registers = loop.delay_samples + 1;
+  if (!(shortest > 0)) return std::nullopt;
+  const double mean = std::sqrt(shortest * longest_hold), slack = strictness * double(registers + 1);
+  WindowStorage result{loop.sample_period / mean * (loop.sample_period / longest_hold) * (1 + 4 * slack),
+                       dashpot_check::Storage(2 * registers)};
+  for (std::size_t i = 0; i < result.storage.size(); ++i) {
+    result.storage[i].assign(i + 1, 0.0);
+    if (i >= registers)
+      result.storage[i][i] = loop.sample_period * mean / 2 * (1 + strictness * double(2 * registers - i));
+  }
+  return result;
+}
+
 // Not below the largest |g + Σ e/(z − a)| at any frequency: each e/(z − a) lies in a disk around e a/(1 − a²) of the
 // radius |e|/(1 − a²), and disks add. Empty where a mode does not relax.
 std::optional<Rational> largest_response(const MotorConstants& motor) {
@@ -72,7 +89,9 @@ std::optional<Rational> largest_response(const MotorConstants& motor) {
 }  // namespace
 
 std::optional<WindowStorage> window_storage(const SampledLoop& loop, double gain) {
-  if (!adapts(loop) || loop.amplifier_lag > 0) return std::nullopt;
+  if (loop.amplifier_lag > 0) return std::nullopt;
+  if (divides_by_varying_interval(loop)) return interval_storage(loop);
+  if (!adapts(loop)) return std::nullopt;
   const std::string_view text = table(loop.velocity.best_fit, gain > 0);
   const std::string head = fmt::format("\ndelay {}, longest {}:", loop.delay_samples, longest(loop));
   const std::size_t found = text.find(head);
@@ -97,12 +116,13 @@ std::optional<double> adaptive_window_gain(const SampledLoop& loop) {
 }
 
 std::optional<double> damping_for_estimate(const MotorConstants& motor, const SampledLoop& loop) {
-  const std::optional<double> gain = adaptive_window_gain(loop);
+  const bool divides = divides_by_varying_interval(loop);
+  const std::optional<double> gain = divides ? estimate_gain(loop) : adaptive_window_gain(loop);
   if (!gain) return std::nullopt;
   const std::optional<WindowStorage> known =
-      motor.estimate_drives_modes() ? std::nullopt : window_storage(loop, motor.velocity_gain);
+      motor.estimate_drives_modes() && !divides ? std::nullopt : window_storage(loop, motor.velocity_gain);
   const std::optional<Rational> response = largest_response(motor);
-  if (!response) return std::nullopt;
+  if (!response || (divides && !known)) return std::nullopt;
   return ceiling(Rational(known ? known->factor : *gain) * *response);
 }
 

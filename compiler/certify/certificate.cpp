@@ -115,7 +115,9 @@ PassivityBound prompt_bound(const std::optional<MotorConstants>& motor, const Sa
     return asks_less ? sampled : held;
   }
   if (!motor->follows_estimate()) return sampled_statement(*motor, loop, {}, 0, terms);
-  if (const auto linear = estimator_factors(loop)) return sampled_statement(*motor, loop, *linear, 0, terms);
+  const bool varies = divides_by_varying_interval(loop) && loop.amplifier_lag == 0;
+  if (const auto linear = varies ? std::nullopt : estimator_factors(loop))
+    return sampled_statement(*motor, loop, *linear, 0, terms);
   const std::optional<double> besides = damping_for_estimate(*motor, loop);
   bound.reason = not_proved_for(loop);
   if (besides) bound = sampled_statement(position_driven(*motor), loop, {}, *besides, terms);

@@ -77,12 +77,21 @@ std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop) {
     case estimator_kind::least_squares: return moving_average(estimator, loop.sample_period);
     case estimator_kind::butterworth: return butterworth(loop.velocity, loop.sample_period);
     case estimator_kind::kalman: return steady_kalman(loop.velocity, loop.sample_period, loop.joint_encoder_step);
+    case estimator_kind::interval_difference: return EstimatorFactors{};
     default: return std::nullopt;
   }
 }
 
+bool divides_by_varying_interval(const SampledLoop& loop) {
+  return loop.has_device && loop.velocity.estimator == estimator_kind::interval_difference && loop.jitter > 0;
+}
+
 std::optional<double> estimate_gain(const SampledLoop& loop) {
   if (loop.has_device && loop.velocity.estimator == estimator_kind::butterworth) return 1;
+  if (divides_by_varying_interval(loop)) {
+    const double shortest = loop.sample_period - loop.jitter;
+    return shortest > 0 ? std::optional(loop.sample_period / shortest * (1 + 1e-12)) : std::nullopt;
+  }
   const std::optional<EstimatorFactors> factors = estimator_factors(loop);
   if (!factors) return adaptive_window_gain(loop);
   double gain = 0;

@@ -30,11 +30,15 @@ struct EstimatorFactors {
 };
 
 // Empty for an estimator that is not linear in the positions it is given, and for one so fast that its recursion, as
-// rounded, no longer dies away.
+// rounded, no longer dies away. Of one that divides by the time that has passed: at a constant period.
 std::optional<EstimatorFactors> estimator_factors(const SampledLoop& loop);
 
+// Whether the estimate divides by the time between two samples, on a device whose samples are not punctual.
+bool divides_by_varying_interval(const SampledLoop& loop);
+
 // γ of ‖v̂‖₂ ≤ γ ‖Δu/T‖₂ for any motion, not below it: Σ|taps| Π 1/(1 − |p|); 1 for Butterworth's filters, which never
-// amplify, or that of an adaptive window. Empty where nothing is known.
+// amplify; T over the shortest interval where the estimate divides by it; or that of an adaptive window. Empty where
+// nothing is known.
 std::optional<double> estimate_gain(const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

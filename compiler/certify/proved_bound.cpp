@@ -23,8 +23,10 @@ PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const Sa
   const std::optional<SampledLoop> spoken_of = loop_of(bound, motor, loop);
   if (!spoken_of) return bound;
   const bool adapts = motor->follows_estimate() && adaptive_window_gain(loop);
-  std::optional<StorageProof> proof =
-      adapts ? adaptive_storage_proof(*motor, *spoken_of) : storage_proof(*motor, *spoken_of);
+  const bool divides = motor->follows_estimate() && divides_by_varying_interval(*spoken_of);
+  std::optional<StorageProof> proof = adapts ? std::nullopt : storage_proof(*motor, *spoken_of);
+  if (adapts || (divides && (!proof || proof->damping > bound.needed)))
+    proof = adaptive_storage_proof(*motor, *spoken_of);
   if (!proof || proof->damping > bound.needed * (1 + most_storage_excess)) return bound;
   bound.needed = proof->damping;
   bound.storage = std::move(proof->storage);

@@ -108,9 +108,12 @@ double sum_of_pulse(const MotorConstants& motor, const SampledLoop& loop, const 
 
 std::optional<double> quantisation_gain(const MotorConstants& motor, const SampledLoop& loop) {
   if (!motor.follows_estimate()) return sum_of_pulse(motor, loop, {});
-  if (const auto linear = estimator_factors(loop)) return sum_of_pulse(motor, loop, *linear);
-  if (!adaptive_window_gain(loop) || motor.estimate_drives_modes()) return std::nullopt;
-  return sum_of_pulse(position_driven(motor), loop, {}) + 2 * std::abs(motor.velocity_gain) / loop.sample_period;
+  const bool divides = divides_by_varying_interval(loop);
+  if (const auto linear = divides ? std::nullopt : estimator_factors(loop)) return sum_of_pulse(motor, loop, *linear);
+  if (!(divides ? estimate_gain(loop) : adaptive_window_gain(loop)) || motor.estimate_drives_modes())
+    return std::nullopt;
+  const double shortest = divides ? loop.sample_period - loop.jitter : loop.sample_period;
+  return sum_of_pulse(position_driven(motor), loop, {}) + 2 * std::abs(motor.velocity_gain) / shortest;
 }
 
 std::optional<double> estimate_pulse(const SampledLoop& loop) {

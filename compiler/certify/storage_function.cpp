@@ -25,15 +25,15 @@ using Complex = std::complex<double>;
 template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-// q, p, κ of an amplifier's lag; of none q = p = κ = 0.
-struct Lag {
-  double decay = 0, share = 0, spread = 0;
+// 1/T, and q, p, κ of an amplifier's lag; of none q = p = κ = 0.
+struct OneHold {
+  double rate, decay = 0, share = 0, spread = 0;
 };
 
-Lag lag_of(double hold, double lag) {
-  if (lag == 0) return {};
+OneHold one_hold(double hold, double lag) {
+  if (lag == 0) return {1 / hold};
   const Real x = Real(hold) / Real(lag), q = exp(-x), p = (1 - q) / x;
-  return {to_double(q), to_double(p), to_double(p * ((1 + q) / 2 - p))};
+  return {1 / hold, to_double(q), to_double(p), to_double(p * ((1 + q) / 2 - p))};
 }
 
 // x⁺ = A x + B w, what is multiplied by w, C, and e.
@@ -50,19 +50,23 @@ Scalar nearest(const checker::Rational& value) {
 }
 
 template <class Scalar>
-Recursion<Scalar> recursion(const checker::LoopForm& loop, const Lag& lag) {
+Recursion<Scalar> recursion(const checker::LoopForm& loop, const OneHold& hold) {
   const Eigen::Index n = Eigen::Index(loop.states.size());
   Recursion<Scalar> r{Dense<Scalar>::Zero(n, n), Dense<Scalar>::Zero(n, 1), Dense<Scalar>::Zero(1, n),
                       nearest<Scalar>(loop.stiffness)};
   std::map<std::string, Eigen::Index> place;
   for (Eigen::Index i = 0; i < n; ++i) place[loop.states[std::size_t(i)]] = i;
   for (Eigen::Index i = 0; i < n; ++i)
-    for (const auto& [name, value] : loop.next.at(loop.states[std::size_t(i)]))
-      (name == "w" ? r.B(i, 0) : r.A(i, place.at(name))) = nearest<Scalar>(value);
+    for (const auto& [name, value] : loop.next.at(loop.states[std::size_t(i)])) {
+      const Scalar factor = nearest<Scalar>(value);
+      if (name == "w") r.B(i, 0) += factor;
+      else if (name == "pace") r.B(i, 0) += factor * Scalar(hold.rate);
+      else r.A(i, place.at(name)) = factor;
+    }
   for (const auto& [name, value] : loop.force) r.C(0, place.at(name)) = nearest<Scalar>(value);
-  if (lag.spread != 0) {
-    r.A(n - 1, n - 1) += lag.decay;
-    r.C(0, n - 1) += lag.share;
+  if (hold.spread != 0) {
+    r.A(n - 1, n - 1) += hold.decay;
+    r.C(0, n - 1) += hold.share;
   }
   return r;
 }
@@ -108,7 +112,7 @@ class Response {
 };
 
 // The damping that the loop needs at one frequency, S(θ).
-double needed_at(const Recursion<double>& r, const Lag& lag, double hold, const std::vector<Complex>& x) {
+double needed_at(const Recursion<double>& r, const OneHold& lag, double hold, const std::vector<Complex>& x) {
   double answer = r.stiffness / 2;
   for (std::size_t i = 0; i < x.size(); ++i) answer -= r.C(0, Eigen::Index(i)) * x[i].real();
   if (lag.spread == 0) return hold * answer;
@@ -127,7 +131,8 @@ std::vector<double> angles_of_interest(double binding) {
 }
 
 // What the states are divided by, as powers of two.
-std::vector<double> scales(const Recursion<double>& r, const Lag& lag, double hold, double damping, double binding) {
+std::vector<double> scales(const Recursion<double>& r, const OneHold& lag, double hold, double damping,
+                           double binding) {
   const Response response(r);
   std::vector<double> squares(std::size_t(r.A.rows()), 0.0);
   for (const double angle : angles_of_interest(binding)) {
@@ -164,7 +169,7 @@ std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>
 }
 
 template <class Scalar>
-std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, const Lag& lag, double hold,
+std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, const OneHold& lag, double hold,
                                               double damping, const std::vector<double>& scale) {
   const Recursion<Scalar> r = recursion<Scalar>(loop, lag);
   const Eigen::Index n = r.A.rows(), inputs = lag.spread == 0 ? 1 : 2;
@@ -219,7 +224,7 @@ std::vector<double> runtime_coefficients(const velocity_description& v, double T
 }
 
 // The largest S(θ) that is found, and where: `attained` at `angle`, and what lies near the angles of interest.
-std::pair<double, double> largest_need(const Recursion<double>& r, const Lag& lag, double hold, double attained,
+std::pair<double, double> largest_need(const Recursion<double>& r, const OneHold& lag, double hold, double attained,
                                        double angle) {
   const Response response(r);
   const auto need = [&](double at) { return needed_at(r, lag, hold, response.at(at)); };
@@ -246,10 +251,11 @@ class StorageSearch {
         loop_(loop),
         device_(device),
         hold_(device.sample_period + device.jitter),
-        lag_(lag_of(hold_, device.amplifier_lag)) {
+        lag_(one_hold(hold_, device.amplifier_lag)) {
     const Recursion<double> r = recursion<double>(loop, lag_);
     const double jitter = hold_ / device.sample_period;
-    std::tie(supremum_, angle_) = largest_need(r, lag_, hold_, lag_.spread == 0 ? bound.attained * jitter : 0,
+    const bool is_scaled = lag_.spread == 0 && device.estimator != name_of(estimator_kind::interval_difference);
+    std::tie(supremum_, angle_) = largest_need(r, lag_, hold_, is_scaled ? bound.attained * jitter : 0,
                                                2 * std::numbers::pi * bound.frequency * device.sample_period);
   }
 
@@ -296,7 +302,8 @@ class StorageSearch {
   // In the coordinates of the search: states over `scale`, inputs over `unit`, dampings over `damping`.
   HoldInequality inequality(const checker::Hold& hold, const std::vector<double>& scale, double unit,
                             double damping) const {
-    const Lag lag{nearest<double>(hold.decay), nearest<double>(hold.share), nearest<double>(hold.spread)};
+    const OneHold lag{nearest<double>(hold.rate), nearest<double>(hold.decay), nearest<double>(hold.share),
+                      nearest<double>(hold.spread)};
     const Recursion<double> r = recursion<double>(loop_, lag);
     const Eigen::Index n = r.A.rows(), all = n + (lag.spread == 0 ? 1 : 2);
     HoldInequality result{Dense<double>::Zero(n, all), Dense<double>::Zero(all, all), Dense<double>::Zero(all, all)};
@@ -319,7 +326,7 @@ class StorageSearch {
   const checker::LoopForm& loop_;
   const checker::Device& device_;
   double hold_;  // the longest [s]
-  Lag lag_;      // over it
+  OneHold lag_;  // over it
   double supremum_ = 0, angle_ = 0;
 };
 
@@ -343,8 +350,8 @@ std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::siz
   return std::nullopt;
 }
 
-// One P for holds of all lengths, behind an amplifier's lag, if not more than `most` is needed. Of many states the P of
-// the longest has to serve all.
+// One P for holds of all lengths, behind an amplifier's lag or of intervals that vary, if not more than `most` is
+// needed. Of many states the P of the longest has to serve all.
 std::optional<StorageProof> jittered_proof(const StorageSearch& search, double most) {
   constexpr double most_tried = 100, near_enough = 1.01;  // relative to the supremum
   if (search.states() <= most_states_in_common)
@@ -432,7 +439,8 @@ std::optional<StorageProof> storage_proof(const MotorConstants& motor, const Sam
   for (const bool in_doubles : {true, false})
     if (stated && *stated > search.supremum() && (in_doubles || n <= most_states_in_digits))
       if (std::optional<StorageProof> proof = search.at(*stated, in_doubles)) return proof;
-  return loop.amplifier_lag > 0 && loop.jitter > 0 ? jittered_proof(search, most) : punctual_proof(search, n);
+  const bool is_one_for_all = loop.jitter > 0 && (loop.amplifier_lag > 0 || divides_by_varying_interval(loop));
+  return is_one_for_all ? jittered_proof(search, most) : punctual_proof(search, n);
 }
 
 }  // namespace dashpot::compiler

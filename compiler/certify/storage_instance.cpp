@@ -272,7 +272,9 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
 std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
                                         const std::optional<MotorConstants>& motor, SampledLoop loop) {
   if (!motor || bound.proof == Proof::none || loop.motor_slew > 0) return std::nullopt;
-  if (motor->follows_estimate() && adaptive_window_gain(loop)) return std::nullopt;  // the theorem is of one recursion
+  const bool is_one_recursion =
+      !adaptive_window_gain(loop) && loop.velocity.estimator != estimator_kind::interval_difference;
+  if (motor->follows_estimate() && !is_one_recursion) return std::nullopt;  // of which the theorem is
   if (bound.constant_period_only) loop.jitter = 0;
   std::optional<StorageProof> proof;
   if (bound.storage) proof = {bound.needed, *bound.storage};

@@ -45,15 +45,17 @@ struct Device {
 // of the law, and with an amplifier lag what the force still lacks at the sample, whose own decay is left out here.
 struct LoopForm {
   std::vector<std::string> states;
-  std::map<std::string, Form> next;  // of the states and w
+  std::map<std::string, Form> next;  // of the states, w and, where the estimate divides by T itself, pace = w/T
   Form force;                        // of the states [N]
   Rational stiffness;                // k0 [N/m]
 };
 LoopForm loop_form(Program program, const Device& device);
 
-// The holds from the shortest to the longest in parts, of each with a lag the four corners.
+// The holds from the shortest to the longest in parts, of each with a lag the four corners; where the estimate divides
+// by the time between two samples, both ends of each.
 struct Hold {
-  Rational longest, decay, share, spread;  // [s]; q; p; not below κ; all zero without a lag
+  Rational longest, decay, share, spread;  // [s]; q; p; not below κ; these three zero without a lag
+  Rational rate;                           // 1/T that the estimate divides by
 };
 std::vector<Hold> holds(const Device& device);
 
@@ -62,7 +64,8 @@ std::vector<Hold> holds(const Device& device);
 //     M = [ P − AᵀPA,  ½C − AᵀPB;  ·,  b/T − ½k0 − BᵀPB ] ⪰ 0.
 // A lag τ adds e, the force that is lacking, e⁺ = q e + …, and the independent input ρ = ∫ (e^{−s/τ} − p) u̇ ds: work
 // (Cx + pe) w + eρ, dissipation b (w²/T + ρ²/(κT)), q = e^{−T/τ}, p = (1 − q) τ/T, κ = p ((1 + q)/2 − p). M is concave
-// in q, affine in p and falls with κ. Of a window that adapts, one P has to serve every length that a sample may take.
+// in q, and where B has a part that 1/T multiplies in 1/T too, affine in p, and falls with κ. Of a window that adapts,
+// one P has to serve every length that a sample may take.
 bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping);
 
 // 0: the certificate's statement is proved; 1: it is not true, or not proved by this; 3: nothing is known here. In

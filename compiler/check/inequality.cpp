@@ -11,7 +11,8 @@ Integer whole(const Rational& value, unsigned digits) {
   const Integer scaled = numerator(value) << digits, quotient = scaled / denominator(value);
   return quotient * denominator(value) > scaled ? Integer(quotient - 1) : quotient;
 }
-Rational below(const Rational& value) { return Rational(whole(value, 90), Integer(1) << 90); }
+constexpr unsigned rate_digits = 90;  // of what is no sum or product of doubles: decays, shares and rates
+Rational below(const Rational& value) { return Rational(whole(value, rate_digits), Integer(1) << rate_digits); }
 Rational above(const Rational& value) { return -below(-value); }
 
 // Not above and not below e^{−x}: (1 − x/n)ⁿ and (1 + x/n)⁻ⁿ, of which the two differ by x²/n of themselves.
@@ -31,7 +32,10 @@ Matrix matrix_of(const LoopForm& loop, const Matrix& P, unsigned digits, const R
   for (const std::string& state : loop.states) place.emplace(state, place.size() - 1);
   std::vector<std::tuple<std::size_t, std::size_t, Integer>> A;  // with B as its last column
   for (const auto& [state, next] : loop.next)
-    for (const auto& [name, value] : next) A.emplace_back(place.at(state), place.at(name), whole(value, digits));
+    for (const auto& [name, value] : next) {
+      const bool paces = name == "pace";
+      A.emplace_back(place.at(state), paces ? n : place.at(name), whole(paces ? value * hold.rate : value, digits));
+    }
   if (lags) A.emplace_back(n - 1, n - 1, whole(hold.decay, digits));
   Matrix PA(n, std::vector<Integer>(n + 1)), M(n + 1 + lags, std::vector<Integer>(n + 1 + lags));
   for (const auto& [k, j, value] : A)
@@ -81,17 +85,26 @@ bool is_nonnegative(Matrix M) {
 std::vector<Hold> holds(const Device& device) {
   const Rational period = device.sample_period, late = device.jitter, lag = device.amplifier_lag;
   if (period <= 0 || late < 0 || lag < 0) throw Unknown("a time is negative");
-  if (lag == 0) return {{period + late, 0, 0, 0}};
+  const Rational shortest = std::max(Rational(period - late), Rational(0));
+  const bool divides = device.estimator == "interval_difference" && shortest > 0;
+  const auto rates = [&](const Rational& low, const Rational& high) {
+    return divides ? std::vector{below(1 / high), above(1 / low)} : std::vector{Rational(1 / high)};
+  };
   std::vector<Hold> holds;
+  if (lag == 0) {
+    for (const Rational& rate : rates(shortest, period + late)) holds.push_back({1 / rate, 0, 0, 0, rate});
+    return holds;
+  }
   const int parts = late == 0 ? 1 : 6;
-  const Rational shortest = std::max(Rational(period - late), Rational(0)), step = (period + late - shortest) / parts;
+  const Rational step = (period + late - shortest) / parts;
   for (int i = 0; i < parts; ++i) {
     const Rational longest = shortest + step * (i + 1), x = longest / lag;
     const auto [low, high] = enclosed_exponential(x);
     const Rational spread = (1 - low) / x * ((1 + high) / 2 - (1 - high) / x);
     for (const Rational& decay : {low, enclosed_exponential(x - step / lag).second})
       for (const Rational& share : {below((1 - high) / x), above((1 - low) / x)})
-        holds.push_back({longest, decay, share, spread});
+        for (const Rational& rate : rates(longest - step, longest))
+          holds.push_back({1 / rate, decay, share, spread, rate});
   }
   return holds;
 }
@@ -104,7 +117,8 @@ bool proves(const Program& program, Device device, const Storage& storage, const
     const std::size_t n = loop.states.size();
     unsigned digits = 200;  // those of P are cut off, which makes another P of it
     for (const auto& [state, next] : loop.next)
-      for (const auto& [name, value] : next) digits = std::max(digits, msb(denominator(value)));
+      for (const auto& [name, value] : next)
+        digits = std::max(digits, msb(denominator(value)) + (name == "pace" ? rate_digits : 0));
     for (const auto& [name, value] : loop.force) digits = std::max(digits, msb(denominator(value)));
     Matrix P(n, std::vector<Integer>(n));
     for (std::size_t i = 0; i < n; ++i)

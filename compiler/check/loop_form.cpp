@@ -63,6 +63,12 @@ Form estimate(const Device& device, LoopForm& loop) {
     const Form innovation = arriving + Form{{"innovation", leak}, {"estimate", -period}};
     return add(loop, "innovation", innovation), add(loop, "estimate", Form{{"estimate", 1}} + beta * innovation);
   }
+  if (device.estimator == "interval_difference") {
+    if (device.jitter >= device.sample_period) throw Unknown("the estimate may divide by no time at all");
+    Form newest = {{"pace", 1}};
+    for (unsigned age = 0; age <= device.delay_samples; ++age) newest = add(loop, "pace" + std::to_string(age), newest);
+    return newest;
+  }
   const bool adapts = device.estimator == "foaw", is_one = device.estimator == "difference of two samples";
   const bool slope = adapts ? device.best_fit : device.estimator == "least_squares";
   if (!adapts && !slope && !is_one && device.estimator != "backward_difference")

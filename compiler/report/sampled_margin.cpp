@@ -21,10 +21,12 @@ Arc arc_at(double frequency, double period) {
   return {x, x};
 }
 
-// Jitter behind an amplifier's lag asks for more than S, at no frequency of its own.
+// Jitter behind an amplifier's lag, or of an interval that the estimate divides by, asks for more than S, at no
+// frequency of its own.
 bool has_jitter_apart(const Certificate& certificate) {
   const SampledLoop& loop = certificate.loop;
-  return loop.amplifier_lag > 0 && loop.jitter > 0 && !certificate.bound.constant_period_only;
+  const bool is_apart = loop.amplifier_lag > 0 || divides_by_varying_interval(loop);
+  return is_apart && loop.jitter > 0 && !certificate.bound.constant_period_only;
 }
 
 // S(ω), over the longest hold where no amplifier lags; the bound holds between the margin_points as well.

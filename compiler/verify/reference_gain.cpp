@@ -95,13 +95,17 @@ std::optional<ReferenceGain> gain_of(PulseLaw law, const SampledLoop& loop) {
   if (!law.follows_estimate()) return pulse_of(law, {}, period);
   const estimator_kind kind = loop.velocity.estimator;
   if (!loop.has_device) return pulse_of(law, {1, 0}, period);
-  if (kind != estimator_kind::foaw) {
+  const bool divides = kind == estimator_kind::interval_difference;
+  if (divides && loop.jitter == 0) return pulse_of(law, {1, 0}, period);
+  if (kind != estimator_kind::foaw && !divides) {
     const bool is_linear = kind == estimator_kind::backward_difference || kind == estimator_kind::least_squares ||
                            kind == estimator_kind::butterworth || kind == estimator_kind::kalman;
     return is_linear ? std::optional(pulse_of(law, answer_to_step(loop), period)) : std::nullopt;
   }
-  if (law.estimate_drives_modes()) return std::nullopt;
-  const long double widest = 2 * std::abs(law.velocity_gain) / period;  // v̂ is off by Δ/T, whatever its window
+  // v̂ is off by Δ/T, whatever its window, or over the shortest interval.
+  const long double shortest = divides ? period - loop.jitter : period;
+  if (law.estimate_drives_modes() || !(shortest > 0)) return std::nullopt;
+  const long double widest = 2 * std::abs(law.velocity_gain) / shortest;
   law.velocity_gain = 0;
   const ReferenceGain rest = pulse_of(law, {}, period);
   return ReferenceGain{rest.least + Reference(widest), rest.most + Reference(widest)};

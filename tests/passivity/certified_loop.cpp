@@ -21,9 +21,13 @@ compiler::Device random_device(Random& random) {
   d.loop.delay_samples = random.chance(0.6) ? 0 : unsigned(random.between(1, 3));
   d.loop.jitter = random.chance(0.5) ? 0 : random.uniform(0, 0.5) * d.loop.sample_period;
   d.motor.amplifier_lag = random.chance(0.6) ? 0 : random.log_uniform(0.05, 2) * d.loop.sample_period;
-  const estimator_kind estimators[] = {estimator_kind::backward_difference, estimator_kind::least_squares,
-                                       estimator_kind::butterworth, estimator_kind::kalman, estimator_kind::foaw};
-  d.velocity.estimator = estimators[random.index(5)];
+  const estimator_kind estimators[] = {estimator_kind::backward_difference,
+                                       estimator_kind::least_squares,
+                                       estimator_kind::butterworth,
+                                       estimator_kind::kalman,
+                                       estimator_kind::foaw,
+                                       estimator_kind::interval_difference};
+  d.velocity.estimator = estimators[random.index(std::size(estimators))];
   d.velocity.window = unsigned(random.between(1, 20));
   d.velocity.order = random.chance(0.5) ? 2 : 4;
   d.velocity.cutoff = random.uniform(0.02, 0.3) / d.loop.sample_period;

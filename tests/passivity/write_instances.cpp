@@ -20,7 +20,8 @@ void write_instances(int laws, int most_states, const std::string& folder) {
     compiler::PassivityBound bound = one.compilation->certificate.bound;
     compiler::SampledLoop loop = one.compilation->certificate.loop;
     const auto motor = compiler::motor_constants(one.compilation->law);
-    const bool is_one_recursion = !motor->follows_estimate() || compiler::estimator_factors(loop);
+    const bool divides = loop.velocity.estimator == estimator_kind::interval_difference;
+    const bool is_one_recursion = !motor->follows_estimate() || (compiler::estimator_factors(loop) && !divides);
     if (!is_one_recursion || int(bound.storage->size()) > most_states || bound.needed == 0) continue;
     ++found;
     if (bound.constant_period_only) loop.jitter = 0;

@@ -144,6 +144,59 @@ TEST(StorageFunction, Jitter) {
   expect_between(spring_motor(1000), loop, {{0.05, 1.73, 2.34}, {0.2, 6.9, 9.0}, {0.5, 17.3, 21.1}});
 }
 
+// K = 500 N/m, B = 5 N s/m, 1 ms: the estimate that divides by the interval that has passed hardly asks for more under
+// jitter, where that over the nominal period asks for T_max/T.
+TEST(StorageFunction, DividesByTheIntervalThatHasPassed) {
+  MotorConstants motor = spring_motor(500);
+  motor.velocity_gain = 5;
+  SampledLoop loop = differencing_loop(punctual_period, 1);
+  const auto expect = [&](estimator_kind estimator, double jitter, double known) {
+    loop.velocity.estimator = estimator;
+    loop.jitter = jitter * punctual_period;
+    const std::optional<StorageProof> proof = storage_proof(motor, loop);
+    ASSERT_TRUE(proof);
+    EXPECT_NEAR(proof->damping, known, 0.005)
+        << name_of(estimator) << " " << jitter;  // as the known values are rounded
+    EXPECT_TRUE(dashpot_check::proves(checked_program(motor), checked_device(loop), proof->storage, proof->damping));
+    EXPECT_FALSE(dashpot_check::proves(checked_program(motor), checked_device(loop), proof->storage, known - 0.01));
+  };
+  for (const auto& [jitter, by_interval, by_period] :
+       {std::tuple(0.0, 5.25, 5.25), {0.05, 5.26, 5.51}, {0.2, 5.36, 6.30}, {0.5, 6.03, 7.88}}) {
+    expect(estimator_kind::interval_difference, jitter, by_interval);
+    expect(estimator_kind::backward_difference, jitter, by_period);
+  }
+}
+
+// Where the search for a P is too much, and in every search for a brake: a damper g alone needs (T₁ + T₂)/2√(T₁T₂) of
+// it, whatever the delay, and what position drives beside it T₂/T of what it needs at punctual samples. Stated is what
+// is needed together.
+TEST(StorageFunction, OfAMeasuredIntervalIsNoMoreThanPartByPart) {
+  for (const double jitter : {0.01, 0.2, 0.7})
+    for (const unsigned delay : {0U, 2U}) {
+      SCOPED_TRACE(jitter);
+      SampledLoop loop = differencing_loop(punctual_period, 1);
+      loop.velocity.estimator = estimator_kind::interval_difference;
+      loop.jitter = jitter * punctual_period;
+      loop.delay_samples = delay;
+      MotorConstants motor = damper_motor(-3);
+      const double alone = 3 / std::sqrt(1 - jitter * jitter);
+      EXPECT_NEAR(passivity_bound(motor, loop).needed, alone, 1e-7);
+      EXPECT_NEAR(proved_bound(motor, loop).needed, alone, 4e-4 * alone);  // as far as the search goes
+      motor.static_stiffness = 400;
+      const double together = alone + 0.2 * (1 + 2 * delay) * (1 + jitter);
+      EXPECT_NEAR(passivity_bound(motor, loop).needed, together, 1e-7);
+      const PassivityBound bound = proved_bound(motor, loop);
+      EXPECT_LT(bound.needed, together);
+      EXPECT_FALSE(bound.constant_period_only);
+      ASSERT_TRUE(bound.storage);
+      EXPECT_TRUE(dashpot_check::proves(checked_program(motor), checked_device(loop), *bound.storage, bound.needed));
+    }
+  SampledLoop loop = differencing_loop(punctual_period, 1);
+  loop.velocity.estimator = estimator_kind::interval_difference;
+  loop.jitter = punctual_period;
+  EXPECT_EQ(proved_bound(damper_motor(1), loop).proof, Proof::none);  // no time may have passed
+}
+
 // What is proved for punctual samples would still be called so where the damping that is there covers the jitter too,
 // or be called more where it does not.
 TEST(StorageFunction, LiftsABoundToTheJitter) {

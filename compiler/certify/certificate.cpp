@@ -201,9 +201,9 @@ namespace {
 // Every operation of a step is off by a unit of its result, which is no larger than the sum of the terms' sizes.
 double rounding_of_step(const UpdateLaw& law) {
   const double unit = unit_roundoff(law.scalar);
-  if (law.tunable) return unit * double(cost_of(*law.tunable).output + cost_of(*law.tunable).update);
   const Cost cost = cost_of(law, law.output);
-  return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled);
+  const std::size_t called = cost.called + cost_of(law, law.update).called;
+  return law.relative_error_bound + unit * double(cost.additions + cost.multiplications + cost.coupled + called);
 }
 
 // What is lacking at the worst place of the box, as a need against the least brake.
@@ -233,7 +233,7 @@ BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
 
 // A brake that changes is told a sum, of whose rounding nothing is promised.
 double surely_told(const UpdateLaw& law) {
-  return law.brake_changes() || law.tunable ? law.damping * (1 - 8 * unit_roundoff(law.scalar)) : law.damping;
+  return law.brake_changes() ? law.damping * (1 - 8 * unit_roundoff(law.scalar)) : law.damping;
 }
 
 // Out: what has been added to the brake's command in every regime. Behind a contact nothing would help: the brake is
@@ -276,7 +276,8 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
     if (is_beyond) break;
   }
   if (is_proved) result.minimum_damping = missing();
-  result.added_damping = law.tunable->added_damping = added;
+  result.added_damping = added;
+  if (added > 0) law = with_steady_damping(std::move(law), added);
   result.quantisation_gain = box.quantisation_gain;
   law.damping = box.least_brake + added;
   law.largest_damping = box.largest_brake + added;

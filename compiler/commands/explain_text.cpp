@@ -156,8 +156,8 @@ std::string cost_text(const Compilation& c) {
 }
 
 // What is above holds for the default values.
-std::string tunable_text(const TunableTables& tables) {
-  const TunableCost cost = cost_of(tables);
+std::string tunable_text(const UpdateLaw& law) {
+  const TunableTables& tables = *law.tunable;
   std::string text, elements;
   for (const Tunable& t : tables.tunables)
     text += fmt::format("tunable               {} {} {}, {} to {}\n", t.name, t.range.value, t.unit, t.range.min,
@@ -168,7 +168,8 @@ std::string tunable_text(const TunableTables& tables) {
   return text +
          fmt::format(
              "cost at most          output {}, update {}, set {} additions, multiplications and divisions, {} states\n",
-             cost.output, cost.update, cost.set, cost.states);
+             operations_of(cost_of(law, law.output)), operations_of(cost_of(law, law.update)),
+             operations_of_set(tables), tables.springs.size());
 }
 
 // What follows a label begins in the same column on every line.
@@ -288,7 +289,7 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   if (c.network.contact)
     text += "contact               " + contact_text(c.decomposition, c.network) + "\n" + why_no_brake(c, units);
   text += to_text(c.certificate, c.network.port_motion) + push_text(c, units) + currents_text(c) + notes_text(c);
-  text += c.law.tunable ? tunable_text(*c.law.tunable) : cost_text(c);
+  text += c.law.tunable ? tunable_text(c.law) : cost_text(c);
   if (with_legend) text += "\n" + legend_of_lines(text);
   return fitted(text);
 }

@@ -20,8 +20,7 @@ const OtherColumn* column_of(const std::string& name, const Motion& motion, Diag
 }  // namespace
 
 ValueColumns::ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) : network_(c.network) {
-  if (!c.law.tunable) return;
-  tunables_ = c.law.tunable->tunables;
+  tunables_ = c.law.parameters();
   warned_.resize(tunables_.size());
   for (const Tunable& tunable : tunables_) {
     refuse_name_of_motion(tunable.name, diagnostics);

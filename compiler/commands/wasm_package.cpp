@@ -23,9 +23,8 @@ CodeModel script_model(const Compilation& c) {
   model.fields["rate"] = fmt::format("{}", c.rate);
   model.fields["device_name"] = Json(c.device ? c.device->name : "").dump();
   Json parameters = Json::object();
-  if (c.law.tunable)
-    for (const Tunable& t : c.law.tunable->tunables)
-      parameters[t.name] = {{"unit", t.unit}, {"value", t.range.value}, {"min", t.range.min}, {"max", t.range.max}};
+  for (const Tunable& t : c.law.parameters())
+    parameters[t.name] = {{"unit", t.unit}, {"value", t.range.value}, {"min", t.range.min}, {"max", t.range.max}};
   model.fields["parameters"] = parameters.dump();
   model.lists["device"];
   if (c.device) model.lists["device"].push_back({});
@@ -36,8 +35,7 @@ CodeModel script_model(const Compilation& c) {
 CodeModel types_model(const Compilation& c) {
   CodeModel model = script_model(c);
   std::string names;
-  if (c.law.tunable)
-    for (const Tunable& t : c.law.tunable->tunables) names += (names.empty() ? "\"" : " | \"") + t.name + "\"";
+  for (const Tunable& t : c.law.parameters()) names += (names.empty() ? "\"" : " | \"") + t.name + "\"";
   model.fields = {{"name", c.network.name},
                   {"title", model.fields["title"]},
                   {"motion", model.fields["motion"]},

@@ -30,16 +30,24 @@ void ContactSurface::write_approach() {
   writer_.assign(law.output, approach_, writer_.subtract(writer_.read(depth_), writer_.read(surface_)), "Δ = u − s₋");
 }
 
-// f(Δ) ≥ 0 where Δ ≥ −π/g
+ExpressionId ContactSurface::none() {
+  return writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
+}
+
 void ContactSurface::write_change(const Real& stiffness, VariableId held) {
+  none();  // the first constant of a contact, whatever follows
+  write_change(writer_.constant("recovery_compliance", writer_.compliance(), "−1/g",
+                                stiffness > 0 ? Real(-1 / stiffness) : Real(0), ConstantRole::recovery_compliance),
+               held);
+}
+
+// f(Δ) ≥ 0 where Δ ≥ −π/g
+void ContactSurface::write_change(ExpressionId recovery_compliance, VariableId held) {
   std::vector<Statement>& output = writer_.law().output;
-  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
   const VariableId recovery =
       writer_.scalar("surface_recovery", writer_.length(), "the surface's change if nothing touched it", Role::local);
-  const ExpressionId compliance =
-      writer_.constant("recovery_compliance", writer_.compliance(), "−1/g",
-                       stiffness > 0 ? Real(-1 / stiffness) : Real(0), ConstantRole::recovery_compliance);
-  writer_.assign(output, recovery, writer_.multiply(compliance, held == no_variable ? none : writer_.read(held)),
+  writer_.assign(output, recovery,
+                 writer_.multiply(recovery_compliance, held == no_variable ? none() : writer_.read(held)),
                  "f = 0 at Δs = −π/g");
   const ExpressionId ahead = writer_.subtract(writer_.read(recovery), writer_.read(approach_));
   writer_.assign(output, change_, writer_.where(ahead, writer_.read(recovery), writer_.read(approach_)), "f ≥ 0");
@@ -80,24 +88,28 @@ void ContactSurface::write_command(VariableId opposing, const Real& feedthrough_
     felt = writer_.subtract(felt, taken_back);
     motor = writer_.subtract(motor, taken_back);
   }
-  const VariableId released = released_ =
-      writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
-  const ExpressionId none = writer_.constant("none", writer_.force(), "of a free tool", 0, ConstantRole::zero);
-  const ExpressionId release = release_of(opposing, felt, none);
-  writer_.assign(law.output, released, release, "above 0 where the tool is free");
-  if (damping > 0 || slips.largest > 0) {
+  const Real steady = Real(damping) + slips.steady;
+  write_command(opposing, {felt, motor, slips.changing, steady});
+  if (law.brake == no_variable) return;
+  law.damping = 0;
+  law.largest_damping = rounded(Real(damping) + slips.largest, law.scalar);
+}
+
+void ContactSurface::write_command(VariableId opposing, const CommandInTouch& touching) {
+  UpdateLaw& law = writer_.law();
+  released_ = writer_.scalar("released", "1", "above 0 where the tool is free", Role::local);
+  const ExpressionId none = this->none(), release = release_of(opposing, touching.felt, none);
+  writer_.assign(law.output, released_, release, "above 0 where the tool is free");
+  ExpressionId brake = touching.changing_brake;
+  if (touching.steady_brake > 0)
+    brake = writer_.plus(brake, writer_.constant("contact_damping", writer_.damping(), "b while the tool touches",
+                                                 touching.steady_brake));
+  if (brake != nothing) {
     law.brake = writer_.scalar("brake", writer_.damping(), "b", Role::local);
-    law.damping = 0;
-    law.largest_damping = rounded(Real(damping) + slips.largest, law.scalar);
-    const Real steady = Real(damping) + slips.steady;
-    ExpressionId held = slips.changing;
-    if (steady > 0)
-      held = writer_.plus(held,
-                          writer_.constant("contact_damping", writer_.damping(), "b while the tool touches", steady));
-    writer_.assign(law.output, law.brake, writer_.where(writer_.read(released), none, held), "b = 0 of a free tool");
+    writer_.assign(law.output, law.brake, writer_.where(writer_.read(released_), none, brake), "b = 0 of a free tool");
     law.last_brake = writer_.kept(law.brake);
   }
-  writer_.assign(law.output, law.force, writer_.where(writer_.read(released), none, motor),
+  writer_.assign(law.output, law.force, writer_.where(writer_.read(released_), none, touching.motor),
                  "m = f − b u̇ of a tool that touches");
 }
 

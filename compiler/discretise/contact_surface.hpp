@@ -17,6 +17,14 @@ struct BrakeBehindSlips {
   Real largest = 0;                     // of both together [N·s/m]
 };
 
+// While the tool touches.
+struct CommandInTouch {
+  ExpressionId felt;                      // by the tool [N]
+  ExpressionId motor;                     // m [N]
+  ExpressionId changing_brake = nothing;  // of b, what changes and what does not [N·s/m]
+  Real steady_brake = 0;
+};
+
 class ContactSurface {
  public:
   // `encoder_step`: how far the gap may open before the command lets go [m].
@@ -26,20 +34,24 @@ class ContactSurface {
 
   VariableId before() const { return surface_; }     // s₋
   VariableId approach() const { return approach_; }  // Δ
+  VariableId depth() const { return depth_; }        // of the tool behind the unloaded surface
   VariableId change() const { return change_; }      // Δs
   VariableId now() const { return now_; }            // s
   VariableId released() const { return released_; }  // above 0 where the tool is free
 
   void write_approach();
-  // For p = g δ + π: the surface's change. `held` is π, no variable for 0.
+  // For p = g δ + π: the surface's change. `held` is π, no variable for 0; the second is given −1/g.
   void write_change(const Real& stiffness, VariableId held);
+  void write_change(ExpressionId recovery_compliance, VariableId held);
   // Where it is, its change being known.
   void write_surface();
   // The brake's b and the motor's part while the tool touches; both 0 when it is free. `opposing` is f′ = f − b∞ Δs/h,
   // also without what slips leave to the brake.
   void write_command(VariableId opposing, const Real& feedthrough_damping, const BrakeBehindSlips& slips);
+  void write_command(VariableId opposing, const CommandInTouch& touching);
 
  private:
+  ExpressionId none();
   ExpressionId release_of(VariableId opposing, ExpressionId felt, ExpressionId none);
 
   LawWriter& writer_;

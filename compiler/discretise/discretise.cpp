@@ -10,6 +10,7 @@
 #include "discretise/rounding.hpp"
 #include "discretise/slip_parts.hpp"
 #include "discretise/tunable_network.hpp"
+#include "discretise/tunable_programs.hpp"
 #include "law/check_law.hpp"
 #include "network/rate_limits.hpp"
 
@@ -271,7 +272,7 @@ std::optional<UpdateLaw> discretise_tunable(const Network& network, const Normal
   law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, form.linear, decomposition, choices,
                                   sample_period, device, diagnostics);
   law.mode_form = ModeForm::delta;
-  return law.tunable ? std::optional(std::move(law)) : std::nullopt;
+  return law.tunable ? std::optional(with_programs(std::move(law), network.port_motion)) : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

@@ -16,23 +16,9 @@ bool is_called(const Named& named, const std::string& name) {
 }
 
 // Tables and states of a law with tunables.
-constexpr std::string_view tunable_members[] = {"tunables",
-                                                "terms",
-                                                "shares",
-                                                "numbers",
-                                                "springs",
-                                                "parts",
-                                                "edges",
-                                                "blocks",
-                                                "cuts",
-                                                "yields",
-                                                "couplings",
-                                                "nodes",
-                                                "tables",
-                                                "law_",
-                                                "last_position_",
-                                                "sampled_position_",
-                                                "sampled_position_change_"};
+constexpr std::string_view tunable_members[] = {"tunables",  "terms", "shares", "numbers", "springs",
+                                                "parts",     "edges", "blocks", "cuts",    "yields",
+                                                "couplings", "nodes", "tables", "law_"};
 
 // States end in an underscore in the emitted class.
 bool is_member(const UpdateLaw& law, const std::string& name) {

@@ -77,23 +77,25 @@ const char* in_words(StateInput input) {
 }
 
 // What may change, what follows it, and what that costs.
-void describe_tunables(const TunableTables& tables, const std::string& damping_unit, std::vector<std::string>& facts) {
+void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, std::vector<std::string>& facts) {
+  const TunableTables& tables = *law.tunable;
   std::string names, elements;
   for (const Tunable& t : tables.tunables)
     names += fmt::format("{}{} ({} to {} {})", names.empty() ? "" : ", ", t.name, t.range.min, t.range.max, t.unit);
   for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
-  const TunableCost cost = cost_of(tables);
   facts.push_back("tunable: " + names);
   facts.push_back(
       "  set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay");
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
-  facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions", cost.output));
+  facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions",
+                              operations_of(cost_of(law, law.output))));
   facts.push_back(
       fmt::format("cost of update(): at most {} additions and multiplications; {} numbers are kept between samples",
-                  cost.update, cost.states));
-  facts.push_back(fmt::format("cost of set(): at most {} additions, multiplications and divisions", cost.set));
+                  operations_of(cost_of(law, law.update)), tables.springs.size()));
+  facts.push_back(
+      fmt::format("cost of set(): at most {} additions, multiplications and divisions", operations_of_set(tables)));
 }
 
 void describe_cost(const Compilation& c, std::vector<std::string>& facts) {
@@ -185,7 +187,7 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
       facts.push_back(line);
   facts.push_back(
       fmt::format("device: {}", c.device ? c.device->name : "none is named: exact brake, exact velocity, no delay"));
-  if (c.law.tunable) describe_tunables(*c.law.tunable, unit, facts);
+  if (c.law.tunable) describe_tunables(c.law, unit, facts);
   else describe_cost(c, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
   if (c.law.lanes > 1) facts.push_back(loops_line(c.law));

@@ -33,13 +33,19 @@ class C99Printer {
 
   C99Program print() {
     C99Program program;
+    const C99Tunables tunables = c99_tunables(law_, name_);
     program.before = before();
+    append_all(program.before, tunables.before);
     program.states = states();
+    append_all(program.states, tunables.states);
+    program.functions = tunables.functions;
     program.bounds = bounds();
-    program.begin = {fmt::format("{}_reset(self, 0);", name_)};
+    program.begin = tunables.begin;
+    program.begin.push_back(fmt::format("{}_reset(self, 0);", name_));
     program.reset = reset();
     program.output = output();
     program.update = update();
+    program.tune = lines_of(law_.tune);
     program.energy = with_constants({&law_.energy}, lines_of(law_.energy));
     if (!reads_states(law_.energy)) program.energy.insert(program.energy.begin(), "(void)self;");
     if (law_.sheds()) program.kept_share = "self->" + law_.variables[law_.share].name;
@@ -144,6 +150,7 @@ class C99Printer {
       return print_step(statement, law_.couplings[tree->coupling], lines);
     if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
       return print_step(statement, law_.networks[network->network], lines);
+    if (const auto* call = std::get_if<CallTunable>(&statement.step)) return print_call(statement, *call, lines);
     for (place_ = 0; place_ < target.size; ++place_)
       append(lines, declaration(target) + name(statement.target, place_) + " = " + expression(statement.value) + ";");
   }
@@ -258,6 +265,17 @@ class C99Printer {
       assign(network.sign[i], fmt::format("({}){}_sign[{}]", scalar(), own, i), lines);
   }
 
+  void print_call(const Statement& statement, const CallTunable& call, Lines& lines) const {
+    std::string given;
+    for (VariableId id : call.given) given += ", " + name(id, 0);
+    const std::string_view callee = name_of(call.call);
+    const std::string value = fmt::format("{}_tunable_{}(self{})", name_, callee, given);
+    if (call.result == TunableResult::value) return assign(statement.target, value, lines);
+    lines.push_back(fmt::format("const {0}_{1} {1} = {2};", name_, callee, value));
+    assign(statement.target, fmt::format("{}.{}", callee, name_of(call.result)), lines);
+    for (const auto& [result, id] : call.found) assign(id, fmt::format("{}.{}", callee, name_of(result)), lines);
+  }
+
   void assign(VariableId target, const std::string& value, Lines& lines) const {
     if (target == no_variable) return;
     lines.push_back(declaration(law_.variables[target]) + name(target, 0) + " = " + value + ";");
@@ -320,10 +338,13 @@ class C99Printer {
     return found;
   }
 
+  // A call reads the tunables' own.
   bool reads_states(const Program& program) const {
     bool found = false;
-    for (const Statement& statement : program)
+    for (const Statement& statement : program) {
+      found |= std::holds_alternative<CallTunable>(statement.step);
       each_read(law_, statement, [&](VariableId id) { found |= law_.variables[id].role == Role::state; });
+    }
     return found;
   }
 
@@ -457,6 +478,7 @@ class C99Printer {
           lines.push_back(fmt::format("self->{} = {};", member(variable, place), rest));
     }
     for (const GuardInTurn& guard : law_.guards) lines.push_back(fmt::format("self->{} = 0;", guard.name));
+    append_all(lines, lines_of(law_.rest));
     return lines;
   }
 
@@ -487,7 +509,7 @@ class C99Printer {
 }  // namespace
 
 C99Program c99_program(const UpdateLaw& law, const std::string& name, const StateBox& box) {
-  return law.tunable ? c99_tunable_program(law, name) : C99Printer(law, name, box).print();
+  return C99Printer(law, name, box).print();
 }
 
 }  // namespace dashpot::compiler

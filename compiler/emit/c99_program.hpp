@@ -19,6 +19,7 @@ struct C99Program {
   std::vector<std::string> reset;
   std::vector<std::string> output;  // down to the assignment of `command`
   std::vector<std::string> update;  // of a finite sample
+  std::vector<std::string> tune;    // of set(), with the parameters' new values
   std::vector<std::string> energy;  // down to that of `stored`
   std::string kept_share;           // of all forces, by the last output; empty where a law never sheds
 };

@@ -18,8 +18,7 @@ std::optional<std::string> c99_source(const Compilation& compilation, const Emis
 
 std::vector<Fields> tunable_fields(const Compilation& c) {
   std::vector<Fields> all;
-  if (!c.law.tunable) return all;
-  for (const Tunable& t : c.law.tunable->tunables) {
+  for (const Tunable& t : c.law.parameters()) {
     const auto number = [&](double value) { return cpp_literal(value, ScalarType::float64); };
     all.push_back({{"tunable", t.name},
                    {"unit", t.unit},

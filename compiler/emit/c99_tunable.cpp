@@ -23,35 +23,29 @@ bool takes_zero_frequency(brake_rule rule) {
 
 void append_all(Lines& lines, const Lines& more) { lines.insert(lines.end(), more.begin(), more.end()); }
 
-class C99TunablePrinter {
+class TablesPrinter {
  public:
-  C99TunablePrinter(const UpdateLaw& law, const std::string& name)
+  TablesPrinter(const UpdateLaw& law, const std::string& name)
       : law_(law), tables_(*law.tunable), head_(tables_.head), name_(name) {}
 
-  C99Program print() const {
+  C99Tunables print() const {
     const C99Words words = wording();
-    C99Program program;
-    append_all(program.before, c99_part("numbers.h", words));
-    if (!tables_.couplings.empty()) append_all(program.before, c99_part("slip_tree.h", words));
-    if (!tables_.graphs.empty()) append_all(program.before, c99_part("slip_network.h", words));
-    append_all(program.before, sizes());
-    append_all(program.before, c99_part("tunable_types.h", words));
-    append_all(program.before, tables());
-    program.states = c99_part("tunable_states.h", words);
-    program.functions = c99_part("tunable.h", words);
-    program.begin = {fmt::format("{}_begin(self);", name_)};
-    program.reset = reset();
-    program.output = output();
-    program.update = {fmt::format("{}_advance_all(self);", name_), "self->last_position = self->sampled_position;"};
-    program.energy = energy();
-    if (law_.sheds()) program.kept_share = "self->kept_share";
-    return program;
+    C99Tunables tunables;
+    append_all(tunables.before, c99_part("numbers.h", words));
+    if (!tables_.couplings.empty()) append_all(tunables.before, c99_part("slip_tree.h", words));
+    if (!tables_.graphs.empty()) append_all(tunables.before, c99_part("slip_network.h", words));
+    append_all(tunables.before, sizes());
+    append_all(tunables.before, c99_part("tunable_types.h", words));
+    append_all(tunables.before, tables());
+    tunables.states = c99_part("tunable_states.h", words);
+    tunables.functions = c99_part("tunable.h", words);
+    tunables.begin = {fmt::format("{}_tunable_begin(self);", name_)};
+    return tunables;
   }
 
  private:
   std::string number(double value) const { return cpp_literal(value, law_.scalar); }
   std::string_view scalar() const { return compiler::name_of(law_.scalar); }
-  const char* suffix() const { return law_.scalar == ScalarType::float32 ? "f" : ""; }
 
   bool has(tunable_kind kind) const {
     return std::any_of(tables_.parts.begin(), tables_.parts.end(),
@@ -229,46 +223,6 @@ class C99TunablePrinter {
     append(lines, fmt::format("static const {} {}_{}[{}] = {{{}}};", scalar(), name_, what, entries.size(), text));
   }
 
-  Lines reset() const {
-    const std::string there = head_.contact.is_there
-                                  ? fmt::format("dashpot_pushed_in{}({}_surface_at, position)", suffix(), name_)
-                                  : "position";
-    return {fmt::format("{}_rest_at(self, (dashpot_all_finite{}(position, position, position) != 0) ? {} : 0);", name_,
-                        suffix(), there)};
-  }
-
-  std::string with_added(const char* damping) const {
-    return tables_.added_damping > 0 ? fmt::format("{} + {}_added_damping()", damping, name_) : damping;
-  }
-
-  std::string widened(const std::string& value) const {
-    return law_.scalar == ScalarType::float32 ? fmt::format("(double)({})", value) : value;
-  }
-
-  Lines output() const {
-    return {fmt::format("const {0}_sample sample = {0}_answer_to(self, position, velocity);", name_),
-            fmt::format("self->sampled = dashpot_all_finite{}(position, velocity, sample.wanted);", suffix()),
-            "if (self->sampled != 0) {",
-            "  self->sampled_position_change = sample.change;",
-            "  self->sampled_position = sample.position;",
-            "  self->last_damping = sample.damping;",
-            fmt::format("  command.damping = {};", widened(with_added("sample.damping"))),
-            fmt::format("  command.force = {};", widened("sample.force")),
-            "} else {",
-            fmt::format("  command.damping = {};", widened(with_added("self->last_damping"))),
-            "  command.force = 0;",
-            "}"};
-  }
-
-  Lines energy() const {
-    return {"// V + T: in the springs, and what changes of parameters have set free",
-            fmt::format("{} stored = self->tank;", scalar()),
-            fmt::format("for (int i = 0; i < {}_spring_count; ++i) {{", name_),
-            fmt::format("  stored += {}_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * {};", name_,
-                        number(0.5)),
-            "}"};
-  }
-
   const UpdateLaw& law_;
   const TunableTables& tables_;
   const tunable_tables<double>& head_;
@@ -277,8 +231,8 @@ class C99TunablePrinter {
 
 }  // namespace
 
-C99Program c99_tunable_program(const UpdateLaw& law, const std::string& name) {
-  return C99TunablePrinter(law, name).print();
+C99Tunables c99_tunables(const UpdateLaw& law, const std::string& name) {
+  return law.tunable ? TablesPrinter(law, name).print() : C99Tunables{};
 }
 
 }  // namespace dashpot::compiler

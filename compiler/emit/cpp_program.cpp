@@ -31,10 +31,9 @@ class CppPrinter {
     program.energy = statements_.lines_of(law_.energy);
     for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
     put_alias_before(program.output, program.keep);
-    program.parameters = {"struct parameters {};"};
-    program.set = {"// No parameter of this network can be set while it runs.",
-                   "unsigned set(const parameters&) noexcept { return 0; }"};
-    if (law_.sheds()) append_kept_share(program.set, "sampled_share_");
+    program.parameters = parameters_of(law_);
+    program.set = set_of(law_, statements_.lines_of(law_.tune));
+    if (law_.sheds()) append_kept_share(program.set);
     program.reset = reset();
     program.constants = constants();
     program.states = states();
@@ -49,6 +48,7 @@ class CppPrinter {
     headers.push_back("dashpot/command.hpp");
     if (!law_.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
     if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
+    if (law_.tunable) headers.push_back("dashpot/tunable_law.hpp");
     if (law_.lanes > 1) headers.push_back("dashpot/vector.hpp");
     return headers;
   }
@@ -58,7 +58,10 @@ class CppPrinter {
   void check_and_return(CppProgram& program) const {
     program.command =
         law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
-    check_by_jumps(program, checked_names(), safe_command());
+    program.check = {"sampled_ = false;",
+                     fmt::format("if (!dashpot::all_finite({})) return {};", checked_names(), safe_command()),
+                     "sampled_ = true;"};
+    program.wait = {"if (!sampled_) return;", "sampled_ = false;"};
   }
 
   std::string checked_names() const {
@@ -69,6 +72,17 @@ class CppPrinter {
 
   std::string safe_command() const {
     return law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}";
+  }
+
+  static std::vector<std::string> two_phases() {
+    return {"const dashpot::command<scalar> now = output(position, velocity);", "update();", "return now;"};
+  }
+
+  void append_kept_share(std::vector<std::string>& lines) const {
+    lines.push_back("");
+    lines.push_back(
+        "// The share of all forces in the network that the last output() kept, for the motor to be able to follow.");
+    lines.push_back(fmt::format("scalar kept_share() const noexcept {{ return {}; }}", name_of(law_.share)));
   }
 
   // What is kept of a sample that is no number is what was there before.
@@ -119,6 +133,7 @@ class CppPrinter {
     for (CoefficientId read : constants_read(law_)) append_constant(law_.coefficients[read], lines);
     for (const Coupling& coupling : law_.couplings) append_table(law_, coupling, lines);
     for (const SlipNetwork& network : law_.networks) append_tables(law_, network, lines);
+    append_tables_of_tunables(law_, lines);
     return lines;
   }
 
@@ -147,7 +162,7 @@ class CppPrinter {
     if (!rests) lines.push_back("static_cast<void>(position);");
     if (rests) lines = statements_.lines_of(law_.start);
     for (const Variable& variable : law_.variables) {
-      if (variable.role != Role::state) continue;
+      if (variable.role != Role::state || is_of_rest(law_.variables.id_of(variable))) continue;
       if (rests && &variable == &law_.variables[law_.rest_position])
         lines.push_back(fmt::format("{} = dashpot::all_finite(position, position, position) ? {} : 0;",
                                     CppStatements::scalar_name(variable), rest_position()));
@@ -159,7 +174,15 @@ class CppPrinter {
           lines.push_back(fmt::format("{}_ = {};", name, rest_value(variable)));
     }
     for (const GuardInTurn& guard : law_.guards) lines.push_back(guard.name + "_ = 0;");
+    for (std::string& line : statements_.lines_of(law_.rest)) lines.push_back(std::move(line));
     return lines;
+  }
+
+  bool is_of_rest(VariableId state) const {
+    bool found = false;
+    for (const Statement& statement : law_.rest)
+      each_assigned(law_, statement, [&](VariableId assigned) { found |= assigned == state; });
+    return found;
   }
 
   std::string rest_position() const {
@@ -177,14 +200,14 @@ class CppPrinter {
   std::vector<const Variable*> states_in_order() const {
     std::vector<const Variable*> all;
     for (const Variable& variable : law_.variables)
-      if (variable.role == Role::state) all.push_back(&variable);
+      if (variable.role == Role::state && !is_of_rest(law_.variables.id_of(variable))) all.push_back(&variable);
     if (law_.rest_position != no_variable)
       std::stable_partition(all.begin(), all.end(),
                             [&](const Variable* v) { return v != &law_.variables[law_.rest_position]; });
     return all;
   }
 
-  std::vector<std::string> states() const {
+  std::vector<std::string> states() {
     std::vector<std::string> lines;
     for (const Variable* state : states_in_order()) {
       const Variable& variable = *state;
@@ -202,6 +225,15 @@ class CppPrinter {
     for (const GuardInTurn& guard : law_.guards)
       lines.push_back(fmt::format("int {}_ = 0;  // first place of {}_ that is guarded next", guard.name,
                                   law_.variables[guard.state].name));
+    append_state_of_tunables(law_, lines);
+    for (const Statement& statement : law_.rest) {
+      const Variable& state = law_.variables[statement.target];
+      if (const auto* call = std::get_if<CallTunable>(&statement.step))
+        append_initial_states(law_, statement, *call, lines);
+      else
+        lines.push_back(
+            fmt::format("scalar {}  // {} [{}]", statements_.lines_of({statement}).back(), state.meaning, state.unit));
+    }
     return lines;
   }
 
@@ -239,25 +271,8 @@ std::string cpp_literal(double value, ScalarType scalar) {
   return scalar == ScalarType::float64 ? fmt::format("{:#}", value) : fmt::format("{:#}f", static_cast<float>(value));
 }
 
-std::vector<std::string> two_phases() {
-  return {"const dashpot::command<scalar> now = output(position, velocity);", "update();", "return now;"};
-}
-
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing) {
-  return law.tunable ? tunable_program(law) : CppPrinter(law, network, timing).print();
-}
-
-void check_by_jumps(CppProgram& program, const std::string& checked, const std::string& safe_command) {
-  program.check = {"sampled_ = false;", fmt::format("if (!dashpot::all_finite({})) return {};", checked, safe_command),
-                   "sampled_ = true;"};
-  program.wait = {"if (!sampled_) return;", "sampled_ = false;"};
-}
-
-void append_kept_share(std::vector<std::string>& lines, const std::string& share) {
-  lines.push_back("");
-  lines.push_back(
-      "// The share of all forces in the network that the last output() kept, for the motor to be able to follow.");
-  lines.push_back(fmt::format("scalar kept_share() const noexcept {{ return {}; }}", share));
+  return CppPrinter(law, network, timing).print();
 }
 
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines) {

@@ -34,18 +34,8 @@ enum class Timing { any, constant };
 // In constant time: laws without couplings, networks and tunables.
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing = Timing::any);
 
-// `check` of those numbers and `wait` by jumps; `safe_command` is what output() returns after an input that is no
-// number.
-void check_by_jumps(CppProgram& program, const std::string& checked, const std::string& safe_command);
-
-// kept_share() of a law that sheds.
-void append_kept_share(std::vector<std::string>& lines, const std::string& share);
-
 // A line for each place of the coefficient.
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines);
-
-// A step that calls one phase after the other.
-std::vector<std::string> two_phases();
 
 // A double or float literal that reads back as the same number.
 std::string cpp_literal(double value, ScalarType scalar);

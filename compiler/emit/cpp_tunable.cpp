@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "emit/cpp_program.hpp"
 #include "emit/cpp_slips.hpp"
 
 namespace dashpot::compiler {
@@ -22,69 +23,9 @@ const char* name_of(brake_rule rule) {
   return "";
 }
 
-class TunablePrinter {
+class TablesPrinter {
  public:
-  explicit TunablePrinter(const UpdateLaw& law) : law_(law), tables_(*law.tunable) {}
-
-  CppProgram print() const {
-    CppProgram program;
-    program.headers = {"dashpot/command.hpp", "dashpot/tunable_law.hpp"};
-    program.parameters = parameters();
-    program.set = set();
-    program.constants = constants();
-    program.states = states();
-    const bool is_pushed = tables_.head.contact.is_there;
-    program.reset = {fmt::format("last_position_ = dashpot::all_finite(position, position, position) ? {} : 0;",
-                                 is_pushed ? "dashpot::pushed_in(tables.contact.at, position)" : "position"),
-                     "sampled_position_change_ = 0;", "sampled_position_ = last_position_;",
-                     "law_.reset(tables, last_position_);", "last_damping_ = law_.damping_at_rest(tables);"};
-    program.output = {
-        is_pushed ? "// where the surface goes, b, and m = f − b u̇" : "// Δu = u − u₋, b, and m = f − b u̇",
-        "const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);",
-        "const scalar force = sample.force;"};
-    if (law_.sheds()) program.output.push_back("const scalar wanted = sample.wanted;");
-    program.step = two_phases();
-    program.keep = {"sampled_position_change_ = sample.change;", "sampled_position_ = sample.position;",
-                    "last_damping_ = sample.damping;"};
-    program.update = {"law_.update(tables, sampled_position_change_, sampled_position_);",
-                      is_pushed ? "// s₋ = s" : "// u₋ = u", "last_position_ = sampled_position_;"};
-    program.energy = {"// V + T: in the springs, and what changes of parameters have set free",
-                      "const scalar stored = law_.stored_energy(tables);"};
-    const std::string added = tables_.added_damping > 0 ? " + added_damping" : "";
-    check_by_jumps(program, law_.sheds() ? "position, velocity, wanted" : "position, velocity, force",
-                   "{last_damping_" + added + ", 0}");
-    program.command = "{sample.damping" + added + ", force}";
-    return program;
-  }
-
- private:
-  std::string number(double value) const { return cpp_literal(value, law_.scalar); }
-
-  std::vector<std::string> parameters() const {
-    std::vector<std::string> lines = {"struct parameters {"};
-    for (const Tunable& t : tables_.tunables)
-      lines.push_back(fmt::format("  scalar {} = {};  // {} to {} [{}]", t.name, number(t.range.value), t.range.min,
-                                  t.range.max, t.unit));
-    lines.push_back("};");
-    return lines;
-  }
-
-  // What waits for update() belongs to the parameters before.
-  std::vector<std::string> set() const {
-    std::string wanted;
-    for (const Tunable& t : tables_.tunables) wanted += (wanted.empty() ? "" : ", ") + ("wanted." + t.name);
-    std::vector<std::string> lines = {
-        "// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its "
-        "bound now, or it was",
-        "// no number and is as it was.",
-        "unsigned set(const parameters& wanted) noexcept {",
-        "  update();",
-        fmt::format("  const scalar values[] = {{{}}};", wanted),
-        "  return law_.set(tables, values);",
-        "}"};
-    if (law_.sheds()) append_kept_share(lines, "law_.kept_share()");
-    return lines;
-  }
+  explicit TablesPrinter(const UpdateLaw& law) : law_(law), tables_(*law.tunable) {}
 
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
@@ -125,6 +66,9 @@ class TunablePrinter {
     return lines;
   }
 
+ private:
+  std::string number(double value) const { return cpp_literal(value, law_.scalar); }
+
   void append_nodes(std::vector<std::string>& lines) const {
     list(lines, "dashpot::slip_node<scalar>", "nodes", tables_.nodes, [](const slip_node<double>& n, std::size_t) {
       return fmt::format("{{dashpot::slip_part::{}, {}, {}, {}, {}, {}, 0, 0, 0}},", part_name(n.kind), n.first_child,
@@ -155,17 +99,14 @@ class TunablePrinter {
                                 number(h.slip_rule.coil_share), number(h.slip_rule.assured_share)));
     lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count,
                                 h.block_count, h.slip_count, h.coupling_count, h.graph_count));
-    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {}{}",
+    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {},",
                                 name_or_none("terms", tables_.terms), name_or_none("springs", tables_.springs),
                                 name_or_none("parts", tables_.parts), name_or_none("edges", tables_.edges),
                                 name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
                                 name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes),
-                                tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties",
-                                tables_.shares.empty() && !law_.sheds() ? "};" : ","));
-    const std::string shares = name_or_none("shares", tables_.shares);
-    if (law_.sheds())
-      lines.push_back(fmt::format("    {}, {}, {}}};", shares, number(h.motor_limit), number(h.motor_step)));
-    else if (!tables_.shares.empty()) lines.push_back("    shares};");
+                                tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties"));
+    lines.push_back(fmt::format("    {}, {}, {}}};", name_or_none("shares", tables_.shares), number(h.motor_limit),
+                                number(h.motor_step)));
   }
 
   template <class Entry>
@@ -189,22 +130,15 @@ class TunablePrinter {
     lines.push_back(fmt::format("static constexpr int {}[{}] = {{{}}};", name, entries.size(), text));
   }
 
-  std::vector<std::string> states() const {
-    const auto room = [](std::size_t count) { return std::max<std::size_t>(count, 1); };
-    return {"scalar last_position_ = 0;  // u of the sample before",
-            "scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample",
-            "scalar sampled_position_ = 0;  // port displacement u, at this sample",
-            fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};",
-                        tables_.tunables.size(), room(tables_.springs.size()),
-                        room(static_cast<std::size_t>(tables_.mesh_nodes)), tables_.blocks.size(),
-                        room(tables_.nodes.size()), tables_.yields.size(),
-                        room(static_cast<std::size_t>(tables_.corners)), tables_.ends),
-            "scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before"};
-  }
-
   const UpdateLaw& law_;
   const TunableTables& tables_;
 };
+
+template <class Action>
+void each_result(const Statement& statement, const CallTunable& call, Action action) {
+  action(statement.target, call.result);
+  for (const auto& [result, id] : call.found) action(id, result);
+}
 
 }  // namespace
 
@@ -219,6 +153,76 @@ const char* name_of(tunable_kind kind) {
   return "";
 }
 
-CppProgram tunable_program(const UpdateLaw& law) { return TunablePrinter(law).print(); }
+std::vector<std::string> parameters_of(const UpdateLaw& law) {
+  if (!law.tunable) return {"struct parameters {};"};
+  std::vector<std::string> lines = {"struct parameters {"};
+  for (const Tunable& t : law.parameters())
+    lines.push_back(fmt::format("  scalar {} = {};  // {} to {} [{}]", t.name, cpp_literal(t.range.value, law.scalar),
+                                t.range.min, t.range.max, t.unit));
+  lines.push_back("};");
+  return lines;
+}
+
+// What waits for update() belongs to the parameters before.
+std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::string>& tune) {
+  if (!law.tunable)
+    return {"// No parameter of this network can be set while it runs.",
+            "unsigned set(const parameters&) noexcept { return 0; }"};
+  std::string wanted;
+  for (const Tunable& t : law.parameters()) wanted += (wanted.empty() ? "wanted." : ", wanted.") + t.name;
+  std::vector<std::string> lines = {
+      "// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its "
+      "bound "
+      "now, or it was",
+      "// no number and is as it was.",
+      "unsigned set(const parameters& wanted) noexcept {",
+      "  update();",
+      fmt::format("  const scalar values[] = {{{}}};", wanted),
+      "  const unsigned clamped = law_.set(tables, values);"};
+  for (const std::string& line : tune) lines.push_back("  " + line);
+  for (const char* line : {"  return clamped;", "}"}) lines.push_back(line);
+  return lines;
+}
+
+void append_tables_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines) {
+  if (!law.tunable) return;
+  for (std::string& line : TablesPrinter(law).constants()) lines.push_back(std::move(line));
+}
+
+void append_state_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines) {
+  if (!law.tunable) return;
+  const TunableTables& t = *law.tunable;
+  const auto room = [](auto count) { return std::max(static_cast<std::size_t>(count), std::size_t(1)); };
+  lines.push_back(fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};",
+                              t.tunables.size(), room(t.springs.size()), room(t.mesh_nodes), t.blocks.size(),
+                              room(t.nodes.size()), t.yields.size(), room(t.corners), t.ends));
+}
+
+std::string call_text(const UpdateLaw& law, const CallTunable& call) {
+  std::string given;
+  for (VariableId id : call.given) given += ", " + CppStatements::scalar_name(law.variables[id]);
+  return fmt::format("law_.{}(tables{})", compiler::name_of(call.call), given);
+}
+
+void append_call(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
+                 const CppStatements& statements, std::vector<std::string>& lines) {
+  const std::string target = statements.assignment(law.variables[statement.target], 0);
+  if (call.result == TunableResult::value) return lines.push_back(target + call_text(law, call) + ";");
+  lines.push_back(fmt::format("const auto& {} = {};", compiler::name_of(call.call), call_text(law, call)));
+  each_result(statement, call, [&](VariableId id, TunableResult result) {
+    lines.push_back(fmt::format("{}{}.{};", statements.assignment(law.variables[id], 0), compiler::name_of(call.call),
+                                compiler::name_of(result)));
+  });
+}
+
+void append_initial_states(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
+                           std::vector<std::string>& lines) {
+  each_result(statement, call, [&](VariableId id, TunableResult result) {
+    const Variable& state = law.variables[id];
+    const std::string member = result == TunableResult::value ? "" : fmt::format(".{}", compiler::name_of(result));
+    lines.push_back(fmt::format("scalar {} = {}{};  // {} [{}]", CppStatements::scalar_name(state),
+                                call_text(law, call), member, state.meaning, state.unit));
+  });
+}
 
 }  // namespace dashpot::compiler

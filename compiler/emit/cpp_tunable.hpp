@@ -1,13 +1,29 @@
-// A law with tunable parameters as lines of C++: its tables, and calls of dashpot::tunable_law.
+// What a law with tunable parameters has in C++ beyond its programs: its tables, and calls of dashpot::tunable_law.
 #pragma once
 
-#include "emit/cpp_program.hpp"
+#include <string>
+#include <vector>
+
+#include "emit/cpp_statements.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
 
 // As the tables call it, in C++ and in C.
 const char* name_of(tunable_kind kind);
 
-CppProgram tunable_program(const UpdateLaw& law);
+// The struct `parameters`, and set() with its contract and the lines of its program; of a law without tunables too.
+std::vector<std::string> parameters_of(const UpdateLaw& law);
+std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::string>& tune);
+
+// Nothing of a law without tunables.
+void append_tables_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines);
+void append_state_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines);
+
+void append_call(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
+                 const CppStatements& statements, std::vector<std::string>& lines);
+// Declares the states that a call of `rest` assigns, as a new object has them.
+void append_initial_states(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
+                           std::vector<std::string>& lines);
 
 }  // namespace dashpot::compiler

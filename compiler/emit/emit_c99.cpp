@@ -31,14 +31,13 @@ Lines by_number(const std::string& type, const std::string& name, const char* wh
 Lines parameter_lines(const UpdateLaw& law, const std::string& name) {
   const std::string scalar(name_of(law.scalar));
   Lines names, units, values, least, most;
-  if (law.tunable)
-    for (const Tunable& t : law.tunable->tunables) {
-      names.push_back(fmt::format("\"{}\"", t.name));
-      units.push_back(fmt::format("\"{}\"", t.unit));
-      values.push_back(cpp_literal(t.range.value, law.scalar));
-      least.push_back(cpp_literal(t.range.min, law.scalar));
-      most.push_back(cpp_literal(t.range.max, law.scalar));
-    }
+  for (const Tunable& t : law.parameters()) {
+    names.push_back(fmt::format("\"{}\"", t.name));
+    units.push_back(fmt::format("\"{}\"", t.unit));
+    values.push_back(cpp_literal(t.range.value, law.scalar));
+    least.push_back(cpp_literal(t.range.min, law.scalar));
+    most.push_back(cpp_literal(t.range.max, law.scalar));
+  }
   Lines lines = {fmt::format("static inline int {}_parameter_count(void) {{ return {}; }}", name, names.size())};
   for (const Lines& more :
        {by_number("const char *", name, "name", names, "\"\""), by_number("const char *", name, "unit", units, "\"\""),
@@ -83,11 +82,14 @@ Lines set_of_struct(const UpdateLaw& law, const std::string& name) {
           ""};
 }
 
-Lines set_lines(const UpdateLaw& law, const std::string& name) {
+Lines set_lines(const UpdateLaw& law, const std::string& name, const Lines& tune) {
   if (!law.tunable) return {"(void)self;", "(void)wanted;", "return 0u;"};
-  return {"int is_new = 0;", fmt::format("{}_update(self);", name),
-          fmt::format("const unsigned clamped = {}_take_values(self, wanted, &is_new);", name),
-          fmt::format("if (is_new != 0) {}_change_over(self);", name), "return clamped;"};
+  Lines lines = {"int is_new = 0;", fmt::format("{}_update(self);", name),
+                 fmt::format("const unsigned clamped = {}_take_values(self, wanted, &is_new);", name),
+                 fmt::format("if (is_new != 0) {}_change_over(self);", name)};
+  lines.insert(lines.end(), tune.begin(), tune.end());
+  lines.push_back("return clamped;");
+  return lines;
 }
 
 // The box of states as a function of the law, where magnitudes show one.
@@ -130,7 +132,7 @@ CodeModel c_header_model(const Compilation& c) {
       c.law.tunable ? Lines{fmt::format("return ((i >= 0) && (i < {}_parameters_room)) ? self->value[i] : 0;", name)}
                     : Lines{"(void)self;", "(void)i;", "return 0;"});
   model.lists["box"] = as_list(box_lines(c, range, program.bounds));
-  model.lists["set"] = as_list(set_lines(c.law, name));
+  model.lists["set"] = as_list(set_lines(c.law, name, program.tune));
   model.lists["set_of_struct"] = as_list(set_of_struct(c.law, name));
   model.lists["share"] = as_list(program.kept_share.empty() ? Lines{"(void)self;", "return 1;"}
                                                             : Lines{fmt::format("return {};", program.kept_share)});

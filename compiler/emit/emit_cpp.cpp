@@ -86,9 +86,8 @@ CodeModel live_model(const Compilation& c) {
     for (const DeviceFact& fact : facts_of_led_device(c.device->description))
       model.lists["facts"].push_back({{"fact", fact.field + " = " + fact.value}});
   }
-  if (!c.law.tunable) return model;
-  model.lists["settable"].push_back({});
-  for (const Tunable& t : c.law.tunable->tunables) model.lists["tunables"].push_back({{"tunable", t.name}});
+  for (const Tunable& t : c.law.parameters()) model.lists["tunables"].push_back({{"tunable", t.name}});
+  if (!model.lists["tunables"].empty()) model.lists["settable"].push_back({});
   return model;
 }
 

@@ -9,13 +9,7 @@ namespace dashpot::compiler {
 namespace {
 
 std::size_t operations_of(const UpdateLaw& law) {
-  if (law.tunable) return cost_of(*law.tunable).output + cost_of(*law.tunable).update;
-  std::size_t operations = 0;
-  for (const auto* program : {&law.output, &law.update}) {
-    const Cost cost = cost_of(law, *program);
-    operations += cost.additions + cost.multiplications + cost.selections + cost.guards + cost.coupled;
-  }
-  return operations;
+  return operations_of(cost_of(law, law.output)) + operations_of(cost_of(law, law.update));
 }
 
 // True, with an error, where the law's step is no list of statements.

@@ -1,6 +1,7 @@
 #include "law/add_damping.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "law/check_law.hpp"
 
@@ -15,8 +16,6 @@ UpdateLaw with_steady_damping(UpdateLaw law, double damping) {
   if (steady != law.coefficients.end()) {
     raise(steady->values.front());
   } else {
-    const auto told =
-        std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.brake; });
     const CoefficientId added = law.coefficients.add({"steady_damping",
                                                       law.variables[law.brake].unit,
                                                       "of what no slip changes",
@@ -24,7 +23,10 @@ UpdateLaw with_steady_damping(UpdateLaw law, double damping) {
                                                       {},
                                                       ConstantRole::steady_damping});
     const ExpressionId constant = law.expressions.add({Operation::constant, {}, {}, added});
-    told->value = law.expressions.add({Operation::add, {told->value, constant}});
+    for (std::vector<Statement>* program : {&law.output, &law.rest})
+      for (Statement& told : *program)
+        if (told.target == law.brake || told.target == law.last_brake)
+          told.value = law.expressions.add({Operation::add, {told.value, constant}});
   }
   for (double* value : {&law.damping, &law.largest_damping, &law.variables[law.last_brake].rest_value}) raise(*value);
   check_law(law, "adding damping");

@@ -25,6 +25,10 @@ class Check {
     phase("start", law_.start, locals, {.inputs = true, .states = false, .locals = true});
     require(law_.started_at == no_variable || locals.count(law_.started_at) != 0, "the start is never assigned");
     locals.clear();
+    phase("rest", law_.rest, locals, {.inputs = false, .states = true, .locals = true});
+    locals.clear();
+    phase("tune", law_.tune, locals, {.inputs = false, .states = true, .locals = true});
+    locals.clear();
     phase("update", law_.update, locals, {.inputs = false, .states = true, .locals = true});
     locals.clear();
     phase("energy", law_.energy, locals, {.inputs = false, .states = false, .locals = true});
@@ -87,7 +91,9 @@ class Check {
       require(law_.couplings.has(tree->coupling), "a step solves no coupling");
     if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
       require(law_.networks.has(network->network), "a step solves no network");
-    require(law_.variables.has(statement.target) && law_.expressions.has(statement.value),
+    const bool calls = std::holds_alternative<CallTunable>(statement.step);
+    require(!calls || law_.tunable, "a call for tunables without their tables");
+    require(law_.variables.has(statement.target) && (calls || law_.expressions.has(statement.value)),
             "a statement without target or value");
   }
 
@@ -128,8 +134,6 @@ class Check {
 
 }  // namespace
 
-void check_law(const UpdateLaw& law, std::string_view pass) {
-  if (!law.tunable) Check(law, pass).run();
-}
+void check_law(const UpdateLaw& law, std::string_view pass) { Check(law, pass).run(); }
 
 }  // namespace dashpot::compiler

@@ -16,9 +16,12 @@ void count(const UpdateLaw& law, const Expression& expression, std::size_t place
 
 struct SolverOperations {
   const UpdateLaw& law;
-  int operator()(const Assign&) const { return 0; }
-  int operator()(const SolveTree& step) const { return law.couplings[step.coupling].operations(); }
-  int operator()(const SolveNetwork& step) const { return law.networks[step.network].operations(); }
+  Cost& cost;
+  void operator()(const Assign&) const {}
+  void operator()(const SolveTree& step) const { add(cost.coupled, law.couplings[step.coupling].operations()); }
+  void operator()(const SolveNetwork& step) const { add(cost.coupled, law.networks[step.network].operations()); }
+  void operator()(const CallTunable& step) const { cost.called += operations_of(*law.tunable, step.call); }
+  static void add(std::size_t& sum, int operations) { sum += static_cast<std::size_t>(operations); }
 };
 
 }  // namespace
@@ -28,13 +31,17 @@ Cost cost_of(const UpdateLaw& law, const std::vector<Statement>& program) {
   for (const Statement& statement : program) {
     const std::size_t places = law.variables[statement.target].size;
     each_expression(law, statement.value, [&](const Expression& e) { count(law, e, places, cost); });
-    cost.coupled += static_cast<std::size_t>(std::visit(SolverOperations{law}, statement.step));
+    std::visit(SolverOperations{law, cost}, statement.step);
   }
   if (&program == &law.update)
     for (const GuardInTurn& guard : law.guards) cost.guards += guard.places;
   for (const Variable& variable : law.variables)
     if (variable.role == Role::state) cost.states += variable.size;
   return cost;
+}
+
+std::size_t operations_of(const Cost& cost) {
+  return cost.additions + cost.multiplications + cost.selections + cost.guards + cost.coupled + cost.called;
 }
 
 }  // namespace dashpot::compiler

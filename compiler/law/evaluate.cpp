@@ -12,6 +12,7 @@ Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
   turns_.assign(law.guards.size(), 0);
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
   for (const SlipNetwork& network : law.networks) network_solvers_.push_back(solver_of(network));
+  run(law.rest);
 }
 
 template <class Scalar>
@@ -50,7 +51,6 @@ typename Evaluation<Scalar>::NetworkSolver Evaluation<Scalar>::solver_of(const S
 
 template <class Scalar>
 void Evaluation<Scalar>::reset(Scalar position) {
-  if (tunable_) tunable_->reset(all_finite(position, position, position) ? position : Scalar(0));
   for (const Variable& variable : law_.variables) {
     std::vector<Scalar>& places = at(law_.variables.id_of(variable));
     std::fill(places.begin(), places.end(), static_cast<Scalar>(variable.rest_value));
@@ -58,6 +58,7 @@ void Evaluation<Scalar>::reset(Scalar position) {
   if (law_.rest_position != no_variable && all_finite(position, position, position))
     at(law_.rest_position)[0] = rest_position(position);
   std::fill(turns_.begin(), turns_.end(), 0);
+  run(law_.rest);
   sampled_ = false;
 }
 
@@ -73,7 +74,6 @@ Scalar Evaluation<Scalar>::rest_position(Scalar position) {
 
 template <class Scalar>
 command<Scalar> Evaluation<Scalar>::output(Scalar position, Scalar velocity) {
-  if (tunable_) return tunable_output(position, velocity);
   at(law_.position)[0] = position;
   at(law_.velocity)[0] = velocity;
   run(law_.output);
@@ -90,30 +90,22 @@ Scalar Evaluation<Scalar>::damping(VariableId changing) const {
 }
 
 template <class Scalar>
-command<Scalar> Evaluation<Scalar>::tunable_output(Scalar position, Scalar velocity) {
-  sampled_ = all_finite(position, velocity, tunable_->wanted(position, velocity));
-  if (!sampled_) return {tunable_->last_damping(), Scalar(0)};
-  tunable_->keep();
-  return {tunable_->damping(), tunable_->force()};
-}
-
-template <class Scalar>
 Scalar Evaluation<Scalar>::kept_share() const {
-  if (tunable_) return tunable_->kept_share();
   return law_.sheds() ? at(law_.share)[0] : Scalar(1);
 }
 
 template <class Scalar>
 unsigned Evaluation<Scalar>::set(const std::vector<Scalar>& values) {
   update();
-  return tunable_ ? tunable_->set(values.data()) : 0;
+  const unsigned clamped = tunable_ ? tunable_->set(values.data()) : 0;
+  run(law_.tune);
+  return clamped;
 }
 
 template <class Scalar>
 void Evaluation<Scalar>::update() {
   if (!sampled_) return;
   sampled_ = false;
-  if (tunable_) return tunable_->update();
   for (std::size_t i = 0; i < law_.guards.size(); ++i) take_turn(law_.guards[i], turns_[i]);
   run(law_.update);
 }
@@ -136,7 +128,6 @@ command<Scalar> Evaluation<Scalar>::step(Scalar position, Scalar velocity) {
 
 template <class Scalar>
 Scalar Evaluation<Scalar>::stored_energy() {
-  if (tunable_) return tunable_->stored_energy();
   run(law_.energy);
   return at(law_.stored)[0];
 }
@@ -161,6 +152,15 @@ void Evaluation<Scalar>::take(const SolveTree& step, const Statement& statement)
 template <class Scalar>
 void Evaluation<Scalar>::take(const SolveNetwork& step, const Statement& statement) {
   solve(law_.networks[step.network], network_solvers_[step.network.place()], statement);
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::take(const CallTunable& step, const Statement& statement) {
+  std::vector<Scalar> given;
+  for (VariableId variable : step.given) given.push_back(at(variable)[0]);
+  const TunableAnswer<Scalar> answer = tunable_->call(step.call, given);
+  at(statement.target)[0] = answer.of(step.result);
+  for (const auto& [result, variable] : step.found) at(variable)[0] = answer.of(result);
 }
 
 template <class Scalar>

@@ -53,6 +53,7 @@ class Evaluation {
   void take(const Assign& step, const Statement& statement);
   void take(const SolveTree& step, const Statement& statement);
   void take(const SolveNetwork& step, const Statement& statement);
+  void take(const CallTunable& step, const Statement& statement);
   void take_turn(const GuardInTurn& guard, std::size_t& turn);
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
   void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
@@ -64,10 +65,8 @@ class Evaluation {
   const std::vector<Scalar>& at(VariableId id) const { return variables_[id.place()]; }
   const std::vector<Scalar>& at(CoefficientId id) const { return coefficients_[id.place()]; }
 
-  command<Scalar> tunable_output(Scalar position, Scalar velocity);
-
   const UpdateLaw& law_;
-  std::unique_ptr<TunableRun<Scalar>> tunable_;  // in place of all that follows
+  std::unique_ptr<TunableRun<Scalar>> tunable_;  // where the law calls for it
   std::vector<std::vector<Scalar>> variables_;
   std::vector<std::vector<Scalar>> coefficients_;
   std::vector<std::size_t> turns_;  // of each guard, the first place that it takes next

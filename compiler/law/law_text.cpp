@@ -7,11 +7,20 @@
 namespace dashpot::compiler {
 namespace {
 
+std::string call_text(const UpdateLaw& law, const CallTunable& call) {
+  std::string given, found;
+  for (VariableId id : call.given) given += (given.empty() ? "" : ", ") + law.variables[id].name;
+  for (const auto& [result, id] : call.found) found += ", " + law.variables[id].name;
+  return fmt::format("{}({}){}{}", name_of(call.call), given, found.empty() ? "" : " with ",
+                     found.substr(found.empty() ? 0 : 2));
+}
+
 std::string value_text(const UpdateLaw& law, const Statement& statement) {
   Spelling spelling;
   spelling.variable = [&](VariableId id) { return law.variables[id].name; };
   spelling.coefficient = [&](CoefficientId id) { return law.coefficients[id].name; };
   spelling.sum = [&](VariableId id) { return "sum(" + law.variables[id].name + ")"; };
+  if (const auto* call = std::get_if<CallTunable>(&statement.step)) return call_text(law, *call);
   const std::string value = expression_text(law, statement.value, spelling);
   if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
     return fmt::format("{}({})", law.networks[network->network].name, value);
@@ -105,13 +114,12 @@ std::string tunable_text(const TunableTables& tables) {
 }  // namespace
 
 std::string to_text(const UpdateLaw& law, const Network& network) {
-  const std::string damping = law.brake_changes() || law.tunable
-                                  ? fmt::format("{} to {}", law.damping, law.largest_damping)
-                                  : fmt::format("{}", law.damping);
+  const std::string damping =
+      law.brake_changes() ? fmt::format("{} to {}", law.damping, law.largest_damping) : fmt::format("{}", law.damping);
   std::string text = fmt::format("law of {}: {}, {} driven, {}, period {} s, damping {}, modes in {} form\n",
                                  network.name, name_of(law.scheme), name_of(law.state_input), name_of(law.scalar),
                                  law.sample_period, damping, name_of(law.mode_form));
-  if (law.tunable) return text + tunable_text(*law.tunable);
+  if (law.tunable) text += tunable_text(*law.tunable);
   if (law.lanes > 1)
     text += fmt::format("  vectors of {} places and more are summed in {} partial sums\n", law.rolled_from, law.lanes);
   for (const Coefficient& coefficient : law.coefficients) {

@@ -84,7 +84,10 @@ std::size_t slip_brake(const TunableTables& tables) {
   return operations;
 }
 
-std::size_t contact(const TunableTables& tables) { return tables.head.contact.is_there ? 18 : 0; }
+// How far offsets come home, and what is shed.
+std::size_t springs(const TunableTables& tables) {
+  return (tables.sheds() ? 12 : 9) * tables.springs.size() + (tables.sheds() ? 10 : 0);
+}
 
 }  // namespace
 
@@ -96,13 +99,24 @@ int TunableTables::operations(const tunable_graph& graph) const {
   return slip_network_operations(of_graph.data(), static_cast<int>(of_graph.size()), graph.end_count);
 }
 
-TunableCost cost_of(const TunableTables& tables) {
-  const std::size_t springs = tables.springs.size();
+std::size_t operations_of(const TunableTables& tables, TunableCall call) {
+  switch (call) {
+    case TunableCall::slip:
+    case TunableCall::push: return slips(tables);
+    case TunableCall::slip_brake: return slip_brake(tables);
+    case TunableCall::limit: return 7;
+    case TunableCall::follow: return 2;
+    case TunableCall::update: return advance(tables) + held(tables) + springs(tables);
+    case TunableCall::reset:
+    case TunableCall::port:
+    case TunableCall::stored_energy: return 0;  // not in the loop
+  }
+  return 0;
+}
+
+std::size_t operations_of_set(const TunableTables& tables) {
   const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
-  const std::size_t shed = tables.sheds() ? 10 : 0, shed_of_spring = tables.sheds() ? 3 : 0;
-  return {tuning(tables) + springs * per_spring + square_root_operations + 16 + held(tables),
-          6 + slips(tables) + slip_brake(tables) + contact(tables) + shed,
-          advance(tables) + held(tables) + (9 + shed_of_spring) * springs + shed, springs};
+  return tuning(tables) + tables.springs.size() * per_spring + square_root_operations + 16 + held(tables);
 }
 
 }  // namespace dashpot::compiler

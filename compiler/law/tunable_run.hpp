@@ -3,11 +3,27 @@
 
 #include <dashpot/tunable_law.hpp>
 
+#include <array>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
-#include "law/tunable_tables.hpp"
+#include "law/update_law.hpp"
 
 namespace dashpot::compiler {
+
+// By what a call returns.
+template <class Scalar>
+class TunableAnswer {
+ public:
+  TunableAnswer(std::initializer_list<std::pair<TunableResult, Scalar>> all) {
+    for (const auto& [result, value] : all) all_[static_cast<std::size_t>(result)] = value;
+  }
+  Scalar of(TunableResult result) const { return all_[static_cast<std::size_t>(result)]; }
+
+ private:
+  std::array<Scalar, 12> all_ = {};
+};
 
 template <class Scalar>
 class TunableRun {
@@ -19,42 +35,42 @@ class TunableRun {
         nodes_(converted<slip_node<Scalar>>(tables.nodes, node_of)),
         shares_(converted<Scalar>(tables.shares, scalar)),
         tables_(tables_of(tables)),
-        law_(tables_),
-        added_damping_(scalar(tables.added_damping)) {}
+        law_(tables_) {}
   TunableRun(const TunableRun&) = delete;  // tables_ points into this
   TunableRun& operator=(const TunableRun&) = delete;
 
-  void reset(Scalar position) {
-    last_position_ = sampled_position_ = tables_.contact.is_there ? pushed_in(tables_.contact.at, position) : position;
-    sampled_change_ = 0;
-    law_.reset(tables_, last_position_);
-    last_damping_ = law_.damping_at_rest(tables_);
-  }
-
-  Scalar last_damping() const { return last_damping_ + added_damping_; }
-  Scalar damping() const { return sample_.damping + added_damping_; }
-
-  // The motor's part of it, were there no limit: not finite where the sample is to be refused.
-  Scalar wanted(Scalar position, Scalar velocity) {
-    sample_ = law_.output(tables_, last_position_, position, velocity);
-    return sample_.wanted;
-  }
-  Scalar force() const { return sample_.force; }
-
-  void keep() {
-    sampled_change_ = sample_.change;
-    sampled_position_ = sample_.position;
-    last_damping_ = sample_.damping;
-  }
-
-  void update() {
-    law_.update(tables_, sampled_change_, sampled_position_);
-    last_position_ = sampled_position_;
-  }
-
   unsigned set(const Scalar* values) { return law_.set(tables_, values); }
-  Scalar kept_share() const { return law_.kept_share(); }
-  Scalar stored_energy() const { return law_.stored_energy(tables_); }
+
+  TunableAnswer<Scalar> call(TunableCall call, const std::vector<Scalar>& given) {
+    using enum TunableResult;
+    const auto one = [](Scalar number) { return TunableAnswer<Scalar>{{value, number}}; };
+    switch (call) {
+      case TunableCall::reset: return one(law_.reset(tables_, given[0]));
+      case TunableCall::port: {
+        const auto p = law_.port(tables_);
+        return {{held, p.held},         {stiffness, p.stiffness},
+                {recovery, p.recovery}, {feedthrough, p.feedthrough},
+                {damping, p.damping},   {gain, p.gain}};
+      }
+      case TunableCall::slip: return one(law_.slip(tables_, given[0]));
+      case TunableCall::push: {
+        const auto pushed = law_.push(tables_, given[0]);
+        return {{force, pushed.force}, {change, pushed.change}};
+      }
+      case TunableCall::slip_brake: {
+        const auto b = law_.slip_brake(tables_, given[0]);
+        return {{now, b.now}, {damping, b.damping}, {make_up, b.make_up}};
+      }
+      case TunableCall::limit: {
+        const auto limited = law_.limit(tables_, given[0]);
+        return {{force, limited.force}, {share, limited.share}};
+      }
+      case TunableCall::follow: return one(law_.follow(tables_, given[0], given[1]));
+      case TunableCall::update: return one(law_.update(tables_, given[0], given[1]));
+      case TunableCall::stored_energy: return one(law_.stored_energy(tables_));
+    }
+    return {};
+  }
 
  private:
   template <class To, class From, class Convert>
@@ -130,10 +146,6 @@ class TunableRun {
   tunable_law<Scalar, most_tunables, most_tunable_springs, most_tunable_nodes, most_tunable_blocks,
               most_tunable_slip_parts, most_tunable_slips, most_tunable_corners, most_tunable_ends>
       law_;
-  Scalar added_damping_;
-  tunable_sample<Scalar> sample_ = {};
-  Scalar last_position_ = 0, sampled_position_ = 0, sampled_change_ = 0;
-  Scalar last_damping_ = law_.damping_at_rest(tables_);
 };
 
 }  // namespace dashpot::compiler

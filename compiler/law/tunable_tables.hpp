@@ -5,10 +5,27 @@
 #include <dashpot/tunable/tables.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace dashpot::compiler {
+
+// What dashpot::tunable_law is called for with the law's tables.
+enum class TunableCall : std::uint8_t {
+  reset,          // at rest at a position: b of a tool that is in touch
+  port,           // what the tool meets
+  slip,           // of all slips, by a change: the force
+  push,           // of all behind a surface, by its approach: the force and the surface's change
+  slip_brake,     // what slips leave to it, by the tool's position
+  limit,          // of the motor, by what is wanted of it: the force and the share that is kept of all
+  follow,         // where a surface stands, which would be at a place, with the tool at a depth
+  update,         // of the states, by a change to a place: the force that is held
+  stored_energy,  // in the springs, and set free by changes of parameters
+};
+
+std::string_view name_of(TunableCall call);
 
 struct Tunable {
   std::string name;
@@ -38,7 +55,6 @@ struct TunableTables {
   int mesh_nodes = 0;
   int corners = 0;
   int ends = 0;                                      // of the largest graph
-  double added_damping = 0;                          // what the brake is told beyond b [N·s/m]
   std::string brake;                                 // what b follows, for people
   std::vector<std::string> mesh_elements;            // whose states are kept by backward Euler, for people
   int operations(const tunable_graph& graph) const;  // of a step, at most
@@ -50,13 +66,8 @@ inline constexpr int most_tunables = 32, most_tunable_modes = 16, most_tunable_s
                      most_tunable_nodes = 32, most_tunable_blocks = 24, most_tunable_slip_parts = 64,
                      most_tunable_corners = 512, most_tunable_ends = 16;
 
-// Additions, multiplications, divisions at most.
-struct TunableCost {
-  std::size_t set;
-  std::size_t output;
-  std::size_t update;
-  std::size_t states;
-};
-TunableCost cost_of(const TunableTables& tables);
+// Additions, multiplications, divisions at most, of a call and of set().
+std::size_t operations_of(const TunableTables& tables, TunableCall call);
+std::size_t operations_of_set(const TunableTables& tables);
 
 }  // namespace dashpot::compiler

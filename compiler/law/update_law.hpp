@@ -113,12 +113,37 @@ struct SolveNetwork {
   SlipNetworkId network;  // the same of slips outside a tree
 };
 
+// What a call returns: its value, or members of it.
+enum class TunableResult : std::uint8_t {
+  value,
+  held,
+  stiffness,
+  recovery,
+  feedthrough,
+  damping,
+  gain,
+  force,
+  change,
+  now,
+  make_up,
+  share
+};
+
+std::string_view name_of(TunableResult result);
+
+struct CallTunable {
+  TunableCall call;
+  std::vector<VariableId> given = {};
+  TunableResult result = TunableResult::value;                   // of the target
+  std::vector<std::pair<TunableResult, VariableId>> found = {};  // assigned beside it
+};
+
 struct Statement {
   VariableId target;
-  ExpressionId value;
+  ExpressionId value;                             // nothing of a call
   std::string purpose;                            // the equation, as the literature writes it
   std::vector<std::vector<std::size_t>> origins;  // for each place of the target, indices into Network::elements
-  std::variant<Assign, SolveTree, SolveNetwork> step = Assign{};
+  std::variant<Assign, SolveTree, SolveNetwork, CallTunable> step = Assign{};
 
   bool assigns() const { return std::holds_alternative<Assign>(step); }
 };
@@ -201,8 +226,10 @@ struct UpdateLaw {
   std::vector<GuardInTurn> guards;  // before `update`
   std::vector<Statement> energy;    // ends with the assignment of `stored`
   std::vector<Statement> start;     // of reset(): locals of the position, where `started_at` needs them
+  std::vector<Statement> rest;      // of reset(): states that do not rest at a constant, after all others
+  std::vector<Statement> tune;      // of set(), with the parameters' new values
 
-  std::optional<TunableTables> tunable;  // of a network with tunables: all of its law, the programs are then empty
+  std::optional<TunableTables> tunable;  // of a network with tunables: what the programs call
 
   VariableId position;  // the inputs
   VariableId velocity;
@@ -225,11 +252,12 @@ struct UpdateLaw {
   std::size_t padded(std::size_t size) const {
     return (size + lanes - 1) / lanes * lanes;
   }  // of a rolled vector: whole rounds of its loop
-  bool sheds() const { return tunable ? tunable->sheds() : wanted != no_variable; }
+  bool sheds() const { return wanted != no_variable; }
   VariableId checked() const {
     return wanted != no_variable ? wanted : force;
   }  // not finite where the sample is to be refused
   bool brake_changes() const { return brake != no_variable; }
+  std::vector<Tunable> parameters() const { return tunable ? tunable->tunables : std::vector<Tunable>(); }
   VariableId moved() const { return mapped != no_variable ? mapped : position; }  // what the springs see of the tool
 };
 

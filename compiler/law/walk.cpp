@@ -17,6 +17,7 @@ struct SolverReads {
     visit_all(law.networks[step.network].held, visit);
     visit_all(law.networks[step.network].last_sign, visit);
   }
+  void operator()(const CallTunable& step) const { visit_all(step.given, visit); }
 };
 
 struct SolverAssigns {
@@ -32,6 +33,9 @@ struct SolverAssigns {
   void operator()(const SolveNetwork& step) const {
     visit_all(law.networks[step.network].moved, visit);
     visit_all(law.networks[step.network].sign, visit);
+  }
+  void operator()(const CallTunable& step) const {
+    for (const auto& [result, variable] : step.found) visit(variable);
   }
 };
 

@@ -14,9 +14,10 @@ inline std::span<const ExpressionId> operands(const Expression& expression) {
   return std::span(expression.operands).first(facts_of(expression.operation).operands);
 }
 
-// An expression and all below it, operands after what works on them.
+// An expression and all below it, operands after what works on them; nothing of what a call has instead of one.
 template <class Visit>
 void each_expression(const UpdateLaw& law, ExpressionId id, const Visit& visit) {
+  if (id == nothing) return;
   const Expression& expression = law.expressions[id];
   visit(expression);
   for (ExpressionId operand : operands(expression)) each_expression(law, operand, visit);

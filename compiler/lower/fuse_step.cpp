@@ -35,7 +35,11 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
 
 }  // namespace
 
-bool is_fusable(const UpdateLaw& law) { return law.couplings.empty() && law.networks.empty() && law.lanes == 1; }
+bool is_fusable(const UpdateLaw& law) {
+  const auto assigns = [](const Statement& statement) { return statement.assigns(); };
+  return law.lanes == 1 && std::all_of(law.output.begin(), law.output.end(), assigns) &&
+         std::all_of(law.update.begin(), law.update.end(), assigns);
+}
 
 std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law) {
   std::map<VariableId, VariableId> carried;
@@ -49,11 +53,11 @@ std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law) {
 }
 
 std::vector<VariableId> checked_numbers(const UpdateLaw& law) {
-  const Statement& last = *std::find_if(law.output.begin(), law.output.end(),
-                                        [&](const Statement& s) { return s.target == law.checked(); });
+  const auto last = std::find_if(law.output.begin(), law.output.end(),
+                                 [&](const Statement& s) { return s.assigns() && s.target == law.checked(); });
   std::vector<VariableId> numbers;
   for (VariableId input : {law.position, law.velocity})
-    if (!shows(law, last.value, input)) numbers.push_back(input);
+    if (last == law.output.end() || !shows(law, last->value, input)) numbers.push_back(input);
   numbers.push_back(law.checked());
   return numbers;
 }

@@ -209,13 +209,29 @@ class Shedding {
   std::set<VariableId> unscaled_;
 };
 
+// The springs of tunables shed by themselves: what is wanted of the motor goes through their limit.
+UpdateLaw told_of_motor(UpdateLaw law, const MotorReach& reach, motion port_motion) {
+  LawWriter writer(law, port_motion);
+  law.tunable->head.motor_limit = reach.limit;
+  law.tunable->head.motor_step = reach.step;
+  law.wanted = writer.scalar("wanted", writer.force(), "motor's part m, were there no limit", Role::local);
+  const VariableId share = writer.scalar("share", "1", "of all forces, what is kept", Role::local);
+  law.variables[share].rest_value = 1;
+  const auto told =
+      std::find_if(law.output.begin(), law.output.end(), [&](const Statement& s) { return s.target == law.force; });
+  told->target = law.wanted;
+  const CallTunable limit = {TunableCall::limit, {law.wanted}, TunableResult::force, {{TunableResult::share, share}}};
+  law.output.insert(told + 1, {law.force, nothing, "m within the motor's limits", {}, limit});
+  law.share = writer.kept(share);
+  check_law(law, "shedding");
+  return law;
+}
+
 }  // namespace
 
 UpdateLaw with_shedding(UpdateLaw law, const MotorReach& reach, motion port_motion) {
-  if (!law.tunable) return Shedding(std::move(law), reach, port_motion).result();
-  law.tunable->head.motor_limit = reach.limit;
-  law.tunable->head.motor_step = reach.step;
-  return law;
+  return law.tunable ? told_of_motor(std::move(law), reach, port_motion)
+                     : Shedding(std::move(law), reach, port_motion).result();
 }
 
 }  // namespace dashpot::compiler

@@ -13,7 +13,7 @@ std::string canonical_form_html(const Compilation& compilation);
 // What the emitted code does at each sample, statement by statement, from the law itself.
 std::string update_law_html(const Compilation& compilation);
 
-// Of a network with tunables, whose law has no statements but tables: parameters, the command, what follows what.
+// Of a network with tunables, before its statements: parameters, what follows them, and what that costs.
 std::string tunable_law_html(const Compilation& compilation);
 
 // What the brake is told: one number, or "2.5 to 3.3" where it changes.

@@ -144,7 +144,7 @@ void add_live_part(const Compilation& c, bool there, double amplitude, CodeModel
 
 std::string tunables_json(const UpdateLaw& law) {
   std::string json;
-  for (const Tunable& t : law.tunable ? law.tunable->tunables : std::vector<Tunable>())
+  for (const Tunable& t : law.parameters())
     json += fmt::format("{}{{\"name\":{},\"unit\":{},\"value\":{},\"min\":{},\"max\":{}}}", json.empty() ? "" : ",",
                         json_literal(t.name), json_literal(t.unit), json_literal(t.range.value),
                         json_literal(t.range.min), json_literal(t.range.max));

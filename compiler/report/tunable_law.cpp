@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "law/cost.hpp"
 #include "report/equations.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
@@ -37,30 +38,15 @@ std::string parameters_table(const TunableTables& tables, const Network& network
   return html + "</tbody></table></div>\n";
 }
 
-// The force of the emitted class's parts, which has no statements of its own to show.
-std::string command(const Compilation& c) {
-  const bool has_slips = !c.law.tunable->yields.empty();
-  return fmt::format(
-      "<ul class=\"law\">\n<li><math><mrow><mi>m</mi><mo>=</mo><mi>s</mi><mo>&#x2062;</mo><mrow><mi "
-      "mathvariant=\"normal\">Δ</mi>"
-      "<mi>u</mi></mrow><mo>+</mo><mi>S</mi>{}<mo>+</mo>"
-      "<mrow><mo stretchy=\"false\">(</mo><msub><mi>b</mi><mo>∞</mo></msub><mo>−</mo><mi>b</mi><mo "
-      "stretchy=\"false\">)</mo>"
-      "</mrow><mover><mi>v</mi><mo>^</mo></mover></mrow></math> <span class=\"purpose\">{}</span></li>\n</ul>\n",
-      has_slips ? "<mo>+</mo><mi>σ</mi>" : "",
-      has_slips ? "s, S, σ: what springs answer in a sample, hold, and what is behind slips"
-                : "s, S: what springs answer within a sample, and what they hold");
-}
-
 }  // namespace
 
 std::string tunable_law_html(const Compilation& c) {
   const TunableTables& tables = *c.law.tunable;
-  const TunableCost cost = cost_of(tables);
+  const std::size_t states = tables.springs.size();
   std::string html =
       "<p>The constants follow the parameters: <code>set()</code> takes the law to others between two samples, "
       "and injects no energy. Everything else on this page holds for their defaults.</p>\n";
-  html += parameters_table(tables, c.network) + command(c);
+  html += parameters_table(tables, c.network);
   html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake) + ".";
   if (!tables.mesh_elements.empty())
     html += " By backward Euler, since their relaxations mix with a parameter or at several slips: " +
@@ -68,7 +54,8 @@ std::string tunable_law_html(const Compilation& c) {
   return html + fmt::format(
                     " Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
                     "{} state{}.</p>\n",
-                    cost.output, cost.update, cost.set, cost.states, cost.states == 1 ? "" : "s");
+                    operations_of(cost_of(c.law, c.law.output)), operations_of(cost_of(c.law, c.law.update)),
+                    operations_of_set(tables), states, states == 1 ? "" : "s");
 }
 
 }  // namespace dashpot::compiler

@@ -30,11 +30,25 @@ std::string coupled(const UpdateLaw& law, const Statement& statement, const Coup
                           coupling.slips.size() == 1 ? "," : "s together,", coupling.operations()));
 }
 
+// All that a call assigns, and what it is given.
+std::string called(const UpdateLaw& law, const Statement& statement, const CallTunable& call) {
+  std::string assigned = variable_mathml(law.variables[statement.target]), given;
+  for (const auto& [result, id] : call.found) assigned += "<mo>,</mo>" + variable_mathml(law.variables[id]);
+  for (const VariableId id : call.given)
+    given += (given.empty() ? "" : "<mo>,</mo>") + variable_mathml(law.variables[id]);
+  const bool is_state = law.variables[statement.target].role == Role::state;
+  return line(assigned, is_state ? "←" : "=",
+              fmt::format("<mtext>{}</mtext><mo stretchy=\"false\">(</mo>{}<mo stretchy=\"false\">)</mo>",
+                          name_of(call.call), given),
+              statement.purpose);
+}
+
 std::string program(const UpdateLaw& law, const std::vector<Statement>& statements) {
   std::string list = "<ul class=\"law\">\n";
   for (const Statement& s : statements) {
     const Variable& target = law.variables[s.target];
     if (const auto* tree = std::get_if<SolveTree>(&s.step)) list += coupled(law, s, law.couplings[tree->coupling]);
+    else if (const auto* call = std::get_if<CallTunable>(&s.step)) list += called(law, s, *call);
     else if (target.role == Role::local || !only_copies(law, s))
       list += line(variable_mathml(target), target.role == Role::local ? "=" : "←", expression_mathml(law, s.value),
                    s.purpose);
@@ -102,7 +116,7 @@ std::string update_law_html(const Compilation& c) {
       "<p>At each sample, with the position <i>u</i> and an estimate <i>v̂</i> of the velocity: "
       "<b class=\"brake\">brake</b> <i>b</i>{} {}, <b class=\"motor\">motor</b> <i>m</i> [{}].</p>\n",
       (c.law.largest_damping > c.law.damping ? " from " : " = ") + brake_text(c.law), units.damping, units.force);
-  if (c.law.tunable) return html + tunable_law_html(c);
+  if (c.law.tunable) html += tunable_law_html(c);
   html += "<h4>Before the command leaves</h4>\n" + program(c.law, c.law.output);
   const std::string after = program(c.law, c.law.update);
   if (after.find("<li>") != after.npos) html += "<h4>After it has left</h4>\n" + after;

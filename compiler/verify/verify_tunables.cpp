@@ -25,7 +25,13 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
     pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(head.observed)].base);
   pool_["sample_period"] = {1 / Reference(facts_.rate)};
-  pool_["added_damping"] = {tables.added_damping};
+  pool_["added_damping"] = pool_["steady_damping"] = {compiled.certificate.added_damping};
+  pool_["threshold"] = {compiled.law.flush_threshold};
+  pool_["surface_at"] = {head.contact.at};
+  pool_["encoder_step"] = {head.contact.encoder_step};
+  pool_["none"] = {0};
+  for (const Variable& variable : compiled.law.variables)
+    if (variable.role == Role::state) pool_[literals_in_code].push_back(variable.rest_value);
 }
 
 void TunableVerification::recompute_constants() {

@@ -20,7 +20,7 @@
 // tunable: K (0 to 400 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
-// cost of output(): at most 6 additions, multiplications and divisions
+// cost of output(): at most 5 additions, multiplications and divisions
 // cost of update(): at most 114 additions and multiplications; 6 numbers are kept between samples
 // cost of set(): at most 2608 additions, multiplications and divisions
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
@@ -62,33 +62,41 @@ class springpot_tunable {
   // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
   void reset(scalar position = 0) noexcept {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
     sampled_position_change_ = 0;
-    sampled_position_ = last_position_;
-    law_.reset(tables, last_position_);
-    last_damping_ = law_.damping_at_rest(tables);
+    resting_brake_ = law_.reset(tables, last_position_);
+    const auto& port = law_.port(tables);
+    held_force_ = port.held;
+    step_stiffness_ = port.stiffness;
+    steady_brake_ = port.damping;
+    velocity_gain_ = port.gain;
+    last_brake_ = resting_brake_;
     sampled_ = false;
   }
 
   // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
   // non-finite input the states stay as they were and the motor's force is 0.
   dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
-    // Δu = u − u₋, b, and m = f − b u̇
-    const dashpot::tunable_sample<scalar> sample = law_.output(tables, last_position_, position, velocity);
-    const scalar force = sample.force;
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = step_stiffness_ * position_change + held_force_ + velocity_gain_ * velocity;
+    // b
+    const scalar brake = steady_brake_;
     sampled_ = false;
-    if (!dashpot::all_finite(position, velocity, force)) return {last_damping_, 0};
+    if (!dashpot::all_finite(force)) return {last_brake_, 0};
     sampled_ = true;
-    sampled_position_change_ = sample.change;
-    sampled_position_ = sample.position;
-    last_damping_ = sample.damping;
-    return {sample.damping, force};
+    last_brake_ = brake;
+    sampled_position_ = position;
+    sampled_position_change_ = position_change;
+    return {brake, force};
   }
 
   // Takes the states to the next sample; to be called once after each output(), when the command has left.
   void update() noexcept {
     if (!sampled_) return;
     sampled_ = false;
-    law_.update(tables, sampled_position_change_, sampled_position_);
+    held_force_ = law_.update(tables, sampled_position_change_, sampled_position_);
     // u₋ = u
     last_position_ = sampled_position_;
   }
@@ -105,7 +113,13 @@ class springpot_tunable {
   unsigned set(const parameters& wanted) noexcept {
     update();
     const scalar values[] = {wanted.K};
-    return law_.set(tables, values);
+    const unsigned clamped = law_.set(tables, values);
+    const auto& port = law_.port(tables);
+    held_force_ = port.held;
+    step_stiffness_ = port.stiffness;
+    steady_brake_ = port.damping;
+    velocity_gain_ = port.gain;
+    return clamped;
   }
 
   // In the springs, and set free by changes of parameters, after the last update() [J].
@@ -176,13 +190,18 @@ class springpot_tunable {
       {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
       1, 6, 6, 1, 0, 0, 0,
       tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-      shares};
+      shares, 0.0, 0.0};
 
-  scalar last_position_ = 0;  // u of the sample before
-  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample
-  scalar sampled_position_ = 0;  // port displacement u, at this sample
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar last_position_ = 0;  // u of the sample before [m]
   dashpot::tunable_law<scalar, 1, 6, 1, 1, 1, 0, 1, 0> law_{tables};
-  scalar last_damping_ = law_.damping_at_rest(tables);  // b of the sample before
+  scalar resting_brake_ = law_.reset(tables, last_position_);  // b of a tool in touch and at rest [N·s/m]
+  scalar held_force_ = law_.port(tables).held;  // π, what springs hold [N]
+  scalar step_stiffness_ = law_.port(tables).stiffness;  // what springs answer in a sample [N/m]
+  scalar steady_brake_ = law_.port(tables).damping;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = law_.port(tables).gain;  // b∞ − b [N·s/m]
+  scalar last_brake_ = resting_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -689,7 +689,7 @@ static inline scalar law_damping_of(law_type *self, const int *sign) {
 
 // Of b∞ behind slips, what the brake has left.
 static inline scalar law_left_to_brake(const law_type *self, scalar damping) {
-  const scalar left = law_max_damping - self->damping;
+  const scalar left = law_max_damping - self->port.damping;
   return (damping < left) ? damping : left;
 }
 
@@ -724,15 +724,14 @@ static inline scalar law_reached_damping(law_type *self, scalar wanted) {
   return self->root_now * self->root_now;
 }
 
-static inline void law_leave_to_brake(law_type *self, scalar change, scalar position, law_answer *answer) {
-  answer->opposing -= law_left_to_brake(self, law_damping_of(self, self->sign)) * law_rate * change;
+// What slips leave to the brake after their step, by where the tool is.
+static inline law_slip_brake law_tunable_slip_brake(law_type *self, scalar position) {
+  const scalar now = law_left_to_brake(self, law_damping_of(self, self->sign));
   law_follow_slides(self, position);
   const scalar wanted = law_left_to_brake(self, law_damping_of(self, self->commanded));
   const scalar damping = law_reached_damping(self, wanted);
-  answer->damping += damping;
-#if !CONTACT
-  answer->gain += dashpot_clamp_toF(self->make_up, wanted - damping);
-#endif
+  const law_slip_brake left = {now * law_rate, damping, dashpot_clamp_toF(self->make_up, wanted - damping)};
+  return left;
 }
 
 #endif
@@ -766,15 +765,16 @@ static inline void law_tune_brake(law_type *self) {
   const scalar zero_frequency = self->feedthrough + relaxing;
 #endif
   const scalar wanted = BRAKE_RULE;
-  self->damping = (wanted < law_max_damping) ? wanted : law_max_damping;
+  self->port.damping = (wanted < law_max_damping) ? wanted : law_max_damping;
 #if CONTACT
   // Where a surface can be left the motor compensates nothing.
-  if (self->damping > self->feedthrough) self->damping = self->feedthrough;
+  if (self->port.damping > self->feedthrough) self->port.damping = self->feedthrough;
 #endif
-  self->velocity_gain = self->feedthrough - self->damping;
+  self->port.gain = self->feedthrough - self->port.damping;
+  self->port.feedthrough = self->feedthrough * law_rate;
 #if BRAKE
-  const scalar gain = self->velocity_gain;
-  const scalar assured = law_assured_share * self->damping - ((gain < 0) ? -gain : gain);
+  const scalar gain = self->port.gain;
+  const scalar assured = law_assured_share * self->port.damping - ((gain < 0) ? -gain : gain);
   self->make_up = (assured > 0) ? assured : 0;
 #endif
 }
@@ -794,10 +794,10 @@ static inline void law_tune(law_type *self) {
     for (int k = 0; k < law_block_table[i].part_count; ++k)
       self->block_stiffness[i] += law_part_stiffness(self, &law_parts[law_block_table[i].first_part + k]);
   }
-  self->release_compliance = (self->block_stiffness[0] > 0) ? (1 / self->block_stiffness[0]) : 0;
-  self->step_stiffness = 0;
+  self->port.recovery = (self->block_stiffness[0] > 0) ? -(1 / self->block_stiffness[0]) : 0;
+  self->port.stiffness = 0;
   for (int k = 0; k < law_block_table[0].part_count; ++k)
-    self->step_stiffness += law_part_stiffness_at_port(self, &law_parts[law_block_table[0].first_part + k]);
+    self->port.stiffness += law_part_stiffness_at_port(self, &law_parts[law_block_table[0].first_part + k]);
 #if TREE
   for (int i = 0; i < law_coupling_count; ++i) law_tune_tree(self, &law_couplings[i]);
 #endif
@@ -814,20 +814,7 @@ static inline void law_find_held(law_type *self) {
       held += law_held_by_part(self, &law_parts[law_block_table[i].first_part + k]);
     self->block_held[i] = held;
   }
-}
-
-// b of a tool that is in touch and at rest [N·s/m].
-static inline scalar law_damping_at_rest(law_type *self) {
-#if CONTACT
-  (void)self;
-  return 0;
-#else
-  scalar damping = self->damping;
-#if BRAKE
-  damping += law_slips_at_rest(self);
-#endif
-  return damping;
-#endif
+  self->port.held = self->block_held[0];
 }
 
 // Everything but the parameters' values and what follows from them.
@@ -848,7 +835,8 @@ static inline void law_rest(law_type *self) {
 #endif
 }
 
-static inline void law_rest_at(law_type *self, scalar position) {
+// At rest at `position`. Returns b of a tool that is in touch and at rest [N·s/m].
+static inline scalar law_tunable_reset(law_type *self, scalar position) {
   law_rest(self);
 #if STATIC
   self->elongation[law_static_spring] = position;
@@ -866,85 +854,84 @@ static inline void law_rest_at(law_type *self, scalar position) {
   }
 #endif
   law_find_held(self);
+  (void)position;
 #if BRAKE
   law_reset_brake(self);
-#endif
-  self->last_position = self->sampled_position = position;
-  self->sampled_position_change = 0;
-  self->last_damping = law_damping_at_rest(self);
-}
-
-// Were there no limits of the motor.
-static inline law_sample law_wanted(law_type *self, scalar last, scalar position, scalar velocity) {
-  law_answer answer = {0, self->velocity_gain, self->damping};
-#if !CONTACT
-  const scalar change = position - last;
-  answer.opposing = self->step_stiffness * change + self->block_held[0];
-#if SLIPS
-  answer.opposing += law_step_slips(self, change);
-#endif
-#if BRAKE
-  law_leave_to_brake(self, change, position, &answer);
-#endif
-  const scalar force = answer.opposing + answer.gain * velocity;
-  const law_sample sample = {change, position, answer.damping, force, force};
-  return sample;
+  return self->port.damping + law_slips_at_rest(self);
 #else
-  // The surface lets go with the force; the command only where the tool would be pulled, beyond a gap that the encoder
-  // tells from none, or where nothing pushes any more.
-  const scalar depth = position - law_surface_at, approach = depth - last;
-  scalar change = -(self->block_held[0] * self->release_compliance);
-  if (!(change > approach)) change = approach;
-#if SLIPS
-  answer.opposing = law_push_slips(self, approach, &change);
-  answer.opposing -= self->feedthrough * law_rate * change;
-#else
-  answer.opposing = self->step_stiffness * change + self->block_held[0];
-#endif
-#if BRAKE
-  law_leave_to_brake(self, change, position, &answer);
-#endif
-  const scalar gap = change - (depth - last);
-  const int is_open = gap > 0;
-  const scalar now = is_open ? dashpot_flush_belowF(law_threshold, last + change) : depth;
-  const scalar felt = answer.opposing + answer.damping * velocity + answer.gain * velocity;
-  const int is_free = (felt < 0) || (gap > law_encoder_step) || (is_open && !(answer.opposing > 0));
-  const scalar force = is_free ? 0 : (answer.opposing + answer.gain * velocity);
-  const law_sample sample = {change, now, is_free ? 0 : answer.damping, force, force};
-  return sample;
+  return self->port.damping;
 #endif
 }
 
-static inline law_sample law_answer_to(law_type *self, scalar position, scalar velocity) {
-  law_sample sample = law_wanted(self, self->last_position, position, velocity);
+// What the tool meets in the next sample, to be asked for after reset and set.
+static inline law_port law_tunable_port(const law_type *self) { return self->port; }
+
+#if SLIPS && !CONTACT
+// Of all slips, by the tool's displacement in this sample: the force that opposes it [N].
+static inline scalar law_tunable_slip(law_type *self, scalar change) { return law_step_slips(self, change); }
+
+#endif
+#if SLIPS && CONTACT
+// The same of slips behind a surface, and all beside them: by what the surface's change would be if it stuck to the tool.
+static inline law_push law_tunable_push(law_type *self, scalar approach) {
+  law_push pushed = {0, 0};
+  pushed.force = law_push_slips(self, approach, &pushed.change);
+  return pushed;
+}
+
+#endif
 #if LIMITS
-  sample.force = law_limited(self, sample.wanted);
-#if RETURNS
-  // Where the surface stands when it and its dent have followed a tool that is gone, until the dent is none.
-  const scalar gap = sample.position - (position - law_surface_at);
-  self->returned = ((gap > 0) && (self->dent > 0)) ? ((gap < self->dent) ? gap : self->dent) : 0;
-  sample.position = sample.position - self->returned;
-#endif
-#endif
-  return sample;
+// The motor's part within its limits, and of all forces the share that is kept for it.
+static inline law_limit law_tunable_limit(law_type *self, scalar wanted) {
+  law_limit limited = {0, 1};
+  limited.force = law_limited(self, wanted);
+  limited.share = self->kept_share;
+  return limited;
 }
 
-// Takes the states over the sample that was answered last.
-static inline void law_advance_all(law_type *self) {
-  self->block_elongation[0] = self->sampled_position_change;
+#endif
+#if RETURNS
+// Where the surface stands when it and its dent have followed a tool that is gone, until the dent is none.
+static inline scalar law_tunable_follow(law_type *self, scalar surface, scalar depth) {
+#if LIMITS
+  const scalar gap = surface - depth;
+  self->returned = ((gap > 0) && (self->dent > 0)) ? ((gap < self->dent) ? gap : self->dent) : 0;
+  return surface - self->returned;
+#else
+  (void)self;
+  (void)depth;
+  return surface;
+#endif
+}
+
+#endif
+// Takes the states over a sample, by the change of the tool, or of the surface that it pushes, and to its position.
+// Returns π of what joins tool and ground without a slip [N].
+static inline scalar law_tunable_update(law_type *self, scalar change, scalar position) {
+  self->block_elongation[0] = change;
   for (int i = 0; i < law_block_count; ++i)
     for (int k = 0; k < law_block_table[i].part_count; ++k)
       law_advance(self, &law_parts[law_block_table[i].first_part + k], self->block_elongation[i]);
 #if LIMITS
-  law_shed(self, self->sampled_position);
+  law_shed(self, position);
 #elif STATIC
-  self->elongation[law_static_spring] = self->sampled_position;
+  self->elongation[law_static_spring] = position;
 #endif
+  (void)position;
   law_bring_offsets_home(self);
 #if SLIPS
   law_keep_slips(self);
 #endif
   law_find_held(self);
+  return self->port.held;
+}
+
+// V + T [J]
+static inline scalar law_tunable_stored_energy(const law_type *self) {
+  scalar stored = self->tank;
+  for (int i = 0; i < law_spring_count; ++i)
+    stored += law_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * (scalar)0.5;
+  return stored;
 }
 
 // Takes on values within their ranges. Bit i of the result: what was wanted of parameter i was no number within its
@@ -988,8 +975,8 @@ static inline void law_change_over(law_type *self) {
   law_find_held(self);
 }
 
-// Before all else: the values to begin with, at rest at 0.
-static inline void law_begin(law_type *self) {
+// Before all else: the values to begin with.
+static inline void law_tunable_begin(law_type *self) {
   for (int i = 0; i < law_springs; ++i) self->stiffness[i] = self->share[i] = self->loss[i] = 0;
   for (int i = 0; i < law_blocks_room; ++i)
     self->block_stiffness[i] = self->block_held[i] = self->block_feedthrough[i] = 0;
@@ -1031,5 +1018,4 @@ static inline void law_begin(law_type *self) {
 #endif
   for (int i = 0; i < law_parameters_room; ++i) self->value[i] = law_ranges[i].value;
   law_tune(self);
-  law_rest_at(self, 0);
 }

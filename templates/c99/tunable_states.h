@@ -1,8 +1,4 @@
 scalar value[law_parameters_room];  // of the parameters
-scalar last_position;               // u of the sample before, of a contact s
-scalar sampled_position_change;     // Δu since the sample before, at this sample
-scalar sampled_position;            // u at this sample
-scalar last_damping;                // b of the sample before [N·s/m]
 scalar elongation[law_springs];     // z [m]
 scalar offset[law_springs];         // r, how far the rest length is from home [m]
 scalar tank;                        // energy that changes have set free [J]
@@ -15,9 +11,8 @@ scalar block_stiffness[law_blocks_room];    // g of every block [N/m]
 scalar block_held[law_blocks_room];         // π [N]
 scalar block_elongation[law_blocks_room];   // δ in this sample [m]
 scalar block_feedthrough[law_blocks_room];  // b∞; 0 of block 0, whose is the law's own [N·s/m]
-scalar step_stiffness;                      // g of block 0 without b∞/h [N/m]
-scalar release_compliance;                  // 1/g of block 0 [m/N]
-scalar feedthrough, damping, velocity_gain;  // b∞, b, b∞ − b, without slips [N·s/m]
+law_port port;
+scalar feedthrough;  // b∞ of what no slip changes [N·s/m]
 #if BRAKE
 scalar make_up;  // of b that the motor makes up at most [N·s/m]
 #endif

@@ -117,18 +117,38 @@ typedef struct law_graph {
 } law_graph;
 
 #endif
-// What the tool and the network know of each other in a sample.
-typedef struct law_answer {
-  scalar opposing;  // f′ = f − b∞ Δu/h, also without what slips leave to the brake [N]
-  scalar gain;      // b∞ − b of it, and what the motor makes up for a coil on its way [N·s/m]
-  scalar damping;   // b of it, and of the slips [N·s/m]
-} law_answer;
+// What the tool meets: of what joins tool and ground, or the surface and ground, without a slip.
+typedef struct law_port {
+  scalar held;         // π [N]
+  scalar stiffness;    // g without b∞/h [N/m]
+  scalar recovery;     // −1/g, of a surface that nothing touches [m/N]
+  scalar feedthrough;  // b∞/h [N/m]
+  scalar damping;      // b [N·s/m]
+  scalar gain;         // b∞ − b [N·s/m]
+} law_port;
 
-typedef struct law_sample {
-  scalar change;    // Δu; of a contact Δs, of its surface [m]
-  scalar position;  // u; s, of the surface from where it lies unloaded [m]
-  scalar damping;   // b [N·s/m]
-  scalar force;     // m, within what the motor can make [N]
-  scalar wanted;    // m, were there no limit [N]
-} law_sample;
+#if SLIPS && CONTACT
+// Of slips behind a surface.
+typedef struct law_push {
+  scalar force;   // that opposes the tool [N]
+  scalar change;  // of the surface [m]
+} law_push;
 
+#endif
+#if BRAKE
+// Of slips and the brake.
+typedef struct law_slip_brake {
+  scalar now;      // b∞/h behind slips in this sample, as far as the brake makes it [N/m]
+  scalar damping;  // b of it, on its way there with the coil [N·s/m]
+  scalar make_up;  // what the motor makes up for a coil on its way [N·s/m]
+} law_slip_brake;
+
+#endif
+#if LIMITS
+// Of a motor that can make no more.
+typedef struct law_limit {
+  scalar force;  // m [N]
+  scalar share;  // of all forces in the network, what is kept [1]
+} law_limit;
+
+#endif

@@ -87,7 +87,7 @@ struct Emitted {
   std::vector<std::vector<double>> schedule;  // values of parameters before every row, where there are any
 
   const std::string& name() const { return compilation.network.name; }
-  std::size_t parameters() const { return compilation.law.tunable ? compilation.law.tunable->tunables.size() : 0; }
+  std::size_t parameters() const { return compilation.law.parameters().size(); }
 };
 
 // A motor that gives little of what is asked for, so that laws shed, and a brake that takes its time.

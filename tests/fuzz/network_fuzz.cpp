@@ -82,7 +82,7 @@ void run(const UpdateLaw& law, Tail& tail) {
   model.reset(Scalar(0.001));
   for (int k = 0; k < 20; ++k) {
     if (k % 7 == 6) {
-      std::vector<Scalar> values(law.tunable ? law.tunable->tunables.size() : 0);
+      std::vector<Scalar> values(law.parameters().size());
       for (Scalar& value : values)
         value = tail.next() == 0xFF ? Scalar(NAN) : Scalar(std::ldexp(1.0, tail.next() - 128));
       model.set(values);

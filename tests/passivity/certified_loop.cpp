@@ -166,8 +166,7 @@ RunOfLoop run_loop(const CompiledCase& one, Random& random, const Conditions& co
   estimator.reset(0);
   RunOfLoop run;
   device_sample sample;
-  const std::vector<compiler::Tunable> tunables =
-      one.compilation->law.tunable ? one.compilation->law.tunable->tunables : std::vector<compiler::Tunable>{};
+  const std::vector<compiler::Tunable> tunables = one.compilation->law.parameters();
   std::vector<double> values;
   for (const compiler::Tunable& tunable : tunables) values.push_back(tunable.range.value);
   History history(one.compilation->law);

@@ -14,12 +14,12 @@
 //   hold of 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.2e-14 of the sum of the force's terms
+//   falls; rounding adds at most 1.3e-14 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): at most 81 additions, multiplications and divisions
+// cost of output(): at most 85 additions, multiplications and divisions
 // cost of update(): at most 29 additions and multiplications; 1 numbers are kept between samples
 // cost of set(): at most 474 additions, multiplications and divisions
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
@@ -699,20 +699,22 @@ typedef struct friction_tunable_coupling {
   int first_corner;
 } friction_tunable_coupling;
 
-// What the tool and the network know of each other in a sample.
-typedef struct friction_tunable_answer {
-  double opposing;  // f′ = f − b∞ Δu/h, also without what slips leave to the brake [N]
-  double gain;      // b∞ − b of it, and what the motor makes up for a coil on its way [N·s/m]
-  double damping;   // b of it, and of the slips [N·s/m]
-} friction_tunable_answer;
+// What the tool meets: of what joins tool and ground, or the surface and ground, without a slip.
+typedef struct friction_tunable_port {
+  double held;         // π [N]
+  double stiffness;    // g without b∞/h [N/m]
+  double recovery;     // −1/g, of a surface that nothing touches [m/N]
+  double feedthrough;  // b∞/h [N/m]
+  double damping;      // b [N·s/m]
+  double gain;         // b∞ − b [N·s/m]
+} friction_tunable_port;
 
-typedef struct friction_tunable_sample {
-  double change;    // Δu; of a contact Δs, of its surface [m]
-  double position;  // u; s, of the surface from where it lies unloaded [m]
-  double damping;   // b [N·s/m]
-  double force;     // m, within what the motor can make [N]
-  double wanted;    // m, were there no limit [N]
-} friction_tunable_sample;
+// Of slips and the brake.
+typedef struct friction_tunable_slip_brake {
+  double now;      // b∞/h behind slips in this sample, as far as the brake makes it [N/m]
+  double damping;  // b of it, on its way there with the coil [N·s/m]
+  double make_up;  // what the motor makes up for a coil on its way [N·s/m]
+} friction_tunable_slip_brake;
 
 static const double friction_tunable_period = 0.001;  // h [s]
 static const double friction_tunable_rate = 1000.0;  // 1/h [Hz]
@@ -770,11 +772,16 @@ typedef struct friction_tunable_parameters {
 } friction_tunable_parameters;
 
 typedef struct friction_tunable {
+  double held_force;  // π, what springs hold [N]
+  double resting_brake;  // b of a tool in touch and at rest [N·s/m]
+  double last_position;  // u of the sample before [m]
+  double step_stiffness;  // what springs answer in a sample [N/m]
+  double steady_brake;  // b of what no slip changes [N·s/m]
+  double velocity_gain;  // b∞ − b [N·s/m]
+  double last_brake;  // b of the sample before [N·s/m]
+  double sampled_position;  // port displacement u, at this sample [m]
+  double sampled_position_change;  // Δu since the sample before, at this sample [m]
   double value[friction_tunable_parameters_room];  // of the parameters
-  double last_position;               // u of the sample before, of a contact s
-  double sampled_position_change;     // Δu since the sample before, at this sample
-  double sampled_position;            // u at this sample
-  double last_damping;                // b of the sample before [N·s/m]
   double elongation[friction_tunable_springs];     // z [m]
   double offset[friction_tunable_springs];         // r, how far the rest length is from home [m]
   double tank;                        // energy that changes have set free [J]
@@ -787,9 +794,8 @@ typedef struct friction_tunable {
   double block_held[friction_tunable_blocks_room];         // π [N]
   double block_elongation[friction_tunable_blocks_room];   // δ in this sample [m]
   double block_feedthrough[friction_tunable_blocks_room];  // b∞; 0 of block 0, whose is the law's own [N·s/m]
-  double step_stiffness;                      // g of block 0 without b∞/h [N/m]
-  double release_compliance;                  // 1/g of block 0 [m/N]
-  double feedthrough, damping, velocity_gain;  // b∞, b, b∞ − b, without slips [N·s/m]
+  friction_tunable_port port;
+  double feedthrough;  // b∞ of what no slip changes [N·s/m]
   double make_up;  // of b that the motor makes up at most [N·s/m]
   double least_stiffness[friction_tunable_blocks_room], least_yield[friction_tunable_slips];
   int sign[friction_tunable_slips + 1], last_sign[friction_tunable_slips + 1];
@@ -1054,7 +1060,7 @@ static inline double friction_tunable_damping_of(friction_tunable *self, const i
 
 // Of b∞ behind slips, what the brake has left.
 static inline double friction_tunable_left_to_brake(const friction_tunable *self, double damping) {
-  const double left = friction_tunable_max_damping - self->damping;
+  const double left = friction_tunable_max_damping - self->port.damping;
   return (damping < left) ? damping : left;
 }
 
@@ -1089,13 +1095,14 @@ static inline double friction_tunable_reached_damping(friction_tunable *self, do
   return self->root_now * self->root_now;
 }
 
-static inline void friction_tunable_leave_to_brake(friction_tunable *self, double change, double position, friction_tunable_answer *answer) {
-  answer->opposing -= friction_tunable_left_to_brake(self, friction_tunable_damping_of(self, self->sign)) * friction_tunable_rate * change;
+// What slips leave to the brake after their step, by where the tool is.
+static inline friction_tunable_slip_brake friction_tunable_tunable_slip_brake(friction_tunable *self, double position) {
+  const double now = friction_tunable_left_to_brake(self, friction_tunable_damping_of(self, self->sign));
   friction_tunable_follow_slides(self, position);
   const double wanted = friction_tunable_left_to_brake(self, friction_tunable_damping_of(self, self->commanded));
   const double damping = friction_tunable_reached_damping(self, wanted);
-  answer->damping += damping;
-  answer->gain += dashpot_clamp_to(self->make_up, wanted - damping);
+  const friction_tunable_slip_brake left = {now * friction_tunable_rate, damping, dashpot_clamp_to(self->make_up, wanted - damping)};
+  return left;
 }
 
 static inline void friction_tunable_keep_slips(friction_tunable *self) {
@@ -1115,10 +1122,11 @@ static inline void friction_tunable_tune_brake(friction_tunable *self) {
     self->feedthrough += through;
   }
   const double wanted = friction_tunable_number(self, 3);
-  self->damping = (wanted < friction_tunable_max_damping) ? wanted : friction_tunable_max_damping;
-  self->velocity_gain = self->feedthrough - self->damping;
-  const double gain = self->velocity_gain;
-  const double assured = friction_tunable_assured_share * self->damping - ((gain < 0) ? -gain : gain);
+  self->port.damping = (wanted < friction_tunable_max_damping) ? wanted : friction_tunable_max_damping;
+  self->port.gain = self->feedthrough - self->port.damping;
+  self->port.feedthrough = self->feedthrough * friction_tunable_rate;
+  const double gain = self->port.gain;
+  const double assured = friction_tunable_assured_share * self->port.damping - ((gain < 0) ? -gain : gain);
   self->make_up = (assured > 0) ? assured : 0;
 }
 
@@ -1137,10 +1145,10 @@ static inline void friction_tunable_tune(friction_tunable *self) {
     for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
       self->block_stiffness[i] += friction_tunable_part_stiffness(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k]);
   }
-  self->release_compliance = (self->block_stiffness[0] > 0) ? (1 / self->block_stiffness[0]) : 0;
-  self->step_stiffness = 0;
+  self->port.recovery = (self->block_stiffness[0] > 0) ? -(1 / self->block_stiffness[0]) : 0;
+  self->port.stiffness = 0;
   for (int k = 0; k < friction_tunable_block_table[0].part_count; ++k)
-    self->step_stiffness += friction_tunable_part_stiffness_at_port(self, &friction_tunable_parts[friction_tunable_block_table[0].first_part + k]);
+    self->port.stiffness += friction_tunable_part_stiffness_at_port(self, &friction_tunable_parts[friction_tunable_block_table[0].first_part + k]);
   for (int i = 0; i < friction_tunable_coupling_count; ++i) friction_tunable_tune_tree(self, &friction_tunable_couplings[i]);
 }
 
@@ -1152,13 +1160,7 @@ static inline void friction_tunable_find_held(friction_tunable *self) {
       held += friction_tunable_held_by_part(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k]);
     self->block_held[i] = held;
   }
-}
-
-// b of a tool that is in touch and at rest [N·s/m].
-static inline double friction_tunable_damping_at_rest(friction_tunable *self) {
-  double damping = self->damping;
-  damping += friction_tunable_slips_at_rest(self);
-  return damping;
+  self->port.held = self->block_held[0];
 }
 
 // Everything but the parameters' values and what follows from them.
@@ -1170,41 +1172,41 @@ static inline void friction_tunable_rest(friction_tunable *self) {
   for (int i = 0; i <= friction_tunable_slips; ++i) self->last_sign[i] = 0;
 }
 
-static inline void friction_tunable_rest_at(friction_tunable *self, double position) {
+// At rest at `position`. Returns b of a tool that is in touch and at rest [N·s/m].
+static inline double friction_tunable_tunable_reset(friction_tunable *self, double position) {
   friction_tunable_rest(self);
   friction_tunable_find_held(self);
+  (void)position;
   friction_tunable_reset_brake(self);
-  self->last_position = self->sampled_position = position;
-  self->sampled_position_change = 0;
-  self->last_damping = friction_tunable_damping_at_rest(self);
+  return self->port.damping + friction_tunable_slips_at_rest(self);
 }
 
-// Were there no limits of the motor.
-static inline friction_tunable_sample friction_tunable_wanted(friction_tunable *self, double last, double position, double velocity) {
-  friction_tunable_answer answer = {0, self->velocity_gain, self->damping};
-  const double change = position - last;
-  answer.opposing = self->step_stiffness * change + self->block_held[0];
-  answer.opposing += friction_tunable_step_slips(self, change);
-  friction_tunable_leave_to_brake(self, change, position, &answer);
-  const double force = answer.opposing + answer.gain * velocity;
-  const friction_tunable_sample sample = {change, position, answer.damping, force, force};
-  return sample;
-}
+// What the tool meets in the next sample, to be asked for after reset and set.
+static inline friction_tunable_port friction_tunable_tunable_port(const friction_tunable *self) { return self->port; }
 
-static inline friction_tunable_sample friction_tunable_answer_to(friction_tunable *self, double position, double velocity) {
-  friction_tunable_sample sample = friction_tunable_wanted(self, self->last_position, position, velocity);
-  return sample;
-}
+// Of all slips, by the tool's displacement in this sample: the force that opposes it [N].
+static inline double friction_tunable_tunable_slip(friction_tunable *self, double change) { return friction_tunable_step_slips(self, change); }
 
-// Takes the states over the sample that was answered last.
-static inline void friction_tunable_advance_all(friction_tunable *self) {
-  self->block_elongation[0] = self->sampled_position_change;
+// Takes the states over a sample, by the change of the tool, or of the surface that it pushes, and to its position.
+// Returns π of what joins tool and ground without a slip [N].
+static inline double friction_tunable_tunable_update(friction_tunable *self, double change, double position) {
+  self->block_elongation[0] = change;
   for (int i = 0; i < friction_tunable_block_count; ++i)
     for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
       friction_tunable_advance(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k], self->block_elongation[i]);
+  (void)position;
   friction_tunable_bring_offsets_home(self);
   friction_tunable_keep_slips(self);
   friction_tunable_find_held(self);
+  return self->port.held;
+}
+
+// V + T [J]
+static inline double friction_tunable_tunable_stored_energy(const friction_tunable *self) {
+  double stored = self->tank;
+  for (int i = 0; i < friction_tunable_spring_count; ++i)
+    stored += friction_tunable_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * (double)0.5;
+  return stored;
 }
 
 // Takes on values within their ranges. Bit i of the result: what was wanted of parameter i was no number within its
@@ -1239,8 +1241,8 @@ static inline void friction_tunable_change_over(friction_tunable *self) {
   friction_tunable_find_held(self);
 }
 
-// Before all else: the values to begin with, at rest at 0.
-static inline void friction_tunable_begin(friction_tunable *self) {
+// Before all else: the values to begin with.
+static inline void friction_tunable_tunable_begin(friction_tunable *self) {
   for (int i = 0; i < friction_tunable_springs; ++i) self->stiffness[i] = self->share[i] = self->loss[i] = 0;
   for (int i = 0; i < friction_tunable_blocks_room; ++i)
     self->block_stiffness[i] = self->block_held[i] = self->block_feedthrough[i] = 0;
@@ -1266,19 +1268,34 @@ static inline void friction_tunable_begin(friction_tunable *self) {
   for (int i = 0; i < friction_tunable_slips; ++i) self->least_yield[i] = friction_tunable_least_share * friction_tunable_yield_force(self, i);
   for (int i = 0; i < friction_tunable_parameters_room; ++i) self->value[i] = friction_tunable_ranges[i].value;
   friction_tunable_tune(self);
-  friction_tunable_rest_at(self, 0);
 }
 
 // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
 // treated as 0. Parameters stay as they are.
 static inline void friction_tunable_reset(friction_tunable *self, double position) {
-  friction_tunable_rest_at(self, (dashpot_all_finite(position, position, position) != 0) ? position : 0);
+  self->held_force = 0.0;
+  self->resting_brake = 0.0;
+  self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
+  self->step_stiffness = 0.0;
+  self->steady_brake = 0.0;
+  self->velocity_gain = 0.0;
+  self->last_brake = 0.0;
+  self->sampled_position = 0.0;
+  self->sampled_position_change = 0.0;
+  self->resting_brake = friction_tunable_tunable_reset(self, self->last_position);
+  const friction_tunable_port port = friction_tunable_tunable_port(self);
+  self->held_force = port.held;
+  self->step_stiffness = port.stiffness;
+  self->steady_brake = port.damping;
+  self->velocity_gain = port.gain;
+  self->last_brake = self->resting_brake;
   self->sampled = 0;
 }
 
 // At rest at 0, with the parameters' values of the network's file. To be called before all others.
 static inline void friction_tunable_init(friction_tunable *self) {
-  friction_tunable_begin(self);
+  friction_tunable_tunable_begin(self);
+  friction_tunable_reset(self, 0);
   self->sampled = 0;
 }
 
@@ -1286,17 +1303,30 @@ static inline void friction_tunable_init(friction_tunable *self) {
 // non-finite input the states stay as they were and the motor's force is 0.
 static inline dashpot_command friction_tunable_output(friction_tunable *self, double position, double velocity) {
   dashpot_command command;
-  const friction_tunable_sample sample = friction_tunable_answer_to(self, position, velocity);
-  self->sampled = dashpot_all_finite(position, velocity, sample.wanted);
+  // Δu = u − u₋
+  const double position_change = position - self->last_position;
+  // σ of all slips
+  const double slips_force = friction_tunable_tunable_slip(self, position_change);
+  // b of the slips' regime
+  const friction_tunable_slip_brake slip_brake = friction_tunable_tunable_slip_brake(self, position);
+  const double slips_feedthrough = slip_brake.now;
+  const double slips_brake = slip_brake.damping;
+  const double slips_gain = slip_brake.make_up;
+  // m = f − b u̇
+  const double force = self->step_stiffness * position_change + self->held_force +
+      slips_force - slips_feedthrough * position_change + (self->velocity_gain + slips_gain) * velocity;
+  // b
+  const double brake = self->steady_brake + slips_brake;
+  self->sampled = dashpot_all_finite(position, velocity, force);
   if (self->sampled != 0) {
-    self->sampled_position_change = sample.change;
-    self->sampled_position = sample.position;
-    self->last_damping = sample.damping;
-    command.damping = sample.damping;
-    command.force = sample.force;
+    self->last_brake = brake;
+    self->sampled_position = position;
+    self->sampled_position_change = position_change;
+    command.damping = brake;
+    command.force = force;
   } else {
-    command.damping = self->last_damping;
-    command.force = 0;
+    command.damping = self->last_brake;
+    command.force = 0.0;
   }
   return command;
 }
@@ -1304,7 +1334,8 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
 // Takes the states to the next sample; to be called once after each friction_tunable_output(), when the command has left.
 static inline void friction_tunable_update(friction_tunable *self) {
   if (self->sampled != 0) {
-    friction_tunable_advance_all(self);
+    self->held_force = friction_tunable_tunable_update(self, self->sampled_position_change, self->sampled_position);
+    // u₋ = u
     self->last_position = self->sampled_position;
     self->sampled = 0;
   }
@@ -1329,6 +1360,11 @@ static inline unsigned friction_tunable_set_values(friction_tunable *self, const
   friction_tunable_update(self);
   const unsigned clamped = friction_tunable_take_values(self, wanted, &is_new);
   if (is_new != 0) friction_tunable_change_over(self);
+  const friction_tunable_port port = friction_tunable_tunable_port(self);
+  self->held_force = port.held;
+  self->step_stiffness = port.stiffness;
+  self->steady_brake = port.damping;
+  self->velocity_gain = port.gain;
   return clamped;
 }
 
@@ -1351,10 +1387,7 @@ static inline double friction_tunable_kept_share(const friction_tunable *self) {
 // In the springs, and set free by changes of parameters, after the last update() [J].
 static inline double friction_tunable_stored_energy(const friction_tunable *self) {
   // V + T: in the springs, and what changes of parameters have set free
-  double stored = self->tank;
-  for (int i = 0; i < friction_tunable_spring_count; ++i) {
-    stored += friction_tunable_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * 0.5;
-  }
+  const double stored = friction_tunable_tunable_stored_energy(self);
   return stored;
 }
 

@@ -1,5 +1,5 @@
-// A law whose parameters change while it runs. Emitted code and the compiler's evaluate() run this same class, so that
-// they agree in every bit under -ffp-contract=off.
+// The springs, slips and tank of a law whose parameters change while it runs: what its programs call. Emitted code and
+// the compiler's evaluate() run this same class, so that they agree in every bit under -ffp-contract=off.
 //
 // The states are elongations and offsets of springs (tunable/springs.hpp). V + T never rises by more than the work that
 // the tool does, set() included.
@@ -10,7 +10,7 @@
 
 #include <dashpot/command.hpp>
 #include <dashpot/tunable/parts.hpp>
-#include <dashpot/tunable/sample.hpp>
+#include <dashpot/tunable/answers.hpp>
 #include <dashpot/tunable/shedding.hpp>
 #include <dashpot/tunable/slips.hpp>
 #include <dashpot/tunable/tables.hpp>
@@ -37,37 +37,60 @@ class tunable_law {
     if constexpr (Slips > 0) slips_.reset(left_to_brake(t, slips_.damping_at_rest(t, curves_)));
   }
 
-  // At rest at `position`: what joins tool and ground is loaded by it, what is behind a slip is not.
-  constexpr void reset(const tables& t, Scalar position) noexcept {
+  // At rest at `position`: what joins tool and ground is loaded by it, what is behind a slip is not. Returns b of a
+  // tool that is in touch and at rest [N·s/m].
+  constexpr Scalar reset(const tables& t, Scalar position) noexcept {
     parts_.springs.reset(t.spring_count);
     for (Scalar& elongation : curves_.elongation) elongation = 0;
     if (t.static_spring != no_index) parts_.springs.set_elongation(t.static_spring, position);
     parts_.each(t, t.blocks[0], [&](const tunable_part<Scalar>& part) { parts_.load(t, part, position); });
     find_held(t);
     shedding_.reset();
-    if constexpr (Slips > 0) slips_.reset(left_to_brake(t, slips_.damping_at_rest(t, curves_)));
-  }
-
-  // b of a tool that is in touch and at rest [N·s/m].
-  constexpr Scalar damping_at_rest(const tables& t) noexcept {
-    if (t.contact.is_there) return 0;
-    Scalar damping = damping_;
-    if constexpr (Slips > 0) damping += left_to_brake(t, slips_.damping_at_rest(t, curves_));
+    Scalar damping = port_.damping;
+    if constexpr (Slips > 0) {
+      const Scalar of_slips = left_to_brake(t, slips_.damping_at_rest(t, curves_));
+      slips_.reset(of_slips);
+      damping += of_slips;
+    }
     return damping;
   }
 
-  // In: where the tool, or the surface that it pushes, was in the sample before; where the tool is, and its velocity.
-  tunable_sample<Scalar> output(const tables& t, Scalar last, Scalar position, Scalar velocity) noexcept {
-    tunable_sample<Scalar> sample = wanted(t, last, position, velocity);
-    if (!shedding_.is_limited(t)) return sample;
-    sample.force = shedding_.command(t, sample.wanted);
-    if (comes_back(t))
-      sample.position = shedding_.followed(sample.position, sample.position - (position - t.contact.at));
-    return sample;
+  // What the tool meets in the next sample, to be asked for after reset() and set().
+  constexpr const tunable_port<Scalar>& port(const tables&) const noexcept { return port_; }
+
+  // Of all slips, by the tool's displacement in this sample: the force that opposes it [N].
+  Scalar slip(const tables& t, Scalar change) noexcept { return slips_.step(t, change, curves_); }
+
+  // The same of slips behind a surface, and all beside them: by what the surface's change would be if it stuck to the
+  // tool.
+  tunable_push<Scalar> push(const tables& t, Scalar approach) noexcept {
+    tunable_push<Scalar> pushed = {};
+    pushed.force = slips_.push(t, approach, curves_, pushed.change);
+    return pushed;
   }
 
-  // Takes the states over the sample that output() has seen last, by its change and to its position.
-  void update(const tables& t, Scalar change, Scalar position) noexcept {
+  // What slips leave to the brake after slip() or push(), by where the tool is.
+  tunable_brake<Scalar> slip_brake(const tables& t, Scalar position) noexcept {
+    const Scalar now = left_to_brake(t, slips_.damping_now(t, curves_)),
+                 wanted = left_to_brake(t, slips_.commanded_damping(t, curves_, position)),
+                 damping = slips_.reached_damping(t, wanted);
+    return {now * t.rate, damping, clamp_to(make_up_, wanted - damping)};
+  }
+
+  // The motor's part within its limits, and of all forces the share that is kept for it.
+  constexpr tunable_limit<Scalar> limit(const tables& t, Scalar wanted) noexcept {
+    const Scalar force = shedding_.command(t, wanted);
+    return {force, shedding_.share()};
+  }
+
+  // Where a surface that something elastic holds stands when what was shed of it has followed a tool that has left.
+  constexpr Scalar follow(const tables&, Scalar surface, Scalar depth) noexcept {
+    return shedding_.followed(surface, surface - depth);
+  }
+
+  // Takes the states over a sample, by the change of the tool, or of the surface that it pushes, and to its position.
+  // Returns π of what joins tool and ground without a slip [N].
+  Scalar update(const tables& t, Scalar change, Scalar position) noexcept {
     curves_.elongation[0] = change;
     for (int i = 0; i < t.block_count; ++i)
       parts_.each(t, t.blocks[i],
@@ -77,10 +100,8 @@ class tunable_law {
     parts_.springs.bring_offsets_home(t);
     if constexpr (Slips > 0) slips_.keep(t);
     find_held(t);
+    return port_.held;
   }
-
-  // Of all forces, what the last output() has kept for the motor to be able to follow.
-  constexpr Scalar kept_share() const noexcept { return shedding_.share(); }
 
   // Bit i of the result: wanted[i] was no number within the range. What is no number at all leaves its parameter as it
   // is. Where nothing changes, no bit of the states does. To be called between samples.
@@ -104,31 +125,6 @@ class tunable_law {
     return [this, &t](int index) { return parts_.number(t, index); };
   }
 
-  // Were there no limits of the motor.
-  tunable_sample<Scalar> wanted(const tables& t, Scalar last, Scalar position, Scalar velocity) noexcept {
-    tunable_answer<Scalar> answer = {0, velocity_gain_, damping_};
-    if (!t.contact.is_there) {
-      const Scalar change = position - last;
-      answer.opposing = step_stiffness_ * change + curves_.held[0];
-      if constexpr (Slips > 0) {
-        answer.opposing += slips_.step(t, change, curves_);
-        leave_to_brake(t, change, position, answer);
-      }
-      return held_sample(change, position, velocity, answer);
-    }
-    const Scalar depth = position - t.contact.at, approach = depth - last;
-    Scalar change = -(curves_.held[0] * release_compliance_);
-    if (!(change > approach)) change = approach;
-    if (t.slip_count == 0) answer.opposing = step_stiffness_ * change + curves_.held[0];
-    if constexpr (Slips > 0)
-      if (t.slip_count > 0) {
-        answer.opposing = slips_.push(t, approach, curves_, change);  // which sets `change`
-        answer.opposing -= feedthrough_ * t.rate * change;
-        leave_to_brake(t, change, position, answer);
-      }
-    return touching_sample(t.contact, t.threshold, last, depth, change, velocity, answer);
-  }
-
   // A surface that something elastic holds, and not slips alone, which stay where they are.
   static constexpr bool comes_back(const tables& t) noexcept {
     return t.contact.is_there && (t.static_spring != no_index || t.slip_count == 0);
@@ -148,17 +144,8 @@ class tunable_law {
   // Of b∞ behind slips, what the brake has left.
   constexpr Scalar left_to_brake(const tables& t, Scalar damping) const noexcept {
     if (!t.slip_rule.takes_part) return 0;
-    const Scalar left = t.max_damping - damping_;
+    const Scalar left = t.max_damping - port_.damping;
     return damping < left ? damping : left;
-  }
-
-  void leave_to_brake(const tables& t, Scalar change, Scalar position, tunable_answer<Scalar>& answer) noexcept {
-    if (!t.slip_rule.takes_part) return;
-    answer.opposing -= left_to_brake(t, slips_.damping_now(t, curves_)) * t.rate * change;
-    const Scalar wanted = left_to_brake(t, slips_.commanded_damping(t, curves_, position)),
-                 damping = slips_.reached_damping(t, wanted);
-    answer.damping += damping;
-    if (!t.contact.is_there) answer.gain += clamp_to(make_up_, wanted - damping);
   }
 
   // Everything that follows from the parameters.
@@ -176,28 +163,28 @@ class tunable_law {
       parts_.each(t, t.blocks[i],
                   [&](const tunable_part<Scalar>& part) { curves_.stiffness[i] += parts_.step_stiffness(t, part); });
     }
-    release_compliance_ = curves_.stiffness[0] > 0 ? 1 / curves_.stiffness[0] : Scalar(0);
-    step_stiffness_ = 0;
+    port_.recovery = curves_.stiffness[0] > 0 ? -(1 / curves_.stiffness[0]) : Scalar(0);
+    port_.stiffness = 0;
     parts_.each(t, t.blocks[0],
-                [&](const tunable_part<Scalar>& part) { step_stiffness_ += parts_.step_stiffness_at_port(t, part); });
+                [&](const tunable_part<Scalar>& part) { port_.stiffness += parts_.step_stiffness_at_port(t, part); });
     if constexpr (Slips > 0) slips_.tune(t, curves_, numbers(t));
   }
 
   constexpr void tune_brake(const tables& t) noexcept {
-    feedthrough_ = 0;
     Scalar relaxing = 0;
+    feedthrough_ = 0;
     parts_.each(t, t.blocks[0], [&](const tunable_part<Scalar>& part) {
       const Scalar through = parts_.feedthrough(t, part);
       feedthrough_ += through;
       relaxing += parts_.relaxing_damping(t, part, through);
     });
     const Scalar wanted = brake_damping(t, feedthrough_ + relaxing);
-    damping_ = wanted < t.max_damping ? wanted : t.max_damping;
+    port_.damping = wanted < t.max_damping ? wanted : t.max_damping;
     // Where a surface can be left the motor compensates nothing.
-    if (t.contact.is_there && damping_ > feedthrough_) damping_ = feedthrough_;
-    velocity_gain_ = feedthrough_ - damping_;
-    const Scalar assured =
-        t.slip_rule.assured_share * damping_ - (velocity_gain_ < 0 ? -velocity_gain_ : velocity_gain_);
+    if (t.contact.is_there && port_.damping > feedthrough_) port_.damping = feedthrough_;
+    port_.gain = feedthrough_ - port_.damping;
+    port_.feedthrough = feedthrough_ * t.rate;
+    const Scalar assured = t.slip_rule.assured_share * port_.damping - (port_.gain < 0 ? -port_.gain : port_.gain);
     make_up_ = assured > 0 ? assured : Scalar(0);
   }
 
@@ -221,6 +208,7 @@ class tunable_law {
       parts_.each(t, t.blocks[i], [&](const tunable_part<Scalar>& part) { held += parts_.held_by(t, part); });
       curves_.held[i] = held;
     }
+    port_.held = curves_.held[0];
   }
 
   // After a change of the springs' stiffnesses. The spring between tool and ground makes up for what others could not
@@ -241,10 +229,9 @@ class tunable_law {
   tunable_curves<Scalar, Blocks> curves_;
   tunable_slips<Scalar, Blocks, SlipParts, Slips, Corners, Ends> slips_;
   tunable_shedding<Scalar> shedding_;
-  Scalar step_stiffness_ = 0;                                 // g of block 0 without b∞/h [N/m]
-  Scalar release_compliance_ = 0;                             // 1/g of block 0 [m/N]
-  Scalar feedthrough_ = 0, damping_ = 0, velocity_gain_ = 0;  // b∞, b, b∞ − b, without slips [N·s/m]
-  Scalar make_up_ = 0;                                        // of b that the motor makes up at most [N·s/m]
+  tunable_port<Scalar> port_;
+  Scalar feedthrough_ = 0;  // b∞ of what no slip changes [N·s/m]
+  Scalar make_up_ = 0;      // of b that the motor makes up at most [N·s/m]
 };
 
 }  // namespace dashpot

@@ -1,0 +1,13 @@
+// The programs of a law with tunable parameters: what is remembered from sample to sample, around calls for its tables.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// In: a law with its tables, and without programs. Out: the same with them.
+UpdateLaw with_programs(UpdateLaw law, motion port_motion);
+
+}  // namespace dashpot::compiler

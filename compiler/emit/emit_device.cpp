@@ -6,6 +6,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 
 #include "emit/banner.hpp"
+#include "emit/c99_estimator.hpp"
 #include "emit/c99_parts.hpp"
 #include "emit/template_text.hpp"
 #include "network/name_rules.hpp"
@@ -33,6 +34,9 @@ CodeModel device_model(const Device& device, DeviceLanguage language) {
   if (language == DeviceLanguage::cpp) return model;
   fields["estimator"] = name_of(device.description.velocity.estimator);
   model.lists["description"] = as_list(c99_device_header());
+  const bool needs_command = needs_command_header(device.description.velocity.estimator);
+  model.lists["command"] = as_list(needs_command ? c99_command_header() : std::vector<std::string>());
+  model.lists["estimate"] = as_list(c99_estimator(device.description, "dashpot_estimator_" + fields["name"]));
   return model;
 }
 

@@ -293,6 +293,9 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
   else result.bound = bound_of(law, loop, slips);
   const double told = surely_told(law);
   const bool may_add = result.bound.proof != Proof::none && !law.tunable;
+  // Behind slips the statement under jitter may ask for less than that for punctual samples: nothing is added for more.
+  if (may_add && slips)
+    result.bound = under_jitter(result.bound, linear_motor_constants(law), slips, loop, Rational(result.bound.needed));
   if (may_add) result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
   const Rational assured = assured_damping(loop, surely_told(law));
   if (may_add) result.bound = under_jitter(result.bound, linear_motor_constants(law), slips, loop, assured);

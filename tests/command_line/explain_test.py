@@ -244,6 +244,18 @@ class Json(CommandTest):
         self.write("exact.json", json.dumps(device))
         self.assertEqual(self.felt_where_slips_give_way(network_file, "--device", "exact.json")[0], told)
 
+    def test_behind_slips_no_more_is_added_than_is_missing(self):
+        """Fails if more is added to the brake than the minimum damping that is told; what is added is felt."""
+        device = json.loads(PANTOGRAPH.read_text())
+        device["loop"]["delay_samples"] = 1
+        self.write("late.json", json.dumps(device))
+        done = self.dashpot("explain", SOURCE / "networks/paper/visco_elasto_plastic.json", "--device", "late.json", "--json")
+        row = next(row for row in json.loads(done.stdout)["candidates"] if row["name"] == "faithful")
+        self.assertGreater(row["minimum_damping"], 0)
+        told = self.dashpot("explain", SOURCE / "networks/paper/visco_elasto_plastic.json", "--device", "late.json").stdout
+        added = float(re.search(r"of the brake's command (\S+) N s/m are for passivity", told).group(1))
+        self.assertAlmostEqual(added, row["minimum_damping"], delta=1e-5 * added)
+
     def test_what_is_proved_at_the_motors_limit_is_told(self):
         """Fails if a choice, or damping of the device's own, that is told to be proved at the motor's limit is not."""
         proved = "and no energy comes of it with the"

@@ -203,6 +203,7 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
 
 void describe_device(const Compilation& c, Fields& fields) {
   fields["any_device"] = c.device ? "false" : "true";
+  fields["is_certified"] = c.certificate.certified ? "true" : "false";
   fields["added_damping"] = cpp_literal(c.certificate.added_damping, c.law.scalar);
   fields["device"] = c.device ? string_text(c.device->name) : "ideal";
   fields["device_digest"] = c.device ? c.device->digest : "";

@@ -118,6 +118,7 @@ CodeModel c_header_model(const Compilation& c) {
   describe_device(c, model.fields);
   model.fields.erase("any_device");
   model.fields.erase("motion");
+  model.fields["is_certified"] = c.certificate.certified ? "1" : "0";
   model.fields["is_rotation"] = c.network.port_motion == motion::rotation ? "1" : "0";
   model.fields["energy_contract"] =
       c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."

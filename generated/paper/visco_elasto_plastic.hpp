@@ -49,6 +49,7 @@ class visco_elasto_plastic {
     static constexpr const char* device_digest = "";
     static constexpr const char* estimator = "exact";
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
   };
 
   struct parameters {};

@@ -57,6 +57,7 @@ class needle_in_liver {
     static constexpr const char* device_digest = "";
     static constexpr const char* estimator = "exact";
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = false;
   };
 
   struct parameters {};

@@ -48,6 +48,7 @@ class swine_kidney_cortex {
     static constexpr const char* device_digest = "";
     static constexpr const char* estimator = "exact";
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
   };
 
   struct parameters {};

@@ -53,6 +53,7 @@ class springpot_tunable {
     static constexpr const char* device_digest = "";
     static constexpr const char* estimator = "exact";
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = false;
   };
 
   struct parameters {

@@ -60,6 +60,8 @@ class Bits(PackageTest):
         module = self.emitted(FIG_5, "--device", PANTOGRAPH, "--uncertified")
         self.assertEqual((module.DEVICE, module.RATE), ("pantograph_brake_2009", 10000))
         self.assertTrue(module.DEVICE_DIGEST)
+        self.assertIs(module.IS_CERTIFIED, True)
+        self.assertIs(self.emitted(NETWORKS / "paper/virtual_wall.json").IS_CERTIFIED, False)
 
 
 class Package(PackageTest):

@@ -47,6 +47,7 @@ class second_order_maxwell {
     static constexpr const char* device_digest = "";
     static constexpr const char* estimator = "exact";
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
   };
 
   struct parameters {};

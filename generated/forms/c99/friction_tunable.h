@@ -816,6 +816,7 @@ static inline const char *friction_tunable_device(void) { return "ideal"; }
 static inline const char *friction_tunable_device_digest(void) { return ""; }
 static inline const char *friction_tunable_estimator(void) { return "exact"; }
 static inline unsigned friction_tunable_loop_delay(void) { return 0u; }  // [samples]
+static inline int friction_tunable_is_certified(void) { return 0; }  // on that device, or on an ideal one
 
 // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
 static inline double friction_tunable_added_damping(void) { return 0.0; }

@@ -99,6 +99,7 @@ static inline const char *visco_elasto_plastic_device(void) { return "ideal"; }
 static inline const char *visco_elasto_plastic_device_digest(void) { return ""; }
 static inline const char *visco_elasto_plastic_estimator(void) { return "exact"; }
 static inline unsigned visco_elasto_plastic_loop_delay(void) { return 0u; }  // [samples]
+static inline int visco_elasto_plastic_is_certified(void) { return 1; }  // on that device, or on an ideal one
 
 // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
 static inline double visco_elasto_plastic_added_damping(void) { return 0.0; }

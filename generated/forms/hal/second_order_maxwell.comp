@@ -169,6 +169,7 @@ static inline const char *law_second_order_maxwell_device(void) { return "ideal"
 static inline const char *law_second_order_maxwell_device_digest(void) { return ""; }
 static inline const char *law_second_order_maxwell_estimator(void) { return "exact"; }
 static inline unsigned law_second_order_maxwell_loop_delay(void) { return 0u; }  // [samples]
+static inline int law_second_order_maxwell_is_certified(void) { return 1; }  // on that device, or on an ideal one
 
 // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
 static inline double law_second_order_maxwell_added_damping(void) { return 0.0; }

@@ -44,6 +44,7 @@ class generalised_kelvin_two {
     static constexpr const char* device_digest = "";
     static constexpr const char* estimator = "exact";
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
   };
 
   struct parameters {};

@@ -43,6 +43,7 @@ class maxwell_damper_at_tool {
     static constexpr const char* device_digest = "";
     static constexpr const char* estimator = "exact";
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
   };
 
   struct parameters {};

@@ -30,7 +30,14 @@ std::string quoted(const char* text) { return "'" + std::string(text) + "'"; }
 
 const char* word_of(motion which) { return which == motion::rotation ? "rotation" : "translation"; }
 
-std::string certified(const model_facts& model) { return "model is certified for device " + quoted(model.device); }
+std::string made_for(const model_facts& model) {
+  return (model.is_certified ? "model is certified for device " : "model is made for device ") + quoted(model.device);
+}
+
+// Of a model that was compiled for the ideal device, or not certified on its own.
+std::string uncertified(const model_facts& model) {
+  return model.any_device ? "model is compiled for the ideal device" : made_for(model) + " and not certified on it";
+}
 
 }  // namespace
 
@@ -38,7 +45,10 @@ admission admit(const model_facts& model, const loop_facts& loop, bool require_c
   if (!(loop.device.loop.sample_period > 0)) return admission::no_period;
   if (!same_period(model.sample_period, loop.device.loop.sample_period)) return admission::other_rate;
   if (!can_drive(loop.device, model.port_motion)) return admission::other_motion;
-  if (!model.any_device) return hold_against_certificate(model, loop);
+  if (!model.any_device) {
+    const admission verdict = hold_against_certificate(model, loop);
+    if (verdict != admission::admitted || model.is_certified) return verdict;
+  }
   return require_certified ? admission::not_certified : admission::admitted_uncertified;
 }
 
@@ -47,7 +57,9 @@ std::string to_text(admission verdict, const model_facts& model, const loop_fact
   switch (verdict) {
     case admission::admitted: return {};
     case admission::admitted_uncertified:
-      return "model is compiled for the ideal device; nothing is certified about device " + quoted(loop.identity.name);
+      return uncertified(model) + "; " +
+             (model.any_device ? "nothing is certified about device " + quoted(loop.identity.name)
+                               : "it may give more energy than it got");
     case admission::no_period:
       return "device " + quoted(loop.identity.name) + " states a sample period of " + number(timing.sample_period) +
              " s; a loop needs one above zero";
@@ -58,17 +70,16 @@ std::string to_text(admission verdict, const model_facts& model, const loop_fact
       return std::string("model is made for ") + word_of(model.port_motion) + ", device " + quoted(loop.identity.name) +
              " moves in " + word_of(loop.device.motion) + " and states no arm radius that would convert it";
     case admission::not_certified:
-      return "model is compiled for the ideal device; this loop requires one certified for device " +
-             quoted(loop.identity.name);
-    case admission::other_device: return certified(model) + ", this is device " + quoted(loop.identity.name);
+      return uncertified(model) + "; this loop requires one certified for device " + quoted(loop.identity.name);
+    case admission::other_device: return made_for(model) + ", this is device " + quoted(loop.identity.name);
     case admission::other_digest:
-      return certified(model) + " with digest " + quoted(model.device_digest) + ", this one's is " +
+      return made_for(model) + " with digest " + quoted(model.device_digest) + ", this one's is " +
              quoted(loop.identity.digest);
     case admission::other_estimator:
-      return certified(model) + " with estimator " + quoted(model.estimator) + ", this loop uses " +
+      return made_for(model) + " with estimator " + quoted(model.estimator) + ", this loop uses " +
              quoted(loop.estimator);
     case admission::other_delay:
-      return certified(model) + " with a loop delay of " + std::to_string(model.loop_delay) +
+      return made_for(model) + " with a loop delay of " + std::to_string(model.loop_delay) +
              " samples, the device states " + std::to_string(timing.delay_samples);
   }
   return "unknown verdict";

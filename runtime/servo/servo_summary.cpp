@@ -79,7 +79,9 @@ std::string to_text(const servo_summary& summary) {
          print("energy    %.6g J that motor and brake took from the tool, never below %.6g J%s\n", summary.energy,
                summary.lowest_energy,
                summary.lowest_energy < 0 ? ": below zero the tool had got more than it gave" : "") +
-         losses(summary) + print("ended     %s, %s\n", name_of(summary.state), ending(summary));
+         losses(summary) +
+         (summary.verdict == admission::admitted ? "" : "warning   the law is not certified on this device\n") +
+         print("ended     %s, %s\n", name_of(summary.state), ending(summary));
 }
 
 }  // namespace dashpot

@@ -106,8 +106,9 @@ static inline int dashpot_same_text(const char* one, const char* other) {
 }
 
 // What stands against a law on this device, as the servo loop in C++ decides it; an empty text where nothing does. A
-// law that was compiled without a device may drive any, and nothing is certified of that. Periods are equal when they
-// agree in single precision, which is all that a law in float can state.
+// law that was compiled without a device may drive any, and nothing is certified of that; one that is not certified may
+// drive its own: <law>_is_certified() tells, and a loop that requires a certificate asks for it too. Periods are equal
+// when they agree in single precision, which is all that a law in float can state.
 static inline const char* dashpot_refusal_of(const dashpot_device* device, double sample_period, int is_rotation,
                                              const char* name, const char* digest, const char* estimator,
                                              unsigned loop_delay) {

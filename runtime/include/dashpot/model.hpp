@@ -9,6 +9,7 @@
 //       static constexpr const char* device_digest = "…";                // of the device file's bytes
 //       static constexpr const char* estimator = "butterworth";          // as in the device file
 //       static constexpr unsigned loop_delay = 0;                        // whole samples between read and write
+//       static constexpr bool is_certified = true;                       // passive there; without it: not certified
 //     };
 //     void reset(scalar position) noexcept;                              // at rest there
 //     dashpot::command<scalar> output(scalar position, scalar velocity) noexcept;
@@ -37,7 +38,8 @@ struct model_facts {
   const char* device = "";
   const char* device_digest = "";
   const char* estimator = "";
-  unsigned loop_delay = 0;  // [samples]
+  unsigned loop_delay = 0;    // [samples]
+  bool is_certified = false;  // on that device, or on the ideal one
 };
 
 namespace model_claim {
@@ -54,6 +56,8 @@ using certified_for = std::enable_if_t<std::is_convertible_v<decltype(M::certifi
                                        std::is_convertible_v<decltype(M::certified_for::device_digest), const char*> &&
                                        std::is_convertible_v<decltype(M::certified_for::estimator), const char*> &&
                                        std::is_convertible_v<decltype(M::certified_for::loop_delay), unsigned>>;
+template <class M>
+using is_certified = std::enable_if_t<std::is_convertible_v<decltype(M::certified_for::is_certified), bool>>;
 template <class M>
 using facts = std::enable_if_t<noexcept(model_facts(std::declval<const M&>().facts()))>;
 template <class M>
@@ -106,13 +110,16 @@ model_facts facts_of([[maybe_unused]] const Model& model) noexcept {
     return model.facts();
   } else {
     using certified = typename Model::certified_for;
+    bool is_certified = false;
+    if constexpr (is_detected<model_claim::is_certified, Model>) is_certified = certified::is_certified;
     return {static_cast<double>(Model::sample_period),
             Model::port_motion,
             certified::any_device,
             certified::device,
             certified::device_digest,
             certified::estimator,
-            certified::loop_delay};
+            certified::loop_delay,
+            is_certified};
   }
 }
 

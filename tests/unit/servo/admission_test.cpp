@@ -12,7 +12,7 @@
 namespace dashpot::tests {
 namespace {
 
-constexpr model_facts certified{0.001, motion::translation, false, "arm", "2f9c", "backward_difference", 0};
+constexpr model_facts certified{0.001, motion::translation, false, "arm", "2f9c", "backward_difference", 0, true};
 
 loop_facts fitting_loop() { return {{"arm", "2f9c"}, scripted_description(), "backward_difference"}; }
 
@@ -190,6 +190,70 @@ TEST(Admission, ArmRadiusCarriesTranslationToARotaryJoint) {
   EXPECT_EQ(admit(certified, loop, false), admission::admitted);
 }
 
+// A law of this very device that was written though it is not certified.
+model_facts uncertified() {
+  model_facts model = certified;
+  model.is_certified = false;
+  return model;
+}
+
+// Broken, a law that nobody proved passive would run in silence.
+TEST(Admission, UncertifiedLawOfTheDeviceRunsWithAWarning) {
+  told_loop with(uncertified(), fitting_loop());
+  EXPECT_EQ(with.run(), admission::admitted_uncertified);
+  EXPECT_EQ(
+      with.log.text().find("model is made for device 'arm' and not certified on it; it may give more energy than it"),
+      0u);
+  EXPECT_EQ(with.device.reads(), 10u);
+}
+
+// Broken, a loop that requires a certificate would drive a law without one.
+TEST(Admission, UncertifiedLawOfTheDeviceIsRefusedWhereRequired) {
+  told_loop with(uncertified(), fitting_loop());
+  with.options.require_certified = true;
+  EXPECT_EQ(with.run(), admission::not_certified);
+  EXPECT_EQ(
+      with.log.text(),
+      "model is made for device 'arm' and not certified on it; this loop requires one certified for device 'arm'\n");
+  EXPECT_EQ(with.device.reads(), 0u);
+}
+
+// Broken, a law that is not certified could drive a device that it was not made for.
+TEST_P(Admission, UncertifiedLawIsHeldAgainstTheDeviceToo) {
+  model_facts model = uncertified();
+  loop_facts loop = fitting_loop();
+  GetParam().change(model, loop);
+  EXPECT_EQ(admit(model, loop, false), GetParam().verdict);
+  EXPECT_EQ(admit(model, loop, true), GetParam().verdict);
+  EXPECT_EQ(to_text(GetParam().verdict, model, loop).find("is certified"), std::string::npos);
+}
+
+// Broken, a loop in C would refuse a law that the loop in C++ runs.
+TEST(AdmissionInC, TakesAnUncertifiedLawOfTheDevice) { EXPECT_EQ(refusal_in_c(uncertified(), fitting_loop()), ""); }
+
+struct law_of_the_arm {
+  static constexpr double sample_period = 0.001;
+  static constexpr motion port_motion = motion::translation;
+  struct certified_for {
+    static constexpr bool any_device = false;
+    static constexpr const char* device = "arm";
+    static constexpr const char* device_digest = "2f9c";
+    static constexpr const char* estimator = "backward_difference";
+    static constexpr unsigned loop_delay = 0;
+  };
+};
+struct certified_law : law_of_the_arm {
+  struct certified_for : law_of_the_arm::certified_for {
+    static constexpr bool is_certified = true;
+  };
+};
+
+// Broken, a class that says nothing of a certificate would count as certified, or a certified one would not.
+TEST(Admission, CountsAsCertifiedWhatSaysSo) {
+  EXPECT_EQ(admit(facts_of(certified_law()), fitting_loop(), true), admission::admitted);
+  EXPECT_EQ(admit(facts_of(law_of_the_arm()), fitting_loop(), true), admission::not_certified);
+}
+
 struct run_result {
   servo_summary summary;
   std::string log;
@@ -217,6 +281,7 @@ TEST(Admission, UncertifiedModelRunsWithAWarning) {
   const run_result result = run_uncertified(false);
   EXPECT_EQ(result.summary.verdict, admission::admitted_uncertified);
   EXPECT_EQ(result.log.find("model is compiled for the ideal device; nothing is certified about device 'arm'\n"), 0u);
+  EXPECT_NE(to_text(result.summary).find("warning   the law is not certified on this device\n"), std::string::npos);
   EXPECT_EQ(result.reads, 10u);
   EXPECT_EQ(result.writes, 11u);
 }

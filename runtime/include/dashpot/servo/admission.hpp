@@ -1,5 +1,5 @@
 // Whether a model may drive a device: made for this rate and, unless compiled for the ideal device, for this very
-// device, estimator and loop delay.
+// device, estimator and loop delay; and, where that is required, certified on it.
 #pragma once
 
 #include <string>
@@ -24,11 +24,11 @@ struct loop_facts {
 
 enum class admission : unsigned char {
   admitted,
-  admitted_uncertified,  // compiled for the ideal device: runs, with a warning
+  admitted_uncertified,  // compiled for the ideal device, or not certified on this one: runs, with a warning
   no_period,             // the device states no sample period
   other_rate,
   other_motion,   // force and torque do not match, and no arm radius converts them
-  not_certified,  // compiled for the ideal device, where a certificate is required
+  not_certified,  // compiled for the ideal device, or not certified on this one, where a certificate is required
   other_device,
   other_digest,  // same name, another file
   other_estimator,

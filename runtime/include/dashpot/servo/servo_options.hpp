@@ -12,7 +12,7 @@ namespace dashpot {
 
 struct servo_options {
   device_identity identity;        // of the device's description
-  bool require_certified = false;  // refuse a model compiled for the ideal device
+  bool require_certified = false;  // refuse a model that is not certified on this device
   bool start_running = true;       // false: idle until control().start()
   double duration = 0;             // [s]; 0: until control().stop()
   double farewell = 0.5;           // at the end, the longest wait for the device to confirm the safe command [s]

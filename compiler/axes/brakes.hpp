@@ -1,0 +1,81 @@
+// Which part of a wanted damping the brakes make (theory, section 12). The target B* is a symmetric matrix over the
+// joints [N·m·s/rad]; a brake acts along a constant direction a_j of joint velocities with d_j a_j a_jᵀ, 0 ≤ d_j ≤
+// most; the motors make the rest R = B* − Σ d_j a_j a_jᵀ from an estimate.
+//
+//     diagonal       brakes take all but the coupling of the first two of them that are not parallel; what couples them
+//     is taken by
+//                    further brakes as far as that leaves no negative diagonal, and else by the motors. Delay-proof
+//                    where no brake is at its limit
+//     non-injecting  R ≥ 0 with the least tr(C R), where C is the mean of q̇ q̇ᵀ over the motion
+//     virtual        no brake
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "axes/pair.hpp"
+
+namespace dashpot::compiler::axes {
+
+struct Brake {
+  Pair<double> along{1, 0};                               // a_j, not normalised
+  double most = std::numeric_limits<double>::infinity();  // [N·m·s/rad]
+};
+
+enum class BrakeRule { diagonal, non_injecting, virtual_brake };
+
+// ã_1 and ã_2, with ã_i·a_k = 1 for i = k and else 0, of two directions that are not parallel.
+Pair<Pair<double>> dual(const Pair<double>& first, const Pair<double>& second);
+
+// A symmetric matrix over the joints in the coordinates y_j = a_j·q̇ of two brakes: ã_iᵀ m ã_k.
+template <typename S>
+Symmetric<S> along_brakes(const Pair<Pair<double>>& dual, const Symmetric<S>& m) {
+  const Pair<S> first = constant<S>(dual[0]), second = constant<S>(dual[1]);
+  return {form(first, m, first), form(first, m, second), form(second, m, second)};
+}
+
+// One damping for each of one to four brakes, as a law computes it. Divides by constants only.
+template <typename S>
+std::vector<S> diagonal(const std::vector<Brake>& brakes, const Symmetric<S>& target);
+
+// Of two brakes that are not parallel, as a law computes it; `motion` is C over the joints. With [[p, r], [r, s]] and C
+// in the brakes' own coordinates,
+//
+//     ρ1 = |r| √(C22/C11), at most p and r²/(s − most_2), at least r²/s and p − most_1
+//     ρ2 = r²/ρ1, at least s − most_2,        d = (p − ρ1, s − ρ2)
+//
+// Divides by C11 > 0, by s, and by ρ1 and s − most_2, which are kept from zero.
+template <typename S>
+Pair<S> non_injecting(const Pair<Brake>& brakes, const Symmetric<S>& target, const Symmetric<S>& motion);
+
+// Of one to four brakes: with three, the exact split where it needs no negative brake, else the best pair; with limits,
+// the best of the cases with one brake at 0 or at its limit; of four, the best three.
+std::vector<double> non_injecting(const std::vector<Brake>& brakes, const Symmetric<double>& target,
+                                  const Symmetric<double>& motion);
+
+std::vector<double> choose(BrakeRule rule, const std::vector<Brake>& brakes, const Symmetric<double>& target,
+                           const Symmetric<double>& motion);
+
+// Σ d_j a_j a_jᵀ.
+template <typename S>
+Symmetric<S> made_by(const std::vector<Brake>& brakes, const std::vector<S>& dampings) {
+  Symmetric<S> sum{S(0), S(0), S(0)};
+  for (std::size_t j = 0; j < brakes.size(); ++j) sum = sum + dampings[j] * outer(constant<S>(brakes[j].along));
+  return sum;
+}
+
+// C of a motion of the tip that is alike in all directions, up to a factor: (JᵀJ)⁻¹ det(JᵀJ), of the columns of J.
+template <typename S>
+Symmetric<S> isotropic_motion(const Pair<Pair<S>>& column) {
+  return {length_squared(column[1]), S(-1) * dot(column[0], column[1]), length_squared(column[0])};
+}
+
+// Half-viscosity for matrices: with D ≥ ½ B* every common delay or averaging of the estimate leaves the viscous part
+// passive.
+bool is_delay_proof(const Symmetric<double>& brakes, const Symmetric<double>& target);
+
+// The least eigenvalue, and those of m v = λ n v with n > 0, least first.
+double least_eigenvalue(const Symmetric<double>& m);
+Pair<double> eigenvalues(const Symmetric<double>& m, const Symmetric<double>& n);
+
+}  // namespace dashpot::compiler::axes

@@ -1,0 +1,58 @@
+// A map given by its values over uniform knots: bicubic in each cell, once continuously differentiable, through all
+// values, and beyond the knots linear in each coordinate on its own.
+//
+// Slopes at knots are those of the polynomial through the nearest five knots of the row or column (of all, where there
+// are fewer). So cubics are met exactly; a map whose fourth derivatives stay below A (in x) and B (in y) [1/m³] is
+// missed by (hx⁴ A + hy⁴ B)/384 between the knots, and by an amount of fifth order in the spacings hx, hy.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "axes/interval.hpp"
+#include "axes/pair.hpp"
+
+namespace dashpot::compiler::axes {
+
+template <typename S>
+struct Depth;
+
+// Over a cell, with s and t the distances from its corner [m]: Σ coefficient[4 i + j] sⁱ tʲ.
+struct BicubicCell {
+  std::array<double, 16> coefficient;
+};
+
+// Cells in rows of equal y, from below; each row and each column begins and ends with one that is linear across and has
+// no outer end. Cell i of a row begins at x = start[0] + (i − 1) spacing[0], but the first, which takes its s from the
+// second's.
+struct Grid {
+  Pair<double> start;                // the first knot [m]
+  Pair<double> spacing;              // [m]
+  std::array<std::size_t, 2> knots;  // in x and in y, at least two
+  std::vector<BicubicCell> cell;     // (knots[0] + 1) (knots[1] + 1)
+
+  std::size_t columns() const { return knots[0] + 1; }
+};
+
+// `values[row][column]` at x = start[0] + column·spacing[0], y = start[1] + row·spacing[1]; at least two each way.
+Grid grid_map(const Pair<double>& start, const Pair<double>& spacing, const std::vector<std::vector<double>>& values);
+
+// What leaving out every second knot changes at those [unit of the values]: about sixteen times what the grid errs by
+// where its values are those of a smooth map. 0 with fewer than five knots either way.
+double change_at_half(const Grid& grid);
+
+// Which cell a point lies in along one axis, 0 … knots, and the knot that its s or t is measured from.
+std::size_t place(const Grid& grid, std::size_t axis, double x);
+double corner(const Grid& grid, std::size_t axis, std::size_t place);
+
+// With the coefficients of one cell, at s and t: what a law computes once it has looked them up.
+template <typename S>
+Depth<S> bicubic(const std::array<S, 16>& c, const S& s, const S& t);
+
+Depth<double> depth(const Grid& grid, const Pair<double>& x);
+Depth<Interval> depth(const Grid& grid, const Pair<Interval>& x);
+Symmetric<double> bend(const Grid& grid, const Pair<double>& x);
+Symmetric<Interval> bend(const Grid& grid, const Pair<Interval>& x);
+
+}  // namespace dashpot::compiler::axes

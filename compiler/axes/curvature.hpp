@@ -57,7 +57,7 @@ S determinant(const Arm& arm, const Pair<S>& q) {
     case Kinematics::parallelogram: return S(arm.proximal * arm.distal) * sin(q[1] - q[0]);
     case Kinematics::five_bar: {
       const FiveBar<S> bar = five_bar(arm, q);
-      return bar.reciprocal * dot(bar.distal[0], turned(bar.proximal[0])) * dot(bar.distal[1], turned(bar.proximal[1]));
+      return bar.reciprocal * dot(turned(bar.distal[0]), bar.proximal[0]) * dot(bar.distal[1], turned(bar.proximal[1]));
     }
     case Kinematics::cartesian: break;
   }

@@ -15,8 +15,12 @@
 
 namespace dashpot::compiler::axes {
 
+// What a map is at a point.
 template <typename S>
-struct Depth;
+struct Depth {
+  S value;           // w [m]
+  Pair<S> gradient;  // ∂w/∂x [1]
+};
 
 // Over a cell, with s and t the distances from its corner [m]: Σ coefficient[4 i + j] sⁱ tʲ.
 struct BicubicCell {
@@ -43,12 +47,23 @@ Grid grid_map(const Pair<double>& start, const Pair<double>& spacing, const std:
 double change_at_half(const Grid& grid);
 
 // Which cell a point lies in along one axis, 0 … knots, and the knot that its s or t is measured from.
+constexpr std::size_t first_knot(std::size_t place) { return place == 0 ? 0 : place - 1; }
 std::size_t place(const Grid& grid, std::size_t axis, double x);
 double corner(const Grid& grid, std::size_t axis, std::size_t place);
 
 // With the coefficients of one cell, at s and t: what a law computes once it has looked them up.
 template <typename S>
-Depth<S> bicubic(const std::array<S, 16>& c, const S& s, const S& t);
+Depth<S> bicubic(const std::array<S, 16>& c, const S& s, const S& t) {
+  std::array<S, 4> row{c[0], c[4], c[8], c[12]}, slope{c[1], c[5], c[9], c[13]};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const S *const from = &c[4 * i], end = t * from[3], bent = t * (from[2] + end);
+    row[i] = from[0] + t * (from[1] + bent);
+    slope[i] = from[1] + (bent + bent) + square(t) * from[3];
+  }
+  const S last = s * row[3], bent = s * (row[2] + last);
+  return {row[0] + s * (row[1] + bent),
+          {row[1] + (bent + bent) + square(s) * row[3], slope[0] + s * (slope[1] + s * (slope[2] + s * slope[3]))}};
+}
 
 Depth<double> depth(const Grid& grid, const Pair<double>& x);
 Depth<Interval> depth(const Grid& grid, const Pair<Interval>& x);

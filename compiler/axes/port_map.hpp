@@ -45,12 +45,6 @@ Circle cavity(const Pair<double>& centre, double radius);
 Band line(const Pair<double>& through, const Pair<double>& direction, double radius);
 
 template <typename S>
-struct Depth {
-  S value;           // w [m]
-  Pair<S> gradient;  // ∂w/∂x [1]
-};
-
-template <typename S>
 Depth<S> depth(const Plane& plane, const Pair<S>& x) {
   const Pair<S> slope = constant<S>(plane.slope);
   return {S(plane.offset) + dot(slope, x), slope};

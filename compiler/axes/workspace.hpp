@@ -11,8 +11,13 @@ namespace dashpot::compiler::axes {
 
 using Box = Pair<Interval>;  // of tip positions [m], or of joint positions [rad]
 
-// The joints that put the tip there, on the branch that kinematics.hpp states; nothing where links cannot reach.
-// Angles in (−π, 2π], without a jump over any workspace that does not surround a motor axis.
+inline Pair<double> middle_of(const Box& box) { return {box[0].middle(), box[1].middle()}; }
+
+// Both halves of a part of a box, across the side that is longer as a share of the whole's.
+Pair<Box> halves(const Box& part, const Box& whole);
+
+// The joints that put the tip there, on the branch that kinematics.hpp states; nothing where links cannot reach. The
+// direction from a motor axis to the tip is taken from (−π, π], so that angles jump by a turn left of the axis.
 std::optional<Pair<double>> joints_at(const Arm& arm, const Pair<double>& tip);
 
 // A box that holds the joints of every tip in a box; nothing where it cannot be told that all of them are reached, or
@@ -31,7 +36,8 @@ struct Singularity {
 // that small.
 std::optional<Singularity> singularity(const Arm& arm, const Box& workspace);
 
-// The smallest box of joints that holds those of a workspace without singularities, to 1/64 of either side [rad].
+// A box of joints that holds those of a workspace without singularities, taken by parts of 1/32 of either side; without
+// a jump [rad].
 Box joint_ranges(const Arm& arm, const Box& workspace);
 
 // A joint position and the area of workspace that it stands for [m²].

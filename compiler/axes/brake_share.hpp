@@ -8,10 +8,12 @@
 
 namespace dashpot::compiler::axes {
 
-// Of what a damping turns into heat: in a motion of the tip alike in all directions, tr(C D)/tr(C B*), and in the
-// direction in which the brakes have the smallest part, both 0 to 1.
+// Of what a damping turns into heat, the brakes' part: in a motion of the tip that is alike in all directions, tr(C
+// D)/tr(C B*), and in the direction where it is smallest. Above 1 where brakes that the motors hold back turn more into
+// heat than is wanted.
 struct Share {
   double alike, worst_direction;
+  bool delay_proof;
 };
 
 // Over places, each with its area.

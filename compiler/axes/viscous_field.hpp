@@ -44,36 +44,38 @@ JointField<S> at_joints(const Pose<S>& pose, const Matrix<S>& a) {
   return {element(0, 0), S(0.5) * (upper + lower), element(1, 1), S(0.5) * (upper - lower)};
 }
 
-// With brakes d = (p, s) on the joints and the motors making the rest from estimates of each joint's own velocity:
+// With brakes d = (p, s) on the joints the motors make the rest, g = (r + σ, r − σ): joint 1 gets g_1 v̂_2 and joint 2
+// g_2 v̂_1, each from an estimate of the other's velocity. Passive, whatever varies, if at all samples i and for j = 1 …
+// N
 //
-//     max(|r_k|, |σ_k|) ≤ (1 − ε)(h/T_max) min_{j = 0 … N} min(d_1(k − j)/ω, ω d_2(k − j))
+//     |g_1(i)| + |g_2(i + j)| ≤ (2/ω)(1 − ε)(h/T_max) d_1(i),     |g_2(i)| + |g_1(i + j)| ≤ 2ω (1 − ε)(h/T_max) d_2(i)
 //
-// One sample's share of the minimum. ω > 0 is any constant, N the samples that the estimators and the loop's delay
-// remember.
+// where the estimators, with weights whose sizes sum up to 1, and the loop's delay remember N samples, and ω > 0 is any
+// constant. So what one coupling leaves of a sample's allowance is the limit of the other for the next N samples.
+// `factor` is (1 − ε) h/T_max.
 template <typename S>
-S gate_term(const S& first_brake, const S& second_brake, double omega) {
-  using std::min;
-  return min(S(1 / omega) * first_brake, S(omega) * second_brake);
+Pair<S> gate_allowance(const Pair<S>& brake, double omega, double factor) {
+  return {S(2 * factor / omega) * brake[0], S(2 * factor * omega) * brake[1]};
 }
 
-// `terms` of samples k − N … k; `factor` is (1 − ε) h/T_max.
+// `wanted` is (r + σ, r − σ), `left` what gate_left() gave for each of the last N samples, 0 for those before the
+// first. Returns g.
 template <typename S>
-S gate(const std::vector<S>& terms, double factor) {
-  using std::min;
-  S least = terms.front();
-  for (const S& term : terms) least = min(least, term);
-  return S(factor) * least;
+Pair<S> gated(const Pair<S>& wanted, const Pair<S>& allowance, const std::vector<Pair<S>>& left) {
+  using std::max, std::min;
+  Pair<S> limit = allowance;
+  for (const Pair<S>& one : left) limit = {min(limit[0], one[1]), min(limit[1], one[0])};
+  return {max(min(wanted[0], limit[0]), S(-1) * limit[0]), max(min(wanted[1], limit[1]), S(-1) * limit[1])};
 }
 
-// What the motors may make of a coupling r or a curl σ.
 template <typename S>
-S gated(const S& wanted, const S& gate) {
-  using std::min, std::max;
-  return max(min(wanted, gate), S(-1) * gate);
+Pair<S> gate_left(const Pair<S>& allowance, const Pair<S>& gated) {
+  using std::abs;
+  return {allowance[0] - abs(gated[0]), allowance[1] - abs(gated[1])};
 }
 
-// The ω with which the brakes' dampings of a field over a set of poses leave the gate widest against what it has to
-// pass.
+// The ω that is good for a set of poses: ω² halfway between the least and the largest p/s, in logarithms. At one pose
+// alone max(|r|, |σ|) ≤ (1 − ε)(h/T_max) √(p s) then passes.
 double gate_ratio(const std::vector<JointField<double>>& fields);
 
 }  // namespace dashpot::compiler::axes

@@ -1,16 +1,20 @@
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "axes/grid_map.hpp"
 
 namespace dashpot::compiler::axes {
 namespace {
 
+template <typename S, std::size_t... I>
+std::array<S, 16> constants(const BicubicCell& cell, std::index_sequence<I...>) {
+  return {S(cell.coefficient[I])...};
+}
+
 template <typename S>
 std::array<S, 16> constants(const BicubicCell& cell) {
-  std::array<S, 16> result;
-  for (std::size_t i = 0; i < 16; ++i) result[i] = S(cell.coefficient[i]);
-  return result;
+  return constants<S>(cell, std::make_index_sequence<16>());
 }
 
 // Second derivatives of a cell.
@@ -90,6 +94,32 @@ Symmetric<Interval> bend(const Grid& grid, const Pair<Interval>& x) {
     all = all ? Symmetric<Interval>{hull(all->xx, one.xx), hull(all->xy, one.xy), hull(all->yy, one.yy)} : one;
   });
   return *all;
+}
+
+Depth<Sloped> depth(const Grid& grid, const Pair<Sloped>& x) {
+  const Box box{x[0].value, x[1].value};
+  const Depth<Interval> over = depth(grid, box);
+  const Symmetric<Interval> bends = bend(grid, box);
+  const auto along = [&](const Interval& by_x, const Interval& by_y) {
+    return combined(by_x, x[0].slope, by_y, x[1].slope);
+  };
+  return {{over.value, along(over.gradient[0], over.gradient[1])},
+          {Sloped(over.gradient[0], along(bends.xx, bends.xy)), Sloped(over.gradient[1], along(bends.xy, bends.yy))}};
+}
+
+// From cell to cell second derivatives jump.
+Symmetric<Sloped> bend(const Grid& grid, const Pair<Sloped>& x) {
+  const Box box{x[0].value, x[1].value};
+  const std::size_t column = place(grid, 0, box[0].low), row = place(grid, 1, box[1].low);
+  if (column == place(grid, 0, box[0].high) && row == place(grid, 1, box[1].high)) {
+    return bicubic_bend(constants<Sloped>(cell_at(grid, column, row)), x[0] - Sloped(corner(grid, 0, column)),
+                        x[1] - Sloped(corner(grid, 1, row)));
+  }
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Interval all(-infinity, infinity);
+  const Slopes any{all, all, all, all};
+  const Symmetric<Interval> over = bend(grid, box);
+  return {{over.xx, any}, {over.xy, any}, {over.yy, any}};
 }
 
 }  // namespace dashpot::compiler::axes

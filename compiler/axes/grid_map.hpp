@@ -10,8 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "axes/interval.hpp"
-#include "axes/pair.hpp"
+#include "axes/sloped.hpp"
 
 namespace dashpot::compiler::axes {
 
@@ -69,5 +68,7 @@ Depth<double> depth(const Grid& grid, const Pair<double>& x);
 Depth<Interval> depth(const Grid& grid, const Pair<Interval>& x);
 Symmetric<double> bend(const Grid& grid, const Pair<double>& x);
 Symmetric<Interval> bend(const Grid& grid, const Pair<Interval>& x);
+Depth<Sloped> depth(const Grid& grid, const Pair<Sloped>& x);
+Symmetric<Sloped> bend(const Grid& grid, const Pair<Sloped>& x);
 
 }  // namespace dashpot::compiler::axes

@@ -49,7 +49,11 @@ Interval wave(const Interval& a, double at_low, double at_high, double top, doub
 }  // namespace
 
 Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
-Interval operator+(const Interval& a, const Interval& b) { return {below(a.low + b.low), above(a.high + b.high)}; }
+Interval operator+(const Interval& a, const Interval& b) {
+  const auto exact = [](double x, double y) { return x == 0 || y == 0; };
+  const double low = a.low + b.low, high = a.high + b.high;
+  return {exact(a.low, b.low) ? low : below(low), exact(a.high, b.high) ? high : above(high)};
+}
 Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
 
 Interval operator*(const Interval& a, const Interval& b) {
@@ -63,6 +67,11 @@ Interval operator*(const Interval& a, const Interval& b) {
 Interval operator/(const Interval& a, const Interval& b) {
   if (b.holds(0)) return {-infinity, infinity};
   return a * Interval{below(1 / b.high), above(1 / b.low)};
+}
+
+Interval fraction(const Interval& part, const Interval& reciprocal) {
+  const Interval product = part * reciprocal;
+  return {std::clamp(product.low, -1.0, 1.0), std::clamp(product.high, -1.0, 1.0)};
 }
 
 Interval square(const Interval& a) {

@@ -28,6 +28,7 @@ Interval operator*(const Interval& a, const Interval& b);
 Interval operator/(const Interval& a, const Interval& b);
 
 Interval square(const Interval& a);
+Interval fraction(const Interval& part, const Interval& reciprocal);
 // Of what of it is not negative; [0, 0] where nothing is.
 Interval sqrt(const Interval& a);
 Interval abs(const Interval& a);

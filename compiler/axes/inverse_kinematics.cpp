@@ -3,69 +3,59 @@
 namespace dashpot::compiler::axes {
 namespace {
 
-struct Sides {
-  Interval squared, length, bearing;  // from a motor axis to the tip
-};
-
 double bearing_of(const Pair<double>& v) { return std::atan2(v[1], v[0]); }
 
-// Seen from the middle's direction the box lies within a quarter of a turn to either side, and its outermost directions
-// are those of corners; nothing where it does not.
-std::optional<Interval> bearing_of(const Box& v) {
-  const Pair<double> middle{v[0].middle(), v[1].middle()};
-  const Pair<Interval> ahead = constant<Interval>(middle), aside = turned(ahead);
-  std::optional<Interval> all;
-  for (const double x : {v[0].low, v[0].high}) {
-    for (const double y : {v[1].low, v[1].high}) {
-      const Pair<Interval> to = constant<Interval>({x, y});
-      const Interval forward = dot(ahead, to);
-      if (!(forward.low > 0)) return std::nullopt;
-      const Interval angle = atan(dot(aside, to) / forward);
-      all = all ? hull(*all, angle) : angle;
-    }
-  }
-  return *all + widened(Interval(bearing_of(middle)), 1e-15);
+// The direction from a motor axis to the tip, seen from that to the middle of a box, from which it may be up to a
+// quarter of a turn.
+template <typename S>
+S bearing_of(const Pair<S>& to, const Pair<double>& middle) {
+  const Pair<S> ahead = constant<S>(middle);
+  return atan(dot(turned(ahead), to) / dot(ahead, to)) + S(bearing_of(middle));
 }
 
-// Between the link at one end of a triangle and its third side: cos α = (r² + a² − b²)/(2 a r). Nothing where links a
-// and b do not span r.
-std::optional<Interval> corner_of(const Interval& squared, const Interval& length, double a, double b) {
-  const Interval difference = square(Interval(a)) - square(Interval(b));
-  const Interval cosine = (squared + difference) / (Interval(2 * a) * length);
-  if (!(cosine.low > -1 && cosine.high < 1)) return std::nullopt;
-  return acos(cosine);
+// Between the link at one end of a triangle and its third side: cos α = r/2a + (a² − b²)/2ar.
+template <typename S>
+S corner_of(const S& length, double a, double b) {
+  const S difference = square(S(a)) - square(S(b)), twice(2 * a);
+  return acos(length / twice + difference / (twice * length));
 }
 
-std::optional<Sides> sides(const Box& from_motor) {
-  const std::optional<Interval> bearing = bearing_of(from_motor);
-  if (!bearing) return std::nullopt;
-  const Interval squared = length_squared(from_motor);
-  return Sides{squared, sqrt(squared), *bearing};
+template <typename S>
+Pair<S> two_links(const Arm& arm, const Pair<S>& tip, const Pair<double>& middle) {
+  const S length = sqrt(length_squared(tip)), bearing = bearing_of(tip, middle);
+  const S near = bearing - corner_of(length, arm.proximal, arm.distal);
+  if (arm.kind == Kinematics::parallelogram) return {near, bearing + corner_of(length, arm.distal, arm.proximal)};
+  const S cosine =
+      (square(length) - square(S(arm.proximal)) - square(S(arm.distal))) / S(2 * arm.proximal * arm.distal);
+  return {near, acos(cosine)};
 }
 
-std::optional<Box> two_links(const Arm& arm, const Box& tip) {
-  const std::optional<Sides> to = sides(tip);
-  if (!to) return std::nullopt;
-  const auto near = corner_of(to->squared, to->length, arm.proximal, arm.distal);
-  const auto far = corner_of(to->squared, to->length, arm.distal, arm.proximal);
-  if (!near || !far) return std::nullopt;
-  if (arm.kind == Kinematics::parallelogram) return Box{to->bearing - *near, to->bearing + *far};
-  const Interval links = Interval(2) * Interval(arm.proximal) * Interval(arm.distal);
-  const Interval cosine = (to->squared - square(Interval(arm.proximal)) - square(Interval(arm.distal))) / links;
-  return Box{to->bearing - *near, acos(cosine)};
+template <typename S>
+Pair<S> five_bar_joints(const Arm& arm, const Pair<S>& tip, const Pair<double>& middle) {
+  const double half = arm.base / 2;
+  const Pair<S> left{tip[0] + S(half), tip[1]}, right{tip[0] - S(half), tip[1]};
+  const S from_left = bearing_of(left, {middle[0] + half, middle[1]}),
+          from_right = bearing_of(right, {middle[0] - half, middle[1]});
+  return {from_left + corner_of(sqrt(length_squared(left)), arm.proximal, arm.distal),
+          from_right - corner_of(sqrt(length_squared(right)), arm.proximal, arm.distal)};
 }
 
-std::optional<Box> five_bar_joints(const Arm& arm, const Box& tip) {
-  Box result;
-  for (const std::size_t side : {0u, 1u}) {
-    const Interval axis(side == 0 ? -arm.base / 2 : arm.base / 2);
-    const std::optional<Sides> to = sides({tip[0] - axis, tip[1]});
-    if (!to) return std::nullopt;
-    const auto near = corner_of(to->squared, to->length, arm.proximal, arm.distal);
-    if (!near) return std::nullopt;
-    result[side] = side == 0 ? to->bearing + *near : to->bearing - *near;
-  }
-  return result;
+template <typename S>
+Pair<S> joints_of(const Arm& arm, const Pair<S>& tip, const Pair<double>& middle) {
+  return arm.kind == Kinematics::five_bar ? five_bar_joints(arm, tip, middle) : two_links(arm, tip, middle);
+}
+
+// All of a box is reached from a motor axis at x = `axis`, lies ahead of it, and no part makes links fold or stretch.
+bool is_within(const Arm& arm, const Box& tip, double axis) {
+  const Box to{tip[0] - Interval(axis), tip[1]};
+  const Interval length = sqrt(length_squared(to));
+  return dot(constant<Interval>(middle_of(to)), to).low > 0 && length.high < arm.proximal + arm.distal &&
+         length.low > std::abs(arm.proximal - arm.distal);
+}
+
+bool is_within(const Arm& arm, const Box& tip) {
+  if (arm.kind != Kinematics::five_bar) return is_within(arm, tip, 0);
+  return is_within(arm, tip, -arm.base / 2) && is_within(arm, tip, arm.base / 2);
 }
 
 // The tip may also lie below the line of a five-bar's elbows, which is another branch.
@@ -78,16 +68,27 @@ bool is_on_branch(const Arm& arm, const Pair<double>& tip, const Pair<double>& j
 
 std::optional<Pair<double>> joints_at(const Arm& arm, const Pair<double>& tip) {
   if (arm.kind == Kinematics::cartesian) return tip;
-  const Box point{Interval(tip[0]), Interval(tip[1])};
-  const auto found = arm.kind == Kinematics::five_bar ? five_bar_joints(arm, point) : two_links(arm, point);
-  if (!found || !is_on_branch(arm, tip, middle_of(*found))) return std::nullopt;
-  return middle_of(*found);
+  const Box point = constant<Interval>(tip);
+  if (!is_within(arm, point)) return std::nullopt;
+  const Pair<double> joints = middle_of(joints_of(arm, point, tip));
+  if (!is_on_branch(arm, tip, joints)) return std::nullopt;
+  return joints;
+}
+
+std::optional<EnclosedJoints> enclosed_joints(const Arm& arm, const Box& tip) {
+  const Pair<double> middle = middle_of(tip);
+  if (arm.kind == Kinematics::cartesian) return EnclosedJoints{variables(tip), constant<Interval>(middle)};
+  if (!is_within(arm, tip) || !joints_at(arm, middle)) return std::nullopt;
+  EnclosedJoints joints{joints_of(arm, variables(tip), middle), joints_of(arm, constant<Interval>(middle), middle)};
+  for (const std::size_t j : {0u, 1u})
+    joints.over[j].value = centred(joints.over[j], joints.in_middle[j], apart_in(tip));
+  return joints;
 }
 
 std::optional<Box> joints_over(const Arm& arm, const Box& tip) {
-  if (arm.kind == Kinematics::cartesian) return tip;
-  if (!joints_at(arm, middle_of(tip))) return std::nullopt;
-  return arm.kind == Kinematics::five_bar ? five_bar_joints(arm, tip) : two_links(arm, tip);
+  const std::optional<EnclosedJoints> joints = enclosed_joints(arm, tip);
+  if (!joints) return std::nullopt;
+  return Box{joints->over[0].value, joints->over[1].value};
 }
 
 }  // namespace dashpot::compiler::axes

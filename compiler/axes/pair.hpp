@@ -24,6 +24,12 @@ S square(const S& x) {
   return x * x;
 }
 
+// part/whole, by the reciprocal of the whole, where |part| ≤ whole: an enclosure of it stays within −1 … 1.
+template <typename S>
+S fraction(const S& part, const S& reciprocal) {
+  return part * reciprocal;
+}
+
 template <typename S>
 Pair<S> operator+(const Pair<S>& a, const Pair<S>& b) {
   return {a[0] + b[0], a[1] + b[1]};

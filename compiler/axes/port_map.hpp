@@ -55,7 +55,9 @@ Depth<S> depth(const Circle& circle, const Pair<S>& x) {
   using std::sqrt;
   const Pair<S> from = x - constant<S>(circle.centre);
   const S distance = sqrt(length_squared(from) + S(blunting * blunting));
-  return {S(circle.sign) * (S(circle.radius) - distance), (S(-circle.sign) / distance) * from};
+  const S inverse = S(1) / distance;
+  return {S(circle.sign) * (S(circle.radius) - distance),
+          S(-circle.sign) * Pair<S>{fraction(from[0], inverse), fraction(from[1], inverse)}};
 }
 
 template <typename S>
@@ -64,7 +66,7 @@ Depth<S> depth(const Band& band, const Pair<S>& x) {
   const Pair<S> normal = constant<S>(band.normal);
   const S from = dot(normal, x - constant<S>(band.through));
   const S distance = sqrt(square(from) + S(blunting * blunting));
-  return {S(band.radius) - distance, (S(-1) * from / distance) * normal};
+  return {S(band.radius) - distance, (S(-1) * fraction(from, S(1) / distance)) * normal};
 }
 
 template <typename S>

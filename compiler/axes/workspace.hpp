@@ -6,12 +6,9 @@
 
 #include "axes/interval.hpp"
 #include "axes/kinematics.hpp"
+#include "axes/sloped.hpp"
 
 namespace dashpot::compiler::axes {
-
-using Box = Pair<Interval>;  // of tip positions [m], or of joint positions [rad]
-
-inline Pair<double> middle_of(const Box& box) { return {box[0].middle(), box[1].middle()}; }
 
 // Both halves of a part of a box, across the side that is longer as a share of the whole's.
 Pair<Box> halves(const Box& part, const Box& whole);
@@ -23,6 +20,13 @@ std::optional<Pair<double>> joints_at(const Arm& arm, const Pair<double>& tip);
 // A box that holds the joints of every tip in a box; nothing where it cannot be told that all of them are reached, or
 // where the box surrounds a motor axis.
 std::optional<Box> joints_over(const Arm& arm, const Box& tip);
+
+// The same with the joints' derivatives by the tip's coordinates, and the joints of the box's middle.
+struct EnclosedJoints {
+  Pair<Sloped> over;
+  Box in_middle;
+};
+std::optional<EnclosedJoints> enclosed_joints(const Arm& arm, const Box& tip);
 
 // A tip position in a workspace near which the arm is singular: links that are too short or too long to reach it, or
 // two of them in line, so that a motion of the tip or a force at it is beyond all bounds.

@@ -11,6 +11,7 @@
 #include <functional>
 #include <vector>
 
+#include "axes/brakes.hpp"
 #include "axes/port_map.hpp"
 #include "axes/workspace.hpp"
 
@@ -19,12 +20,13 @@ namespace dashpot::compiler::axes {
 // What a port's network may ask of the motors, bounded by the workspace alone.
 struct PortLoad {
   PortMap map;
-  double held = 0;          // S of a prompt loop: β, or the supremum of section 6b [N/m]
-  double grounded = 0;      // k0: the force k0 w [N/m]
-  double relaxing = 0;      // Σ k_i: each within k_i (w − w⁺) … k_i (w − w⁻), over the workspace [N/m]
-  double yields = 0;        // of the slips, ± [N]
-  double estimated = 0;     // what comes of an estimate at most, ± [N]
-  bool unilateral = false;  // 0 ≤ M ≤ (k0 + Σ k_i) w + estimated, nothing where w < 0
+  double held = 0;       // S of a prompt loop: β, or the supremum of section 6b [N/m]
+  double grounded = 0;   // k0: the force k0 w [N/m]
+  double relaxing = 0;   // Σ c_i of the modes: within c_i (w − w⁺) … c_i (w − w⁻), over the workspace [N/m]
+  double yields = 0;     // of the slips, ± [N]
+  double estimated = 0;  // what comes of an estimate at most, ± [N]
+  double clamp = unlimited;  // what the port's force is clamped to, ± [N]
+  bool unilateral = false;   // 0 ≤ M ≤ (k0 + Σ c_i) w + yields + estimated, nothing where w < 0
 };
 
 struct SampledLoop {
@@ -44,9 +46,10 @@ struct NeededDamping {
 };
 
 inline constexpr double bound_tolerance = 0.01;
-inline constexpr int most_boxes = 20000;
+inline constexpr int most_boxes = 8000;
 
-// What a port's map takes over a workspace: no less and no more than this [m], within 1e-3 of its width.
+// What a port's map takes over a workspace: no less and no more than this [m], to 1e-3 of what its first enclosure is
+// wide.
 Interval range_of(const PortMap& map, const Box& workspace);
 
 // M over joints whose tip is in a box, w in [m] over the workspace.

@@ -174,7 +174,7 @@ TEST(Attack, NothingIsCreatedAtTheBound) {
 // networks give more than they stored.
 TEST(Attack, NineTenthsAreNotEnough) {
   Random random(51);
-  const int cases = int(repetitions(10, 200));
+  const int cases = int(repetitions(10, 60));
   int gained = 0;
   for (int i = 0; i < cases; ++i) {
     Case one = random_case(random, 1e-5, 0.08);

@@ -27,7 +27,7 @@ using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
 const std::string command_of_completion = "completion", command_of_manual = "manual";
 
 const std::vector<std::string> decompositions = {
-    "faithful", "paper",  "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
+    "diagonal", "non-injecting", "faithful", "paper",  "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
     "steady",   "ramped", "gated",          "virtual"};
 const std::string old_name_of_paper = "most-dissipative";
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands/options.hpp"
+#include "network/axes_device.hpp"
 #include "source/diagnostic.hpp"
 
 namespace dashpot::compiler {
@@ -43,6 +44,9 @@ ExitStatus write_output(const Options& options, const std::string& text, Diagnos
 // False, with a diagnostic, where what is to be written is one of the files that are read.
 bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics);
 
+// Refuses: what is no device of two axes.
+std::optional<AxesDevice> read_axes_device(const SourceFile& file, Diagnostics& diagnostics);
+
 // Refuses: what is no device.
 std::optional<Device> read_device(const SourceFile& file, Diagnostics& diagnostics);
 
@@ -51,7 +55,10 @@ struct DeviceChoice {
   std::optional<Device> device;          // empty where none was asked for
   std::optional<std::string> text = {};  // of its file
   ExitStatus status = ExitStatus::done;
+  std::optional<AxesDevice> axes_device = {};  // in its place, of two axes
 };
 DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
+// For commands that also take a device of two axes.
+DeviceChoice open_any_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -10,6 +10,7 @@
 #include "fit/table_shape.hpp"
 #include "network/name_rules.hpp"
 #include "network/rate_limits.hpp"
+#include "source/excerpt.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -84,6 +85,32 @@ class CsvTable {
     if (failed_) return std::nullopt;
     if (motion.time.empty()) return refuse_empty();
     return find_period(motion) ? std::optional(std::move(motion)) : std::nullopt;
+  }
+
+  std::optional<JointMotion> read_joints() {
+    static const std::vector<std::string> names = {"time", "q1", "q2", "v1", "v2"};
+    find_dialect();
+    const Cell line = next_line();
+    if (line.text.empty()) return refuse_empty(), std::nullopt;
+    const std::vector<Cell> header = names_in(line);
+    const bool has_velocity = header.size() == names.size();
+    const bool is_known = (has_velocity || header.size() == 3) &&
+                          std::equal(header.begin(), header.end(), names.begin(),
+                                     [](const Cell& cell, const std::string& name) { return cell.text == name; });
+    if (!is_known)
+      return fail<DiagnosticCode::axes_csv_columns>(line.span, excerpt(std::string(line.text))), std::nullopt;
+    JointMotion motion;
+    std::vector<double>* const columns[] = {&motion.clock.time, &motion.position[0], &motion.position[1],
+                                            &motion.velocity[0], &motion.velocity[1]};
+    for (std::vector<Cell> row = next_row(header.size()); !row.empty(); row = next_row(header.size())) {
+      if (!has_fields(row, header.size())) break;
+      for (std::size_t i = 0; i < header.size(); ++i) append(*columns[i], row, {i, 1}, names[i].c_str());
+      digits_.add(with_point(row.front().text));
+      row_spans_.push_back(row.front().span);
+    }
+    if (failed_) return std::nullopt;
+    if (motion.clock.time.empty()) return refuse_empty(), std::nullopt;
+    return find_period(motion.clock) ? std::optional(std::move(motion)) : std::nullopt;
   }
 
  private:
@@ -282,6 +309,10 @@ class CsvTable {
 
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics) {
   return CsvTable(file, diagnostics).read();
+}
+
+std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostics& diagnostics) {
+  return CsvTable(file, diagnostics).read_joints();
 }
 
 bool is_motion(const SourceFile& beginning) {

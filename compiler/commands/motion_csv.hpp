@@ -3,6 +3,7 @@
 
 #include <dashpot/command.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -41,6 +42,16 @@ struct Motion {
 // (report/page/table.js). Refuses: missing or repeated columns, rows of another length, cells that are no finite
 // numbers, times that do not rise, a period that is not uniform or that no loop has.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
+
+// The motion of two joints: columns time, q1, q2 and perhaps v1, v2, in SI and in that order.
+struct JointMotion {
+  Motion clock;                                 // its times and period alone
+  std::array<std::vector<double>, 2> position;  // [rad] or [m]
+  std::array<std::vector<double>, 2> velocity;  // [rad/s] or [m/s]; empty where the file has none
+};
+
+// As parse_motion(), but for the names.
+std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostics& diagnostics);
 
 // Whether a table that begins so is a motion: a line that names time and position, and no force, stress or anything
 // else that answered them.

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "commands/axes_commands.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/motion_csv.hpp"
@@ -9,6 +10,7 @@
 #include "fit/read_recording.hpp"
 #include "insist.hpp"
 #include "syntax/json.hpp"
+#include "syntax/parse_axes.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -63,7 +65,7 @@ void check_recording(const std::string& path, fitting::ReadChoices choices, cons
 }
 
 void check(const std::string& path, const Options& options, const fitting::ReadChoices& reading,
-           const std::optional<Device>& device, SourceFiles& files, Diagnostics& diagnostics) {
+           const DeviceChoice& device, SourceFiles& files, Diagnostics& diagnostics) {
   if (is_table(path) && is_recording(path, options.fit))
     return check_recording(path, reading, options.fit, diagnostics);
   const SourceFile* file =
@@ -72,11 +74,13 @@ void check(const std::string& path, const Options& options, const fitting::ReadC
   if (is_table(path)) {
     parse_motion(*file, diagnostics);
   } else if (is_device(*file)) {
-    read_device(*file, diagnostics);
-  } else {
+    axes_of(*file) > 1 ? void(read_axes_device(*file, diagnostics)) : void(read_device(*file, diagnostics));
+  } else if (has_two_axes(*file)) {
+    compile_axes(*file, options, device, diagnostics);
+  } else if (as_many_axes(*file, device, diagnostics)) {
     Choices choices = options.choices;
     choices.varies_assumed = false;  // nothing is told of it
-    const auto compilation = compile(*file, choices, device, diagnostics);
+    const auto compilation = compile(*file, choices, device.device, diagnostics);
     if (compilation) warn_of_felt_error(*compilation, choices, diagnostics);
   }
 }
@@ -84,11 +88,11 @@ void check(const std::string& path, const Options& options, const fitting::ReadC
 }  // namespace
 
 ExitStatus run_check(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  const DeviceChoice device = open_device(options, files, diagnostics);
+  const DeviceChoice device = open_any_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   const auto reading = read_choices(options.fit, diagnostics);
   if (!reading) return ExitStatus::command_line_wrong;
-  for (const std::string& path : options.networks) check(path, options, *reading, device.device, files, diagnostics);
+  for (const std::string& path : options.networks) check(path, options, *reading, device, files, diagnostics);
   return diagnostics.has_errors() ? ExitStatus::input_refused : ExitStatus::done;
 }
 

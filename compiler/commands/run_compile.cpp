@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "certify/storage_instance.hpp"
+#include "commands/axes_commands.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/explain.hpp"
@@ -119,7 +120,7 @@ std::string proof_text(const Compilation& c, Diagnostics& diagnostics) {
 ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& diagnostics, StageTimes& times) {
   if (!target_has_all(options, diagnostics)) return ExitStatus::command_line_wrong;
   times.enter("files");
-  const DeviceChoice device = open_device(options, files, diagnostics);
+  const DeviceChoice device = open_any_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   std::vector<OutputFile> outputs;
   std::string shown, certificate, proof;
@@ -134,6 +135,15 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   }
   for (const std::string& path : options.networks) {
     const SourceFile* file = open_network(path, options, files, diagnostics);
+    if (file && has_two_axes(*file)) {
+      const auto axes = compile_axes(*file, options, device, diagnostics);
+      times.enter("emission");
+      if (axes && options.print) shown += axes_stage_text(*axes, *options.print);
+      else if (const auto emitted = axes ? emit_axes(*axes, options, diagnostics) : std::nullopt)
+        outputs.insert(outputs.end(), emitted->begin(), emitted->end());
+      continue;
+    }
+    if (file && !as_many_axes(*file, device, diagnostics)) continue;
     const std::optional<Compilation> compilation =
         file ? compile(*file, options.choices, device.device, diagnostics, times) : std::nullopt;
     times.enter("emission");

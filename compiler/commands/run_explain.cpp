@@ -1,3 +1,4 @@
+#include "commands/axes_commands.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/exchange.hpp"
@@ -32,10 +33,17 @@ std::optional<std::string> network_as(const std::string& form, const Compilation
 }  // namespace
 
 ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  const DeviceChoice device = open_device(options, files, diagnostics);
+  const DeviceChoice device = open_any_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = open_network(options.networks.front(), options, files, diagnostics);
   if (file == nullptr) return ExitStatus::input_refused;
+  if (has_two_axes(*file)) {
+    if (options.as) diagnostics.report<DiagnosticCode::option_on_two_axes>({}, "--as");
+    const auto axes = options.as ? std::nullopt : compile_axes(*file, options, device, diagnostics);
+    if (!axes || diagnostics.has_errors()) return ExitStatus::input_refused;
+    return write_standard_output(explain_axes(*axes, options.json), diagnostics);
+  }
+  if (!as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
   std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.as) {

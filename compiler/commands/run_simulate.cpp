@@ -1,9 +1,10 @@
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
+#include "commands/axes_commands.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/motion_csv.hpp"
@@ -28,10 +29,22 @@ double rate_meant(const Motion& motion) {
   return 1 / std::strtod(fmt::format("{:.7g}", period).c_str(), nullptr);
 }
 
+// What the motion's rate is held against.
+struct DeviceRate {
+  std::string name;
+  double rate;  // [Hz]
+};
+
+std::optional<DeviceRate> rate_of(const DeviceChoice& device) {
+  if (device.device) return DeviceRate{device.device->name, 1 / device.device->description.loop.sample_period};
+  if (device.axes_device) return DeviceRate{device.axes_device->name, 1 / device.axes_device->loop().sample_period};
+  return std::nullopt;
+}
+
 // False where --rate or the device contradicts the motion. Leaves in `choices` the rate to compile for.
-bool settle_rate(const Motion& motion, const std::optional<Device>& device, Choices& choices, const SourceFile& file,
-                 Diagnostics& diagnostics) {
-  if (!choices.rate && device) choices.rate = 1 / device->description.loop.sample_period;
+bool settle_rate(const Motion& motion, const std::optional<DeviceRate>& device, Choices& choices,
+                 const SourceFile& file, Diagnostics& diagnostics) {
+  if (!choices.rate && device) choices.rate = device->rate;
   if (!motion.period) return true;
   if (!choices.rate) choices.rate = rate_meant(motion);
   if (std::abs(*choices.rate * *motion.period - 1) <= same_rate_of(motion)) return true;
@@ -63,16 +76,62 @@ std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& di
 
 }  // namespace
 
+namespace {
+
+// Without columns of velocities the slopes since the sample before, 0 in the first row.
+template <class Scalar>
+std::string simulate(const AxesCompilation& c, const JointMotion& motion) {
+  Evaluation<Scalar> law(c.law);
+  law.reset(std::vector<Scalar>{0, 0});
+  std::string text = "time,q1,q2,v1,v2";
+  for (std::size_t k = 0; k < c.device.brakes.size(); ++k) text += fmt::format(",damping_{}", k + 1);
+  text += ",torque_1,torque_2\n";
+  for (std::size_t i = 0; i < motion.clock.time.size(); ++i) {
+    std::vector<Scalar> position, velocity;
+    for (std::size_t joint = 0; joint < 2; ++joint) {
+      const std::vector<double>& q = motion.position[joint];
+      const double slope = i == 0 ? 0 : (q[i] - q[i - 1]) * c.rate;
+      position.push_back(static_cast<Scalar>(q[i]));
+      velocity.push_back(static_cast<Scalar>(motion.velocity[joint].empty() ? slope : motion.velocity[joint][i]));
+    }
+    const JointCommand<Scalar> now = law.step(position, velocity);
+    text += fmt::format("{},{},{}\n", motion.clock.time[i], fmt::join(position, ","), fmt::join(velocity, ","));
+    text.back() = ',';
+    text += fmt::format("{},{}\n", fmt::join(now.damping, ","), fmt::join(now.torque, ","));
+  }
+  return text;
+}
+
+ExitStatus simulate_axes(const SourceFile& network, const Options& asked, SourceFiles& files,
+                         const DeviceChoice& device, Diagnostics& diagnostics) {
+  const SourceFile* input = files.open(asked.input, diagnostics);
+  const std::optional<JointMotion> motion = input ? parse_joint_motion(*input, diagnostics) : std::nullopt;
+  if (!motion) return ExitStatus::input_refused;
+  Options options = asked;
+  if (!settle_rate(motion->clock, rate_of(device), options.choices, *input, diagnostics))
+    return ExitStatus::command_line_wrong;
+  const std::optional<AxesCompilation> c = compile_axes(network, options, device, diagnostics);
+  if (!c || diagnostics.has_errors()) return ExitStatus::input_refused;
+  return write_output(
+      options,
+      options.choices.scalar == ScalarType::float64 ? simulate<double>(*c, *motion) : simulate<float>(*c, *motion),
+      diagnostics);
+}
+
+}  // namespace
+
 ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  const DeviceChoice device = open_device(options, files, diagnostics);
+  const DeviceChoice device = open_any_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* network = open_network(options.networks.front(), options, files, diagnostics);
+  if (network != nullptr && has_two_axes(*network)) return simulate_axes(*network, options, files, device, diagnostics);
+  if (network != nullptr && !as_many_axes(*network, device, diagnostics)) return ExitStatus::input_refused;
   const SourceFile* input = files.open(options.input, diagnostics);
   const std::optional<Motion> motion = input ? parse_motion(*input, diagnostics) : std::nullopt;
   if (network == nullptr || !motion) return ExitStatus::input_refused;
   Choices choices = options.choices;
   choices.varies_assumed = false;  // nothing is told of it
-  if (!settle_rate(*motion, device.device, choices, *input, diagnostics)) return ExitStatus::command_line_wrong;
+  if (!settle_rate(*motion, rate_of(device), choices, *input, diagnostics)) return ExitStatus::command_line_wrong;
   const std::optional<Compilation> compilation = compile(*network, choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors() || !suits(*motion, compilation->network.port_motion, diagnostics))
     return ExitStatus::input_refused;

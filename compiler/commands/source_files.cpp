@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "commands/commands.hpp"
+#include "syntax/parse_axes.hpp"
 #include "syntax/parse_device.hpp"
 
 namespace dashpot::compiler {
@@ -27,18 +28,40 @@ std::optional<Device> read_device(const SourceFile& file, Diagnostics& diagnosti
   return decl ? build_device(*decl, diagnostics) : std::nullopt;
 }
 
-DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+std::optional<AxesDevice> read_axes_device(const SourceFile& file, Diagnostics& diagnostics) {
+  const std::optional<AxesDeviceDecl> decl = parse_axes_device(file, diagnostics);
+  return decl ? build_axes_device(*decl, diagnostics) : std::nullopt;
+}
+
+namespace {
+
+DeviceChoice opened(const Options& options, bool takes_axes, SourceFiles& files, Diagnostics& diagnostics) {
   if (!options.device) return {};
   const SourceFile* file = files.open(*options.device, diagnostics);
   if (file == nullptr) return {std::nullopt, std::nullopt, ExitStatus::input_refused};
-  std::optional<Device> device = read_device(*file, diagnostics);
-  if (!device) return {std::nullopt, std::nullopt, ExitStatus::input_refused};
-  const double period = device->description.loop.sample_period;
+  const bool has_axes = takes_axes && axes_of(*file) > 1;
+  DeviceChoice choice{std::nullopt, file->text(), ExitStatus::done};
+  if (has_axes) choice.axes_device = read_axes_device(*file, diagnostics);
+  else choice.device = read_device(*file, diagnostics);
+  if (!choice.device && !choice.axes_device) return {std::nullopt, std::nullopt, ExitStatus::input_refused};
+  const double period =
+      has_axes ? choice.axes_device->loop().sample_period : choice.device->description.loop.sample_period;
   if (options.choices.rate && std::abs(*options.choices.rate * period - 1) > 1e-9) {
-    diagnostics.report<DiagnosticCode::device_rate_contradicts>({}, *options.choices.rate, device->name, 1 / period);
+    diagnostics.report<DiagnosticCode::device_rate_contradicts>(
+        {}, *options.choices.rate, has_axes ? choice.axes_device->name : choice.device->name, 1 / period);
     return {std::nullopt, std::nullopt, ExitStatus::command_line_wrong};
   }
-  return {std::move(device), file->text(), ExitStatus::done};
+  return choice;
+}
+
+}  // namespace
+
+DeviceChoice open_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  return opened(options, false, files, diagnostics);
+}
+
+DeviceChoice open_any_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
+  return opened(options, true, files, diagnostics);
 }
 
 bool spares_inputs(const Options& options, const std::vector<std::string>& outputs, Diagnostics& diagnostics) {

@@ -25,6 +25,7 @@ bool is_member(const UpdateLaw& law, const std::string& name) {
   if (law.tunable &&
       std::find(std::begin(tunable_members), std::end(tunable_members), name) != std::end(tunable_members))
     return true;
+  if (law.joints && (name == "axes" || name == "brakes" || name == "commands")) return true;
   if (name == "threshold" || name == "total" || name == "sampled_") return true;
   const std::string state = name.back() == '_' ? name.substr(0, name.size() - 1) : "";
   const auto names_state = [&](const Variable& v) { return v.role == Role::state && is_called(v, state); };

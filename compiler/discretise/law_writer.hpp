@@ -52,6 +52,8 @@ class LawWriter {
   ExpressionId read(VariableId variable) { return law_.expressions.add({Operation::read, {}, variable}); }
   ExpressionId add(ExpressionId left, ExpressionId right) { return node(Operation::add, {left, right}); }
   ExpressionId subtract(ExpressionId left, ExpressionId right) { return node(Operation::subtract, {left, right}); }
+  ExpressionId divide(ExpressionId left, ExpressionId right) { return node(Operation::divide, {left, right}); }
+  ExpressionId square_root(ExpressionId value) { return node(Operation::square_root, {value}); }
   ExpressionId multiply(ExpressionId left, ExpressionId right) { return node(Operation::multiply, {left, right}); }
   ExpressionId flush(ExpressionId value) { return node(Operation::flush, {value}); }
   ExpressionId clamp(ExpressionId value, ExpressionId limit) { return node(Operation::clamp, {value, limit}); }

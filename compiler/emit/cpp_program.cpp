@@ -23,11 +23,14 @@ class CppPrinter {
     CppProgram program;
     program.headers = headers();
     program.output = statements_.lines_of(law_.output);
+    if (law_.joints) program.output.insert(program.output.begin(), joint_inputs());
     program.keep = statements_.kept_lines_of(law_.keep);
     program.update = statements_.lines_of(law_.guards);
     for (std::string& line : statements_.kept_lines_of(law_.update)) program.update.push_back(std::move(line));
     timing_ == Timing::constant ? check_by_masks(program) : check_and_return(program);
     program.step = timing_ == Timing::any && is_fusable(law_) ? fused(program) : two_phases();
+    if (law_.joints && !is_fusable(law_))
+      program.step.front() = "const dashpot::commands<scalar, axes, brakes> now = output(position, velocity);";
     program.energy = statements_.lines_of(law_.energy);
     for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
     put_alias_before(program.output, program.keep);
@@ -47,6 +50,7 @@ class CppPrinter {
     if (timing_ == Timing::constant) headers.push_back("dashpot/branch_free.hpp");
     headers.push_back("dashpot/command.hpp");
     if (!law_.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
+    if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
     if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
     if (law_.tunable) headers.push_back("dashpot/tunable_law.hpp");
     if (law_.lanes > 1) headers.push_back("dashpot/vector.hpp");
@@ -55,9 +59,32 @@ class CppPrinter {
 
   std::string name_of(VariableId id) const { return CppStatements::scalar_name(law_.variables[id]); }
 
+  // The names that the law has for what the caller gives.
+  std::string joint_inputs() const {
+    std::string line;
+    const auto append_inputs = [&](const std::vector<VariableId>& inputs, const char* array) {
+      for (std::size_t i = 0; i < inputs.size(); ++i)
+        line += fmt::format("{}{} = {}[{}]", line.empty() ? "const scalar " : ", ", name_of(inputs[i]), array, i);
+    };
+    append_inputs(law_.joints->positions, "position");
+    append_inputs(law_.joints->velocities, "velocity");
+    return line + ";";
+  }
+
+  // {{first, second}, {…}}
+  std::string joint_command(const std::vector<VariableId>& dampings, const std::string& torques) const {
+    return fmt::format("{{{}, {}}}", braced(dampings), torques);
+  }
+  std::string braced(const std::vector<VariableId>& variables) const {
+    std::string text;
+    for (const VariableId id : variables) text += (text.empty() ? "{" : ", ") + name_of(id);
+    return text + "}";
+  }
+
   void check_and_return(CppProgram& program) const {
-    program.command =
-        law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force)) : "{damping, force}";
+    program.command = law_.joints            ? joint_command(law_.joints->dampings, braced(law_.joints->torques))
+                      : law_.brake_changes() ? fmt::format("{{{}, {}}}", name_of(law_.brake), name_of(law_.force))
+                                             : "{damping, force}";
     program.check = {"sampled_ = false;",
                      fmt::format("if (!dashpot::all_finite({})) return {};", checked_names(), safe_command()),
                      "sampled_ = true;"};
@@ -71,6 +98,7 @@ class CppPrinter {
   }
 
   std::string safe_command() const {
+    if (law_.joints) return joint_command(law_.joints->last_dampings, "{}");
     return law_.brake_changes() ? fmt::format("{{{}, 0}}", name_of(law_.last_brake)) : "{damping, 0}";
   }
 
@@ -123,7 +151,7 @@ class CppPrinter {
 
   std::vector<std::string> constants() const {
     std::vector<std::string> lines;
-    if (!law_.brake_changes())
+    if (!law_.brake_changes() && !law_.joints)
       lines.push_back(
           fmt::format("static constexpr scalar damping = {};  // b, the brake's part", literal(law_.damping)));
     if (uses(law_, Operation::flush) || uses(law_, Operation::relax) || !law_.guards.empty())
@@ -158,12 +186,16 @@ class CppPrinter {
 
   std::vector<std::string> reset() {
     std::vector<std::string> lines;
+    if (law_.joints) lines = joint_starts();
     const bool rests = law_.rest_position != no_variable;
-    if (!rests) lines.push_back("static_cast<void>(position);");
+    if (!rests && (!law_.joints || law_.joints->starts.empty())) lines.push_back("static_cast<void>(position);");
     if (rests) lines = statements_.lines_of(law_.start);
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state || is_of_rest(law_.variables.id_of(variable))) continue;
-      if (rests && &variable == &law_.variables[law_.rest_position])
+      if (const std::string value = started(variable); !value.empty())
+        lines.push_back(
+            fmt::format("{0} = dashpot::all_finite({1}) ? {1} : 0;", CppStatements::scalar_name(variable), value));
+      else if (rests && &variable == &law_.variables[law_.rest_position])
         lines.push_back(fmt::format("{} = dashpot::all_finite(position, position, position) ? {} : 0;",
                                     CppStatements::scalar_name(variable), rest_position()));
       else if (variable.size == 1)
@@ -183,6 +215,24 @@ class CppPrinter {
     for (const Statement& statement : law_.rest)
       each_assigned(law_, statement, [&](VariableId assigned) { found |= assigned == state; });
     return found;
+  }
+
+  std::vector<std::string> joint_starts() {
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < law_.joints->positions.size(); ++i)
+      if (const VariableId joint = law_.joints->positions[i]; reads(law_, law_.start, joint))
+        lines.push_back(fmt::format("const scalar {0} = dashpot::all_finite(position[{1}]) ? position[{1}] : 0;",
+                                    name_of(joint), i));
+    for (std::string& line : statements_.lines_of(law_.start)) lines.push_back(std::move(line));
+    return lines;
+  }
+
+  // What reset() sets a state of a port to; empty for others.
+  std::string started(const Variable& state) const {
+    if (law_.joints)
+      for (const JointPorts::Start& start : law_.joints->starts)
+        if (&law_.variables[start.state] == &state) return name_of(start.value);
+    return "";
   }
 
   std::string rest_position() const {

@@ -19,10 +19,14 @@ class Check {
     std::set<VariableId> locals;
     phase("output", law_.output, locals, {.inputs = true, .states = false, .locals = true});
     require(locals.count(law_.force) != 0, "the force is never assigned");
+    if (law_.joints) check_joints(locals);
     require(!law_.brake_changes() || locals.count(law_.brake) != 0, "the brake is never assigned");
     phase("keep", law_.keep, locals, {.inputs = true, .states = true, .locals = false});
     locals.clear();
     phase("start", law_.start, locals, {.inputs = true, .states = false, .locals = true});
+    if (law_.joints)
+      for (const JointPorts::Start& start : law_.joints->starts)
+        require(locals.count(start.value) != 0, "the start of a port is never assigned");
     require(law_.started_at == no_variable || locals.count(law_.started_at) != 0, "the start is never assigned");
     locals.clear();
     phase("rest", law_.rest, locals, {.inputs = false, .states = true, .locals = true});
@@ -43,6 +47,16 @@ class Check {
 
   void require(bool holds, const std::string& otherwise) const {
     if (!holds) throw std::logic_error(fmt::format("{}: {}", pass_, otherwise));
+  }
+
+  void check_joints(const std::set<VariableId>& locals) const {
+    const JointPorts& joints = *law_.joints;
+    for (const auto* assigned : {&joints.dampings, &joints.torques})
+      for (const VariableId id : *assigned)
+        require(locals.count(id) != 0, "the command of a brake or a motor is never assigned");
+    for (const VariableId id : joints.last_dampings)
+      require(law_.variables.has(id) && law_.variables[id].role == Role::state,
+              "what a refused sample needs is no state");
   }
 
   void check_tables() const {

@@ -1,5 +1,7 @@
 #include "law/evaluate.hpp"
 
+#include <dashpot/elementary.hpp>
+
 namespace dashpot::compiler {
 
 template <class Scalar>
@@ -100,6 +102,36 @@ unsigned Evaluation<Scalar>::set(const std::vector<Scalar>& values) {
   const unsigned clamped = tunable_ ? tunable_->set(values.data()) : 0;
   run(law_.tune);
   return clamped;
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::reset(const std::vector<Scalar>& positions) {
+  reset(Scalar(0));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    at(law_.joints->positions[i])[0] = all_finite(positions[i]) ? positions[i] : Scalar(0);
+  run(law_.start);
+  for (const JointPorts::Start& start : law_.joints->starts)
+    at(start.state)[0] = all_finite(at(start.value)[0]) ? at(start.value)[0] : Scalar(0);
+}
+
+template <class Scalar>
+JointCommand<Scalar> Evaluation<Scalar>::step(const std::vector<Scalar>& positions,
+                                              const std::vector<Scalar>& velocities) {
+  const JointPorts& joints = *law_.joints;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    at(joints.positions[i])[0] = positions[i];
+    at(joints.velocities[i])[0] = velocities[i];
+  }
+  run(law_.output);
+  sampled_ = true;
+  for (const auto* checked : {&joints.positions, &joints.velocities, &joints.dampings, &joints.torques})
+    for (const VariableId id : *checked) sampled_ = sampled_ && all_finite(at(id)[0]);
+  if (sampled_) run(law_.keep);
+  JointCommand<Scalar> now;
+  for (const VariableId id : joints.last_dampings) now.damping.push_back(at(id)[0]);
+  for (const VariableId id : joints.torques) now.torque.push_back(sampled_ ? at(id)[0] : Scalar(0));
+  update();
+  return now;
 }
 
 template <class Scalar>
@@ -209,6 +241,7 @@ Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
     case Operation::subtract: return operand(0) - operand(1);
     case Operation::multiply: return operand(0) * operand(1);
     case Operation::divide: return operand(0) / operand(1);
+    case Operation::square_root: return square_root(operand(0));
     case Operation::flush: return flushed(operand(0));
     case Operation::clamp: return clamp_to(operand(1), operand(0));
     case Operation::where: return operand(0) > 0 ? operand(1) : operand(2);

@@ -12,6 +12,13 @@
 
 namespace dashpot::compiler {
 
+// Of a law of several joints, as the emitted code returns it.
+template <class Scalar>
+struct JointCommand {
+  std::vector<Scalar> damping;  // one a brake
+  std::vector<Scalar> torque;   // one a motor
+};
+
 // Scalar is float or double, as the law's scalar type.
 template <class Scalar>
 class Evaluation {
@@ -22,6 +29,9 @@ class Evaluation {
   command<Scalar> output(Scalar position, Scalar velocity);
   void update();
   command<Scalar> step(Scalar position, Scalar velocity);
+  // Of a law of several joints.
+  void reset(const std::vector<Scalar>& positions);
+  JointCommand<Scalar> step(const std::vector<Scalar>& positions, const std::vector<Scalar>& velocities);
   Scalar stored_energy();
   Scalar value_of(VariableId scalar) const { return at(scalar)[0]; }
   // Of all forces, what the last output() kept for the motor to be able to follow; 1 of a law that does not shed.

@@ -201,6 +201,19 @@ enum class ModeForm {
 
 std::string_view name_of(ModeForm form);  // "product", "delta", "compensated"
 
+// Of a law of several joints: what stands in the place of position, velocity, force and brake (theory, section 12).
+// What the law does of each port is in its statements; `force` and `brake` of the law itself are not used.
+struct JointPorts {
+  struct Start {
+    VariableId state, value;  // reset() sets the state to this local of `start`, or to 0 where that is not finite
+  };
+
+  std::vector<VariableId> positions, velocities;    // inputs, one a joint [rad] or [m], [rad/s] or [m/s]
+  std::vector<VariableId> torques;                  // locals of `output`, one a joint [N·m] or [N]
+  std::vector<VariableId> dampings, last_dampings;  // locals of `output`, and states that remember them, one a brake
+  std::vector<Start> starts;                        // one for each port that holds a position
+};
+
 struct UpdateLaw {
   ScalarType scalar = ScalarType::float64;
   Scheme scheme = Scheme::exact;
@@ -228,6 +241,8 @@ struct UpdateLaw {
   std::vector<Statement> start;     // of reset(): locals of the position, where `started_at` needs them
   std::vector<Statement> rest;      // of reset(): states that do not rest at a constant, after all others
   std::vector<Statement> tune;      // of set(), with the parameters' new values
+
+  std::optional<JointPorts> joints;  // of a law of several joints
 
   std::optional<TunableTables> tunable;  // of a network with tunables: what the programs call
 

@@ -13,6 +13,9 @@ namespace {
 bool drop_once(UpdateLaw& law) {
   std::set<VariableId> read = {law.force, law.stored};
   if (law.brake_changes()) read.insert(law.brake);
+  if (law.joints)
+    for (const auto* commands : {&law.joints->dampings, &law.joints->torques})
+      read.insert(commands->begin(), commands->end());
   for (const std::vector<Statement>* program : programs(law))
     for (const Statement& statement : *program) each_read(law, statement, [&](VariableId id) { read.insert(id); });
   for (SlipNetwork& network : law.networks)

@@ -24,6 +24,7 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
     case Operation::relax: return shows(law, e.operands[2], input);
     case Operation::constant:
     case Operation::divide:
+    case Operation::square_root:
     case Operation::flush:
     case Operation::clamp:
     case Operation::where:
@@ -45,7 +46,9 @@ std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law) {
   std::map<VariableId, VariableId> carried;
   for (const Statement& statement : law.keep) {
     const Expression& e = law.expressions[statement.value];
-    const bool stays = statement.target == law.last_brake || statement.target == law.share ||
+    const bool is_last_brake = law.joints && std::count(law.joints->last_dampings.begin(),
+                                                        law.joints->last_dampings.end(), statement.target) > 0;
+    const bool stays = is_last_brake || statement.target == law.last_brake || statement.target == law.share ||
                        reads(law, law.output, statement.target) || reads(law, law.energy, statement.target);
     if (e.operation == Operation::read && !stays) carried[statement.target] = e.variable;
   }
@@ -53,6 +56,13 @@ std::map<VariableId, VariableId> carried_numbers(const UpdateLaw& law) {
 }
 
 std::vector<VariableId> checked_numbers(const UpdateLaw& law) {
+  if (law.joints) {
+    std::vector<VariableId> all;
+    for (const auto* some :
+         {&law.joints->positions, &law.joints->velocities, &law.joints->dampings, &law.joints->torques})
+      all.insert(all.end(), some->begin(), some->end());
+    return all;
+  }
   const auto last = std::find_if(law.output.begin(), law.output.end(),
                                  [&](const Statement& s) { return s.assigns() && s.target == law.checked(); });
   std::vector<VariableId> numbers;

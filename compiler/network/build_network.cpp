@@ -285,7 +285,7 @@ class NetworkBuilder {
   // Where parts of the file were not understood, these would only echo it.
   void check_whole() {
     if (!decl_.complete) return;
-    table_.report_unused();
+    if (!decl_.shares_parameters) table_.report_unused();
     const std::size_t errors_before = diagnostics_.error_count();
     check_connections(network_, decl_.structure_span, diagnostics_);
     if (diagnostics_.error_count() == errors_before) mark_effect(network_, diagnostics_);

@@ -58,6 +58,7 @@ class Writer {
       case Operation::multiply: return product(grouped(e.operands[0], 2), grouped(e.operands[1], 3));
       case Operation::divide:
         return "<mfrac><mrow>" + written(e.operands[0]) + "</mrow><mrow>" + written(e.operands[1]) + "</mrow></mfrac>";
+      case Operation::square_root: return "<msqrt>" + written(e.operands[0]) + "</msqrt>";
       case Operation::flush: return written(e.operands[0]);
       case Operation::clamp:
         return "<mi>clamp</mi>" +

@@ -43,4 +43,15 @@ bool is_format_1(FileKind kind, const JsonValue& root, Diagnostics& diagnostics)
   return false;
 }
 
+bool is_of_one_axis(FileKind kind, const JsonValue& root, Diagnostics& diagnostics) {
+  const JsonMember* axes = find_member(root, "axes");
+  if (axes == nullptr) return true;
+  const double number = axes->value.kind == JsonValue::Kind::number ? number_in(axes->value) : 0;
+  if (number == 1) return true;
+  if (number != 2) diagnostics.report<DiagnosticCode::axes_number>(axes->value.span, excerpt(axes->value.text));
+  else if (kind == FileKind::network) diagnostics.report<DiagnosticCode::several_axes>(axes->value.span);
+  else diagnostics.report<DiagnosticCode::device_of_several_axes>(axes->value.span);
+  return false;
+}
+
 }  // namespace dashpot::compiler

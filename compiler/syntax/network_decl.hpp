@@ -130,8 +130,9 @@ struct NetworkDecl {
   std::optional<StaticDecl> static_curve;
   std::optional<ValidDecl> valid;
   std::vector<CommentDecl> comments;
-  std::string digest;    // of the file's bytes
-  bool complete = true;  // false: problems were reported, so only what is here can be checked further
+  std::string digest;              // of the file's bytes
+  bool complete = true;            // false: problems were reported, so only what is here can be checked further
+  bool shares_parameters = false;  // with other ports of its file, which may use what is not used here
 };
 
 }  // namespace dashpot::compiler

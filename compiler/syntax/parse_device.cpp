@@ -14,9 +14,9 @@ using Kind = JsonValue::Kind;
 
 const std::vector<std::string> section_names = {"loop", "encoder", "velocity", "motor", "brake", "mechanics"};
 
-const std::vector<std::string> device_keys = {"dashpot_device", "name",  "source",    "motion",
-                                              "arm_radius",     "loop",  "encoder",   "velocity",
-                                              "motor",          "brake", "mechanics", "assumed"};
+const std::vector<std::string> device_keys = {"dashpot_device", "axes",      "name",    "source",   "motion",
+                                              "arm_radius",     "loop",      "encoder", "velocity", "motor",
+                                              "brake",          "mechanics", "assumed"};
 
 std::optional<EntryDecl> parse_entry(const JsonMember& member, Diagnostics& diagnostics) {
   EntryDecl entry{{member.key, member.key_span}, {}, member.value.kind == Kind::array, member.value.span};
@@ -87,9 +87,17 @@ std::optional<DeviceDecl> parse_device(const SourceFile& file, Diagnostics& diag
   const std::size_t errors_before = diagnostics.error_count();
   std::optional<JsonValue> root = parse_json(file, diagnostics);
   if (!root || !is_format_1(FileKind::device, *root, diagnostics)) return std::nullopt;
+  if (!is_of_one_axis(FileKind::device, *root, diagnostics)) return std::nullopt;
   take_annotations(*root, diagnostics);
   DeviceDecl decl = parse_device_keys(ObjectReader(*root, "the device file", diagnostics), diagnostics);
   decl.digest = digest_of(file.text());
+  decl.complete = diagnostics.error_count() == errors_before;
+  return decl;
+}
+
+DeviceDecl parse_device_object(const JsonValue& object, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  DeviceDecl decl = parse_device_keys(ObjectReader(object, "the device file", diagnostics), diagnostics);
   decl.complete = diagnostics.error_count() == errors_before;
   return decl;
 }

@@ -16,8 +16,9 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-const std::vector<std::string> network_keys = {"dashpot", "name",     "title",  "source",  "motion", "parameters",
-                                               "network", "elements", "static", "contact", "valid",  "fit"};
+const std::vector<std::string> network_keys = {"dashpot", "axes",       "name",    "title",    "source",
+                                               "motion",  "parameters", "network", "elements", "static",
+                                               "contact", "valid",      "fit"};
 
 ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics) {
   ParameterDecl parameter{{member.key, member.key_span}, {}, false, {}, {}, member.value.span};
@@ -80,16 +81,30 @@ void parse_structure(const ObjectReader& reader, NetworkDecl& decl, Diagnostics&
   }
 }
 
+// What only a network of two axes has, once each.
+std::vector<std::string> keys_of_ports(const ObjectReader& reader, Diagnostics& diagnostics) {
+  std::vector<std::string> keys;
+  for (const char* key : {"ports", "field"})
+    if (const JsonMember* member = reader.find(key)) {
+      diagnostics.report<DiagnosticCode::ports_without_axes>(member->key_span, key);
+      keys.push_back(key);
+    }
+  return keys;
+}
+
 NetworkDecl parse_network_keys(ObjectReader reader, Diagnostics& diagnostics) {
   NetworkDecl decl;
-  reader.refuse_other_keys(network_keys);
+  const std::vector<std::string> of_ports = keys_of_ports(reader, diagnostics);
+  std::vector<std::string> keys = network_keys;
+  keys.insert(keys.end(), of_ports.begin(), of_ports.end());
+  reader.refuse_other_keys(keys);
   reader.require("name");
   decl.name = reader.text("name");
   decl.title = reader.text("title");
   decl.source = reader.text("source");
   decl.motion = reader.text("motion");
   decl.parameters = parse_parameters(reader, diagnostics);
-  parse_structure(reader, decl, diagnostics);
+  if (reader.find("ports") == nullptr) parse_structure(reader, decl, diagnostics);
   if (const JsonValue* object = reader.object("static")) decl.static_curve = parse_static(*object, diagnostics);
   decl.contact = parse_contact(reader, diagnostics);
   decl.valid = parse_valid(reader, diagnostics);
@@ -103,10 +118,18 @@ std::optional<NetworkDecl> parse_network(const SourceFile& file, Diagnostics& di
   const std::size_t errors_before = diagnostics.error_count();
   std::optional<JsonValue> root = parse_json(file, diagnostics);
   if (!root || !is_format_1(FileKind::network, *root, diagnostics)) return std::nullopt;
+  if (!is_of_one_axis(FileKind::network, *root, diagnostics)) return std::nullopt;
   std::vector<CommentDecl> comments = take_annotations(*root, diagnostics);
   NetworkDecl decl = parse_network_keys(ObjectReader(*root, "the network file", diagnostics), diagnostics);
   decl.comments = std::move(comments);
   decl.digest = digest_of(file.text());
+  decl.complete = diagnostics.error_count() == errors_before;
+  return decl;
+}
+
+NetworkDecl parse_network_object(const JsonValue& object, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  NetworkDecl decl = parse_network_keys(ObjectReader(object, "the port", diagnostics), diagnostics);
   decl.complete = diagnostics.error_count() == errors_before;
   return decl;
 }

@@ -164,12 +164,13 @@ Emitted emitted(compiler::Network network, compiler::ScalarType scalar, std::uin
   return emitted(std::move(compilation), diagnostics, {});
 }
 
-// Those that dashpot brings along, but for the measured ones, which are as many more of the same kinds.
+// Those of one axis that dashpot brings along, but for the measured ones, which are as many more of the same kinds.
 std::vector<fs::path> network_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(DASHPOT_NETWORKS)) {
     const std::string path = entry.path().generic_string();
-    if (path.ends_with(".json") && !path.ends_with("schema.json") && path.find("/measured/") == path.npos)
+    if (path.ends_with(".json") && !path.ends_with("schema.json") && path.find("/measured/") == path.npos &&
+        path.find("/axes/") == path.npos)
       files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());

@@ -11,10 +11,13 @@
 #include <string_view>
 #include <vector>
 
+#include "network/axes_device.hpp"
+#include "network/axes_network.hpp"
 #include "network/device.hpp"
 #include "network/network.hpp"
 #include "source/code_name.hpp"
 #include "source/render.hpp"
+#include "syntax/parse_axes.hpp"
 #include "syntax/parse_device.hpp"
 #include "syntax/parse_network.hpp"
 
@@ -41,10 +44,18 @@ std::vector<fs::path> case_files() {
 bool is_device_case(const fs::path& file) { return file.parent_path().filename() == "devices"; }
 
 void compile_network(const SourceFile& source, Diagnostics& diagnostics) {
+  if (axes_of(source) > 1) {
+    if (const auto decl = parse_axes_network(source, diagnostics)) build_axes_network(*decl, diagnostics);
+    return;
+  }
   if (const auto decl = parse_network(source, diagnostics)) build_network(*decl, diagnostics);
 }
 
 void compile_device(const SourceFile& source, Diagnostics& diagnostics) {
+  if (axes_of(source) > 1) {
+    if (const auto decl = parse_axes_device(source, diagnostics)) build_axes_device(*decl, diagnostics);
+    return;
+  }
   if (const auto decl = parse_device(source, diagnostics)) build_device(*decl, diagnostics);
 }
 
@@ -124,10 +135,12 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 // If this fails, a message of the front end has no case that provokes it, and nobody has read it in place. The messages
-// about whole files and limits of size are provoked by the unit tests.
+// about whole files and limits of size are provoked by the unit tests, those of commands that take one axis alone by
+// the tests of the command line.
 TEST(Diagnostics, EveryMessageOfTheFrontEndHasACase) {
   const std::set<DiagnosticCode> provoked_elsewhere = {DiagnosticCode::too_many_values,
-                                                       DiagnosticCode::too_many_elements};
+                                                       DiagnosticCode::too_many_elements, DiagnosticCode::several_axes,
+                                                       DiagnosticCode::device_of_several_axes};
   const std::vector<std::string> lines = lines_of(all_expectations());
   const auto first = static_cast<std::size_t>(DiagnosticCode::unexpected_token);
   const auto last = static_cast<std::size_t>(DiagnosticCode::assumed_not_given);

@@ -23,6 +23,9 @@ BEYOND_THE_SCHEMAS = {
     "devices/limit_as_a_current", "devices/brake_safe_damping_too_large", "devices/brake_unit_of_the_other_motion",
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
     "devices/rate_is_a_period", "devices/units_run_together",
+    # two axes: geometry and physics
+    "axes_field_gives_power", "axes_field_turns", "axes_map_radius_of_zero", "axes_port_twice", "axes_tunable",
+    "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel", "devices/axes_motion_of_serial",
     # names
     "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
     # JSON that Python reads all the same

@@ -37,10 +37,12 @@ std::vector<fs::path> networks_in(const std::string& room) {
 // Every network with the defaults, and each form that the defaults do not show once.
 std::vector<Recording> recordings() {
   const fs::path paper = source / "networks/paper", tissues = source / "networks/tissues";
+  const std::string pantograph = "--device '" + (source / "runtime/devices/pantograph_2dof.json").string() + "'";
   return {
       {"paper", "", networks_in("paper")},
       {"tissues", "", networks_in("tissues")},
       {"tunable", "", networks_in("tunable")},
+      {"axes", pantograph, networks_in("axes")},
       {"forms/backward_euler", "--scheme backward-euler", {paper / "second_order_maxwell.json"}},
       {"forms/nodal", "--scheme backward-euler --state-input nodal", {paper / "generalised_kelvin_two.json"}},
       {"forms/velocity", "--state-input velocity", {paper / "maxwell_damper_at_tool.json"}},

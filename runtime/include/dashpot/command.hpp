@@ -19,6 +19,14 @@ struct command {
   Scalar force;    // motor force opposing +u [N], or torque [N·m] in rotation
 };
 
+// Of a device of several axes: a damping for each brake, along the direction of joint velocities that the device's
+// description states, and a torque for each motor, opposing +q. With `axes` positions q [rad or m] of the joints.
+template <class Scalar, int axes, int brakes>
+struct commands {
+  Scalar damping[brakes];  // [N·m·s/rad] or [N·s/m]; never negative
+  Scalar torque[axes];     // [N·m] or [N]
+};
+
 // True when every argument is finite: x − x is 0 for a finite x and NaN for the others, and NaN alone differs from
 // itself.
 template <class Scalar>
@@ -33,6 +41,10 @@ constexpr bool all_finite(Scalar a, Scalar b) noexcept {
 template <class Scalar>
 constexpr bool all_finite(Scalar a, Scalar b, Scalar c) noexcept {
   return all_finite((a - a) + (b - b) + (c - c));
+}
+template <class Scalar, class... Scalars>
+constexpr bool all_finite(Scalar a, Scalar b, Scalar c, Scalars... more) noexcept {
+  return all_finite(a, b, c) && all_finite(more...);
 }
 
 // Whether `value` lies beyond ± `threshold`. One question in two forms: a desktop's processor predicts two comparisons

@@ -1,0 +1,62 @@
+// What is proved about a law of two axes on its device (theory, section 12): the forces that its ports hold from one
+// sample to the next, against the damping that is there for certain, over the whole workspace.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "axes/brake_share.hpp"
+#include "axes/brakes.hpp"
+#include "axes/workspace_bound.hpp"
+#include "certify/certificate.hpp"
+#include "linear/normal_form.hpp"
+#include "network/axes_device.hpp"
+#include "network/axes_network.hpp"
+
+namespace dashpot::compiler {
+
+// What the certificate needs of a port's compilation.
+struct CertifiedPort {
+  const Port* port;
+  const NormalForm* form;
+  const UpdateLaw* law;            // of one axis
+  const Certificate* certificate;  // of that law on an ideal device of the same rate
+};
+
+struct AxesCertificate {
+  bool is_proved = false;  // false: for `reason`
+  std::string reason;
+  double needed = 0;                // x W that the held forces need, W = diag(weight) [N·s/m]
+  double missing = 0;               // x that has to be added to what is there already; not below it [N·s/m]
+  axes::Pair<double> weight{1, 1};  // square of each joint's link [m²]; [1] of joints that slide
+  axes::Pair<double> worst{0, 0};   // tip where most is missing [m]
+  std::vector<double> added;        // to each brake's command [N·m·s/rad] or [N·s/m]
+  // Whether what the motors make of the ports' damping, from estimates, is passive whatever lateness the estimates of
+  // both joints share, everywhere in the workspace.
+  bool takes_lateness = true;
+  bool certified = false;
+  std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
+
+  bool adds() const;
+};
+
+std::vector<axes::Brake> brakes_of(const AxesDevice& device);
+
+// Of the damping of all ports, where they are pushed, what the brakes make by a rule; nothing where there is no
+// damping, or no workspace.
+std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                                       const AxesDevice& device, axes::BrakeRule rule);
+
+// In: a network's ports, the device, and by what rule its brakes take part. Out: the certificate, with what has to be
+// added to the brakes' commands, as far as they reach.
+AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                             const AxesDevice& device, axes::BrakeRule rule);
+
+// Why not, as one clause.
+std::string why_not_certified(const AxesCertificate& certificate, const AxesDevice& device);
+
+// One or more lines on what is proved.
+std::vector<std::string> passivity_lines(const AxesCertificate& certificate, const AxesDevice& device);
+
+}  // namespace dashpot::compiler

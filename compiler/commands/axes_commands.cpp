@@ -1,0 +1,201 @@
+#include "commands/axes_commands.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "compile_axes.hpp"
+#include "law/cost.hpp"
+#include "law/law_text.hpp"
+#include "network/port_units.hpp"
+#include "source/wrapped_text.hpp"
+#include "syntax/parse_axes.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr axes::BrakeRule all_rules[] = {axes::BrakeRule::diagonal, axes::BrakeRule::non_injecting,
+                                         axes::BrakeRule::virtual_brake};
+
+// Options that only laws of one axis know.
+const char* option_of_one_axis(const Options& options) {
+  if (options.emission.constant_time) return "--constant-time";
+  if (options.emission.batch) return "--batch";
+  if (options.emission.with_test) return "--with-test";
+  if (options.certificate) return "--certificate";
+  if (options.proof) return "--proof";
+  return nullptr;
+}
+
+std::size_t operations(const UpdateLaw& law, const std::vector<Statement>& program) {
+  const Cost cost = cost_of(law, program);
+  return cost.additions + cost.multiplications + cost.selections + cost.guards + cost.coupled;
+}
+
+std::string ports_text(const AxesCompilation& c) {
+  std::string text = fmt::format("{:<16} {:<8} {:>12} {:>12} {:>12} {:>6}  {}\n", "port", "map", "b [N·s/m]",
+                                 "k0 [N/m]", "b∞ [N·s/m]", "modes", "rule");
+  for (std::size_t i = 0; i < c.ports.size(); ++i) {
+    const Compilation& port = c.ports[i];
+    text += fmt::format("{:<16} {:<8} {:>12.6g} {:>12.6g} {:>12.6g} {:>6}  {}{}\n", c.network.ports[i].name,
+                        c.network.ports[i].map_kind, port.decomposition.choice().damping,
+                        to_double(port.form.linear.static_stiffness), to_double(port.form.linear.feedthrough_damping),
+                        port.form.linear.modes.size(), port.decomposition.choice().name,
+                        port.network.contact ? ", contact" : "");
+  }
+  if (c.network.has_field())
+    text += fmt::format("viscous field [[{}, {}], [{}, {}]] N·s/m\n", c.network.viscous[0][0], c.network.viscous[0][1],
+                        c.network.viscous[1][0], c.network.viscous[1][1]);
+  return text;
+}
+
+std::string share_row(std::string_view name, const axes::ShareMap& share, bool is_chosen) {
+  return fmt::format("{:<14} {:>6.3f} {:>6.3f} {:>6.3f} at ({:.3g}, {:.3g}) mm {:>9.3f} {:>6.3f} {:>10.0f} %{}\n", name,
+                     share.mean, share.median, share.worst, 1e3 * share.worst_at[0], 1e3 * share.worst_at[1],
+                     share.worst_direction_median, share.worst_direction_worst, 100 * share.delay_proof,
+                     is_chosen ? "  chosen" : "");
+}
+
+std::string shares_text(const AxesCompilation& c) {
+  std::string text =
+      "share of the ports' damping that the brakes make over the workspace: in motions alike in all\n"
+      "directions its mean, median and worst, in the worst direction median and worst; and the part of\n"
+      "the workspace where the rest, made by the motors, takes any lateness of the estimate\n";
+  for (const axes::BrakeRule rule : all_rules)
+    if (const auto share = share_by(c, rule)) text += share_row(name_of(rule), *share, rule == c.rule);
+  return text;
+}
+
+Json json_of(const axes::ShareMap& share) {
+  return {{"mean", share.mean},
+          {"median", share.median},
+          {"worst", share.worst},
+          {"worst_at", share.worst_at},
+          {"worst_direction_median", share.worst_direction_median},
+          {"worst_direction_worst", share.worst_direction_worst},
+          {"delay_proof", share.delay_proof}};
+}
+
+std::string explain_json(const AxesCompilation& c) {
+  Json ports = Json::array(), candidates = Json::array();
+  for (std::size_t i = 0; i < c.ports.size(); ++i) {
+    const LinearForm& form = c.ports[i].form.linear;
+    Json modes = Json::array();
+    for (const Mode& mode : form.modes)
+      modes.push_back({{"stiffness", to_double(mode.stiffness)}, {"relaxation_rate", to_double(mode.relaxation_rate)}});
+    ports.push_back({{"name", c.network.ports[i].name},
+                     {"map", c.network.ports[i].map_kind},
+                     {"contact", c.ports[i].network.contact.has_value()},
+                     {"static_stiffness", to_double(form.static_stiffness)},
+                     {"feedthrough_damping", to_double(form.feedthrough_damping)},
+                     {"modes", modes},
+                     {"damping", c.ports[i].decomposition.choice().damping}});
+  }
+  for (const axes::BrakeRule rule : all_rules) {
+    const auto share = share_by(c, rule);
+    candidates.push_back({{"name", name_of(rule)}, {"share", share ? json_of(*share) : Json(nullptr)}});
+  }
+  const AxesCertificate& certificate = c.certificate;
+  const bool is_proved = certificate.is_proved;
+  const Json json = {
+      {"name", c.network.name},
+      {"axes", most_axes},
+      {"device", c.has_device ? Json(c.device.name) : Json(nullptr)},
+      {"kinematics", name_of(c.device.arm.kind)},
+      {"viscous", c.network.viscous},
+      {"ports", ports},
+      {"candidates", candidates},
+      {"chosen", name_of(c.rule)},
+      {"needed_damping", is_proved ? Json(certificate.needed) : Json(nullptr)},
+      {"missing_damping", is_proved ? Json(certificate.missing) : Json(nullptr)},
+      {"worst_at", is_proved ? Json(certificate.worst) : Json(nullptr)},
+      {"added_damping", certificate.added},
+      {"certified", certificate.certified},
+      {"operations", {{"output", operations(c.law, c.law.output)}, {"update", operations(c.law, c.law.update)}}}};
+  return json.dump(2) + "\n";
+}
+
+std::string explain_text(const AxesCompilation& c) {
+  std::string text =
+      fmt::format("{}: two axes, {}\n", c.network.name,
+                  c.has_device ? fmt::format("device '{}', {}", c.device.name, name_of(c.device.arm.kind))
+                               : "no device: the joints are the tool's own axes");
+  text += "\n" + ports_text(c);
+  if (c.certificate.share) text += "\n" + shares_text(c);
+  text += "\n";
+  for (const std::string& fact : passivity_lines(c.certificate, c.device))
+    for (const std::string& line : wrapped_text(fact, 98, 2)) text += line + "\n";
+  return text + fmt::format("a step takes {} operations before the command leaves and {} after it\n",
+                            operations(c.law, c.law.output), operations(c.law, c.law.update));
+}
+
+}  // namespace
+
+bool has_two_axes(const SourceFile& network) { return axes_of(network) == most_axes; }
+
+bool as_many_axes(const SourceFile& network, const DeviceChoice& device, Diagnostics& diagnostics) {
+  const bool is_of_two = has_two_axes(network);
+  if ((!device.device && !device.axes_device) || device.axes_device.has_value() == is_of_two) return true;
+  diagnostics.report<DiagnosticCode::axes_differ>(
+      {}, is_of_two ? 2 : 1, is_of_two ? device.device->name : device.axes_device->name, is_of_two ? 1 : 2);
+  return false;
+}
+
+std::optional<AxesCompilation> compile_axes(const SourceFile& network, const Options& options,
+                                            const DeviceChoice& device, Diagnostics& diagnostics) {
+  if (!as_many_axes(network, device, diagnostics)) return std::nullopt;
+  return compile_axes(network, options.choices, device.axes_device, diagnostics);
+}
+
+std::string explain_axes(const AxesCompilation& compilation, bool as_json) {
+  return as_json ? explain_json(compilation) : explain_text(compilation);
+}
+
+std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) {
+  if (stage == "network") return to_text(c.network);
+  if (stage == "law") {
+    Network whole;
+    whole.name = c.network.name, whole.port_motion = c.device.joint_motion();
+    return to_text(c.law, whole);
+  }
+  if (stage == "certificate") {
+    std::string text = "certificate of " + c.network.name + "\n";
+    for (const std::string& line : passivity_lines(c.certificate, c.device)) text += line + "\n";
+    return text;
+  }
+  std::string text;
+  for (std::size_t i = 0; i < c.ports.size(); ++i) {
+    const Compilation& port = c.ports[i];
+    text += "port " + c.network.ports[i].name + "\n";
+    text += stage == "linear" ? to_text(port.form.linear, port.network)
+                              : candidates_text(port.decomposition, port.network) + chosen_text(port.decomposition);
+  }
+  return text;
+}
+
+std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const Options& options,
+                                                 Diagnostics& diagnostics) {
+  const std::string target(options.target->name);
+  const char* const option = option_of_one_axis(options);
+  if (target != "cpp") diagnostics.report<DiagnosticCode::target_on_two_axes>(c.network.name_span, target);
+  if (option != nullptr) diagnostics.report<DiagnosticCode::option_on_two_axes>(c.network.name_span, option);
+  if (target != "cpp" || option != nullptr) return std::nullopt;
+  const AxesCertificate& certificate = c.certificate;
+  const std::string device = c.has_device ? fmt::format("device '{}'", c.device.name) : "an ideal device";
+  if (!certificate.is_proved) {
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, certificate.reason);
+  } else if (!certificate.certified) {
+    const std::string lacks = why_not_certified(certificate, c.device);
+    if (!options.uncertified) {
+      diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device, lacks);
+      diagnostics.note<DiagnosticCode::compile_uncertified>({});
+      return std::nullopt;
+    }
+    diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, lacks);
+  }
+  return emit_axes_cpp(c, options.emission, diagnostics);
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,128 @@
+#include "compile_axes.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "compile.hpp"
+#include "discretise/discretise.hpp"
+#include "discretise/element_names.hpp"
+#include "law/representable.hpp"
+#include "lower/drop_unread.hpp"
+#include "lower/joint_law.hpp"
+#include "syntax/parse_axes.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr axes::BrakeRule rules_of_brakes[] = {axes::BrakeRule::diagonal, axes::BrakeRule::non_injecting,
+                                               axes::BrakeRule::virtual_brake};
+
+// `diagonal` where nothing is asked for; nothing, reported, for a rule of one axis.
+std::optional<axes::BrakeRule> brake_rule(const Choices& choices, const std::optional<AxesDevice>& device,
+                                          Diagnostics& diagnostics) {
+  if (is_named(choices, "")) return axes::BrakeRule::diagonal;
+  std::string names;
+  for (const axes::BrakeRule rule : rules_of_brakes) {
+    // A closed form of two brakes.
+    if (rule == axes::BrakeRule::non_injecting && device && device->brakes.size() != 2) continue;
+    if (is_named(choices, name_of(rule))) return rule;
+    names += (names.empty() ? "" : ", ") + std::string(name_of(rule));
+  }
+  const auto* const asked = std::get_if<std::string>(&choices.decomposition);
+  diagnostics.report<DiagnosticCode::rule_of_brakes>(
+      {}, asked ? *asked : fmt::format("{}", std::get<double>(choices.decomposition)), names);
+  return std::nullopt;
+}
+
+// Of each port on its own, driven by the position.
+Choices choices_of_ports(const Choices& asked, double rate) {
+  Choices choices = asked;
+  choices.decomposition = "";
+  choices.state_input = StateInput::position;
+  choices.rate = rate;
+  choices.varies_assumed = false;
+  return choices;
+}
+
+bool compile_ports(AxesCompilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  for (const Port& port : c.network.ports) {
+    StageTimes unseen;
+    std::optional<Compilation> compiled = compile(port.network, choices, std::nullopt, diagnostics, unseen);
+    if (!compiled) return false;
+    c.port_laws.push_back(
+        without_unread_locals(discretise(compiled->network, compiled->form, compiled->decomposition, choices, c.rate)));
+    c.ports.push_back(std::move(*compiled));
+  }
+  return true;
+}
+
+std::vector<CertifiedPort> certified_ports(const AxesCompilation& c) {
+  std::vector<CertifiedPort> ports;
+  for (std::size_t i = 0; i < c.ports.size(); ++i)
+    ports.push_back({&c.network.ports[i], &c.ports[i].form, &c.port_laws[i], &c.ports[i].certificate});
+  return ports;
+}
+
+JointPlan plan_of(const AxesCompilation& c) {
+  JointPlan plan{c.device.arm, brakes_of(c.device), c.certificate.added,
+                 c.rule,       c.network.viscous,   c.device.joint_motion()};
+  for (std::size_t k = 0; k < plan.brakes.size(); ++k)
+    if (plan.brakes[k].most < axes::unlimited) plan.brakes[k].most -= c.certificate.added[k];
+  return plan;
+}
+
+UpdateLaw law_of_all(const AxesCompilation& c) {
+  std::vector<PortLaw> ports;
+  for (std::size_t i = 0; i < c.ports.size(); ++i)
+    ports.push_back({c.network.ports[i].name, c.network.ports[i].map, c.port_laws[i]});
+  return without_unread_locals(joint_law(ports, plan_of(c)));
+}
+
+}  // namespace
+
+std::string_view axes::name_of(BrakeRule rule) {
+  switch (rule) {
+    case axes::BrakeRule::diagonal: return "diagonal";
+    case axes::BrakeRule::non_injecting: return "non-injecting";
+    case axes::BrakeRule::virtual_brake: return "virtual";
+  }
+  return "";
+}
+
+std::optional<axes::ShareMap> share_by(const AxesCompilation& c, axes::BrakeRule rule) {
+  return share_of(c.network, certified_ports(c), c.device, rule);
+}
+
+std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choices& asked,
+                                            const std::optional<AxesDevice>& device, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  const std::optional<AxesNetworkDecl> decl = parse_axes_network(source, diagnostics);
+  if (!decl) return std::nullopt;
+  const std::optional<Range> band =
+      device ? std::optional(Range{device->loop().band_low, device->loop().band_high}) : std::nullopt;
+  std::optional<AxesNetwork> network = build_axes_network(*decl, diagnostics, band);
+  const std::optional<axes::BrakeRule> rule = brake_rule(asked, device, diagnostics);
+  if (asked.state_input && *asked.state_input != StateInput::position)
+    diagnostics.report<DiagnosticCode::ports_follow_position>({}, name_of(*asked.state_input));
+  if (!network || !rule || diagnostics.error_count() > errors_before) return std::nullopt;
+  AxesCompilation c;
+  c.network = std::move(*network);
+  c.rate = asked.rate.value_or(device ? 1 / device->loop().sample_period : default_rate);
+  c.has_device = device.has_value();
+  c.device = device ? *device : ideal_axes_device(1 / c.rate);
+  c.rule = *rule;
+  const Choices choices = choices_of_ports(asked, c.rate);
+  if (!compile_ports(c, choices, diagnostics)) return std::nullopt;
+  c.certificate = certify_axes(c.network, certified_ports(c), c.device, c.rule);
+  c.law = law_of_all(c);
+  Network whole;
+  whole.name = c.network.name, whole.name_span = c.network.name_span;
+  whole.port_motion = c.device.joint_motion();
+  if (!is_representable(c.law, whole, diagnostics) || !class_differs_from_members(c.law, whole, diagnostics))
+    return std::nullopt;
+  return c;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,17 @@
+// The compiler for networks of two axes as one function: every port by the stages of one axis, then one law of all.
+#pragma once
+
+#include <optional>
+
+#include "decompose/choices.hpp"
+#include "emit/axes_emission.hpp"
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+// In: a network file with "axes": 2, the user's choices, a device of two axes or none. Out: everything about it.
+// Refuses: what any stage refuses.
+std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choices& choices,
+                                            const std::optional<AxesDevice>& device, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

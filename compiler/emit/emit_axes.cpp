@@ -1,0 +1,141 @@
+#include <fmt/format.h>
+
+#include <dashpot/estimators/estimator_names.hpp>
+
+#include "emit/axes_emission.hpp"
+#include "emit/banner.hpp"
+#include "emit/cpp_program.hpp"
+#include "emit/template_text.hpp"
+#include "law/cost.hpp"
+#include "lower/term_writer.hpp"
+#include "network/port_units.hpp"
+#include "source/wrapped_text.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// For who has not read the theory: the words_of_ports that the sentences below use.
+const char* const words_of_ports =
+    "words_of_ports: a port is a network of one axis behind a map w of the tool's position, which says how far the "
+    "tool has gone "
+    "into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what gives "
+    "the "
+    "hand no more energy than it got; certified, what is proved to be passive";
+
+std::string rule_line(const AxesCompilation& c) {
+  const char* what = c.rule == axes::BrakeRule::diagonal
+                         ? "the brakes make the diagonal of B*, the motors what couples the joints"
+                     : c.rule == axes::BrakeRule::non_injecting
+                         ? "the brakes make as much of B* as leaves the motors nothing to inject"
+                         : "the motors make all of B*";
+  return fmt::format("brakes: by the rule '{}' {}", name_of(c.rule), what);
+}
+
+std::string share_line(const axes::ShareMap& share) {
+  return fmt::format(
+      "share: of the ports' damping the brakes make {:.3g} % in the median over the workspace, {:.3g} % at least, at "
+      "({:.4g}, {:.4g}) mm, in motions alike in all directions",
+      100 * share.median, 100 * share.worst, 1e3 * share.worst_at[0], 1e3 * share.worst_at[1]);
+}
+
+std::string joint_cost_line(const char* phase, const Cost& cost) {
+  return fmt::format("cost of {}: {} additions, {} multiplications, {} selections, {} guards against subnormal numbers",
+                     phase, cost.additions, cost.multiplications, cost.selections, cost.guards);
+}
+
+std::vector<std::string> banner(const AxesCompilation& c) {
+  std::vector<std::string> facts;
+  if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
+  for (std::size_t i = 0; i < c.ports.size(); ++i) {
+    const Candidate& choice = c.ports[i].decomposition.choice();
+    facts.push_back(fmt::format("port {}: behind the map '{}'{}; b = {} N·s/m by the rule '{}'",
+                                c.network.ports[i].name, c.network.ports[i].map_kind,
+                                c.network.ports[i].network.contact ? ", pushed and never pulled" : "", choice.damping,
+                                choice.name));
+  }
+  facts.push_back(fmt::format("kinematics: {}; sine and cosine by polynomials that are off by less than {:.0e}",
+                              name_of(c.device.arm.kind), sine_error(c.law.scalar)));
+  facts.push_back(fmt::format("scheme: {} at {} Hz, {}; what is kept of the past follows the measured position",
+                              name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
+  facts.push_back(rule_line(c));
+  if (c.certificate.share) facts.push_back(share_line(*c.certificate.share));
+  for (const std::string& line : passivity_lines(c.certificate, c.device)) facts.push_back(line);
+  facts.push_back(
+      fmt::format("device: {}", c.has_device ? c.device.name : "none is named: the joints are the tool's own axes"));
+  facts.push_back(joint_cost_line("output()", cost_of(c.law, c.law.output)));
+  facts.push_back(joint_cost_line("update()", cost_of(c.law, c.law.update)));
+  facts.push_back(words_of_ports);
+  std::vector<std::string> lines;
+  for (const std::string& fact : facts)
+    for (const std::string& line : wrapped_text(fact, 112, 2)) lines.push_back(comment_text(line));
+  return lines;
+}
+
+std::string list_of(const std::vector<std::string>& values) {
+  std::string text;
+  for (const std::string& value : values) text += (text.empty() ? "{" : ", ") + value;
+  return text + "}";
+}
+
+void describe(const AxesCompilation& c, Fields& fields) {
+  const bool rotates = c.device.joint_motion() == motion::rotation;
+  std::vector<std::string> added, estimators;
+  for (const double damping : c.certificate.added) added.push_back(cpp_literal(damping, c.law.scalar));
+  for (const device_description& joint : c.device.joints)
+    estimators.push_back(c.has_device ? fmt::format("\"{}\"", name_of(joint.velocity.estimator)) : "\"exact\"");
+  fields["title"] = comment_text(c.network.title.empty() ? c.network.name : c.network.title);
+  fields["version"] = DASHPOT_VERSION;
+  fields["digest"] = c.network.digest;
+  fields["name"] = c.network.name;
+  fields["scalar"] = name_of(c.law.scalar);
+  fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
+  fields["motion"] = rotates ? "rotation" : "translation";
+  fields["position_unit"] = rotates ? "[rad]" : "[m]";
+  fields["velocity_unit"] = rotates ? "[rad/s]" : "[m/s]";
+  fields["damping_unit"] = rotates ? "[N·m·s/rad]" : "[N·s/m]";
+  fields["brakes"] = std::to_string(c.device.brakes.size());
+  fields["added_damping"] = list_of(added);
+  fields["any_device"] = c.has_device ? "false" : "true";
+  fields["device"] = string_text(c.device.name);
+  fields["device_digest"] = c.device.digest;
+  fields["estimators"] = list_of(estimators);
+  fields["loop_delay"] = std::to_string(c.device.loop().delay_samples);
+}
+
+CodeModel header_model(const AxesCompilation& c) {
+  Network whole;
+  whole.name = c.network.name;
+  const CppProgram program = cpp_program(c.law, whole);
+  CodeModel model;
+  describe(c, model.fields);
+  model.fields["command"] = program.command;
+  for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
+  model.lists["banner"] = as_list(banner(c));
+  model.lists["parameters"] = as_list(program.parameters);
+  model.lists["set"] = as_list(program.set);
+  model.lists["reset"] = as_list(program.reset);
+  model.lists["output"] = as_list(program.output);
+  model.lists["check"] = as_list(program.check);
+  model.lists["keep"] = as_list(program.keep);
+  model.lists["wait"] = as_list(program.wait);
+  model.lists["update"] = as_list(program.update);
+  model.lists["step"] = as_list(program.step);
+  model.lists["energy"] = as_list(program.energy);
+  model.lists["functions"] = as_list(program.functions);
+  model.lists["constants"] = as_list(program.constants);
+  model.lists["states"] = as_list(program.states);
+  return model;
+}
+
+}  // namespace
+
+std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,
+                                                     Diagnostics& diagnostics) {
+  const SourceFile* shape = find_template("axes.hpp.in", options.templates, diagnostics);
+  if (!shape) return std::nullopt;
+  std::optional<std::string> text = fill(*shape, header_model(compilation), diagnostics);
+  if (!text) return std::nullopt;
+  return std::vector<OutputFile>{{compilation.network.name + ".hpp", std::move(*text)}};
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,315 @@
+#include "lower/joint_law.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "discretise/law_writer.hpp"
+#include "law/check_law.hpp"
+#include "law/walk.hpp"
+#include "lower/term_writer.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using axes::operator+, axes::operator-, axes::operator*;
+using axes::Pair;
+using axes::Pose;
+using axes::Symmetric;
+
+// What the joints' positions are for one port.
+struct PortTerms {
+  Term depth;           // w
+  Pair<Term> gradient;  // g
+};
+
+// What becomes of a port's law in the one of all.
+struct Merged {
+  VariableId position, velocity;  // locals: w and its rate
+  VariableId force;               // M
+  Term damping;                   // b
+  VariableId stored;
+  VariableId rest_position;  // a state, or no_variable
+  std::vector<Statement> output, energy;
+};
+
+class Merging {
+ public:
+  Merging(const std::vector<PortLaw>& ports, const JointPlan& plan)
+      : ports_(ports), plan_(plan), law_(blank(ports.front().law)), writer_(law_, plan.joint_motion), terms_(writer_) {}
+
+  UpdateLaw result() {
+    declare();
+    name_numbers(terms_);
+    for (const PortLaw& port : ports_) merged_.push_back(append(port));
+    write_output();
+    write_energy();
+    write_start();
+    law_.position = law_.joints->positions.front();
+    law_.velocity = law_.joints->velocities.front();
+    law_.force = law_.joints->torques.front();
+    check_law(law_, "joints");
+    return std::move(law_);
+  }
+
+ private:
+  static UpdateLaw blank(const UpdateLaw& first) {
+    UpdateLaw law;
+    law.scalar = first.scalar;
+    law.scheme = first.scheme;
+    law.state_input = first.state_input;
+    law.sample_period = first.sample_period;
+    law.flush_threshold = first.flush_threshold;
+    law.joints.emplace();
+    return law;
+  }
+
+  bool rotates() const { return plan_.joint_motion == motion::rotation; }
+  std::string joint_unit() const { return rotates() ? "rad" : "m"; }
+  std::string torque_unit() const { return rotates() ? "N·m" : "N"; }
+  std::string damping_unit() const { return rotates() ? "N·m·s/rad" : "N·s/m"; }
+
+  void declare() {
+    JointPorts& joints = *law_.joints;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::string number = std::to_string(i + 1);
+      joints.positions.push_back(
+          writer_.scalar(writer_.unique("q" + number), joint_unit(), "position of joint " + number, Role::input));
+      joints.velocities.push_back(
+          writer_.scalar(writer_.unique("v" + number), joint_unit() + "/s", "estimate of its velocity", Role::input));
+    }
+    for (std::size_t i = 0; i < 2; ++i)
+      joints.torques.push_back(writer_.scalar(writer_.unique("torque_" + std::to_string(i + 1)), torque_unit(),
+                                              "of motor " + std::to_string(i + 1), Role::local));
+    for (std::size_t k = 0; k < plan_.brakes.size(); ++k)
+      joints.dampings.push_back(writer_.scalar(writer_.unique("damping_" + std::to_string(k + 1)), damping_unit(),
+                                               "of brake " + std::to_string(k + 1), Role::local));
+  }
+
+  void name_numbers(TermWriter& terms) const {
+    terms.call(1, "one", "1", "1");
+    terms.call(0.5, "half", "1", "1/2");
+    terms.call(0.25, "quarter", "1", "1/4");
+    terms.call(0, "nothing", "1", "0");
+    terms.call(plan_.arm.proximal, "proximal_link", "m", "length of the link at the motor");
+    terms.call(plan_.arm.distal, "distal_link", "m", "length of the link at the tip");
+    terms.call(plan_.arm.distal * plan_.arm.distal, "distal_link_squared", "m²", "square of that");
+    terms.call(plan_.arm.base, "base", "m", "distance of the motor axes");
+    terms.call(plan_.arm.base / 2, "half_base", "m", "half of that");
+    for (std::size_t k = 0; k < plan_.brakes.size(); ++k) {
+      terms.call(plan_.added[k], "added_damping_" + std::to_string(k + 1), damping_unit(), "for passivity alone");
+      terms.call(plan_.brakes[k].most, "most_damping_" + std::to_string(k + 1), damping_unit(),
+                 "that the brake gives, less what is added");
+    }
+    for (const PortLaw& port : ports_) {
+      terms.call(port.law.damping, joined(port.name, "damping"), "N·s/m", "b of the port");
+      if (const auto* circle = std::get_if<axes::Circle>(&port.map)) {
+        terms.call(circle->centre[0], joined(port.name, "centre_x"), "m", "of the circle");
+        terms.call(circle->centre[1], joined(port.name, "centre_y"), "m", "of the circle");
+        terms.call(circle->radius, joined(port.name, "radius"), "m", "of the circle");
+      }
+      if (const auto* plane = std::get_if<axes::Plane>(&port.map))
+        terms.call(plane->offset, joined(port.name, "offset"), "m", "of the plane from the origin");
+      if (const auto* band = std::get_if<axes::Band>(&port.map))
+        terms.call(band->radius, joined(port.name, "radius"), "m", "of the band");
+    }
+    terms.call(axes::blunting * axes::blunting, "blunting_squared", "m²", "keeps the distance from zero");
+  }
+
+  // The port's tables behind those of the law, and its programs.
+  Merged append(const PortLaw& port) {
+    const UpdateLaw& own = port.law;
+    const std::size_t variables = law_.variables.size(), coefficients = law_.coefficients.size(),
+                      expressions = law_.expressions.size(), couplings = law_.couplings.size(),
+                      networks = law_.networks.size();
+    const auto variable = [&](VariableId id) { return id == no_variable ? id : VariableId(id.place() + variables); };
+    const auto renamed = [&](auto entry) {
+      entry.name = writer_.unique(joined(port.name, entry.name));
+      for (std::string& name : entry.element_names) name = writer_.unique(joined(port.name, name));
+      return entry;
+    };
+    for (const Variable& v : own.variables) {
+      Variable added = renamed(v);
+      if (added.role == Role::input) added.role = Role::local;
+      law_.variables.add(std::move(added));
+    }
+    for (const Coefficient& c : own.coefficients) law_.coefficients.add(renamed(c));
+    for (Expression e : own.expressions) {
+      for (std::size_t i = 0; i < operands(e).size(); ++i)
+        e.operands[i] = ExpressionId(e.operands[i].place() + expressions);
+      e.variable = variable(e.variable);
+      if (!e.coefficient.is_nothing()) e.coefficient = CoefficientId(e.coefficient.place() + coefficients);
+      law_.expressions.add(e);
+    }
+    for (Coupling coupling : own.couplings) {
+      coupling.name = writer_.unique(joined(port.name, coupling.name));
+      for (auto* ids : {&coupling.held, &coupling.elongation, &coupling.sign})
+        for (VariableId& id : *ids) id = variable(id);
+      coupling.surface_change = variable(coupling.surface_change);
+      law_.couplings.add(std::move(coupling));
+    }
+    for (SlipNetwork network : own.networks) {
+      network.name = writer_.unique(joined(port.name, network.name));
+      for (auto* ids : {&network.held, &network.moved, &network.sign, &network.last_sign})
+        for (VariableId& id : *ids) id = variable(id);
+      law_.networks.add(std::move(network));
+    }
+    const auto program = [&](const std::vector<Statement>& statements) {
+      std::vector<Statement> result = statements;
+      for (Statement& s : result) {
+        s.target = variable(s.target);
+        s.value = ExpressionId(s.value.place() + expressions);
+        s.origins.clear();
+        if (auto* tree = std::get_if<SolveTree>(&s.step))
+          tree->coupling = CouplingId(tree->coupling.place() + couplings);
+        if (auto* net = std::get_if<SolveNetwork>(&s.step))
+          net->network = SlipNetworkId(net->network.place() + networks);
+      }
+      return result;
+    };
+    for (Statement& s : program(own.keep)) law_.keep.push_back(std::move(s));
+    for (Statement& s : program(own.update)) law_.update.push_back(std::move(s));
+    law_.mode_form = std::max(law_.mode_form, own.mode_form);
+    law_.relative_error_bound = std::max(law_.relative_error_bound, own.relative_error_bound);
+    const Term damping = own.brake_changes() ? Term(variable(own.brake)) : Term(own.damping);
+    return {variable(own.position), variable(own.velocity),      variable(own.force), damping,
+            variable(own.stored),   variable(own.rest_position), program(own.output), program(own.energy)};
+  }
+
+  Pair<Term> inputs(const std::vector<VariableId>& ids) const { return {Term(ids[0]), Term(ids[1])}; }
+
+  void name_pose(TermWriter& terms, const Pose<Term>& pose) const {
+    const char* const axis[] = {"x", "y"};
+    for (std::size_t i = 0; i < 2; ++i) {
+      terms.call(pose.tip[i], std::string("tip_") + axis[i], "m", std::string("position of the tip, ") + axis[i]);
+      for (std::size_t j = 0; j < 2; ++j)
+        terms.call(pose.column[j][i], std::string(axis[i]) + "_by_q" + std::to_string(j + 1), rotates() ? "m/rad" : "1",
+                   std::string("∂") + axis[i] + "/∂q" + std::to_string(j + 1));
+    }
+  }
+
+  std::vector<PortTerms> port_terms(TermWriter& terms, const Pose<Term>& pose) const {
+    std::vector<PortTerms> all;
+    for (const PortLaw& port : ports_) {
+      const axes::Depth<Term> depth = axes::depth(port.map, pose.tip);
+      all.push_back({depth.value, axes::at_joints(pose, depth.gradient)});
+      for (std::size_t j = 0; j < 2; ++j)
+        terms.call(all.back().gradient[j], joined(port.name, "by_q" + std::to_string(j + 1)), rotates() ? "m/rad" : "1",
+                   "∂w/∂q" + std::to_string(j + 1));
+    }
+    return all;
+  }
+
+  std::vector<Term> chosen(const Symmetric<Term>& target, const Pose<Term>& pose) const {
+    switch (plan_.rule) {
+      case axes::BrakeRule::diagonal: return axes::diagonal(plan_.brakes, target);
+      case axes::BrakeRule::non_injecting: {
+        const Pair<Term> pair = axes::non_injecting(Pair<axes::Brake>{plan_.brakes[0], plan_.brakes[1]}, target,
+                                                    axes::isotropic_motion(pose.column));
+        return {pair[0], pair[1]};
+      }
+      case axes::BrakeRule::virtual_brake: break;
+    }
+    return std::vector<Term>(plan_.brakes.size(), Term(0.0));
+  }
+
+  // Everything is counted before anything is written, so that what is used twice is computed once.
+  void write_output() {
+    const Pair<Term> q = inputs(law_.joints->positions), v = inputs(law_.joints->velocities);
+    const Pose<Term> pose = axes::pose(plan_.arm, q);
+    name_pose(terms_, pose);
+    const std::vector<PortTerms> ports = port_terms(terms_, pose);
+    Symmetric<Term> target{Term(0.0), Term(0.0), Term(0.0)};
+    if (plan_.viscous != axes::Matrix<double>{}) {
+      const axes::Matrix<Term> field{axes::constant<Term>(plan_.viscous[0]), axes::constant<Term>(plan_.viscous[1])};
+      const axes::JointField<Term> at_joints = axes::at_joints(pose, field);
+      target = {at_joints.p, at_joints.r, at_joints.s};
+    }
+    Pair<Term> torque{Term(0.0), Term(0.0)};
+    for (std::size_t i = 0; i < ports.size(); ++i) {
+      target = target + merged_[i].damping * axes::outer(ports[i].gradient);
+      torque = torque + Term(merged_[i].force) * ports[i].gradient;
+    }
+    terms_.call(target.xx, "wanted_11", damping_unit(), "B* of joint 1");
+    terms_.call(target.xy, "wanted_12", damping_unit(), "B* between the joints");
+    terms_.call(target.yy, "wanted_22", damping_unit(), "B* of joint 2");
+    const std::vector<Term> brakes = chosen(target, pose);
+    const Symmetric<Term> rest = target - axes::made_by(plan_.brakes, brakes);
+    torque[0] = torque[0] + (rest.xx * v[0] + rest.xy * v[1]);
+    torque[1] = torque[1] + (rest.xy * v[0] + rest.yy * v[1]);
+    std::vector<Term> commands;
+    for (std::size_t k = 0; k < brakes.size(); ++k) commands.push_back(brakes[k] + Term(plan_.added[k]));
+    const std::vector<Term> rates = rates_of(ports, v);
+    for (const PortTerms& port : ports) terms_.count(port.depth);
+    for (const Term& rate : rates) terms_.count(rate);
+    for (const Term& command : commands) terms_.count(command);
+    for (const Term& one : torque) terms_.count(one);
+    for (std::size_t i = 0; i < ports.size(); ++i) {
+      terms_.assign(law_.output, merged_[i].position, ports[i].depth, "w of port " + ports_[i].name);
+      if (reads_velocity(i)) terms_.assign(law_.output, merged_[i].velocity, rates[i], "ẇ = g·v");
+      law_.output.insert(law_.output.end(), merged_[i].output.begin(), merged_[i].output.end());
+    }
+    for (std::size_t k = 0; k < commands.size(); ++k)
+      terms_.assign(law_.output, law_.joints->dampings[k], commands[k], k == 0 ? "D of B*" : "");
+    for (std::size_t j = 0; j < 2; ++j)
+      terms_.assign(law_.output, law_.joints->torques[j], torque[j], j == 0 ? "τ = Σ g M + (B* − D) v" : "");
+    for (const VariableId damping : law_.joints->dampings) law_.joints->last_dampings.push_back(writer_.kept(damping));
+  }
+
+  bool reads_velocity(std::size_t port) const {
+    const UpdateLaw& own = ports_[port].law;
+    return reads(own, own.output, own.velocity) || reads(own, own.keep, own.velocity);
+  }
+
+  std::vector<Term> rates_of(const std::vector<PortTerms>& ports, const Pair<Term>& v) const {
+    std::vector<Term> rates;
+    for (std::size_t i = 0; i < ports.size(); ++i)
+      rates.push_back(reads_velocity(i) ? axes::dot(ports[i].gradient, v) : Term(0.0));
+    return rates;
+  }
+
+  void write_energy() {
+    ExpressionId sum = nothing;
+    for (const Merged& port : merged_) {
+      law_.energy.insert(law_.energy.end(), port.energy.begin(), port.energy.end());
+      sum = writer_.plus(sum, writer_.read(port.stored));
+    }
+    law_.stored = writer_.scalar("stored", "J", "in all ports", Role::local);
+    writer_.assign(law_.energy, law_.stored, sum, "V of all ports");
+  }
+
+  // Where each port is when the joints are where reset() says. Names of its locals begin anew: it is a function of its
+  // own.
+  void write_start() {
+    LawWriter writer(law_, plan_.joint_motion);
+    TermWriter terms(writer, terms_);
+    const Pose<Term> pose = axes::pose(plan_.arm, inputs(law_.joints->positions));
+    name_pose(terms, pose);
+    std::vector<std::pair<std::size_t, Term>> starts;
+    for (std::size_t i = 0; i < ports_.size(); ++i) {
+      if (merged_[i].rest_position == no_variable) continue;
+      Term start = axes::depth(ports_[i].map, pose.tip).value;
+      if (const std::optional<double>& at = ports_[i].law.surface_at) start = max(start - Term(*at), Term(0.0));
+      terms.count(start);
+      starts.emplace_back(i, start);
+    }
+    for (const auto& [i, start] : starts) {
+      const VariableId local =
+          writer.scalar(writer.unique(joined(ports_[i].name, "start")), "m", "w where reset() is", Role::local);
+      terms.assign(law_.start, local, start, "");
+      law_.joints->starts.push_back({merged_[i].rest_position, local});
+    }
+  }
+
+  const std::vector<PortLaw>& ports_;
+  const JointPlan& plan_;
+  UpdateLaw law_;
+  LawWriter writer_;
+  TermWriter terms_;
+  std::vector<Merged> merged_;
+};
+
+}  // namespace
+
+UpdateLaw joint_law(const std::vector<PortLaw>& ports, const JointPlan& plan) { return Merging(ports, plan).result(); }
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,38 @@
+// One law for all ports of a device with several joints (theory, section 12): from the joints' positions q and the
+// estimates v of their velocities,
+//
+//     w_i = w_i(x(q)),   g_i = J(q)ᵀ ∇w_i,   each port's own law of w_i and g_i·v gives its motor's part M_i and b_i,
+//     B* = Σ b_i g_i g_iᵀ + Jᵀ A J,          the brakes make D = Σ d_j a_j a_jᵀ, chosen by a rule,
+//     τ = Σ g_i M_i + (B* − D) v.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "axes/brakes.hpp"
+#include "axes/kinematics.hpp"
+#include "axes/port_map.hpp"
+#include "axes/viscous_field.hpp"
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+struct PortLaw {
+  std::string name;
+  axes::PortMap map;
+  UpdateLaw law;  // of one axis, unrolled and without tunables
+};
+
+struct JointPlan {
+  axes::Arm arm;
+  std::vector<axes::Brake> brakes;
+  std::vector<double> added;  // to each brake's command, uncompensated [N·m·s/rad] or [N·s/m]
+  axes::BrakeRule rule = axes::BrakeRule::diagonal;
+  axes::Matrix<double> viscous{};  // A, symmetric [N·s/m]
+  motion joint_motion = motion::rotation;
+};
+
+// Ensures: names begin with the port's name where they come from a port.
+UpdateLaw joint_law(const std::vector<PortLaw>& ports, const JointPlan& plan);
+
+}  // namespace dashpot::compiler

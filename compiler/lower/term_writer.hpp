@@ -1,0 +1,96 @@
+// Writes terms as statements of a law. What occurs twice becomes a local; products with 0 and 1 and sums with 0 vanish;
+// signs move outward, to where a sum becomes a difference.
+//
+// Sine and cosine become polynomials: with k the whole number nearest to θ/π and r = θ − k π, |r| ≤ π/2,
+//
+//     sin θ = (−1)^k r P(r²),   cos θ = (−1)^k Q(r²),
+//
+// where P and Q meet sin(√z)/√z and cos(√z) at the Chebyshev nodes of 0 ≤ z ≤ π²/4. Without rounding they are off by
+// less than sine_error() of 1. Angles beyond 2²⁰ half turns lose digits.
+#pragma once
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "discretise/law_writer.hpp"
+#include "lower/term.hpp"
+
+namespace dashpot::compiler {
+
+// Of sine and cosine before rounding, at most [1].
+double sine_error(ScalarType scalar);
+
+class TermWriter {
+ public:
+  explicit TermWriter(LawWriter& writer) : writer_(writer) {}
+  // For another program of the same law: constants are called as in the first.
+  TermWriter(LawWriter& writer, const TermWriter& first)
+      : writer_(writer), labels_(first.labels_), numbers_(first.numbers_) {}
+
+  // What a local is called that is made of this term, if one is.
+  void call(const Term& term, const std::string& name, const std::string& unit, const std::string& meaning);
+  // What a constant of this magnitude is called.
+  void call(double number, const std::string& name, const std::string& unit, const std::string& meaning);
+
+  // All terms that will be written are counted first.
+  void count(const Term& term);
+  // As a statement of `program`, behind those that it needs.
+  void assign(std::vector<Statement>& program, VariableId target, const Term& term, const std::string& purpose);
+
+ private:
+  using NodeId = std::size_t;
+  // ± the value of a node.
+  struct Signed {
+    NodeId node;
+    bool is_negative = false;
+  };
+  enum class Kind { number, variable, add, subtract, multiply, divide, square_root, where };
+  struct Node {
+    Kind kind;
+    double number = 0;
+    VariableId variable = {};
+    std::vector<NodeId> operands = {};
+    std::size_t uses = 0;
+    std::string name = {}, unit = {}, meaning = {};
+    VariableId local = no_variable;
+  };
+  struct Label {
+    std::string name, unit, meaning;
+    bool is_made = false;  // there is a constant of that name
+  };
+  struct Circular {
+    Signed sine, cosine;
+  };
+
+  Signed intern(const Term& term);
+  Signed unseen(const Term& term);
+  Signed number(double value);
+  Signed node(Kind kind, std::vector<NodeId> operands);
+  Signed add(Signed a, Signed b);
+  Signed multiply(Signed a, Signed b);
+  Signed divide(Signed a, Signed b);
+  Signed where(Signed condition, Signed yes, Signed no);
+  NodeId positive(Signed value);  // a node of that value
+  Circular circular(Signed angle);
+  Signed polynomial(const std::vector<Real>& coefficients, const char* name, Signed z);
+  void label(Signed value, const std::string& name, const std::string& unit, const std::string& meaning);
+  void use(NodeId id);
+  bool is_number(Signed value, double magnitude) const;
+
+  ExpressionId expression(std::vector<Statement>& program, NodeId id);
+  ExpressionId written(std::vector<Statement>& program, NodeId id);
+  std::string name_of(NodeId id);
+
+  LawWriter& writer_;
+  std::vector<Node> nodes_;
+  std::map<std::tuple<Kind, double, VariableId, std::vector<NodeId>>, NodeId> known_;
+  std::map<const Term::Node*, Signed> interned_;
+  std::vector<Term> kept_;  // so that no address is used again
+  std::map<NodeId, Circular> circular_;
+  std::map<double, Label> labels_;
+  std::size_t parts_ = 0, numbers_ = 0;
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,250 @@
+#include "network/axes_device.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "network/read_pair.hpp"
+#include "source/excerpt.hpp"
+#include "source/nearest_name.hpp"
+#include "syntax/object_reader.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+using axes::Kinematics;
+using axes::Pair;
+
+const std::vector<std::string> kinds = {"serial", "parallelogram", "five_bar", "cartesian"};
+
+motion motion_of(Kinematics kind) { return kind == Kinematics::cartesian ? motion::translation : motion::rotation; }
+
+class AxesDeviceBuilder {
+ public:
+  AxesDeviceBuilder(const AxesDeviceDecl& decl, Diagnostics& diagnostics)
+      : decl_(decl), diagnostics_(diagnostics), errors_before_(diagnostics.error_count()) {}
+
+  AxesDevice build() {
+    if (decl_.name) device_.name = decl_.name->text;
+    device_.source = decl_.source ? decl_.source->text : std::string();
+    device_.digest = decl_.digest;
+    if (decl_.kinematics) read_kinematics(*decl_.kinematics);
+    check_motion();
+    read_joints();
+    read_brakes();
+    if (decl_.mechanics) read_mechanics(*decl_.mechanics);
+    read_assumed();
+    return std::move(device_);
+  }
+
+ private:
+  const char* motion_name() const {
+    return motion_of(device_.arm.kind) == motion::rotation ? "rotation" : "translation";
+  }
+  bool rotates() const { return motion_of(device_.arm.kind) == motion::rotation; }
+
+  void read_kinematics(const JsonValue& object) {
+    ObjectReader reader(object, "kinematics", diagnostics_);
+    reader.refuse_other_keys({"kind", "links", "base", "workspace"});
+    reader.require("kind");
+    const std::optional<Text> kind = reader.text("kind");
+    if (!kind || !read_kind(*kind)) return;
+    read_links(reader);
+    if (reader.require("workspace") != nullptr) read_workspace(reader);
+  }
+
+  bool read_kind(const Text& kind) {
+    const auto found = std::find(kinds.begin(), kinds.end(), kind.text);
+    if (found != kinds.end()) {
+      device_.arm.kind = static_cast<Kinematics>(found - kinds.begin());
+      return true;
+    }
+    diagnostics_.report<DiagnosticCode::unknown_word>(kind.span, "'kinematics.kind'", excerpt(kind.text),
+                                                      fmt::format("{}", fmt::join(kinds, ", ")));
+    if (const auto nearest = nearest_name(kind.text, kinds))
+      diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
+    return false;
+  }
+
+  void read_links(const ObjectReader& reader) {
+    axes::Arm& arm = device_.arm;
+    if (arm.kind == Kinematics::cartesian) {
+      for (const char* key : {"links", "base"})
+        if (const JsonMember* member = reader.find(key))
+          diagnostics_.report<DiagnosticCode::links_of_cartesian>(member->key_span, key);
+      return;
+    }
+    if (const JsonMember* links = reader.require("links"))
+      if (const auto lengths = read_pair("links", links->value, dimensions::length, diagnostics_)) {
+        arm.proximal = (*lengths)[0], arm.distal = (*lengths)[1];
+        for (std::size_t i = 0; i < 2; ++i)
+          if (!((*lengths)[i] > 0))
+            diagnostics_.report<DiagnosticCode::not_above_zero>(links->value.items[i].span, "'links'",
+                                                                fmt::format("{} m", (*lengths)[i]));
+      }
+    const JsonMember* base = arm.kind == Kinematics::five_bar ? reader.require("base") : reader.find("base");
+    if (base == nullptr) return;
+    if (arm.kind != Kinematics::five_bar)
+      return diagnostics_.report<DiagnosticCode::base_of_five_bar>(base->key_span, name_of(arm.kind));
+    const auto width = read_single("base", base->value, dimensions::length, diagnostics_);
+    if (width && *width < 0)
+      diagnostics_.report<DiagnosticCode::negative_value>(base->value.span, "'base'", fmt::format("{} m", *width));
+    arm.base = width.value_or(0);
+  }
+
+  void read_workspace(const ObjectReader& kinematics) {
+    const JsonValue* object = kinematics.object("workspace");
+    if (object == nullptr) return;
+    ObjectReader reader(*object, "workspace", diagnostics_);
+    reader.refuse_other_keys({"x", "y"});
+    const JsonMember* const sides[] = {reader.require("x"), reader.require("y")};
+    for (std::size_t i = 0; i < 2; ++i)
+      if (sides[i] != nullptr)
+        if (const auto side = read_span(sides[i]->key, sides[i]->value, dimensions::length, diagnostics_))
+          device_.workspace[i] = axes::Interval((*side)[0], (*side)[1]), ++sides_read_;
+    if (sides_read_ == 2 && !has_errors()) check_arm(object->span);
+  }
+
+  void check_arm(Span span) {
+    const std::optional<axes::Singularity> found = axes::singularity(device_.arm, device_.workspace);
+    if (!found) return;
+    const double x = 1e3 * found->tip[0], y = 1e3 * found->tip[1];
+    if (found->kind == axes::Singularity::Kind::in_line) diagnostics_.report<DiagnosticCode::arm_singular>(span, x, y);
+    else diagnostics_.report<DiagnosticCode::arm_out_of_reach>(span, x, y);
+    diagnostics_.note<DiagnosticCode::arm_out_of_reach_remedy>({});
+  }
+
+  void check_motion() {
+    if (decl_.motion && decl_.motion->text != motion_name())
+      diagnostics_.report<DiagnosticCode::motion_of_kinematics>(decl_.motion->span, excerpt(decl_.motion->text),
+                                                                name_of(device_.arm.kind), motion_name());
+  }
+
+  // A joint or a brake is read as a device of one axis that has only it.
+  std::optional<device_description> described(DeviceDecl decl) {
+    decl.motion = Text{motion_name(), decl.opening};
+    const std::optional<Device> device = build_device(decl, diagnostics_);
+    return device ? std::optional(device->description) : std::nullopt;
+  }
+
+  void read_joints() {
+    for (const DeviceDecl& joint : decl_.joints) {
+      const std::optional<device_description> description = described(joint);
+      if (!description) return;  // what the second shares with the first is told once
+      device_.joints.push_back(*description);
+    }
+  }
+
+  void read_brakes() {
+    if (decl_.brakes.size() < 2 || decl_.brakes.size() > 4)
+      diagnostics_.report<DiagnosticCode::brakes_count>(decl_.brakes.empty() ? decl_.opening : decl_.brakes_span,
+                                                        decl_.brakes.size());
+    for (const BrakeDecl& decl : decl_.brakes) {
+      const auto along = decl.along ? read_direction("along", *decl.along, diagnostics_) : std::nullopt;
+      if (has_errors() && device_.joints.empty()) return;  // of the loop, which has been told
+      const auto description = described(decl.device);
+      if (along && description) device_.brakes.push_back({*along, description->brake});
+    }
+    if (device_.brakes.size() == decl_.brakes.size() && device_.brakes.size() >= 2) check_directions();
+  }
+
+  void check_directions() {
+    const Pair<double>& first = device_.brakes.front().along;
+    const auto is_parallel = [&](const AlongBrake& brake) {
+      const double cross = first[0] * brake.along[1] - first[1] * brake.along[0];
+      const auto length = [](const Pair<double>& a) { return std::hypot(a[0], a[1]); };
+      return std::abs(cross) <= 1e-6 * length(first) * length(brake.along);
+    };
+    if (!std::all_of(device_.brakes.begin(), device_.brakes.end(), is_parallel)) return;
+    const Pair<double>& second = device_.brakes[1].along;
+    diagnostics_.report<DiagnosticCode::brakes_parallel>(decl_.brakes_span, first[0], first[1], second[0], second[1],
+                                                         -first[1], first[0]);
+  }
+
+  // One for both joints, or one for each.
+  Pair<double> of_joints(const ObjectReader& reader, const char* key, const Dimension& due) {
+    const JsonMember* member = reader.find(key);
+    if (member == nullptr) return {0, 0};
+    if (member->value.kind == JsonValue::Kind::array)
+      return read_pair(key, member->value, due, diagnostics_).value_or(Pair<double>{0, 0});
+    const double both = read_single(key, member->value, due, diagnostics_).value_or(0);
+    return {both, both};
+  }
+
+  void refuse_negative(const ObjectReader& reader, const char* key, const Pair<double>& values) {
+    for (const double value : values)
+      if (value < 0)
+        return diagnostics_.report<DiagnosticCode::negative_value>(reader.find(key)->value.span,
+                                                                   fmt::format("'{}'", key), fmt::format("{}", value));
+  }
+
+  void read_mechanics(const JsonValue& object) {
+    ObjectReader reader(object, "mechanics", diagnostics_);
+    JointMechanics& mechanics = device_.mechanics;
+    reader.refuse_other_keys({"inertia", "link_masses", "damping", "coulomb_friction"});
+    if (const JsonMember* inertia = reader.find("inertia")) read_inertia(inertia->value);
+    mechanics.link_masses = of_joints(reader, "link_masses", dimensions::mass);
+    mechanics.damping = of_joints(reader, "damping", rotates() ? dimensions::rotational_damping : dimensions::damping);
+    mechanics.coulomb_friction =
+        of_joints(reader, "coulomb_friction", rotates() ? dimensions::torque : dimensions::force);
+    refuse_negative(reader, "link_masses", mechanics.link_masses);
+    refuse_negative(reader, "damping", mechanics.damping);
+    refuse_negative(reader, "coulomb_friction", mechanics.coulomb_friction);
+  }
+
+  void read_inertia(const JsonValue& value) {
+    const Dimension due = rotates() ? dimensions::inertia : dimensions::mass;
+    if (value.kind != JsonValue::Kind::array || value.items.size() != 2)
+      return diagnostics_.report<DiagnosticCode::not_a_list_of>(value.span, "inertia", "two rows",
+                                                                describe(due) + " for each of 2 x 2");
+    const auto first = read_pair("inertia", value.items[0], due, diagnostics_);
+    const auto second = read_pair("inertia", value.items[1], due, diagnostics_);
+    if (first && second) device_.mechanics.inertia = {(*first)[0], ((*first)[1] + (*second)[0]) / 2, (*second)[1]};
+  }
+
+  void read_assumed() {
+    for (const Text& name : decl_.assumed) {
+      device_.assumed.push_back(name.text);
+      if (std::find(decl_.given.begin(), decl_.given.end(), name.text) != decl_.given.end()) continue;
+      diagnostics_.report<DiagnosticCode::assumed_not_given>(name.span, excerpt(name.text));
+      if (const auto nearest = nearest_name(name.text, decl_.given))
+        diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
+    }
+  }
+
+  bool has_errors() const { return diagnostics_.error_count() > errors_before_; }
+
+  const AxesDeviceDecl& decl_;
+  Diagnostics& diagnostics_;
+  std::size_t errors_before_;
+  AxesDevice device_;
+  int sides_read_ = 0;
+};
+
+}  // namespace
+
+std::string_view axes::name_of(Kinematics kind) { return kinds[static_cast<std::size_t>(kind)]; }
+
+std::optional<AxesDevice> build_axes_device(const AxesDeviceDecl& decl, Diagnostics& diagnostics) {
+  const std::size_t errors_before = diagnostics.error_count();
+  AxesDevice device = AxesDeviceBuilder(decl, diagnostics).build();
+  if (!decl.complete || diagnostics.error_count() > errors_before) return std::nullopt;
+  return device;
+}
+
+AxesDevice ideal_axes_device(double sample_period) {
+  AxesDevice device;
+  device.name = "ideal";
+  device.joints.resize(2);
+  for (device_description& joint : device.joints) {
+    joint.motion = motion::translation;
+    joint.loop.sample_period = sample_period;
+  }
+  device.brakes = {{{1, 0}, {}}, {{0, 1}, {}}};
+  return device;
+}
+
+}  // namespace dashpot::compiler

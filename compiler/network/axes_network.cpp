@@ -1,0 +1,196 @@
+#include "network/axes_network.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "network/name_rules.hpp"
+#include "network/read_pair.hpp"
+#include "syntax/object_reader.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+const std::vector<std::string> map_kinds = {"along", "ball", "cavity", "wall", "line"};
+constexpr std::string_view grid_kind = "grid";  // known, and not compiled yet
+
+bool is_kind(const std::string& key) {
+  return key == grid_kind || std::find(map_kinds.begin(), map_kinds.end(), key) != map_kinds.end();
+}
+
+// The one member that says what the map is; null, reported, where there is none or more than one.
+const JsonMember* kind_of(const JsonValue& map, const ObjectReader& reader, Diagnostics& diagnostics) {
+  const JsonMember* kind = nullptr;
+  for (const JsonMember& member : map.members) {
+    if (!is_kind(member.key)) continue;
+    if (kind != nullptr) {
+      diagnostics.report<DiagnosticCode::two_map_kinds>(member.key_span, kind->key, member.key);
+      diagnostics.note<DiagnosticCode::first_given_here>(kind->key_span);
+      return nullptr;
+    }
+    kind = &member;
+  }
+  const bool is_misspelt =
+      std::any_of(map_kinds.begin(), map_kinds.end(), [&](const std::string& key) { return reader.is_misspelt(key); });
+  if (kind == nullptr && !is_misspelt)
+    diagnostics.report<DiagnosticCode::map_without_kind>(reader.opening(),
+                                                         fmt::format("{}", fmt::join(map_kinds, ", ")));
+  return kind;
+}
+
+// What stands in the object of a map: each key is there, or reported.
+class MapReader {
+ public:
+  MapReader(const std::string& kind, const JsonValue& object, const std::vector<std::string>& keys,
+            Diagnostics& diagnostics)
+      : reader_(object, "'" + kind + "'", diagnostics), diagnostics_(diagnostics) {
+    reader_.refuse_other_keys(keys);
+  }
+
+  std::optional<axes::Pair<double>> point(const char* key) const {
+    const JsonMember* member = reader_.require(key);
+    return member ? read_pair(key, member->value, dimensions::length, diagnostics_) : std::nullopt;
+  }
+  std::optional<axes::Pair<double>> direction(const char* key) const {
+    const JsonMember* member = reader_.require(key);
+    return member ? read_direction(key, member->value, diagnostics_) : std::nullopt;
+  }
+  std::optional<double> radius() const {
+    const JsonMember* member = reader_.require("radius");
+    if (member == nullptr) return std::nullopt;
+    const std::optional<double> radius = read_single("radius", member->value, dimensions::length, diagnostics_);
+    if (!radius || *radius > 0) return radius;
+    diagnostics_.report<DiagnosticCode::not_above_zero>(member->value.span, "'radius'", fmt::format("{} m", *radius));
+    return std::nullopt;
+  }
+
+ private:
+  ObjectReader reader_;
+  Diagnostics& diagnostics_;
+};
+
+std::optional<axes::PortMap> read_circle(const JsonMember& kind, Diagnostics& diagnostics) {
+  const MapReader reader(kind.key, kind.value, {"centre", "radius"}, diagnostics);
+  const auto centre = reader.point("centre");
+  const auto radius = reader.radius();
+  if (!centre || !radius) return std::nullopt;
+  return kind.key == "ball" ? axes::ball(*centre, *radius) : axes::cavity(*centre, *radius);
+}
+
+std::optional<axes::PortMap> read_wall(const JsonMember& kind, Diagnostics& diagnostics) {
+  const MapReader reader(kind.key, kind.value, {"through", "normal"}, diagnostics);
+  const auto through = reader.point("through");
+  const auto normal = reader.direction("normal");
+  if (!through || !normal) return std::nullopt;
+  return axes::wall(*through, *normal);
+}
+
+std::optional<axes::PortMap> read_line(const JsonMember& kind, Diagnostics& diagnostics) {
+  const MapReader reader(kind.key, kind.value, {"through", "direction", "radius"}, diagnostics);
+  const auto through = reader.point("through");
+  const auto direction = reader.direction("direction");
+  const auto radius = reader.radius();
+  if (!through || !direction || !radius) return std::nullopt;
+  return axes::line(*through, *direction, *radius);
+}
+
+std::optional<axes::PortMap> read_map(const JsonMember& kind, Diagnostics& diagnostics) {
+  if (kind.key == grid_kind) {
+    diagnostics.report<DiagnosticCode::map_not_taken>(kind.key_span, kind.key,
+                                                      fmt::format("{}", fmt::join(map_kinds, ", ")));
+    return std::nullopt;
+  }
+  if (kind.key == "along") {
+    const auto direction = read_direction(kind.key, kind.value, diagnostics);
+    return direction ? std::optional<axes::PortMap>(axes::along(*direction)) : std::nullopt;
+  }
+  if (kind.value.kind != JsonValue::Kind::object) {
+    report_wrong_type(kind.key, kind.value, "an object", diagnostics);
+    return std::nullopt;
+  }
+  if (kind.key == "wall") return read_wall(kind, diagnostics);
+  return kind.key == "line" ? read_line(kind, diagnostics) : read_circle(kind, diagnostics);
+}
+
+std::optional<Port> build_port(const PortDecl& decl, const std::optional<Range>& device_band,
+                               Diagnostics& diagnostics) {
+  ObjectReader reader(decl.map, "'map'", diagnostics);
+  std::vector<std::string> known = map_kinds;
+  known.emplace_back(grid_kind);
+  reader.refuse_other_keys(known);
+  const JsonMember* kind = kind_of(decl.map, reader, diagnostics);
+  const std::optional<axes::PortMap> map = kind ? read_map(*kind, diagnostics) : std::nullopt;
+  std::optional<Network> network = build_network(decl.network, diagnostics, device_band);
+  if (network)
+    for (const Parameter& parameter : network->parameters)
+      if (parameter.tunable) diagnostics.report<DiagnosticCode::tunable_on_two_axes>(parameter.span, parameter.name);
+  if (!map || !network) return std::nullopt;
+  return Port{decl.name.text, kind->key, *map, std::move(*network), decl.map.span};
+}
+
+// [[a, b], [c, d]] in N s/m.
+std::optional<axes::Matrix<double>> read_matrix(const JsonValue& value, Diagnostics& diagnostics) {
+  if (value.kind != JsonValue::Kind::array || value.items.size() != 2) {
+    diagnostics.report<DiagnosticCode::not_a_list_of>(value.span, "viscous", "two rows",
+                                                      "[[\"5 N s/m\", 0], [0, \"5 N s/m\"]]");
+    return std::nullopt;
+  }
+  const auto first = read_pair("viscous", value.items[0], dimensions::damping, diagnostics);
+  const auto second = read_pair("viscous", value.items[1], dimensions::damping, diagnostics);
+  if (!first || !second) return std::nullopt;
+  return axes::Matrix<double>{*first, *second};
+}
+
+void read_field(const JsonValue& value, AxesNetwork& network, Diagnostics& diagnostics) {
+  const std::optional<axes::Matrix<double>> matrix = read_matrix(value, diagnostics);
+  if (!matrix) return;
+  network.viscous = *matrix;
+  if (const auto power = axes::driving(*matrix))
+    return diagnostics.report<DiagnosticCode::field_not_passive>(value.span, power->power, power->direction[0],
+                                                                 power->direction[1]);
+  const double curl = ((*matrix)[1][0] - (*matrix)[0][1]) / 2;
+  if (curl != 0) diagnostics.report<DiagnosticCode::field_curl>(value.span, std::abs(curl));
+}
+
+void check_names(const AxesNetworkDecl& decl, Diagnostics& diagnostics) {
+  UniqueNames names;
+  if (decl.name && check_name(*decl.name, "network", diagnostics)) names.add(*decl.name, diagnostics);
+  for (const PortDecl& port : decl.ports) names.add(port.name, diagnostics);
+}
+
+}  // namespace
+
+std::optional<AxesNetwork> build_axes_network(const AxesNetworkDecl& decl, Diagnostics& diagnostics,
+                                              const std::optional<Range>& device_band) {
+  const std::size_t errors_before = diagnostics.error_count();
+  const auto text_of = [](const std::optional<Text>& text) { return text ? text->text : std::string(); };
+  AxesNetwork network{text_of(decl.name), text_of(decl.title), text_of(decl.source), {}, {}, {}, decl.digest, {}};
+  network.name_span = decl.name ? decl.name->span : Span{};
+  for (const CommentDecl& comment : decl.comments) network.comments.push_back({comment.about, comment.text});
+  check_names(decl, diagnostics);
+  for (const PortDecl& port : decl.ports) {
+    if (std::optional<Port> built = build_port(port, device_band, diagnostics))
+      network.ports.push_back(std::move(*built));
+    // The parameters are those of every port: what is wrong with them is told once.
+    else if (!port.network.parameters.empty()) break;
+  }
+  if (decl.viscous) read_field(*decl.viscous, network, diagnostics);
+  if (!decl.complete || diagnostics.error_count() > errors_before) return std::nullopt;
+  return network;
+}
+
+std::string to_text(const AxesNetwork& network) {
+  std::string text = fmt::format("network {}, two axes\n", network.name);
+  for (const Port& port : network.ports)
+    text += fmt::format("port {} behind the map '{}'\n", port.name, port.map_kind) + to_text(port.network);
+  if (network.has_field())
+    text += fmt::format("viscous field [[{}, {}], [{}, {}]] N s/m\n", network.viscous[0][0], network.viscous[0][1],
+                        network.viscous[1][0], network.viscous[1][1]);
+  return text;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,453 @@
+// A viscoelastic wall across a liquid
+//
+// source: the values are chosen here
+// port wall: behind the map 'wall', pushed and never pulled; b = 1 N·s/m by the rule 'paper'
+// kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16
+// scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
+// brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
+// share: of the ports' damping the brakes make 106 % in the median over the workspace, 98.4 % at least, at (-1,
+//   106.9) mm, in motions alike in all directions
+// passivity: certified for the forces that are held from one sample to the next, for any motion in the workspace:
+//   they need 2.49852 N·s/m times the square of each joint's link, 1.302 beyond the device's own damping, most at
+//   (-0.1563, 109) mm
+//   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
+//   of the workspace
+//   added to the brakes' commands for it: 0.00543962, 0.00543962 N m s/rad
+// device: pantograph_2dof
+// cost of output(): 89 additions, 114 multiplications, 29 selections, 1 guards against subnormal numbers
+// cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
+// words_of_ports: a port is a network of one axis behind a map w of the tool's position, which says how far the
+//   tool has gone into what the network resists; B* is the damping that all ports ask for, over the joints.
+//   Passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+//
+// Written by dashpot 0.1.0 from a network with digest
+// 313db2f3ea0d3ea441f28ef461fa1972530efb0b1734278509e10e23412eea9d. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/command.hpp>
+#include <dashpot/elementary.hpp>
+
+namespace dashpot::generated {
+
+class viscous_wall {
+ public:
+  using scalar = double;
+  static constexpr int axes = 2;
+  static constexpr int brakes = 2;
+  static constexpr scalar sample_period = 0.0001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
+
+  // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
+  static constexpr scalar added_damping[brakes] = {0.005439619600867409, 0.005439619600867409};
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = false;
+    static constexpr const char* device = "pantograph_2dof";
+    static constexpr const char* device_digest = "4bd41ae1d50003e1a5b6e464a22f324bda211b6ab99fd1fb7fa6d0c449d6c039";
+    static constexpr const char* estimator[axes] = {"butterworth", "butterworth"};
+    static constexpr unsigned loop_delay = 0;  // [samples]
+  };
+
+  struct parameters {};
+
+  // At rest with the joints at `position` [rad], springs relaxed but for the static load. A NaN or infinite
+  // position counts as 0.
+  void reset(const scalar (&position)[axes] = {}) noexcept {
+    const scalar q1 = dashpot::all_finite(position[0]) ? position[0] : 0;
+    const scalar q2 = dashpot::all_finite(position[1]) ? position[1] : 0;
+    // k, nearest to θ/π
+    const scalar half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
+    // r = θ − k π
+    const scalar rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+    // r²
+    const scalar rest_squared_1 = rest_1 * rest_1;
+    const scalar part_1 = half_turns_1 * half;
+    // k/2 less the nearest whole number
+    const scalar oddness_1 = part_1 - (rounder + part_1 - rounder);
+    // (−1)^k
+    const scalar side_1 = one - oddness_1 * oddness_1 * eight;
+    // sin θ
+    const scalar sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
+    const scalar part_2 = proximal_link * sine_1;
+    // k, nearest to θ/π
+    const scalar half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
+    // r = θ − k π
+    const scalar rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+    // r²
+    const scalar rest_squared_2 = rest_2 * rest_2;
+    const scalar part_3 = half * half_turns_2;
+    // k/2 less the nearest whole number
+    const scalar oddness_2 = part_3 - (rounder + part_3 - rounder);
+    // (−1)^k
+    const scalar side_2 = one - eight * (oddness_2 * oddness_2);
+    // sin θ
+    const scalar sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+        rest_squared_2 * (rest_squared_2 * (sine_term_4 +
+        rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
+        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
+    const scalar part_4 = proximal_link * sine_2 - part_2;
+    // cos θ
+    const scalar cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+        rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
+        rest_squared_2 * (cosine_term_8 *
+        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
+    // cos θ
+    const scalar cosine_1 = side_1 * (one +
+        rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
+        cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
+    const scalar part_5 = base + (proximal_link * cosine_2 - proximal_link * cosine_1);
+    // position of the tip, y
+    const scalar tip_y = part_2 + (half * part_4 +
+        part_5 * dashpot::square_root(distal_link_squared * (one / (part_5 * part_5 + part_4 * part_4)) - quarter));
+    const scalar part_6 = tip_y - wall_offset;
+    const scalar wall_start = part_6 > 0 ? part_6 : nothing;
+    wall_surface_ = dashpot::all_finite(wall_start) ? wall_start : 0;
+    wall_sampled_brake_ = 0;
+    wall_sampled_surface_now_ = 0;
+    sampled_damping_1_ = 0;
+    sampled_damping_2_ = 0;
+    sampled_ = false;
+  }
+
+  // The command for this sample: the joints' positions [rad] and estimates of their velocities [rad/s].
+  // After a non-finite input the states stay as they were, the brakes get their last command and the motors none.
+  dashpot::commands<scalar, axes, brakes> output(const scalar (&position)[axes],
+                                                 const scalar (&velocity)[axes]) noexcept {
+    const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
+    // k, nearest to θ/π
+    const scalar half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
+    // r = θ − k π
+    const scalar rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+    // r²
+    const scalar rest_squared_1 = rest_1 * rest_1;
+    const scalar part_1 = half_turns_1 * half;
+    // k/2 less the nearest whole number
+    const scalar oddness_1 = part_1 - (rounder + part_1 - rounder);
+    // (−1)^k
+    const scalar side_1 = one - oddness_1 * oddness_1 * eight;
+    // sin θ
+    const scalar sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
+    const scalar part_2 = proximal_link * sine_1;
+    // k, nearest to θ/π
+    const scalar half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
+    // r = θ − k π
+    const scalar rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+    // r²
+    const scalar rest_squared_2 = rest_2 * rest_2;
+    const scalar part_3 = half * half_turns_2;
+    // k/2 less the nearest whole number
+    const scalar oddness_2 = part_3 - (rounder + part_3 - rounder);
+    // (−1)^k
+    const scalar side_2 = one - eight * (oddness_2 * oddness_2);
+    // sin θ
+    const scalar sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+        rest_squared_2 * (rest_squared_2 * (sine_term_4 +
+        rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
+        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
+    const scalar part_4 = proximal_link * sine_2;
+    const scalar part_5 = part_4 - part_2;
+    const scalar part_6 = half * part_5;
+    // cos θ
+    const scalar cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+        rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
+        rest_squared_2 * (cosine_term_8 *
+        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
+    const scalar part_7 = proximal_link * cosine_2;
+    // cos θ
+    const scalar cosine_1 = side_1 * (one +
+        rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
+        cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
+    const scalar part_8 = proximal_link * cosine_1;
+    const scalar part_9 = base + (part_7 - part_8);
+    const scalar part_10 = one / (part_9 * part_9 + part_5 * part_5);
+    const scalar part_11 = dashpot::square_root(distal_link_squared * part_10 - quarter);
+    const scalar part_12 = part_9 * part_11;
+    const scalar part_13 = part_6 + part_12;
+    // position of the tip, y
+    const scalar tip_y = part_2 + part_13;
+    // w of port wall
+    const scalar wall_position = tip_y - wall_offset;
+    const scalar part_14 = part_10 / part_11;
+    const scalar part_15 = half * part_9;
+    const scalar part_16 = part_5 * part_11;
+    const scalar part_17 = part_15 - part_16;
+    const scalar part_18 = part_14 * (part_8 * part_13 - part_2 * part_17);
+    const scalar part_19 = part_15 + part_16;
+    // ∂y/∂q1
+    const scalar y_by_q1 = part_18 * part_19;
+    const scalar part_20 = part_12 - part_6;
+    const scalar part_21 = part_14 * (part_4 * part_19 + part_7 * part_20);
+    // ∂y/∂q2
+    const scalar y_by_q2 = part_17 * part_21;
+    // ẇ = g·v
+    const scalar wall_velocity = y_by_q1 * v1 + y_by_q2 * v2;
+    // Δ = u − s₋
+    const scalar wall_approach = wall_position - wall_surface_;
+    // π = k0 s₋ + S
+    const scalar wall_held_force = wall_static_stiffness * wall_surface_;
+    // f = 0 at Δs = −π/g
+    const scalar wall_surface_recovery = wall_recovery_compliance * wall_held_force;
+    // f ≥ 0
+    const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery : wall_approach;
+    // gap = s − u
+    const scalar wall_gap = wall_surface_change - wall_approach;
+    // s = s₋ + Δs
+    const scalar wall_surface_now = wall_gap > 0 ? dashpot::flush_below(threshold, wall_surface_ +
+        wall_surface_change) : wall_position;
+    // f′ = f − b∞ Δs/h
+    const scalar wall_opposing = wall_static_stiffness * wall_surface_now;
+    // −(f′ + b∞ v̂)
+    const scalar wall_pull = wall_none - (wall_opposing + wall_feedthrough * wall_velocity);
+    // above 0 where the tool is free
+    const scalar wall_released = wall_pull > 0 ? wall_pull : wall_gap;
+    // b = 0 of a free tool
+    const scalar wall_brake = wall_released > 0 ? wall_none : wall_contact_damping;
+    // m = f − b u̇ of a tool that touches
+    const scalar wall_force = wall_released > 0 ? wall_none : wall_opposing;
+    // ∂x/∂q1
+    const scalar x_by_q1 = part_18 * part_20;
+    const scalar part_22 = x_by_q1 * number_1;
+    const scalar part_23 = y_by_q1 * number_1;
+    // B* of joint 1
+    const scalar wanted_11 = x_by_q1 * part_22 + y_by_q1 * part_23 + wall_brake * (y_by_q1 * y_by_q1);
+    const scalar part_24 = wanted_11 > 0 ? wanted_11 : nothing;
+    const scalar part_25 = most_damping_1 - part_24 > 0 ? part_24 : most_damping_1;
+    // D of B*
+    const scalar damping_1 = part_25 + added_damping_1;
+    // −∂x/∂q2
+    const scalar x_by_q2 = part_13 * part_21;
+    const scalar part_26 = x_by_q2 * number_1;
+    const scalar part_27 = y_by_q2 * number_1;
+    // B* of joint 2
+    const scalar wanted_22 = x_by_q2 * part_26 + y_by_q2 * part_27 + wall_brake * (y_by_q2 * y_by_q2);
+    const scalar part_28 = wanted_22 > 0 ? wanted_22 : nothing;
+    const scalar part_29 = most_damping_1 - part_28 > 0 ? part_28 : most_damping_1;
+    const scalar damping_2 = added_damping_1 + part_29;
+    // B* between the joints
+    const scalar wanted_12 = half * (y_by_q1 * part_27 - x_by_q1 * part_26 +
+        (y_by_q2 * part_23 - x_by_q2 * part_22)) + wall_brake * (y_by_q1 * y_by_q2);
+    // τ = Σ g M + (B* − D) v
+    const scalar torque_1 = y_by_q1 * wall_force + (v1 * (wanted_11 - part_25) + wanted_12 * v2);
+    const scalar torque_2 = y_by_q2 * wall_force + (wanted_12 * v1 + v2 * (wanted_22 - part_29));
+    sampled_ = false;
+    if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) return {{sampled_damping_1_, sampled_damping_2_}, {}};
+    sampled_ = true;
+    wall_sampled_brake_ = wall_brake;
+    wall_sampled_surface_now_ = wall_surface_now;
+    sampled_damping_1_ = damping_1;
+    sampled_damping_2_ = damping_2;
+    return {{damping_1, damping_2}, {torque_1, torque_2}};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    if (!sampled_) return;
+    sampled_ = false;
+    // s₋ = s
+    wall_surface_ = wall_sampled_surface_now_;
+  }
+
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  dashpot::commands<scalar, axes, brakes> step(const scalar (&position)[axes],
+                                               const scalar (&velocity)[axes]) noexcept {
+    const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
+    // k, nearest to θ/π
+    const scalar half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
+    // r = θ − k π
+    const scalar rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+    // r²
+    const scalar rest_squared_1 = rest_1 * rest_1;
+    const scalar part_1 = half_turns_1 * half;
+    // k/2 less the nearest whole number
+    const scalar oddness_1 = part_1 - (rounder + part_1 - rounder);
+    // (−1)^k
+    const scalar side_1 = one - oddness_1 * oddness_1 * eight;
+    // sin θ
+    const scalar sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
+    const scalar part_2 = proximal_link * sine_1;
+    // k, nearest to θ/π
+    const scalar half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
+    // r = θ − k π
+    const scalar rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+    // r²
+    const scalar rest_squared_2 = rest_2 * rest_2;
+    const scalar part_3 = half * half_turns_2;
+    // k/2 less the nearest whole number
+    const scalar oddness_2 = part_3 - (rounder + part_3 - rounder);
+    // (−1)^k
+    const scalar side_2 = one - eight * (oddness_2 * oddness_2);
+    // sin θ
+    const scalar sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+        rest_squared_2 * (rest_squared_2 * (sine_term_4 +
+        rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
+        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
+    const scalar part_4 = proximal_link * sine_2;
+    const scalar part_5 = part_4 - part_2;
+    const scalar part_6 = half * part_5;
+    // cos θ
+    const scalar cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+        rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
+        rest_squared_2 * (cosine_term_8 *
+        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
+    const scalar part_7 = proximal_link * cosine_2;
+    // cos θ
+    const scalar cosine_1 = side_1 * (one +
+        rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
+        cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
+    const scalar part_8 = proximal_link * cosine_1;
+    const scalar part_9 = base + (part_7 - part_8);
+    const scalar part_10 = one / (part_9 * part_9 + part_5 * part_5);
+    const scalar part_11 = dashpot::square_root(distal_link_squared * part_10 - quarter);
+    const scalar part_12 = part_9 * part_11;
+    const scalar part_13 = part_6 + part_12;
+    // position of the tip, y
+    const scalar tip_y = part_2 + part_13;
+    // w of port wall
+    const scalar wall_position = tip_y - wall_offset;
+    const scalar part_14 = part_10 / part_11;
+    const scalar part_15 = half * part_9;
+    const scalar part_16 = part_5 * part_11;
+    const scalar part_17 = part_15 - part_16;
+    const scalar part_18 = part_14 * (part_8 * part_13 - part_2 * part_17);
+    const scalar part_19 = part_15 + part_16;
+    // ∂y/∂q1
+    const scalar y_by_q1 = part_18 * part_19;
+    const scalar part_20 = part_12 - part_6;
+    const scalar part_21 = part_14 * (part_4 * part_19 + part_7 * part_20);
+    // ∂y/∂q2
+    const scalar y_by_q2 = part_17 * part_21;
+    // ẇ = g·v
+    const scalar wall_velocity = y_by_q1 * v1 + y_by_q2 * v2;
+    // Δ = u − s₋
+    const scalar wall_approach = wall_position - wall_surface_;
+    // π = k0 s₋ + S
+    const scalar wall_held_force = wall_static_stiffness * wall_surface_;
+    // f = 0 at Δs = −π/g
+    const scalar wall_surface_recovery = wall_recovery_compliance * wall_held_force;
+    // f ≥ 0
+    const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery : wall_approach;
+    // gap = s − u
+    const scalar wall_gap = wall_surface_change - wall_approach;
+    // s = s₋ + Δs
+    const scalar wall_surface_now = wall_gap > 0 ? dashpot::flush_below(threshold, wall_surface_ +
+        wall_surface_change) : wall_position;
+    // f′ = f − b∞ Δs/h
+    const scalar wall_opposing = wall_static_stiffness * wall_surface_now;
+    // −(f′ + b∞ v̂)
+    const scalar wall_pull = wall_none - (wall_opposing + wall_feedthrough * wall_velocity);
+    // above 0 where the tool is free
+    const scalar wall_released = wall_pull > 0 ? wall_pull : wall_gap;
+    // b = 0 of a free tool
+    const scalar wall_brake = wall_released > 0 ? wall_none : wall_contact_damping;
+    // m = f − b u̇ of a tool that touches
+    const scalar wall_force = wall_released > 0 ? wall_none : wall_opposing;
+    // ∂x/∂q1
+    const scalar x_by_q1 = part_18 * part_20;
+    const scalar part_22 = x_by_q1 * number_1;
+    const scalar part_23 = y_by_q1 * number_1;
+    // B* of joint 1
+    const scalar wanted_11 = x_by_q1 * part_22 + y_by_q1 * part_23 + wall_brake * (y_by_q1 * y_by_q1);
+    const scalar part_24 = wanted_11 > 0 ? wanted_11 : nothing;
+    const scalar part_25 = most_damping_1 - part_24 > 0 ? part_24 : most_damping_1;
+    // D of B*
+    const scalar damping_1 = part_25 + added_damping_1;
+    // −∂x/∂q2
+    const scalar x_by_q2 = part_13 * part_21;
+    const scalar part_26 = x_by_q2 * number_1;
+    const scalar part_27 = y_by_q2 * number_1;
+    // B* of joint 2
+    const scalar wanted_22 = x_by_q2 * part_26 + y_by_q2 * part_27 + wall_brake * (y_by_q2 * y_by_q2);
+    const scalar part_28 = wanted_22 > 0 ? wanted_22 : nothing;
+    const scalar part_29 = most_damping_1 - part_28 > 0 ? part_28 : most_damping_1;
+    const scalar damping_2 = added_damping_1 + part_29;
+    // B* between the joints
+    const scalar wanted_12 = half * (y_by_q1 * part_27 - x_by_q1 * part_26 +
+        (y_by_q2 * part_23 - x_by_q2 * part_22)) + wall_brake * (y_by_q1 * y_by_q2);
+    // τ = Σ g M + (B* − D) v
+    const scalar torque_1 = y_by_q1 * wall_force + (v1 * (wanted_11 - part_25) + wanted_12 * v2);
+    const scalar torque_2 = y_by_q2 * wall_force + (wanted_12 * v1 + v2 * (wanted_22 - part_29));
+    if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) {
+      sampled_ = false;
+      return {{sampled_damping_1_, sampled_damping_2_}, {}};
+    }
+    sampled_damping_1_ = damping_1;
+    sampled_damping_2_ = damping_2;
+    // s₋ = s
+    wall_surface_ = wall_surface_now;
+    sampled_ = false;
+    return {{damping_1, damping_2}, {torque_1, torque_2}};
+  }
+
+  // No parameter of this network can be set while it runs.
+  unsigned set(const parameters&) noexcept { return 0; }
+
+  // In the springs after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V = ½ k0 u² + Σ F_i²/(2 k_i)
+    const scalar wall_stored = wall_half_static_stiffness * wall_surface_ * wall_surface_;
+    // V of all ports
+    const scalar stored = wall_stored;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar wall_static_stiffness = 300.0;  // k0 [N/m]
+  static constexpr scalar wall_none = 0.0;  // of a free tool [N]
+  static constexpr scalar wall_recovery_compliance = -9.70873786407767e-05;  // −1/g [m/N]
+  static constexpr scalar wall_feedthrough = 1.0;  // b∞ [N·s/m]
+  static constexpr scalar wall_contact_damping = 1.0;  // b while the tool touches [N·s/m]
+  static constexpr scalar wall_half_static_stiffness = 150.0;  // ½ k0 [N/m]
+  static constexpr scalar proximal_link = 0.063;  // length of the link at the motor [m]
+  static constexpr scalar rounder = 6755399441055744.0;  // added and taken away, it rounds to a whole number [1]
+  static constexpr scalar half_turns_per_radian = 0.3183098861837907;  // 1/π [1/rad]
+  static constexpr scalar half_turn = 3.1415926534682512;  // π, its first digits [rad]
+  static constexpr scalar half_turn_rest = 1.2154201013012384e-10;  // π, what is left of it [rad]
+  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
+  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
+  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
+  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
+  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
+  static constexpr scalar sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
+  static constexpr scalar sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
+  static constexpr scalar sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
+  static constexpr scalar one = 1.0;  // 1 [1]
+  static constexpr scalar half = 0.5;  // 1/2 [1]
+  static constexpr scalar eight = 8.0;  // 8 [1]
+  static constexpr scalar base = 0.025;  // distance of the motor axes [m]
+  static constexpr scalar cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
+  static constexpr scalar cosine_term_4 = 2.4801587277414926e-05;  // of the polynomial in r² [1/rad^8]
+  static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
+  static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
+  static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
+  static constexpr scalar cosine_term_5 = 2.755731639102575e-07;  // of the polynomial in r² [1/rad^10]
+  static constexpr scalar cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
+  static constexpr scalar cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
+  static constexpr scalar distal_link_squared = 0.005625;  // square of that [m²]
+  static constexpr scalar quarter = 0.25;  // 1/4 [1]
+  static constexpr scalar wall_offset = 0.11;  // of the plane from the origin [m]
+  static constexpr scalar most_damping_1 = 0.008560380399132591;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar number_1 = 1.5;  // of the geometry []
+  static constexpr scalar nothing = 0.0;  // 0 [1]
+  static constexpr scalar added_damping_1 = 0.005439619600867409;  // for passivity alone [N·m·s/rad]
+
+  scalar wall_surface_ = 0;  // s, how far the surface is pushed in [m]
+  scalar wall_sampled_brake_ = 0;  // b, at this sample [N·s/m]
+  scalar wall_sampled_surface_now_ = 0;  // s, at this sample [m]
+  scalar sampled_damping_1_ = 0;  // of brake 1, at this sample [N·m·s/rad]
+  scalar sampled_damping_2_ = 0;  // of brake 2, at this sample [N·m·s/rad]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

@@ -1,0 +1,242 @@
+"""Networks of two axes in the commands that take them: the emitted code and simulate to the bit, closed forms, energy."""
+import json
+import math
+import random
+import shutil
+import struct
+import subprocess
+import unittest
+
+from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
+
+FIELD, BALL, WALL = (SOURCE / f"networks/axes/{name}.json" for name in ["kelvin_field", "soft_ball", "viscous_wall"])
+PANTOGRAPH = SOURCE / "runtime/devices/pantograph_2dof.json"
+ONE_AXIS = SOURCE / "runtime/devices/pantograph_brake_2009.json"
+LINK, DISTAL, BASE = 0.063, 0.075, 0.025  # of PANTOGRAPH [m]
+PERIOD = 1e-4
+
+# Reads rows of q1, q2, v1, v2 and writes what the law answers; then its energy and what a refused sample gets.
+DRIVER = r"""
+#include "%(name)s.hpp"
+#include <cstdio>
+#include <limits>
+int main() {
+  using law_type = dashpot::generated::%(name)s;
+  using scalar = law_type::scalar;
+  law_type law;
+  law.reset();
+  double row[4];
+  while (std::scanf("%%lf %%lf %%lf %%lf", row, row + 1, row + 2, row + 3) == 4) {
+    const scalar q[2] = {scalar(row[0]), scalar(row[1])}, v[2] = {scalar(row[2]), scalar(row[3])};
+    const auto now = law.step(q, v);
+    for (const scalar damping : now.damping) std::printf("%%.17g ", double(damping));
+    std::printf("%%.17g %%.17g %%.17g\n", double(now.torque[0]), double(now.torque[1]), double(law.stored_energy()));
+  }
+  const scalar none = std::numeric_limits<scalar>::quiet_NaN(), q[2] = {none, 1}, v[2] = {0, 0};
+  const auto refused = law.step(q, v);
+  for (const scalar damping : refused.damping) std::printf("%%.17g ", double(damping));
+  std::printf("%%.17g %%.17g %%.17g\n", double(refused.torque[0]), double(refused.torque[1]), double(law.stored_energy()));
+}
+"""
+
+
+def tip_of(q):
+    """Where two circles about the elbows meet, on the side of positive y: no formula of the compiler's."""
+    left = (LINK * math.cos(q[0]) - BASE / 2, LINK * math.sin(q[0]))
+    right = (LINK * math.cos(q[1]) + BASE / 2, LINK * math.sin(q[1]))
+    apart = math.hypot(right[0] - left[0], right[1] - left[1])
+    to_tip = math.atan2(right[1] - left[1], right[0] - left[0]) + math.acos(apart / 2 / DISTAL)
+    return left[0] + DISTAL * math.cos(to_tip), left[1] + DISTAL * math.sin(to_tip)
+
+
+def jacobian_of(q):
+    """By Richardson's extrapolation of differences: good to about 1e-10 of the links."""
+    def difference(j, h):
+        ahead, behind = list(q), list(q)
+        ahead[j] += h
+        behind[j] -= h
+        return [(a - b) / (2 * h) for a, b in zip(tip_of(ahead), tip_of(behind))]
+    columns = [[(4 * fine - coarse) / 3 for fine, coarse in zip(difference(j, 5e-4), difference(j, 1e-3))] for j in range(2)]
+    return columns
+
+
+def joints_of(x, y):
+    """By the law of cosines, elbows outward."""
+    joints = []
+    for side in (-1, 1):
+        dx, dy = x - side * BASE / 2, y
+        r = math.hypot(dx, dy)
+        inner = math.acos((r * r + LINK * LINK - DISTAL * DISTAL) / (2 * r * LINK))
+        joints.append(math.atan2(dy, dx) - side * inner)
+    return joints
+
+
+def motion_in_joints(count, seed):
+    """A random walk of the tip through the workspace, as joint positions."""
+    draw = random.Random(seed)
+    x, y, vx, vy, rows = 0.0, 0.1, 0.0, 0.0, []
+    for _ in range(count):
+        vx, vy = (min(max(0.999 * v + draw.gauss(0, 0.05), -0.6), 0.6) for v in (vx, vy))
+        x, y = x + PERIOD * vx, y + PERIOD * vy
+        if abs(x) > 0.038:
+            x, vx = math.copysign(0.038, x), -vx
+        if not 0.072 < y < 0.118:
+            y, vy = min(max(y, 0.072), 0.118), -vy
+        rows.append(joints_of(x, y))
+    return rows
+
+
+class AxesTest(CommandTest):
+
+    def compile(self, network, *options):
+        name = json.loads(network.read_text())["name"]
+        self.dashpot("compile", network, "--uncertified", *options)
+        self.write("driver.cpp", DRIVER % {"name": name})
+        subprocess.run([shutil.which("g++") or "c++", "-std=c++17", "-O1", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror",
+                        "-I", SOURCE / "runtime/include", "-I", ".", "driver.cpp", "-o", name], cwd=self.folder, check=True)
+        return self.folder / name
+
+    def answers(self, program, rows):
+        done = subprocess.run([program], input="".join(" ".join(map(repr, row)) + "\n" for row in rows), text=True,
+                              capture_output=True, check=True)
+        return [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
+
+    def rows(self, joints):
+        """With slopes since the sample before as estimates."""
+        before = [joints[0]] + joints[:-1]
+        return [[*q, *((a - b) / PERIOD for a, b in zip(q, last))] for q, last in zip(joints, before)]
+
+    def simulated(self, network, rows, *options):
+        lines = [f"{i / 10000},{','.join(map(repr, row))}" for i, row in enumerate(rows)]
+        self.write("motion.csv", "time,q1,q2,v1,v2\n" + "\n".join(lines) + "\n")
+        text = self.dashpot("simulate", network, "--input", "motion.csv", *options).stdout.splitlines()
+        self.assertEqual(text[0], "time,q1,q2,v1,v2,damping_1,damping_2,torque_1,torque_2")
+        return [[float(word) for word in line.split(",")[5:]] for line in text[1:]]
+
+    # If this fails, simulate shows something else than what runs on the device.
+    def test_simulate_and_the_emitted_code_agree_to_the_bit(self):
+        rows = self.rows(motion_in_joints(400, 1))
+        single = lambda values: [struct.pack("f", value) for value in values]
+        for network in (FIELD, BALL, WALL):
+            for device in (["--device", PANTOGRAPH], ["--rate", "10000"]):
+                # Each compilation takes a second: float once with the arm, and once without.
+                for scalar in ("double", "float") if network == BALL else ("double",):
+                    with self.subTest(network=network.stem, device=device, scalar=scalar):
+                        same = single if scalar == "float" else list
+                        program = self.compile(network, *device, "--scalar", scalar)
+                        told = [same(row[:4]) for row in self.answers(program, rows)[:-1]]
+                        self.assertEqual([same(row) for row in self.simulated(network, rows, *device, "--scalar", scalar)], told)
+
+    # If this fails, forces or dampings are not those of springs and dampers at the tip of the arm.
+    def test_a_kelvin_field_is_one(self):
+        rows = [[*q, 0.3, -0.2] for q in motion_in_joints(200, 2)]
+        answers = self.answers(self.compile(FIELD, "--device", PANTOGRAPH), rows)
+        for (q1, q2, v1, v2), (d1, d2, t1, t2, stored) in zip(rows, answers):
+            x, y = tip_of([q1, q2])
+            first, second = jacobian_of([q1, q2])
+            pull = [100 * x, 100 * (y - 0.1)]
+            inner = lambda a, b: a[0] * b[0] + a[1] * b[1]
+            added = [d1 - 2 * inner(first, first), d2 - 2 * inner(second, second)]
+            # The differences are good to 1e-10 of links of 0.1 m, forces are up to 5 N.
+            self.assertAlmostEqual(t1, inner(first, pull) + 2 * inner(first, second) * v2, delta=1e-9)
+            self.assertAlmostEqual(t2, inner(second, pull) + 2 * inner(first, second) * v1, delta=1e-9)
+            self.assertAlmostEqual(stored, 50 * (x * x + (y - 0.1) ** 2), delta=1e-12)
+            for extra in added:
+                self.assertGreater(extra, -1e-9)
+
+    # If this fails, a ball pulls the tool along as it slides round it, which gives power for ever.
+    def test_a_ball_has_no_tangential_force(self):
+        rate, speed, radius = 10000, 10.0, 0.028
+        rows = []
+        for i in range(2000):
+            angle = speed * i / rate
+            rows.append([radius * math.sin(angle), 0.14 - radius * math.cos(angle),
+                         speed * radius * math.cos(angle), speed * radius * math.sin(angle)])
+        answers = self.answers(self.compile(BALL, "--rate", str(rate)), rows)
+        for (x, y, vx, vy), (d1, d2, fx, fy, _) in zip(rows, answers[:-1]):
+            # The brakes damp along x and y, and the motors what couples them.
+            force = [fx + d1 * vx, fy + d2 * vy]
+            tangential = (force[0] * (0.14 - y) + force[1] * x) / radius
+            self.assertLess(abs(tangential), 1e-12 * math.hypot(*force) + 1e-15)
+            self.assertLess(force[0] * x + force[1] * (y - 0.14), 0.0)
+
+    # If this fails, some motion gets more work out of the law than was put in: between samples the motors hold their
+    # torque, and the brakes turn at least (1 - tolerance) D dq^2/T_max into heat.
+    def test_no_motion_gains_energy(self):
+        tolerance, longest, own = 0.05, 1.5e-4, 50e-6
+        for network in (FIELD, BALL, WALL):
+            program = self.compile(network, "--device", PANTOGRAPH)
+            for seed in range(3, 9):
+                joints = motion_in_joints(3000, seed)
+                if seed % 2:  # to and fro at half the rate, the hardest that there is
+                    joints = [[a + (-1) ** i * 5e-4, b - (-1) ** i * 5e-4] for i, (a, b) in enumerate(joints)]
+                rows = [[*q, 0.0, 0.0] for q in joints]  # an estimate that never comes
+                answers = self.answers(program, rows)[:-1]
+                work, paid = 0.0, 0.0
+                for now, then, (d1, d2, t1, t2, _) in zip(joints, joints[1:], answers):
+                    dq = [b - a for a, b in zip(now, then)]
+                    heat = sum(((1 - tolerance) * d + own) * x * x / longest for d, x in zip((d1, d2), dq))
+                    work += t1 * dq[0] + t2 * dq[1] + heat
+                    paid += abs(t1 * dq[0]) + abs(t2 * dq[1]) + heat
+                gained = answers[-2][4] - answers[0][4] - work
+                self.assertLess(gained, 1e-12 * paid, f"{network.stem}, seed {seed}")
+
+    # If this fails, a sample that is no number moves the springs, or leaves the motors on.
+    def test_a_refused_sample_changes_nothing(self):
+        for network in (FIELD, BALL):
+            *_, last, refused = self.answers(self.compile(network, "--device", PANTOGRAPH), self.rows(motion_in_joints(50, 9)))
+            self.assertEqual(refused, [*last[:2], 0, 0, last[4]])
+
+    # If this fails, a step of the simplest field costs more than a controller has time for.
+    def test_a_kelvin_field_is_cheap(self):
+        arm = json.loads(PANTOGRAPH.read_text())
+        arm["kinematics"] = {"kind": "parallelogram", "links": ["100 mm", "100 mm"],
+                             "workspace": {"x": ["-40 mm", "40 mm"], "y": ["90 mm", "150 mm"]}}
+        arm["assumed"] = []
+        self.write("arm.json", json.dumps(arm))
+        cost = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)["operations"]
+        self.assertLessEqual(cost["output"] + cost["update"], 150)
+
+    # If this fails, explain is silent about ports, brakes or what is proved.
+    def test_explain_tells_ports_shares_and_certificate(self):
+        told = json.loads(self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--json").stdout)
+        self.assertEqual([port["name"] for port in told["ports"]], ["across", "out"])
+        self.assertEqual((told["axes"], told["chosen"], told["certified"]), (2, "diagonal", True))
+        non_injecting = next(c for c in told["candidates"] if c["name"] == "non-injecting")["share"]
+        # Of an isotropic field 1/(1 + |c|), c the cosine between the columns of J, at the centres of 40 x 40 parts; the field is
+        # told with 1e-9 more.
+        shares = []
+        for i in range(40):
+            for j in range(40):
+                first, second = jacobian_of(joints_of(-0.04 + (i + 0.5) * 0.002, 0.07 + (j + 0.5) * 0.00125))
+                c = (first[0] * second[0] + first[1] * second[1]) / math.hypot(*first) / math.hypot(*second)
+                shares.append(1 / (1 + abs(c)))
+        self.assertAlmostEqual(non_injecting["mean"], sum(shares) / len(shares), delta=1e-7)
+        self.assertAlmostEqual(non_injecting["worst"], min(shares), delta=1e-7)
+        text = self.dashpot("explain", FIELD, "--device", PANTOGRAPH).stdout
+        for words in ["across", "wall", "certified for the forces that are held", "operations before"]:
+            self.assertIn(words, text)
+        self.assertTrue(all(len(line) <= 100 for line in text.splitlines()), text)
+
+    # If this fails, what knows one axis alone takes two for one, or says something that helps nobody.
+    def test_what_knows_one_axis_says_so(self):
+        for command in (["report", FIELD, "-o", "a.html"], ["run", FIELD, "--device", ONE_AXIS], ["export", "--to", "generic", FIELD]):
+            self.assertIn("[several-axes]", self.dashpot(*command, status=INPUT_REFUSED).stderr, command)
+        self.assertIn("[device-of-several-axes]", self.dashpot("device", PANTOGRAPH, "--target", "cpp", "-o", ".", status=INPUT_REFUSED).stderr)
+        for target in ("c99", "hal", "fmi2", "python", "wasm"):
+            self.assertIn("[target-on-two-axes]", self.dashpot("compile", FIELD, "--target", target, status=None).stderr, target)
+        self.assertIn("[option-on-two-axes]", self.dashpot("compile", FIELD, "--batch", status=INPUT_REFUSED).stderr)
+        kelvin = SOURCE / "networks/paper/kelvin.json"
+        for network, device in ((FIELD, ONE_AXIS), (kelvin, PANTOGRAPH)):
+            self.assertIn("[axes-differ]", self.dashpot("explain", network, "--device", device, status=INPUT_REFUSED).stderr)
+        refused = self.dashpot("compile", FIELD, "--decomposition", "paper", status=INPUT_REFUSED).stderr
+        self.assertIn("[rule-of-brakes]", refused)
+        refused = self.dashpot("compile", FIELD, "--state-input", "velocity", status=INPUT_REFUSED).stderr
+        self.assertIn("[ports-follow-position]", refused)
+        self.write("motion.csv", "time,x,y\n0,0,0\n")
+        self.assertIn("[axes-csv-columns]", self.dashpot("simulate", FIELD, "--input", "motion.csv", status=INPUT_REFUSED).stderr)
+        self.dashpot("check", FIELD, BALL, WALL, PANTOGRAPH)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -46,6 +46,22 @@ Choices choices_of_ports(const Choices& asked, double rate) {
   return choices;
 }
 
+// False, with a diagnostic, where a map has a peak in the arm's workspace: there the direction of the force turns at
+// once, and no damping is enough for a held one. Of a contact only a peak that can be touched counts.
+bool are_smooth(const AxesNetwork& network, const axes::Box& workspace, Diagnostics& diagnostics) {
+  bool all = true;
+  for (const Port& port : network.ports) {
+    const std::optional<axes::Pair<double>> peak = axes::peak_in(port.map, workspace);
+    const std::optional<Contact>& contact = port.network.contact;
+    if (!peak || (contact && axes::depth(port.map, *peak).value <= contact->at)) continue;
+    diagnostics.report<DiagnosticCode::map_not_differentiable>(port.span, port.name, 1e3 * (*peak)[0],
+                                                               1e3 * (*peak)[1]);
+    diagnostics.note<DiagnosticCode::map_tangent_remedy>({});
+    all = false;
+  }
+  return all;
+}
+
 bool compile_ports(AxesCompilation& c, const Choices& choices, Diagnostics& diagnostics) {
   for (const Port& port : c.network.ports) {
     StageTimes unseen;
@@ -113,6 +129,7 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   c.has_device = device.has_value();
   c.device = device ? *device : ideal_axes_device(1 / c.rate);
   c.rule = *rule;
+  if (device && !are_smooth(c.network, device->workspace, diagnostics)) return std::nullopt;
   const Choices choices = choices_of_ports(asked, c.rate);
   if (!compile_ports(c, choices, diagnostics)) return std::nullopt;
   c.certificate = certify_axes(c.network, certified_ports(c), c.device, c.rule);

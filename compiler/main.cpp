@@ -27,8 +27,8 @@ using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
 const std::string command_of_completion = "completion", command_of_manual = "manual";
 
 const std::vector<std::string> decompositions = {
-    "diagonal", "non-injecting", "faithful", "paper",  "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
-    "steady",   "ramped", "gated",          "virtual"};
+    "diagonal",      "non-injecting",    "faithful", "paper",  "zero-frequency", "quietest-passive",
+    "velocity-free", "largest-observer", "steady",   "ramped", "gated",          "virtual"};
 const std::string old_name_of_paper = "most-dissipative";
 
 struct CommandLine {

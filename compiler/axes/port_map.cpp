@@ -5,6 +5,18 @@ namespace {
 
 Pair<double> unit(const Pair<double>& a) { return (1 / std::hypot(a[0], a[1])) * a; }
 
+// Where the axis of a band crosses a side of the box.
+std::optional<Pair<double>> crossing(const Band& band, const Box& box) {
+  const Pair<double> corners[] = {
+      {box[0].low, box[1].low}, {box[0].high, box[1].low}, {box[0].high, box[1].high}, {box[0].low, box[1].high}};
+  for (int i = 0; i < 4; ++i) {
+    const Pair<double>&a = corners[i], &b = corners[(i + 1) % 4];
+    const double from = dot(band.normal, a - band.through), to = dot(band.normal, b - band.through);
+    if ((from <= 0) != (to <= 0)) return a + (from / (from - to)) * (b - a);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Plane along(const Pair<double>& direction) { return {unit(direction), 0}; }
@@ -16,6 +28,13 @@ Plane wall(const Pair<double>& through, const Pair<double>& normal) {
 
 Circle ball(const Pair<double>& centre, double radius) { return {centre, radius, 1}; }
 Circle cavity(const Pair<double>& centre, double radius) { return {centre, radius, -1}; }
+
+std::optional<Pair<double>> peak_in(const PortMap& map, const Box& workspace) {
+  if (const Band* const band = std::get_if<Band>(&map)) return crossing(*band, workspace);
+  const Circle* const circle = std::get_if<Circle>(&map);
+  const bool is_in = circle && workspace[0].holds(circle->centre[0]) && workspace[1].holds(circle->centre[1]);
+  return is_in ? std::optional(circle->centre) : std::nullopt;
+}
 
 Band line(const Pair<double>& through, const Pair<double>& direction, double radius) {
   return {through, turned(unit(direction)), radius};

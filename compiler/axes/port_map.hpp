@@ -9,10 +9,12 @@
 // less than that. Any scalar, as kinematics.hpp; a circle or a band takes one root and one division by ρ > 0.
 #pragma once
 
+#include <optional>
 #include <variant>
 
 #include "axes/grid_map.hpp"
 #include "axes/pair.hpp"
+#include "axes/sloped.hpp"
 
 namespace dashpot::compiler::axes {
 
@@ -43,6 +45,10 @@ Plane wall(const Pair<double>& through, const Pair<double>& normal);
 Circle ball(const Pair<double>& centre, double radius);
 Circle cavity(const Pair<double>& centre, double radius);
 Band line(const Pair<double>& through, const Pair<double>& direction, double radius);
+
+// A tip position in a workspace at which the map has a peak, so that its tangent turns at once but for δ: a centre, or
+// where an axis crosses. Nothing where it has none there.
+std::optional<Pair<double>> peak_in(const PortMap& map, const Box& workspace);
 
 template <typename S>
 Depth<S> depth(const Plane& plane, const Pair<S>& x) {

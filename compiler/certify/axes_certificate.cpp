@@ -58,7 +58,13 @@ Pair<double> weight_of(const axes::Arm& arm) {
   return arm.kind == axes::Kinematics::five_bar ? Pair<double>{near, near} : Pair<double>{near, far};
 }
 
-double assured_share(const AlongBrake& brake) { return 1 - brake.brake.tolerance; }
+// At the fastest that the joints go.
+double assured_share(const AlongBrake& brake, const AxesDevice& device) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < 2; ++i) fastest += std::abs(brake.along[i]) * device.joints[i].encoder.max_speed;
+  const double turn = brake.brake.critical_speed > 0 ? fastest / brake.brake.critical_speed : 0;
+  return (1 - brake.brake.tolerance) / (1 + turn * turn);
+}
 
 // The damping that is wanted at the tip where all ports are pushed.
 axes::TipDamping wanted_at_tip(const AxesNetwork& network, const std::vector<CertifiedPort>& ports) {
@@ -87,13 +93,16 @@ axes::Pair<double> least_dampings(const AxesNetwork& network, const std::vector<
   return {std::max(0.0, along.xx.low), std::max(0.0, along.yy.low)};
 }
 
-// What is there: the joints' own damping, what is added to the brakes' commands, and of the ports' damping what two
-// brakes make of it by `diagonal`.
+// What is there: the joints' own damping, and of the ports' damping what two brakes make of it by `diagonal`, if they
+// follow their commands at once.
 axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                             const AxesDevice& device, axes::BrakeRule rule) {
   Symmetric<double> own{device.mechanics.damping[0], 0, device.mechanics.damping[1]};
   for (const AlongBrake& brake : device.brakes) own = own + brake.brake.residual_damping * axes::outer(brake.along);
-  const bool is_told = rule == axes::BrakeRule::diagonal && device.brakes.size() == 2;
+  const bool is_late = std::any_of(device.brakes.begin(), device.brakes.end(), [](const AlongBrake& brake) {
+    return brake.brake.coil_lag > 0 || brake.brake.slew > 0;
+  });
+  const bool is_told = rule == axes::BrakeRule::diagonal && device.brakes.size() == 2 && !is_late;
   return [&network, &ports, &device, own, is_told](const axes::Box& joints) {
     Symmetric<double> sum = own;
     const Pair<double> least = is_told ? least_dampings(network, ports, device, joints) : Pair<double>{0, 0};
@@ -101,7 +110,7 @@ axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<Certif
       const AlongBrake& brake = device.brakes[k];
       const double damping =
           brake.brake.kind == brake_kind::none ? least[k] : std::min(least[k], brake.brake.max_damping);
-      sum = sum + assured_share(brake) * damping * (1 - 1e-12) * axes::outer(brake.along);
+      sum = sum + assured_share(brake, device) * damping * (1 - 1e-12) * axes::outer(brake.along);
     }
     return Symmetric<Interval>{Interval(sum.xx), Interval(sum.xy), Interval(sum.yy)};
   };
@@ -110,14 +119,14 @@ axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<Certif
 // y with y Σ (1 − ε_k) a_k a_kᵀ ≥ x W, over all brakes alike.
 std::vector<double> addition(const AxesDevice& device, const Pair<double>& weight, double x) {
   Symmetric<double> made{0, 0, 0};
-  for (const AlongBrake& brake : device.brakes) made = made + assured_share(brake) * axes::outer(brake.along);
+  for (const AlongBrake& brake : device.brakes) made = made + assured_share(brake, device) * axes::outer(brake.along);
   const bool is_along_joints = made.xy == 0 && device.brakes.size() == 2;
   std::vector<double> added;
   const double alike = x * axes::eigenvalues(Symmetric<double>{weight[0], 0, weight[1]}, made)[1];
   for (const AlongBrake& brake : device.brakes) {
     const std::size_t joint = brake.along[0] != 0 ? 0 : 1;
     const double length = brake.along[joint] * brake.along[joint];
-    const double own = is_along_joints ? x * weight[joint] / (assured_share(brake) * length) : alike;
+    const double own = is_along_joints ? x * weight[joint] / (assured_share(brake, device) * length) : alike;
     added.push_back(own * (1 + 1e-12));
   }
   return added;
@@ -129,7 +138,8 @@ std::string unproved(const std::vector<CertifiedPort>& ports, const AxesDevice& 
     if (joint.encoder.max_speed == 0)
       return "the encoders state no \"max_speed\", which bounds how far the joints go while a force is held";
   for (const CertifiedPort& port : ports) {
-    // A contact is not proved on one axis where the brake leaves a free tool alone; here what is needed is always there.
+    // A contact is not proved on one axis where the brake leaves a free tool alone; here what is needed is always
+    // there.
     if (port.certificate->bound.proof == Proof::none && !(port.certificate->bound.needed > 0))
       return fmt::format("port '{}': {}", port.port->name, port.certificate->bound.reason);
     if (compensates(*port.law))
@@ -137,6 +147,20 @@ std::string unproved(const std::vector<CertifiedPort>& ports, const AxesDevice& 
                          port.port->name);
   }
   return "";
+}
+
+std::string what_is_uncovered(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                              const AxesDevice& device) {
+  for (const device_description& joint : device.joints) {
+    if (joint.motor.amplifier_lag > 0) return "the motors' amplifiers lag, which no bound of two axes covers yet";
+    if (joint.motor.slew > 0) return "the motors' slew is limited, which no bound of two axes covers yet";
+  }
+  const bool damps = network.has_field() || std::any_of(ports.begin(), ports.end(), [](const CertifiedPort& port) {
+                       return port.law->largest_damping > 0;
+                     });
+  return damps ? "what the brakes leave of the ports' damping the motors make from estimates, which no bound of two "
+                 "axes covers yet between samples"
+               : "";
 }
 
 }  // namespace
@@ -205,7 +229,8 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   }
   if (c.missing > 0) c.added = addition(device, c.weight, c.missing);
   c.takes_lateness = !c.share || c.share->delay_proof > 1 - 1e-9;
-  c.certified = c.takes_lateness;
+  c.uncovered = what_is_uncovered(network, ports, device);
+  c.certified = c.takes_lateness && c.uncovered.empty();
   for (std::size_t k = 0; k < device.brakes.size(); ++k) {
     const brake_description& brake = device.brakes[k].brake;
     const double most = std::max(0.0, brake.max_damping - brake.residual_damping);
@@ -218,6 +243,7 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
 
 std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return c.reason;
+  if (!c.uncovered.empty()) return c.uncovered;
   if (!c.takes_lateness)
     return "the brakes make less than half of the ports' damping somewhere in the workspace, and the motors' part "
            "follows "
@@ -229,13 +255,13 @@ std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device
 std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("passivity: {} for the forces that are held from one sample to the next, for any motion in the "
-                  "workspace: they need "
-                  "{:.6g} N·s/m{}, {:.6g} beyond the device's own damping, most at ({:.4g}, {:.4g}) mm",
-                  c.certified ? "certified" : "not certified", c.needed,
-                  device.arm.kind == axes::Kinematics::cartesian ? "" : " times the square of each joint's link",
-                  c.missing, 1e3 * c.worst[0], 1e3 * c.worst[1]));
+  lines.push_back(fmt::format(
+      "passivity: {}: the forces that are held from one sample to the next need {:.6g} N·s/m{}, {:.6g} "
+      "beyond the device's own damping, most at ({:.4g}, {:.4g}) mm",
+      c.certified ? "certified for any motion in the workspace, while the motors make their torques"
+                  : "not certified, since " + why_not_certified(c, device),
+      c.needed, device.arm.kind == axes::Kinematics::cartesian ? "" : " times the square of each joint's link",
+      c.missing, 1e3 * c.worst[0], 1e3 * c.worst[1]));
   const std::string unit = port_units(device.joint_motion()).damping;
   std::string added;
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);

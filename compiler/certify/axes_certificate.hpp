@@ -35,6 +35,7 @@ struct AxesCertificate {
   // Whether what the motors make of the ports' damping, from estimates, is passive whatever lateness the estimates of
   // both joints share, everywhere in the workspace.
   bool takes_lateness = true;
+  std::string uncovered;  // what of this network on this device no bound covers yet; empty: nothing
   bool certified = false;
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
 

@@ -184,8 +184,9 @@ std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const
   if (target != "cpp" || option != nullptr) return std::nullopt;
   const AxesCertificate& certificate = c.certificate;
   const std::string device = c.has_device ? fmt::format("device '{}'", c.device.name) : "an ideal device";
-  if (!certificate.is_proved) {
-    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, certificate.reason);
+  if (!certificate.is_proved || !certificate.uncovered.empty()) {
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device,
+                                                       why_not_certified(certificate, c.device));
   } else if (!certificate.certified) {
     const std::string lacks = why_not_certified(certificate, c.device);
     if (!options.uncertified) {

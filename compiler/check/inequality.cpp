@@ -27,7 +27,7 @@ std::pair<Rational, Rational> enclosed_exponential(const Rational& x) {
 // The inequality's matrix for one hold, over the states, w and ρ, on and below the diagonal: whole, because scaled by
 // 2^digits for each of three factors, but for b/T and b/(κT), which are rounded down.
 Matrix matrix_of(const LoopForm& loop, const Matrix& P, unsigned digits, const Rational& damping, const Hold& hold) {
-  const std::size_t n = loop.states.size(), lags = hold.spread != 0;
+  const std::size_t n = P.size(), lags = hold.spread != 0;
   std::map<std::string, std::size_t> place = {{"w", n}};
   for (const std::string& state : loop.states) place.emplace(state, place.size() - 1);
   std::vector<std::tuple<std::size_t, std::size_t, Integer>> A;  // with B as its last column

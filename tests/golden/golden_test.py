@@ -30,6 +30,8 @@ PANTOGRAPH = "runtime/devices/pantograph_brake_2009.json"
 
 def of_network(path):
     """The command lines about one network: the text for people, the certificate, and of the paper's every stage."""
+    if path.parent.name == "axes":
+        return [["explain", path], ["explain", path, "--device", "runtime/devices/pantograph_2dof.json"]]
     stages = STAGES if path.parent.name == "paper" else []
     return [["explain", path], ["compile", path, "--certificate", CERTIFICATE], *(["compile", path, "--print", stage] for stage in stages)]
 

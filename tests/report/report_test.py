@@ -18,7 +18,7 @@ from browser import Browser
 
 DASHPOT = os.environ["DASHPOT"]
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
-NETWORKS = sorted(SOURCE.glob("networks/*/*.json"))
+NETWORKS = sorted(path for path in SOURCE.glob("networks/*/*.json") if path.parent.name != "axes")  # a page is of one axis
 IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 TUNABLE = sorted(SOURCE.glob("networks/tunable/*.json"))
 FIG_5 = SOURCE / "networks/paper/second_order_maxwell.json"

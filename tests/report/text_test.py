@@ -60,7 +60,8 @@ def text_of(page):
 
 def wanted():
     """From the name of each text to the arguments behind `dashpot report`."""
-    networks = recorded.one_a_shape(sorted(SOURCE.glob("networks/paper/*.json")) + sorted(SOURCE.glob("networks/*/*.json")))
+    of_one_axis = [path for path in sorted(SOURCE.glob("networks/*/*.json")) if path.parent.name != "axes"]
+    networks = recorded.one_a_shape(sorted(SOURCE.glob("networks/paper/*.json")) + of_one_axis)
     arguments = {path.stem: [path.relative_to(SOURCE)] for path in networks}
     return {**arguments, "with_a_device": ["networks/paper/second_order_maxwell.json", "--device", PANTOGRAPH]}
 

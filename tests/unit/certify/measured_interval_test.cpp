@@ -85,7 +85,9 @@ TEST(MeasuredInterval, WhatIsStatedIsEnough) {
       motor.velocity_gain = gain;
       const SampledLoop loop = measuring_loop(jitter);
       const double needed = proved_bound(motor, loop).needed;
-      if (jitter < 0.6) EXPECT_LT(needed, passivity_bound(motor, differencing_loop(0.001, 1)).needed * (1 + jitter));
+      if (jitter < 0.6) {
+        EXPECT_LT(needed, passivity_bound(motor, differencing_loop(0.001, 1)).needed * (1 + jitter));
+      }
       for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         testing::Random random(seed);
         MeasuringTool tool(motor, loop, needed);

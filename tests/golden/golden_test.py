@@ -65,7 +65,7 @@ def said(dashpot, arguments):
         with tempfile.TemporaryDirectory() as folder:
             written = pathlib.Path(folder) / CERTIFICATE
             return said(dashpot, [*arguments[:-1], written, "-o", folder]).replace(folder, "FOLDER") + claims(written) + "\n"
-    done = subprocess.run([dashpot, *map(str, arguments)], cwd=SOURCE, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([dashpot, *map(str, arguments)], cwd=SOURCE, capture_output=True, text=True, timeout=180)
     status = f"exit status {done.returncode}\n" if done.returncode != 0 else ""
     return f"$ dashpot {' '.join(map(str, arguments))}\n{done.stdout}{done.stderr}{status}\n"
 

@@ -202,10 +202,10 @@ class Search {
   }
 
   template <typename ToJoints>
-  NeededDamping run(const Box& whole, const ToJoints& joints_of, double tolerance) {
+  NeededDamping run(const Box& whole, const ToJoints& joints_of, double tolerance, int most) {
     Parts open;
     open.push(measured(whole, joints_of));
-    for (int boxes = 1; boxes < most_boxes && !is_close(open.top().need, tolerance); boxes += 2) {
+    for (int boxes = 1; boxes < most && !is_close(open.top().need, tolerance); boxes += 2) {
       const Part worst = open.top();
       open.pop();
       for (const Box& half : halves(worst.box, whole)) open.push(measured(half, joints_of));
@@ -286,18 +286,18 @@ Interval range_of(const PortMap& map, const Box& workspace) {
 
 NeededDamping needed_damping(const Arm& arm, const Box& workspace, const std::vector<PortLoad>& loads,
                              const SampledLoop& loop, const Pair<double>& weight, const GivenDamping& given,
-                             double tolerance) {
+                             double tolerance, int boxes) {
   const auto joints_of = [&](const Box& tip) { return enclosed_joints(arm, tip); };
-  return Search(arm, loads, workspace, loop, weight, given).run(workspace, joints_of, tolerance);
+  return Search(arm, loads, workspace, loop, weight, given).run(workspace, joints_of, tolerance, boxes);
 }
 
 NeededDamping needed_over_joints(const Arm& arm, const Box& joints, const std::vector<PortLoad>& loads,
                                  const Box& workspace, const SampledLoop& loop, const Pair<double>& weight,
-                                 const GivenDamping& given, double tolerance) {
+                                 const GivenDamping& given, double tolerance, int boxes) {
   const auto joints_of = [](const Box& box) {
     return std::optional(EnclosedJoints{variables(box), constant<Interval>(middle_of(box))});
   };
-  return Search(arm, loads, workspace, loop, weight, given).run(joints, joints_of, tolerance);
+  return Search(arm, loads, workspace, loop, weight, given).run(joints, joints_of, tolerance, boxes);
 }
 
 }  // namespace dashpot::compiler::axes

@@ -56,14 +56,15 @@ Interval range_of(const PortMap& map, const Box& workspace);
 Interval motor_force(const PortLoad& load, const Interval& depth, const Interval& over_workspace);
 
 // In: an arm without singularities in the workspace and its reach, W = diag(weight) [1]. Parts of the workspace are
-// halved, the worst first, until `close` or most_boxes. Where nothing is given, the tightest x with D = x W alone.
+// halved, the worst first, until `close` or there are `boxes`. Where nothing is given, the tightest x with D = x W
+// alone.
 NeededDamping needed_damping(const Arm& arm, const Box& workspace, const std::vector<PortLoad>& loads,
                              const SampledLoop& loop, const Pair<double>& weight, const GivenDamping& given,
-                             double tolerance = bound_tolerance);
+                             double tolerance = bound_tolerance, int boxes = most_boxes);
 
 // The same over a box of joints.
 NeededDamping needed_over_joints(const Arm& arm, const Box& joints, const std::vector<PortLoad>& loads,
                                  const Box& workspace, const SampledLoop& loop, const Pair<double>& weight,
-                                 const GivenDamping& given, double tolerance = bound_tolerance);
+                                 const GivenDamping& given, double tolerance = bound_tolerance, int boxes = most_boxes);
 
 }  // namespace dashpot::compiler::axes

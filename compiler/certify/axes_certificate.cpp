@@ -15,7 +15,8 @@ using axes::Interval;
 using axes::Pair;
 using axes::Symmetric;
 
-constexpr int places_a_side = 40;  // of the workspace, where shares are told
+constexpr int places_a_side = 40;        // of the workspace, where shares are told
+constexpr int parts_of_workspace = 500;  // that are looked at, so that nobody waits
 
 bool compensates(const UpdateLaw& law) {
   return std::any_of(law.coefficients.begin(), law.coefficients.end(), [](const Coefficient& c) {
@@ -216,7 +217,8 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   for (const CertifiedPort& port : ports) loads.push_back(load_of(port, device.loop().sample_period));
   const axes::SampledLoop loop = loop_of(device);
   const auto needed_beside = [&](const axes::GivenDamping& given) {
-    return axes::needed_damping(device.arm, device.workspace, loads, loop, c.weight, given);
+    return axes::needed_damping(device.arm, device.workspace, loads, loop, c.weight, given, axes::bound_tolerance,
+                                parts_of_workspace);
   };
   const axes::GivenDamping none = [](const axes::Box&) { return Symmetric<Interval>{}; };
   const axes::NeededDamping whole = needed_beside(none), rest = needed_beside(given_by(network, ports, device, rule));

@@ -38,11 +38,16 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
   const Candidate& choice = c.decomposition.choice();
   ChoiceMoves moves{choice.damping, choice.damping, ""};
   double furthest = 1e-6 * choice.damping;
+  const double share =
+      CandidateSettler(present, c.form, c.decomposition, choices, c.port, c.rate).jitter_share_at(choice);
   const auto chosen_on = [&](const PortDevice& port, const Device& device) {
     Compilation again = c;
     again.device = device;
     Candidate& candidate = again.decomposition.candidates[again.decomposition.chosen];
-    CandidateSettler(present, c.form, c.decomposition, choices, port, c.rate).settle(candidate);
+    CandidateSettler settler(present, c.form, c.decomposition, choices, port, c.rate);
+    const double jitter = c.device->description.loop.jitter;
+    if (jitter > 0) settler.assume_jitter_share(1 + (share - 1) * device.description.loop.jitter / jitter);
+    settler.settle(candidate);
     if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
     return c.form.has_slips() ? damping_on_another_device(again, choices, port) : candidate.damping;
   };

@@ -138,6 +138,10 @@ CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, do
 
 }  // namespace
 
+bool serves(const HoldInequality& hold, const CommonStorage& tried) {
+  return log_determinant(tried.P) && log_determinant(matrix_of(hold, tried));
+}
+
 std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
                                                   double excess) {
   const Eigen::Index n = start.P.rows();

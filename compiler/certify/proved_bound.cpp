@@ -1,7 +1,9 @@
 #include "certify/proved_bound.hpp"
 
 #include "certify/adaptive_window.hpp"
+#include "certify/estimator_factors.hpp"
 #include "certify/motor_limits.hpp"
+#include "certify/unproved.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -33,28 +35,53 @@ PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const Sa
   return bound;
 }
 
-PassivityBound under_jitter(PassivityBound bound, const MotorConstants& linear, const std::optional<SlipMotor>& slips,
-                            const SampledLoop& loop, const Rational& assured) {
-  const bool is_open = bound.proof != Proof::none && bound.constant_period_only && loop.jitter > 0 && !bound.any_value;
-  if (!is_open || Rational(bound.needed) > assured) return bound;
-  std::optional<StorageProof> proof;
-  if (!slips && loop.motor_slew == 0) proof = storage_proof(linear, loop, std::nullopt, assured.convert_to<double>());
-  if (proof && Rational(proof->damping) <= assured) {
+namespace {
+
+std::optional<StorageProof> one_for_all(const MotorConstants& motor, const SampledLoop& loop,
+                                        const std::optional<Rational>& enough) {
+  if (loop.motor_slew > 0) return std::nullopt;
+  std::optional<StorageProof> proof = proof_for_all_holds(motor, loop);
+  if (enough && (!proof || Rational(proof->damping) > *enough))
+    if (std::optional<StorageProof> least = storage_proof(motor, loop)) return least;
+  return proof;
+}
+
+// Of what position drives by one P, and of an estimate that is not linear by its gain, which no lag makes larger.
+std::optional<StorageProof> part_by_part(const MotorConstants& motor, const SampledLoop& loop,
+                                         const std::optional<Rational>& enough) {
+  const std::optional<double> estimate = damping_for_estimate(motor, loop);
+  std::optional<StorageProof> proof = estimate ? one_for_all(position_driven(motor), loop, enough) : std::nullopt;
+  if (proof) proof->damping += *estimate * (loop.longest_hold() / loop.sample_period) * (1 + 1e-14);
+  return proof;
+}
+
+}  // namespace
+
+PassivityBound under_jitter(PassivityBound bound, const MotorConstants& motor, const SampledLoop& loop,
+                            std::optional<Rational> enough) {
+  if (bound.proof == Proof::none || !bound.constant_period_only || loop.jitter == 0) return bound;
+  if (loop.jitter >= loop.sample_period) return not_proved(at_once);
+  const bool is_linear = !motor.follows_estimate() || estimator_factors(loop);
+  std::optional<StorageProof> proof = is_linear ? one_for_all(motor, loop, enough) : part_by_part(motor, loop, enough);
+  const std::optional<double> by_sample = needed_sample_by_sample(motor, std::nullopt, loop);
+  if (!proof && !by_sample) return not_proved("the amplifier lags, and nothing is proved of it under the jitter");
+  bound.constant_period_only = false;
+  if (proof && (!by_sample || proof->damping <= *by_sample)) {
     bound.needed = proof->damping;
-    bound.storage = std::move(proof->storage);
-    bound.constant_period_only = false;
+    bound.storage = is_linear ? std::optional(std::move(proof->storage)) : std::nullopt;
     return bound;
   }
-  const std::optional<double> needed = needed_sample_by_sample(linear, slips, loop);
-  // Behind a contact the brake leaves a free tool alone, which touches late.
-  const Rational there = slips && slips->behind_contact ? assured_damping(loop, 0) : assured;
-  if (!needed || Rational(*needed) > there) return bound;
   bound.proof = Proof::hold;
-  bound.needed = *needed;
+  bound.needed = *by_sample;
   bound.frequency = 0;
   bound.storage.reset();
-  bound.constant_period_only = false;
   return bound;
+}
+
+PassivityBound stated_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop,
+                            const Rational& there) {
+  const bool is_lifted = motor && loop.amplifier_lag > 0 && loop.jitter > 0;
+  return is_lifted ? under_jitter(passivity_bound(motor, loop), *motor, loop, there) : proved_bound(motor, loop);
 }
 
 }  // namespace dashpot::compiler

@@ -5,6 +5,7 @@
 
 #include "certify/convex_search.hpp"
 #include "certify/curve_bound.hpp"
+#include "certify/estimator_factors.hpp"
 #include "certify/proved_bound.hpp"
 #include "decompose/spectrum.hpp"
 #include "discretise/discretise.hpp"
@@ -19,6 +20,10 @@ constexpr std::size_t search_terms = most_terms / 10;
 // Share of the bound over frequencies by which the storage function that proves it may be above it, and as much again
 // for the search for that function, which is a search.
 constexpr double proof_reserve = 2 * most_storage_excess;
+
+constexpr double share_tolerance = 1e-3;  // of what jitter asks for, beyond what is asked for at punctual samples
+
+constexpr int most_looks = 4;  // at what jitter asks for, where a search went by too little or too much
 
 // Beyond the precision of the bounds.
 bool is_noticeably_less(double x, double y) { return x < y * (1 - 1e-6); }
@@ -59,6 +64,7 @@ void CandidateSettler::settle_named(Candidate& candidate) {
       if (is_better(merit, *best)) best = &merit;
   }
   take(candidate, *best);
+  if (!is_jitter_known(candidate.state_input, candidate.damping)) settle_at(candidate);
   if (!device_.is_ideal()) make_room(candidate);
 }
 
@@ -69,7 +75,13 @@ void CandidateSettler::settle_faithful(Candidate& candidate) {
                        const PassivityBound found = bound(input, damping, search_terms);
                        return found.proof == Proof::none ? std::nullopt : std::optional(found.needed);
                      }});
-  const FaithfulFind found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
+  FaithfulFind found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
+  const auto is_as_searched = [&] {
+    const FoundOption& it = found.options[found.choice.chosen];
+    return is_jitter_known(lines[it.line].state_input, it.option.damping);
+  };
+  for (int round = 0; round < most_looks && !is_as_searched(); ++round)
+    found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
   const FoundOption& chosen = found.options[found.choice.chosen];
   place(candidate, chosen.option.damping);
   candidate.state_input = lines[chosen.line].state_input;
@@ -162,14 +174,71 @@ const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput 
 }
 
 // Whatever b: it is only in the velocity gain, b∞ − b.
-PassivityBound CandidateSettler::bound(StateInput input, double damping, std::size_t terms) {
+std::optional<MotorConstants> CandidateSettler::motor_at(StateInput input, double damping) {
   std::optional<MotorConstants> motor = without_brake(input);
-  if (motor) {
-    motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
-    motor->brake = damping;
+  if (!motor) return motor;
+  motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
+  motor->brake = damping;
+  return motor;
+}
+
+PassivityBound CandidateSettler::bound(StateInput input, double damping, std::size_t terms) {
+  const std::optional<MotorConstants> motor = motor_at(input, damping);
+  if (!motor) return passivity_bound(motor, loop_, terms);
+  if (network_.map) return behind_curve(*motor, damping);
+  PassivityBound found = punctual_bound(*motor, terms);
+  if (found.proof != Proof::none && found.constant_period_only && loop_.jitter > 0) {
+    const double share = jitter_share(input, damping);
+    if (!std::isfinite(share)) found = under_jitter(std::move(found), *motor, loop_, std::nullopt);
+    else found.needed *= share * (1 + share_tolerance), found.constant_period_only = false;
   }
-  if (network_.map && motor) return behind_curve(std::move(*motor), damping);
-  return motor && slips_ ? passivity_bound(*motor, *slips_, loop_) : passivity_bound(motor, loop_, terms);
+  return slips_ ? with_slips(std::move(found), *slips_, loop_) : found;
+}
+
+PassivityBound CandidateSettler::punctual_bound(const MotorConstants& motor, std::size_t terms) const {
+  return slips_ ? bound_beside_slips(motor, *slips_, loop_, terms) : passivity_bound(motor, loop_, terms);
+}
+
+// What is needed under jitter, behind an amplifier's lag, over what is at punctual samples: it hardly depends on b, and
+// takes a search to know. Known at a few b, it is on a line between them. Infinite where nothing is proved.
+double CandidateSettler::jitter_share(StateInput input, double damping) {
+  if (assumed_share_) return *assumed_share_;
+  std::map<double, double>& known = jitter_shares_[input];
+  if (known.empty())
+    for (const double place : {0.0, to_double(form_.linear.feedthrough_damping), loop_.max_damping})
+      if (place <= loop_.max_damping) look_at_jitter(input, place);
+  const auto after = known.lower_bound(damping);
+  if (after == known.end()) return known.rbegin()->second;
+  if (after == known.begin() || after->first == damping) return after->second;
+  const auto before = std::prev(after);
+  const double way = (damping - before->first) / (after->first - before->first);
+  return before->second + way * (after->second - before->second);
+}
+
+double CandidateSettler::look_at_jitter(StateInput input, double damping) {
+  std::map<double, double>& known = jitter_shares_[input];
+  if (const auto found = known.find(damping); found != known.end()) return found->second;
+  const std::optional<MotorConstants> motor = motor_at(input, damping);
+  if (!motor) return 1;
+  const PassivityBound punctual = punctual_bound(*motor, search_terms);
+  const PassivityBound found = under_jitter(punctual, *motor, loop_, std::nullopt);
+  double share = found.proof == Proof::none ? HUGE_VAL : 1;
+  if (found.proof != Proof::none && punctual.needed > 0) share = found.needed / punctual.needed;
+  return known[damping] = share;
+}
+
+// Whether bound() has gone by what is needed at that damping; from then on it does.
+bool CandidateSettler::is_jitter_known(StateInput input, double damping) {
+  if (assumed_share_ || jitter_shares_[input].empty()) return true;
+  const double by_line = jitter_share(input, damping), is = look_at_jitter(input, damping);
+  return is == by_line || std::abs(is - by_line) <= share_tolerance * by_line;
+}
+
+void CandidateSettler::assume_jitter_share(double share) { assumed_share_ = share; }
+
+double CandidateSettler::jitter_share_at(const Candidate& candidate) {
+  const bool is_asked_for = loop_.amplifier_lag > 0 && loop_.jitter > 0 && !network_.map;
+  return is_asked_for ? look_at_jitter(candidate.state_input, candidate.damping) : 1;
 }
 
 // As if the law had no map, and lacked as much.
@@ -218,9 +287,11 @@ void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) 
 
 void CandidateSettler::make_room(Candidate& candidate) {
   if (!candidate.minimum_damping || candidate.certified == true || slips_) return;
-  const std::optional<double> fitting = largest_fitting(candidate.state_input, candidate.damping);
-  if (!fitting) return;
   const double wanted = candidate.wanted_damping;
+  std::optional<double> fitting = largest_fitting(candidate.state_input, candidate.damping);
+  for (int round = 0; round < most_looks && fitting && !is_jitter_known(candidate.state_input, *fitting); ++round)
+    fitting = largest_fitting(candidate.state_input, candidate.damping);
+  if (!fitting) return;
   place(candidate, *fitting);
   candidate.wanted_damping = wanted;
   settle_at(candidate);

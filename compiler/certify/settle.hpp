@@ -32,6 +32,10 @@ class CandidateSettler {
   void place(Candidate& candidate, double damping);
   // settle() without a choice: of the damping and the state input that the candidate has.
   void settle_at(Candidate& candidate);
+  // Behind an amplifier's lag, what a candidate needs under jitter over what it needs at punctual samples; and a
+  // settler that takes that of another for every damping, in place of a search.
+  double jitter_share_at(const Candidate& candidate);
+  void assume_jitter_share(double share);
   // Of what is felt of a candidate with so much added to its damping [N·s/m], over the band [1].
   double largest_error(const Candidate& candidate, double added);
 
@@ -45,6 +49,11 @@ class CandidateSettler {
   SearchReach reach() const;
   const std::optional<MotorConstants>& without_brake(StateInput input);
   PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);
+  PassivityBound punctual_bound(const MotorConstants& motor, std::size_t terms) const;
+  std::optional<MotorConstants> motor_at(StateInput input, double damping);
+  double jitter_share(StateInput input, double damping);
+  double look_at_jitter(StateInput input, double damping);
+  bool is_jitter_known(StateInput input, double damping);
   PassivityBound behind_curve(MotorConstants motor, double damping) const;
   void weigh(Candidate& candidate, StateInputMerit& merit);
   void take(Candidate& candidate, const StateInputMerit& merit);
@@ -61,6 +70,8 @@ class CandidateSettler {
   std::optional<SlipMotor> slips_;
   std::map<StateInput, std::optional<MotorConstants>> motors_;
   std::map<StateInput, std::unique_ptr<FeltError>> felt_;
+  std::map<StateInput, std::map<double, double>> jitter_shares_;  // at the dampings that were looked at
+  std::optional<double> assumed_share_;
 };
 
 }  // namespace dashpot::compiler

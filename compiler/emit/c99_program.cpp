@@ -465,7 +465,7 @@ class C99Printer {
   Lines reset() {
     Lines lines;
     if (law_.rest_position == no_variable) lines.push_back("(void)position;");
-    else lines = with_constants({&law_.start}, lines_of(law_.start));
+    else lines = lines_of(law_.start);
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       const std::string rest =
@@ -479,7 +479,7 @@ class C99Printer {
     }
     for (const GuardInTurn& guard : law_.guards) lines.push_back(fmt::format("self->{} = 0;", guard.name));
     append_all(lines, lines_of(law_.rest));
-    return lines;
+    return with_constants({&law_.start, &law_.rest}, std::move(lines));
   }
 
   std::string rest_position() const {

@@ -76,6 +76,9 @@ def run_json(scratch, text):
     if "dashpot_device" not in file:
         scratch.run("dashpot", "compile", name, "-o", ".")
         return
+    if file.get("axes", 1) > 1:
+        scratch.run("dashpot", "check", name)
+        return
     network = dict(PLAIN_NETWORK, motion="translation" if "arm_radius" in file else file.get("motion", "translation"))
     scratch.run("dashpot", "explain", scratch.save("plain.json", json.dumps(network)), "--device", name)
 

@@ -246,13 +246,17 @@ class Json(CommandTest):
 
     def test_behind_slips_no_more_is_added_than_is_missing(self):
         """Fails if more is added to the brake than the minimum damping that is told; what is added is felt."""
+        self.write("needle.json", """{ "dashpot": 1, "name": "needle", "network": { "parallel": [ { "damper": 0.41 }, { "spring": 18.5 },
+          { "series": [ { "spring": 65.6 }, { "damper": 5.25 } ] }, { "series": [ { "slip": 0.75 }, { "spring": 1500 } ] } ] } }""")
         device = json.loads(PANTOGRAPH.read_text())
-        device["loop"]["delay_samples"] = 1
+        device["loop"].update(rate="2 kHz", jitter="40 us", delay_samples=1)
+        device["velocity"] = {"estimator": "backward_difference", "window": 10}
+        device["brake"].update(max_damping="20 mN m s/rad")
         self.write("late.json", json.dumps(device))
-        done = self.dashpot("explain", SOURCE / "networks/paper/visco_elasto_plastic.json", "--device", "late.json", "--json")
+        done = self.dashpot("explain", "needle.json", "--device", "late.json", "--json")
         row = next(row for row in json.loads(done.stdout)["candidates"] if row["name"] == "faithful")
         self.assertGreater(row["minimum_damping"], 0)
-        told = self.dashpot("explain", SOURCE / "networks/paper/visco_elasto_plastic.json", "--device", "late.json").stdout
+        told = self.dashpot("explain", "needle.json", "--device", "late.json").stdout
         added = float(re.search(r"of the brake's command (\S+) N s/m are for passivity", told).group(1))
         self.assertAlmostEqual(added, row["minimum_damping"], delta=1e-5 * added)
 

@@ -307,7 +307,7 @@ class Json(CommandTest):
     def test_a_refused_choice_names_one_that_would_do(self):
         """Fails if a decomposition that is asked for and refused goes without the one that is certified on the same device."""
         self.skin_on_paddle(amplifier_lag="0.3 ms")
-        asked = ["skin.json", "--device", "paddle.json", "--decomposition", "steady"]
+        asked = ["skin.json", "--device", "paddle.json", "--decomposition", "0.3"]
         done = self.refused("compile", *asked, code="not-certified")
         options, damping = re.search(r"note: '(--.*)' would do: it is certified, with b = ([0-9.]+) N s/m", done.stderr).groups()
         found = self.explained("skin.json", "--device", "paddle.json", *options.split())

@@ -172,9 +172,10 @@ class Remedies {
   bool may_do(const Device& device) const {
     if (c_.law.tunable) return true;
     Candidate candidate = c_.decomposition.choice();
-    CandidateSettler(c_.network, c_.form, c_.decomposition, choices_, c_.port.replaced_by(device),
-                     1 / device.description.loop.sample_period)
-        .settle(candidate);
+    CandidateSettler settler(c_.network, c_.form, c_.decomposition, choices_, c_.port.replaced_by(device),
+                             1 / device.description.loop.sample_period);
+    settler.assume_jitter_gap(1);  // with what is necessary
+    settler.settle(candidate);
     return candidate.certified == true;
   }
 

@@ -11,9 +11,15 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+// Of a few rows and columns: what large products prepare would cost more than it saves.
+template <class Left, class Right>
+Matrix product(const Left& left, const Right& right) {
+  return left.lazyProduct(right);
+}
+
 Matrix matrix_of(const HoldInequality& of, const CommonStorage& at) {
   const Eigen::Index n = at.P.rows();
-  Matrix M = of.constant + at.damping * of.damping - of.next.transpose() * at.P * of.next;
+  Matrix M = of.constant + at.damping * of.damping - product(of.next.transpose(), product(at.P, of.next));
   M.topLeftCorner(n, n) += at.P;
   return M;
 }
@@ -56,8 +62,9 @@ class Barrier {
     add_products(inverse, 1, hessian);
     for (const HoldInequality& one : all_) {
       const Matrix W = inverse_of(matrix_of(one, at));
-      const Matrix before = W.topLeftCorner(n_, n_), across = W.topRows(n_) * one.next.transpose(),
-                   after = one.next * W * one.next.transpose(), weighed = W * one.damping * W;
+      const Matrix onward = product(one.next, W), weighed = product(W, product(one.damping, W));
+      const Matrix before = W.topLeftCorner(n_, n_), across = onward.leftCols(n_).transpose(),
+                   after = product(onward, one.next.transpose());
       gradient.head(count) += on_entries(after - before);
       gradient(count) -= W.cwiseProduct(one.damping).sum();
       add_products(before, 1, hessian);
@@ -65,7 +72,7 @@ class Barrier {
       add_products(across.transpose(), -1, hessian);
       add_products(after, 1, hessian);
       hessian.row(count).head(count) +=
-          on_entries(weighed.topLeftCorner(n_, n_) - one.next * weighed * one.next.transpose());
+          on_entries(weighed.topLeftCorner(n_, n_) - product(one.next, product(weighed, one.next.transpose())));
       hessian(count, count) += weighed.cwiseProduct(one.damping).sum();
     }
     const Vector unit = hessian.diagonal().cwiseSqrt().cwiseInverse();
@@ -115,20 +122,21 @@ CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, do
   double dimensions = double(at.P.rows());
   for (const HoldInequality& one : all) dimensions += double(one.constant.rows());
   double t = dimensions / std::abs(at.damping);
+  std::optional<double> value = barrier.value(at, t);
   for (int i = 0; i < most_steps && at.damping > 0; ++i) {
-    const std::optional<double> before = barrier.value(at, t);
     const auto [step, decrement] = barrier.step(at, t);
-    if (!before || !std::isfinite(decrement) || decrement < 0) break;
-    if (decrement < 0.1) {  // near enough to the path, where b is no more than dimensions/t above the least
+    if (!value || !std::isfinite(decrement) || decrement < 0) break;
+    if (decrement < 1) {  // near enough to the path, where b is no more than dimensions/t above the least
       if (dimensions / t < excess * std::abs(at.damping)) break;
-      t *= 8;
+      *value += 9 * t * at.damping;
+      t *= 10;
       continue;
     }
     std::optional<CommonStorage> better;
     for (double length = 1; length > 1e-8 && !better; length /= 2) {
       const CommonStorage tried{at.damping + length * step.damping, at.P + length * step.P};
-      const std::optional<double> value = barrier.value(tried, t);
-      if (value && *value < *before - length * decrement / 10) better = tried;
+      const std::optional<double> reached = barrier.value(tried, t);
+      if (reached && *reached < *value - length * decrement / 10) better = tried, value = reached;
     }
     if (!better) break;
     at = std::move(*better);
@@ -137,6 +145,10 @@ CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, do
 }
 
 }  // namespace
+
+bool serves(const HoldInequality& hold, const CommonStorage& tried) {
+  return log_determinant(tried.P) && log_determinant(matrix_of(hold, tried));
+}
 
 std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
                                                   double excess) {

@@ -32,6 +32,10 @@ class CandidateSettler {
   void place(Candidate& candidate, double damping);
   // settle() without a choice: of the damping and the state input that the candidate has.
   void settle_at(Candidate& candidate);
+  // What jitter asks for beyond what is necessary (proved_bound.hpp) is looked at for the damping that settle()
+  // chooses; from here on it is taken for `gap`, or for what it was at the last look.
+  void assume_jitter_gap(std::optional<double> gap = std::nullopt);
+  double last_jitter_gap() const { return gap_.value_or(1); }
   // Of what is felt of a candidate with so much added to its damping [N·s/m], over the band [1].
   double largest_error(const Candidate& candidate, double added);
 
@@ -45,6 +49,9 @@ class CandidateSettler {
   SearchReach reach() const;
   const std::optional<MotorConstants>& without_brake(StateInput input);
   PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);
+  std::optional<MotorConstants> motor_at(StateInput input, double damping);
+  double gap_of(StateInput input);
+  bool is_changed_by_look(StateInput input, double damping);
   PassivityBound behind_curve(MotorConstants motor, double damping) const;
   void weigh(Candidate& candidate, StateInputMerit& merit);
   void take(Candidate& candidate, const StateInputMerit& merit);
@@ -61,6 +68,9 @@ class CandidateSettler {
   std::optional<SlipMotor> slips_;
   std::map<StateInput, std::optional<MotorConstants>> motors_;
   std::map<StateInput, std::unique_ptr<FeltError>> felt_;
+  std::map<StateInput, double> gaps_;  // as looked at
+  std::optional<double> gap_;          // of state inputs that have not been looked at
+  bool looks_ = true;
 };
 
 }  // namespace dashpot::compiler

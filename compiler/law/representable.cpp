@@ -27,7 +27,7 @@ bool is_representable(const UpdateLaw& law, const Network& network, Diagnostics&
   if (!law.tunable) return all;
   for (const Tunable& t : law.tunable->tunables) require({t.range.value, t.range.min, t.range.max}, t.name, t.unit);
   for (std::size_t i = 0; i < law.tunable->numbers.size(); ++i)
-    require({law.tunable->numbers[i].base}, "numbers[" + std::to_string(i) + "]", "SI");
+    require({law.tunable->numbers[i].base}, law.tunable->numbers[i].name, law.tunable->numbers[i].unit);
   return all;
 }
 

@@ -26,14 +26,33 @@ struct PlacedLeaf {
   NodeIndex b;
 };
 
+void add_names(const TreeDecl& tree, std::vector<Text>& names) {
+  if (tree.leaf && tree.leaf->name) names.push_back(*tree.leaf->name);
+  for (const TreeDecl& child : tree.children) add_names(child, names);
+}
+
+// Those that the file states.
+std::vector<Text> element_names(const NetworkDecl& decl) {
+  std::vector<Text> names;
+  if (const auto* tree = std::get_if<TreeDecl>(&decl.structure)) add_names(*tree, names);
+  else
+    for (const EdgeDecl& edge : std::get<std::vector<EdgeDecl>>(decl.structure))
+      if (edge.leaf.name) names.push_back(*edge.leaf.name);
+  return names;
+}
+
 class NetworkBuilder {
  public:
   NetworkBuilder(const NetworkDecl& decl, const std::optional<Range>& device_band, Diagnostics& diagnostics)
-      : decl_(decl), device_band_(device_band), diagnostics_(diagnostics), table_(decl.parameters, diagnostics) {}
+      : decl_(decl),
+        device_band_(device_band),
+        diagnostics_(diagnostics),
+        table_(decl.parameters, element_names(decl), diagnostics) {}
 
   Network build() {
     copy_texts();
     network_.nodes = {"ground", "tool"};
+    node_places_.resize(network_.nodes.size());
     place_leaves();
     check_names();
     read_validity();
@@ -76,6 +95,7 @@ class NetworkBuilder {
 
   NodeIndex inner_node() {
     network_.nodes.push_back(fmt::format("node_{}", network_.nodes.size() - 1));
+    node_places_.emplace_back();
     return network_.nodes.size() - 1;
   }
 
@@ -98,6 +118,7 @@ class NetworkBuilder {
     if (!is_new) return known->second;
     check_name(name, "node", diagnostics_);
     network_.nodes.push_back(name.text);
+    node_places_.push_back(name.span);
     return known->second;
   }
 
@@ -287,7 +308,7 @@ class NetworkBuilder {
     if (!decl_.complete) return;
     if (!decl_.shares_parameters) table_.report_unused();
     const std::size_t errors_before = diagnostics_.error_count();
-    check_connections(network_, decl_.structure_span, diagnostics_);
+    check_connections(network_, decl_.structure_span, node_places_, diagnostics_);
     if (diagnostics_.error_count() == errors_before) mark_effect(network_, diagnostics_);
   }
 
@@ -298,6 +319,7 @@ class NetworkBuilder {
   Network network_;
   std::vector<PlacedLeaf> leaves_;
   std::unordered_map<std::string, NodeIndex> node_of_name_;
+  std::vector<Span> node_places_;  // where each node is first named
   UniqueNames names_;
 };
 

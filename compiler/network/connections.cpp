@@ -49,10 +49,22 @@ std::vector<std::size_t> elements_at_nodes(const Network& network) {
   return count;
 }
 
-void check_ends(const Network& network, Span structure, Parts& parts, Diagnostics& diagnostics) {
+// At the node whose name says that it was meant as `end`.
+void note_what_end_is_called(const Network& network, NodeIndex end, const std::vector<Span>& node_places,
+                             Diagnostics& diagnostics) {
+  for (NodeIndex node = 0; node < network.nodes.size(); ++node)
+    if (other_name_of_end(network.nodes[node]) == network.nodes[end])
+      return diagnostics.note<DiagnosticCode::end_is_called>(node_places[node], network.nodes[end]);
+}
+
+void check_ends(const Network& network, Span structure, const std::vector<Span>& node_places, Parts& parts,
+                Diagnostics& diagnostics) {
   const std::vector<std::size_t> count = elements_at_nodes(network);
-  for (const NodeIndex end : {tool, ground})
-    if (count[end] == 0) diagnostics.report<DiagnosticCode::end_unused>(structure, network.nodes[end]);
+  for (const NodeIndex end : {tool, ground}) {
+    if (count[end] > 0) continue;
+    diagnostics.report<DiagnosticCode::end_unused>(structure, network.nodes[end]);
+    note_what_end_is_called(network, end, node_places, diagnostics);
+  }
   if (count[tool] > 0 && count[ground] > 0 && parts.find(tool) != parts.find(ground))
     diagnostics.report<DiagnosticCode::ends_not_connected>(structure);
 }
@@ -85,16 +97,6 @@ NodeIndex loose_end(const Element& element, const std::vector<std::size_t>& coun
   return element.b != tool && element.b != ground && count[element.b] == 1 ? element.b : ground;
 }
 
-// What others call the two ends; empty for any other name.
-std::string_view other_name_of_end(const std::string& stated) {
-  const std::string name = folded(stated);
-  for (const std::string_view grounded : {"gnd", "grnd", "0", "earth", "base", "frame", "wall", "fixed", "world"})
-    if (name == grounded) return "ground";
-  for (const std::string_view moved : {"port", "tip", "hand", "handle", "probe", "stylus", "user"})
-    if (name == moved) return "tool";
-  return "";
-}
-
 void warn_about_loose_end(const Network& network, const Element& element, NodeIndex end, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::dangling_node>(element.span, network.nodes[end], element.name);
   if (const std::string_view meant = other_name_of_end(network.nodes[end]); !meant.empty()) {
@@ -118,9 +120,10 @@ void warn_about(const Network& network, const Element& element, bool may_carry, 
 
 }  // namespace
 
-void check_connections(const Network& network, Span structure, Diagnostics& diagnostics) {
+void check_connections(const Network& network, Span structure, const std::vector<Span>& node_places,
+                       Diagnostics& diagnostics) {
   Parts parts(network);
-  check_ends(network, structure, parts, diagnostics);
+  check_ends(network, structure, node_places, parts, diagnostics);
   check_floating_parts(network, parts, diagnostics);
   check_slip_paths(network, diagnostics);
 }

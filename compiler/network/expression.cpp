@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <initializer_list>
 #include <variant>
 
 #include "network/unit.hpp"
 #include "source/excerpt.hpp"
+#include "source/utf8.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -297,12 +299,27 @@ class ExpressionReader {
       diagnostics_.report<DiagnosticCode::expression_ends>(decl_.span, excerpt(decl_.text), expected);
       return failed();
     }
-    const std::size_t length = std::max<std::size_t>({1, name_length(rest()), decimal_length(rest())});
+    const std::size_t length =
+        std::max<std::size_t>({first_code_points(rest(), 1).size(), name_length(rest()), decimal_length(rest())});
     diagnostics_.report<DiagnosticCode::expression_syntax>(part_of(decl_, begin, begin + length),
                                                            excerpt(rest().substr(0, length)), expected);
-    if (expected.starts_with("an operator") && (name_length(rest()) > 0 || rest().starts_with('(')))
-      diagnostics_.note<DiagnosticCode::write_product>({});
+    note_other_spelling(begin, expected.starts_with("an operator"));
     return failed();
+  }
+
+  // What an operator is written as in other places: "G × a", "G ** 2".
+  void note_other_spelling(std::size_t begin, bool after_operand) {
+    const auto is_any_of = [this](std::initializer_list<std::string_view> signs) {
+      return std::any_of(signs.begin(), signs.end(),
+                         [this](std::string_view sign) { return rest().starts_with(sign); });
+    };
+    if (is_any_of({"·", "⋅", "×", "∙"})) diagnostics_.note<DiagnosticCode::write_product>({});
+    else if (is_any_of({"−", "–"})) diagnostics_.note<DiagnosticCode::write_instead>({}, "-");
+    else if (is_any_of({"÷"})) diagnostics_.note<DiagnosticCode::write_instead>({}, "/");
+    else if (rest().starts_with('*') && begin > 0 && text_[begin - 1] == '*')
+      diagnostics_.note<DiagnosticCode::write_instead>({}, "^");
+    else if (after_operand && (name_length(rest()) > 0 || rest().starts_with('(')))
+      diagnostics_.note<DiagnosticCode::write_product>({});
   }
 
   Term failed() {

@@ -81,7 +81,9 @@ void report_name(const Text& name, std::string_view owner, Diagnostics& diagnost
 bool check_name(const Text& name, std::string_view owner, Diagnostics& diagnostics) {
   if (is_legal(name.text)) return true;
   report_name(name, owner, diagnostics);
-  if (const auto proposal = legal_proposal(excerpt(name.text)))
+  const std::string_view end = owner == "node" ? other_name_of_end(name.text) : "";
+  if (!end.empty()) diagnostics.note<DiagnosticCode::end_is_called>({}, end);
+  else if (const auto proposal = legal_proposal(excerpt(name.text)))
     diagnostics.note<DiagnosticCode::write_instead>({}, *proposal);
   return false;
 }
@@ -95,6 +97,15 @@ std::string folded(std::string_view name) {
   for (char& byte : text)
     if (byte >= 'A' && byte <= 'Z') byte = static_cast<char>(byte - 'A' + 'a');
   return text;
+}
+
+std::string_view other_name_of_end(std::string_view stated) {
+  const std::string name = folded(stated);
+  for (const std::string_view grounded : {"gnd", "grnd", "0", "earth", "base", "frame", "wall", "fixed", "world"})
+    if (name == grounded) return "ground";
+  for (const std::string_view moved : {"port", "tip", "hand", "handle", "probe", "stylus", "user"})
+    if (name == moved) return "tool";
+  return "";
 }
 
 void UniqueNames::add(const Text& name, Diagnostics& diagnostics) {

@@ -20,6 +20,9 @@ std::string legal_name(std::string_view name);
 // Names compared without regard to case.
 std::string folded(std::string_view name);
 
+// "ground" or "tool" for what others call these ends of a network, as "gnd" and "tip"; empty for any other name.
+std::string_view other_name_of_end(std::string_view name);
+
 // Reports names that are equal but for case.
 class UniqueNames {
  public:

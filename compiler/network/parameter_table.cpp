@@ -1,13 +1,17 @@
 #include "network/parameter_table.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "network/quantity.hpp"
 #include "source/excerpt.hpp"
 #include "source/nearest_name.hpp"
 
 namespace dashpot::compiler {
 
-ParameterTable::ParameterTable(const std::vector<ParameterDecl>& decls, Diagnostics& diagnostics)
-    : diagnostics_(diagnostics) {
+ParameterTable::ParameterTable(const std::vector<ParameterDecl>& decls, std::vector<Text> element_names,
+                               Diagnostics& diagnostics)
+    : element_names_(std::move(element_names)), diagnostics_(diagnostics) {
   for (const ParameterDecl& decl : decls) {
     index_of_name_.emplace(decl.name.text, names_.size());
     names_.push_back(decl.name.text);
@@ -134,6 +138,10 @@ std::optional<ExactQuantity> ParameterTable::read_operand(const Text& name) {
 void ParameterTable::report_unknown(const ValueDecl& decl) const {
   if (is_not_finite_word(decl.text)) return report_no_quantity(decl, diagnostics_);
   diagnostics_.report<DiagnosticCode::unknown_parameter>(decl.span, excerpt(decl.text));
+  const auto is_named = [&](const Text& name) { return name.text == decl.text; };
+  const auto element = std::find_if(element_names_.begin(), element_names_.end(), is_named);
+  if (element != element_names_.end())
+    return diagnostics_.note<DiagnosticCode::name_of_element>(element->span, element->text);
   if (const auto nearest = nearest_name(decl.text, names_))
     diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
 }

@@ -20,8 +20,9 @@ struct ReadValue {
 
 class ParameterTable {
  public:
-  // Reports ranges that are missing, contradictory, or do not hold the value.
-  ParameterTable(const std::vector<ParameterDecl>& decls, Diagnostics& diagnostics);
+  // Reports ranges that are missing, contradictory, or do not hold the value. Elements are no parameters; their names
+  // serve to say so.
+  ParameterTable(const std::vector<ParameterDecl>& decls, std::vector<Text> element_names, Diagnostics& diagnostics);
 
   // A number, a quantity of the dimension that is due, an expression of constants of that dimension, or the name of a
   // parameter of it; otherwise nothing, reported.
@@ -59,6 +60,7 @@ class ParameterTable {
   std::unordered_map<std::string, std::size_t> index_of_name_;
   std::set<std::string> named_early_;  // in an expression before they are defined
   std::vector<std::string> names_;     // of all parameters; `entries_` holds those read so far
+  std::vector<Text> element_names_;
   Diagnostics& diagnostics_;
 };
 

@@ -25,6 +25,12 @@ void report_two_readings(const Span& place, const std::string& unit, Diagnostics
                                                  fmt::format("{}/({})", above, below));
 }
 
+// What stands behind a symbol up to the next one, as "^2" and "²"; a plain number gets the '^' that it lacks.
+std::string exponent_behind(std::string_view symbol) {
+  const std::string exponent(symbol.substr(0, symbol.find_first_of(" /*()")));
+  return !exponent.empty() && is_digit(exponent.front()) ? "^" + exponent : exponent;
+}
+
 void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const UnitFault& fault,
                        Diagnostics& diagnostics) {
   const std::string unit = decl.text.substr(unit_begin);
@@ -37,9 +43,11 @@ void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const Unit
   if (fault.kind == UnitFault::Kind::product_after_slash) return report_two_readings(place, unit, diagnostics);
   const std::string symbol = unit.substr(fault.begin, fault.end - fault.begin);
   diagnostics.report<DiagnosticCode::unknown_unit>(place, excerpt(symbol));
-  if (const std::string spaced = spaced_unit(symbol); !spaced.empty())
-    diagnostics.note<DiagnosticCode::write_instead>({}, spaced);
-  else if (const std::string other = unit_in_other_case(symbol); !other.empty())
+  if (const std::string spaced = spaced_unit(symbol); !spaced.empty()) {
+    const std::string raised = spaced + exponent_behind(std::string_view(unit).substr(fault.end));
+    const bool is_unit = std::holds_alternative<Unit>(parse_unit(raised));
+    diagnostics.note<DiagnosticCode::write_instead>({}, is_unit ? raised : spaced);
+  } else if (const std::string other = unit_in_other_case(symbol); !other.empty())
     diagnostics.note<DiagnosticCode::write_instead>({}, other);
   else diagnostics.note<DiagnosticCode::known_units>({});
 }

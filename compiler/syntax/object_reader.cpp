@@ -91,11 +91,21 @@ static bool is_transmission(std::string_view key) {
   return false;
 }
 
+// The key of a motor that data sheets have another name for; empty for any other name.
+static std::string_view key_on_data_sheets(std::string_view key) {
+  for (const std::string_view name : {"kt", "Kt", "KT", "k_t", "K_t", "kf", "Kf", "k_f", "K_f", "force_constant"})
+    if (key == name) return "torque_constant";
+  return "";
+}
+
 std::optional<std::string> report_unknown_key(const Text& key, std::string_view owner,
                                               const std::vector<std::string>& keys, Diagnostics& diagnostics) {
   diagnostics.report<DiagnosticCode::unknown_key>(key.span, owner, excerpt(key.text));
   const std::optional<std::string> nearest = nearest_name(key.text, keys);
   if (is_transmission(key.text)) diagnostics.note<DiagnosticCode::gear_ratio_instead>({});
+  else if (const std::string_view called = key_on_data_sheets(key.text);
+           std::find(keys.begin(), keys.end(), called) != keys.end())
+    diagnostics.note<DiagnosticCode::key_is_called>({}, called);
   else if (nearest) diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
   else diagnostics.note<DiagnosticCode::known_keys>({}, fmt::format("{}", fmt::join(keys, ", ")));
   return nearest;

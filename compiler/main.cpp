@@ -113,10 +113,10 @@ std::string check_decomposition(const std::string& text) {
       std::find(decompositions.begin(), decompositions.end(), text) != decompositions.end())
     return "";
   const std::optional<double> damping = decimal(text);
-  const bool ok = damping && *damping >= 0;
-  return ok ? ""
-            : "'" + text + "' is no decomposition; one of " + CLI::detail::join(decompositions) +
-                  " or a damping of zero or more is expected";
+  if (damping && *damping >= 0) return "";
+  const std::optional<std::string> nearest = nearest_name(text, decompositions);
+  return "'" + text + "' is no decomposition; " + (nearest ? "'" + *nearest + "' is the nearest; " : "") + "one of " +
+         CLI::detail::join(decompositions) + " or a damping of zero or more is expected";
 }
 
 void add_choices(CLI::App& command, CommandLine& line) {
@@ -502,6 +502,28 @@ std::string complaint_about_command(const std::vector<std::string>& arguments) {
          (nearest ? "; '" + *nearest + "' is the nearest" : "; commands are " + CLI::detail::join(names, ", ")) + "\n";
 }
 
+// Of the first option that the command does not have; empty where it has them all. The parser would tell of it too, but
+// name none that is like it, and complain first of the value behind it.
+std::string complaint_about_option(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const auto is_named = [&](const CLI::App* command) { return command->get_name() == arguments.front(); };
+  const auto found = arguments.empty() ? std::vector<const CLI::App*>() : app.get_subcommands(is_named);
+  if (found.empty()) return "";
+  std::vector<std::string> names;
+  for (const CLI::Option* option : found.front()->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (std::size_t i = 1; i < arguments.size() && arguments[i] != "--"; ++i) {
+    const std::string name = arguments[i].substr(0, arguments[i].find('='));
+    const CLI::Option* option = name.starts_with('-') ? found.front()->get_option_no_throw(name) : nullptr;
+    const bool takes_next = option != nullptr && option->get_items_expected_min() > 0 && name == arguments[i];
+    if (takes_next) ++i;
+    if (option != nullptr || !name.starts_with("--")) continue;
+    const std::optional<std::string> nearest = nearest_name(name, names);
+    return "'" + arguments[0] + "' has no option '" + name + "'" +
+           (nearest ? "; '" + *nearest + "' is the nearest" : "") + "\n";
+  }
+  return "";
+}
+
 ExitStatus run(const CLI::App& app, const CommandLine& line) {
   SourceFiles files;
   Diagnostics diagnostics;
@@ -556,7 +578,9 @@ int main(int argc, char** argv) {
   line.options.fit.arguments.assign(argv + 1, argv + argc);
   describe(app, line);
   std::vector<std::string> arguments = with_help_as_option(line.options.fit.arguments);
-  if (const std::string complaint = complaint_about_command(arguments); !complaint.empty()) {
+  std::string complaint = complaint_about_command(arguments);
+  if (complaint.empty()) complaint = complaint_about_option(app, arguments);
+  if (!complaint.empty()) {
     if (asks_for_json(arguments)) std::cerr << command_line_fault_as_json(complaint.substr(0, complaint.size() - 1));
     else std::cerr << complaint << "Run with --help for more information.\n";
     return static_cast<int>(ExitStatus::command_line_wrong);

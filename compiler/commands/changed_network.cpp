@@ -1,6 +1,7 @@
 #include "commands/changed_network.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "network/decimal.hpp"
@@ -13,10 +14,10 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-// Text in place of a span of the file.
+// Text in place of a span of the file, and the words of the command line that ask for it.
 struct Change {
   std::size_t begin, end;
-  std::string text;
+  std::string text, words;
 };
 
 std::string quoted(const std::string& text) {
@@ -28,6 +29,14 @@ std::string value_text(const std::string& value) {
   return !value.empty() && value[0] != '+' && decimal_length(value) == value.size() ? value : quoted(value);
 }
 
+// By its first line, which has columns and nothing that JSON starts with.
+bool is_a_table(std::string_view text) {
+  const std::string_view line = text.substr(0, text.find('\n'));
+  const std::size_t first = line.find_first_not_of(" \xEF\xBB\xBF\"#");
+  const bool is_word = first != line.npos && std::isalnum(static_cast<unsigned char>(line[first])) != 0;
+  return is_word && line.find_first_of(",;\t") != line.npos && line.find_first_of("{}:") == line.npos;
+}
+
 class NetworkChanger {
  public:
   NetworkChanger(const JsonValue& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {
@@ -37,8 +46,9 @@ class NetworkChanger {
   }
 
   void rename(const std::string& name) {
-    if (const JsonMember* member = find_member(root_, "name")) replace(member->value.span, quoted(name));
-    else changes_.push_back({root_.span.begin + 1, root_.span.begin + 1, " \"name\": " + quoted(name) + ","});
+    const std::string words = "--name " + quoted(name);
+    if (const JsonMember* member = find_member(root_, "name")) replace(member->value.span, quoted(name), words);
+    else changes_.push_back({root_.span.begin + 1, root_.span.begin + 1, " \"name\": " + quoted(name) + ",", words});
   }
 
   void set(const std::string& words) {
@@ -48,13 +58,25 @@ class NetworkChanger {
     const std::string name = words.substr(0, equals);
     const auto found = std::find(names_.begin(), names_.end(), name);
     if (found == names_.end()) return report_missing(name);
-    replace(values_[static_cast<std::size_t>(found - names_.begin())], value_text(words.substr(equals + 1)));
+    replace(values_[static_cast<std::size_t>(found - names_.begin())], value_text(words.substr(equals + 1)),
+            "--set " + words);
   }
 
-  std::string changed(std::string text) {
-    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.begin > b.begin; });
-    for (const Change& change : changes_) text.replace(change.begin, change.end - change.begin, change.text);
-    return text;
+  SourceFile changed(const SourceFile& file) {
+    std::sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.begin < b.begin; });
+    std::string text;
+    std::vector<ChangedPart> parts;
+    std::size_t copied = 0;
+    for (const Change& change : changes_) {
+      text.append(file.text(), copied, change.begin - copied);
+      parts.push_back({text.size(), text.size() + change.text.size(), change.words});
+      text += change.text;
+      copied = change.end;
+    }
+    text.append(file.text(), copied);
+    SourceFile changed(file.path(), std::move(text));
+    changed.mark_changed(std::move(parts));
+    return changed;
   }
 
  private:
@@ -80,9 +102,9 @@ class NetworkChanger {
   }
 
   // Of two changes of one value the last holds.
-  void replace(Span span, std::string text) {
+  void replace(Span span, std::string text, std::string words) {
     std::erase_if(changes_, [&](const Change& change) { return change.begin == span.begin; });
-    changes_.push_back({span.begin, span.end, std::move(text)});
+    changes_.push_back({span.begin, span.end, std::move(text), std::move(words)});
   }
 
   void report_missing(const std::string& name) {
@@ -107,6 +129,11 @@ class NetworkChanger {
 const SourceFile* open_network(const std::string& path, const Options& options, SourceFiles& files,
                                Diagnostics& diagnostics) {
   const SourceFile* file = files.open(path, diagnostics);
+  if (file != nullptr && is_a_table(file->text())) {
+    diagnostics.report<DiagnosticCode::table_instead_of_network>({}, path);
+    diagnostics.note<DiagnosticCode::what_reads_tables>({});
+    return nullptr;
+  }
   if (file == nullptr || (!options.name && options.set.empty())) return file;
   Diagnostics unheard;
   const std::optional<JsonValue> root = parse_json(*file, unheard);
@@ -114,7 +141,7 @@ const SourceFile* open_network(const std::string& path, const Options& options, 
   NetworkChanger changer(*root, diagnostics);
   if (options.name) changer.rename(*options.name);
   for (const std::string& words : options.set) changer.set(words);
-  return &files.keep(file->path(), changer.changed(file->text()));
+  return &files.keep(changer.changed(*file));
 }
 
 }  // namespace dashpot::compiler

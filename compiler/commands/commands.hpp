@@ -14,7 +14,8 @@ class SourceFiles {
  public:
   const SourceFile* open(const std::string& path, Diagnostics& diagnostics);
   const SourceFile& keep(std::string name, std::string text);  // what is no file, and lives as long as one
-  void keep(std::vector<std::unique_ptr<SourceFile>> more);    // words of the command line that diagnostics point into
+  const SourceFile& keep(SourceFile file);
+  void keep(std::vector<std::unique_ptr<SourceFile>> more);  // words of the command line that diagnostics point into
 
  private:
   std::vector<std::unique_ptr<SourceFile>> files_;

@@ -15,7 +15,11 @@ const SourceFile* SourceFiles::open(const std::string& path, Diagnostics& diagno
 }
 
 const SourceFile& SourceFiles::keep(std::string name, std::string text) {
-  files_.push_back(std::make_unique<SourceFile>(std::move(name), std::move(text)));
+  return keep(SourceFile(std::move(name), std::move(text)));
+}
+
+const SourceFile& SourceFiles::keep(SourceFile file) {
+  files_.push_back(std::make_unique<SourceFile>(std::move(file)));
   return *files_.back();
 }
 

@@ -8,9 +8,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// The words of the command line that are in place of the file's own text there; empty where none are.
+std::string_view words_at(const Span& span) {
+  return span.file == nullptr ? std::string_view() : span.file->words_at(span.begin);
+}
+
+// What the command line states has no line in its file.
 Json place_of(const Span& span) {
-  if (span.file == nullptr)
-    return {{"file", nullptr}, {"line", nullptr}, {"column", nullptr}, {"end_line", nullptr}, {"end_column", nullptr}};
+  if (span.file == nullptr || !words_at(span).empty())
+    return {{"file", span.file == nullptr ? Json(nullptr) : Json(span.file->path())},
+            {"line", nullptr},
+            {"column", nullptr},
+            {"end_line", nullptr},
+            {"end_column", nullptr}};
   const Position begin = span.file->position_of(span.begin);
   const Position end = span.file->position_of(span.end);
   return {{"file", span.file->path()},
@@ -20,9 +30,14 @@ Json place_of(const Span& span) {
           {"end_column", end.column}};
 }
 
+std::string message_of(const Span& span, const std::string& text) {
+  const std::string words(words_at(span));
+  return words.empty() ? text : words + ": " + text;
+}
+
 Json json_of(const Note& note) {
   Json json = place_of(note.span);
-  json["message"] = note.text;
+  json["message"] = message_of(note.span, note.text);
   return json;
 }
 
@@ -30,7 +45,7 @@ Json json_of(const Diagnostic& diagnostic) {
   Json json = place_of(diagnostic.span);
   json["severity"] = diagnostic.severity == Severity::error ? "error" : "warning";
   json["code"] = code_name(diagnostic.code);
-  json["message"] = diagnostic.text;
+  json["message"] = message_of(diagnostic.span, diagnostic.text);
   json["notes"] = Json::array();
   for (const Note& note : diagnostic.notes) json["notes"].push_back(json_of(note));
   return json;

@@ -86,13 +86,17 @@ void append_picture(std::string& out, const Span& span) {
 }
 
 void append_entry(std::string& out, const Span& span, Severity severity, std::string_view text, std::string_view code) {
-  if (span.file != nullptr) {
+  const std::string_view words = span.file == nullptr ? std::string_view() : span.file->words_at(span.begin);
+  if (!words.empty()) {
+    fmt::format_to(std::back_inserter(out), "{}: {}: ", joined(columns_of(span.file->path())),
+                   joined(columns_of(words)));
+  } else if (span.file != nullptr) {
     const Position begin = span.file->position_of(span.begin);
     fmt::format_to(std::back_inserter(out), "{}:{}:{}: ", joined(columns_of(span.file->path())), begin.line,
                    begin.column);
   }
   fmt::format_to(std::back_inserter(out), "{}: {}{}\n", severity_name(severity), joined(columns_of(text)), code);
-  if (span.file != nullptr) append_picture(out, span);
+  if (span.file != nullptr && words.empty()) append_picture(out, span);
 }
 
 }  // namespace

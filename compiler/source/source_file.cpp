@@ -55,6 +55,12 @@ std::string_view SourceFile::line(std::size_t number) const {
   return line;
 }
 
+std::string_view SourceFile::words_at(std::size_t offset) const {
+  const auto holds = [&](const ChangedPart& part) { return part.begin <= offset && offset < part.end; };
+  const auto part = std::find_if(changed_.begin(), changed_.end(), holds);
+  return part == changed_.end() ? std::string_view() : part->words;
+}
+
 std::optional<SourceFile> read_source(const std::string& path, Diagnostics& diagnostics) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {
@@ -65,6 +71,7 @@ std::optional<SourceFile> read_source(const std::string& path, Diagnostics& diag
   if (!text) {
     const bool exists = std::filesystem::exists(path, error);
     diagnostics.report<DiagnosticCode::cannot_read_file>({}, path, exists ? "reading failed" : "there is no such file");
+    if (path == "-") diagnostics.note<DiagnosticCode::standard_input_is_called>({});
     return std::nullopt;
   }
   if (text->size() > largest_file) {

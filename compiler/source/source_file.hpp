@@ -5,11 +5,18 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dashpot::compiler {
 
 class Diagnostics;
+
+// Bytes [begin, end) of a text that the command line put in place of what the file has there.
+struct ChangedPart {
+  std::size_t begin, end;
+  std::string words;  // as "--set K=3"
+};
 
 struct Position {
   std::size_t line;    // from 1
@@ -26,11 +33,16 @@ class SourceFile {
   Position position_of(std::size_t offset) const;
   std::string_view line(std::size_t number) const;  // without its end of line
 
+  void mark_changed(std::vector<ChangedPart> parts) { changed_ = std::move(parts); }
+  // The words of the command line that put there what stands at `offset`; empty where it is the file's own.
+  std::string_view words_at(std::size_t offset) const;
+
  private:
   std::string path_;
   std::string text_;
   std::vector<std::size_t> line_starts_;
   std::size_t first_line_;
+  std::vector<ChangedPart> changed_;
 };
 
 // Bytes [begin, end) of a file; `file == nullptr` is "no place".

@@ -39,7 +39,21 @@ class Changes(CommandTest):
         self.assertIn('"name"', told)
         for words in ["K1", "=3", "K1="]:
             self.refused("explain", "tuned.json", "--set", words, code="set-malformed")
-        self.refused("explain", "tuned.json", "--set", "K=2000", code="tunable-out-of-range")
+        told = self.refused("explain", "tuned.json", "--set", "K=2000", code="tunable-out-of-range").stderr
+        self.assertIn("tuned.json: --set K=2000: error:", told)
+        self.assertNotIn(" | ", told)  # no line of the file says so
+        told = self.refused("explain", "tuned.json", "--name", "a b", code="name-form").stderr
+        self.assertIn('tuned.json: --name "a b": error:', told)
+        told = json.loads(self.dashpot("explain", "tuned.json", "--name", "a b", "--diagnostics", "json", status=1).stderr)
+        self.assertEqual((told[0]["file"], told[0]["line"]), ("tuned.json", None))
+        self.assertTrue(told[0]["message"].startswith('--name "a b": network name'), told)
+
+    def test_a_table_is_no_network(self):
+        """Fails if a table is refused as malformed JSON, or standard input without the name that it is read by."""
+        self.write("motion.csv", "time,position\n0,0\n0.001,0\n")
+        told = self.refused("explain", "motion.csv", code="table-instead-of-network").stderr
+        self.assertIn("'simulate --input'", told)
+        self.assertIn("'/dev/stdin'", self.refused("explain", "-", code="cannot-read-file").stderr)
         self.refused("explain", "tuned.json", "--set", "B=2 N/m", code="parameter-of-wrong-unit")
         self.refused("explain", "tuned.json", "--set", "K1=-2", code="negative-stiffness")
 

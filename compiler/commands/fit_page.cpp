@@ -22,6 +22,16 @@ std::string file_name(const FileScore& score) { return std::filesystem::path(sco
 
 constexpr std::size_t most_points = 1500;  // of a curve: a page stays small, whatever the recording
 
+// No script runs on this page: a shade lies at each edge, and one of paper, which scrolls with the table, over it at
+// the table's ends.
+constexpr const char* scroll_cues =
+    "\n.wide { background: linear-gradient(to right, var(--paper) 50%, transparent) 0 0 / 2.6rem 100% no-repeat "
+    "local,\n"
+    "  linear-gradient(to left, var(--paper) 50%, transparent) 100% 0 / 2.6rem 100% no-repeat local,\n"
+    "  linear-gradient(to right, var(--rule), transparent) 0 0 / 1rem 100% no-repeat scroll,\n"
+    "  linear-gradient(to left, var(--rule), transparent) 100% 0 / 1rem 100% no-repeat scroll; }\n"
+    ".wide td { white-space: nowrap; }\n";
+
 struct Points {
   std::vector<double> x, y;
 };
@@ -229,7 +239,7 @@ class FitPage {
 
   std::string sizes_table() const {
     std::string text =
-        "<div "
+        "<p>Sizes that were tried, before elements that the data do without are left out.</p>\n<div "
         "class=\"wide\"><table><thead><tr><th>relaxations</th><th>slips</th><th>springpots</th><th>parameters</"
         "th><th>rms</th><th>criterion</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
@@ -310,10 +320,10 @@ std::string fit_page(const Fit& fit, const std::vector<Recording>& recordings, c
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
          "'unsafe-inline'\">\n"
          "<link rel=\"icon\" href=\"data:,\">\n<title>" +
-         escaped(fit.network_name) + "</title>\n<style>\n" + (style ? std::string(style->text()) : "") +
-         "\n.wide td { white-space: nowrap; }" + "</style>\n</head>\n<body>\n" +
-         FitPage(fit, recordings, held_out).body() + "<footer>\n<p>Written by dashpot " DASHPOT_VERSION ": <code>" +
-         escaped(fit.choices.command) + "</code></p>\n</footer>\n</body>\n</html>\n";
+         escaped(fit.network_name) + "</title>\n<style>\n" + (style ? std::string(style->text()) : "") + scroll_cues +
+         "</style>\n</head>\n<body>\n" + FitPage(fit, recordings, held_out).body() +
+         "<footer>\n<p>Written by dashpot " DASHPOT_VERSION ": <code>" + escaped(fit.choices.command) +
+         "</code></p>\n</footer>\n</body>\n</html>\n";
 }
 
 }  // namespace dashpot::compiler

@@ -1,7 +1,10 @@
 #include "report/axis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "report/number_text.hpp"
 
@@ -45,6 +48,26 @@ Axis linear_axis(Interval values, int wanted) {
   return axis;
 }
 
+namespace {
+
+// Less than two decades need not hold two powers of ten: there fine ticks have numbers too, as many as have room, and
+// where even those are fewer than two, the steps of a linear axis have.
+void label_at_least_two(Axis& axis) {
+  const auto has_label = [](const Tick& tick) { return !tick.label.empty(); };
+  if (std::count_if(axis.ticks.begin(), axis.ticks.end(), has_label) >= 2) return;
+  if (axis.ticks.size() < 2) {
+    axis.ticks = linear_axis(axis.shown, 2).ticks;
+    std::erase_if(axis.ticks,
+                  [&](const Tick& tick) { return tick.value < axis.shown.low || tick.value > axis.shown.high; });
+  }
+  const std::size_t count = axis.ticks.size();
+  const std::string_view digits = count <= 4 ? "123456789" : count <= 9 ? "12357" : "125";
+  for (Tick& tick : axis.ticks)
+    if (digits.find(fmt::format("{:e}", tick.value).front()) != digits.npos) tick.label = number_text(tick.value);
+}
+
+}  // namespace
+
 Axis logarithmic_axis(Interval values) {
   Axis axis{AxisScale::logarithmic, values, 0, {}};
   const int first = static_cast<int>(std::floor(std::log10(values.low) + 1e-9));
@@ -56,6 +79,7 @@ Axis logarithmic_axis(Interval values) {
       if (value < values.low * (1 - 1e-9) || value > values.high * (1 + 1e-9)) continue;
       axis.ticks.push_back({value, multiple == 1 && decade % stride == 0 ? number_text(value) : ""});
     }
+  label_at_least_two(axis);
   return axis;
 }
 

@@ -30,7 +30,7 @@ struct Axis {
 
 // In: what is to be shown. Linear: steps of 1, 2 or 5 times a power of ten, about `wanted` of them, that enclose the
 // values, labels far from 1 in units of a power of ten. Logarithmic: the values as they are, above zero, a label each
-// decade or, over many, every second or third.
+// decade or, over many, every second or third; where that gives fewer than two, more.
 Axis linear_axis(Interval values, int wanted);
 Axis logarithmic_axis(Interval values);
 

@@ -56,7 +56,8 @@ std::vector<Fields> facts(const Compilation& c) {
     list.push_back(fact("slips", std::to_string(slips), ""));
   }
   if (c.network.static_curve)
-    list.push_back(fact("static curve", escaped(to_text(*c.network.static_curve, c.network.port_motion)), ""));
+    list.push_back(
+        fact("static curve", escaped(in_four_digits(to_text(*c.network.static_curve, c.network.port_motion))), ""));
   if (c.network.contact)
     list.push_back(fact("surface of the contact", number_text(c.network.contact->at), units.position));
   return list;

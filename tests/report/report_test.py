@@ -553,6 +553,18 @@ class Pages(unittest.TestCase):
         self.assertTrue(wide)
         self.assertTrue(all(wide), wide)
 
+    def test_nothing_runs_off_a_phone(self):
+        """Fails if labels of candidates that agree, or a name or a source of one long word, make a page wider than a phone."""
+        self.browser.devtools("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=True)
+        self.addCleanup(self.browser.devtools, "Emulation.clearDeviceMetricsOverride")
+        examples = [SOURCE / "examples" / name for name in ["breast_palpation", "knob_on_board", "needle_in_layers", "tunable_wall"]]
+        long = FIG_10.replace('"title"', f'"source": "{"source" * 20}", "title"').replace('"Y"', '"muscle_with_a_very_long_name_indeed"')
+        pages = [(folder / "network.json", ["--device", folder / "device.json"]) for folder in examples]
+        for network, choices in [*pages, (self.write("long.json", long), [])]:
+            with self.subTest(network=network):
+                self.open(network, *choices)
+                self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 390)
+
     def test_the_error_is_seen_on_a_phone(self):
         """Fails if the column of the error is beyond the edge of a phone."""
         self.open(FIG_5, "--device", PANTOGRAPH)

@@ -67,7 +67,7 @@ async function set_up_live(live) {
     response = response_of(law, motion, live, tunables);
     felt = live.device ? felt_of(law, motion, response, live, tunables) : null;
     const peak = response.force.reduce((most, f) => Math.max(most, Math.abs(f)), 0);
-    say(`${count} samples at ${rounded(live.rate)} Hz; largest force ${rounded(peak)} ${live.force_unit}` +
+    say(`${count} sample${count === 1 ? '' : 's'} at ${rounded(live.rate)} Hz; largest force ${rounded(peak)} ${live.force_unit}` +
         (felt ? `; ${felt_text(felt, live)}` : ''), 'note');
     draw();
   }

@@ -49,6 +49,14 @@ TEST(LogarithmicAxis, LabelsDecades) {
   EXPECT_NEAR(logarithmic_axis({0.01, 100}).place(1), 0.5, 1e-15);
 }
 
+// If this fails, an axis of less than two decades has no numbers, or one alone, from which nothing can be read.
+TEST(LogarithmicAxis, LabelsWhatLiesWithinADecade) {
+  EXPECT_EQ(labels(logarithmic_axis({0.011, 0.99})), (Labels{"0.02", "0.05", "0.1", "0.2", "0.5"}));
+  EXPECT_EQ(labels(logarithmic_axis({0.025, 0.095})), (Labels{"0.03", "0.05", "0.07"}));
+  EXPECT_EQ(labels(logarithmic_axis({6.5, 9.5})), (Labels{"7", "8", "9"}));
+  EXPECT_GE(labels(logarithmic_axis({0.0512, 0.0578})).size(), 2u);
+}
+
 Plot one_curve(std::vector<double> x, std::vector<double> y) {
   return {"title",           {"time", "s"},          {"force", "N"},
           AxisScale::linear, AxisScale::logarithmic, {{"", Channel::total, std::move(x), std::move(y)}}};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <set>
 #include <vector>
 
@@ -323,28 +324,67 @@ std::vector<MendedDevice> mended(const Device& device) {
   return all;
 }
 
-// What would err less where slips give way: another choice, else another device.
-void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
-  const double error = c.decomposition.slips.error;
+// An error that is felt: of which kind, and what is said of a choice that errs less.
+struct FeltError {
+  std::optional<double> (*of)(const Compilation&);  // [1]; empty where it has not been looked at
+  void (*tell_choice)(const Compilation& better, const std::string& options, Diagnostics&);
+};
+
+const FeltError where_slips_give_way{
+    [](const Compilation& c) {
+      const SlipDecomposition& slips = c.decomposition.slips;
+      return slips.merits.empty() ? std::nullopt : std::optional(slips.error);
+    },
+    [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
+      diagnostics.note<DiagnosticCode::errs_less_in_runs>({}, options, in_percent(better.decomposition.slips.error));
+    }};
+
+const FeltError in_the_band{
+    [](const Compilation& c) { return std::optional(c.decomposition.choice().largest_error); },
+    [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
+      const Candidate& choice = better.decomposition.choice();
+      diagnostics.note<DiagnosticCode::errs_less>({}, options, in_percent(choice.largest_error), choice.damping,
+                                                  port_units(better.network.port_motion).damping);
+    }};
+
+// Of the network compiled for this device or another: the error, if it is noticeably less than that of `c`.
+class Improvement {
+ public:
+  Improvement(const Compilation& c, const FeltError& error) : c_(c), error_(error), limit_(noticeably * *error.of(c)) {}
+
+  std::optional<Compilation> by(const Choices& choices, const Device& device) const {
+    std::optional<Compilation> again = compiled(c_.network, choices, device);
+    if (!again || (c_.certificate.certified && !again->certificate.certified)) return std::nullopt;
+    const std::optional<double> error = error_.of(*again);
+    if (!error || !(*error < limit_)) return std::nullopt;
+    return again;
+  }
+
+ private:
+  const Compilation& c_;
+  const FeltError& error_;
+  double limit_;
+};
+
+// What would err less: another choice, else another device.
+void tell_what_errs_less(const Compilation& c, const Choices& choices, const FeltError& error,
+                         Diagnostics& diagnostics) {
+  const Improvement improvement(c, error);
   std::vector<OtherChoices> others = other_choices(c, choices);
   if (c.decomposition.choice().name != "virtual") {
     others.push_back({choices, "--decomposition virtual"});
     others.back().choices.decomposition = "virtual";
   }
-  for (const OtherChoices& other : others) {
-    const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
-    if (!again || (c.certificate.certified && !again->certificate.certified)) continue;
-    const SlipDecomposition& slips = again->decomposition.slips;
-    if (!slips.merits.empty() && slips.error < noticeably * error)
-      return diagnostics.note<DiagnosticCode::errs_less_in_runs>({}, other.options, in_percent(slips.error));
-  }
+  for (const OtherChoices& other : others)
+    if (const auto again = improvement.by(other.choices, *c.device))
+      return error.tell_choice(*again, other.options, diagnostics);
   if (c.law.tunable) return;
   std::optional<MendedDevice> best;
-  double least = noticeably * error;
+  double least = std::numeric_limits<double>::infinity();
   for (const MendedDevice& other : mended(*c.device)) {
     // Compiled again: less may then be added to the brake for passivity, and what is added is felt.
-    const std::optional<Compilation> again = compiled(c.network, choices, other.device);
-    if (again && again->decomposition.slips.error < least) best = other, least = again->decomposition.slips.error;
+    const std::optional<Compilation> again = improvement.by(choices, other.device);
+    if (again && *error.of(*again) < least) best = other, least = *error.of(*again);
   }
   if (best)
     return diagnostics.note<DiagnosticCode::errs_less_on_another_device>({}, best->cause, best->change,
@@ -352,55 +392,41 @@ void tell_what_errs_less_in_runs(const Compilation& c, const Choices& choices, D
   Device faster = *c.device;
   for (int doubling = 1; doubling <= 4; ++doubling) {
     faster.description.loop.sample_period /= 2;
-    const std::optional<Compilation> again = compiled(c.network, choices, faster);
-    if (again && again->decomposition.slips.error < noticeably * error)
-      return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,
-                                                                         in_percent(again->decomposition.slips.error));
+    if (const auto again = improvement.by(choices, faster))
+      return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>(
+          {}, 1 / faster.description.loop.sample_period, in_percent(*error.of(*again)));
   }
   const PortUnits units = port_units(c.network.port_motion);
   for (int doubling = 1; doubling <= 4; ++doubling) {
     const double most = std::ldexp(c.device->description.brake.max_damping, doubling);
-    const std::optional<Compilation> again = compiled(c.network, choices, with_brake(*c.device, most));
-    if (again && again->decomposition.slips.error < noticeably * error)
+    if (const auto again = improvement.by(choices, with_brake(*c.device, most)))
       return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>(
           {}, again->port.max_damping().value_or(0), units.damping, most,
-          port_units(c.device->description.motion).damping, in_percent(again->decomposition.slips.error));
+          port_units(c.device->description.motion).damping, in_percent(*error.of(*again)));
   }
   diagnostics.note<DiagnosticCode::errs_less_nowhere>({});
-}
-
-// What an error of up to so much is like: the worst and the mildest of the runs.
-void tell_of_runs(const std::vector<SlipRunError>& runs, Diagnostics& diagnostics) {
-  const auto [least, most] = std::minmax_element(
-      runs.begin(), runs.end(), [](const SlipRunError& a, const SlipRunError& b) { return a.error < b.error; });
-  diagnostics.note<DiagnosticCode::worst_and_mildest_run>({}, most->motion, in_percent(most->error), least->motion,
-                                                          in_percent(least->error));
 }
 
 }  // namespace
 
 void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  if (!c.device) return;
+  const auto exceeds = [&](double error) { return error > choices.tolerance * (1 + 1e-9); };
   const SlipDecomposition& slips = c.decomposition.slips;
-  if (c.device && slips.error > choices.tolerance * (1 + 1e-9)) {
+  if (exceeds(slips.error)) {
     diagnostics.report<DiagnosticCode::felt_error_behind_slips>(c.network.name_span, in_percent(slips.error),
                                                                 in_percent(choices.tolerance));
-    tell_of_runs(slips.runs, diagnostics);
-    tell_what_errs_less_in_runs(c, choices, diagnostics);
+    const auto [mildest, worst] = extreme_runs(slips.runs);
+    diagnostics.note<DiagnosticCode::worst_and_mildest_run>({}, worst.motion, in_percent(worst.error), mildest.motion,
+                                                            in_percent(mildest.error));
+    tell_what_errs_less(c, choices, where_slips_give_way, diagnostics);
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }
   const Candidate& choice = c.decomposition.choice();
-  if (!c.device || choice.largest_error <= choices.tolerance * (1 + 1e-9)) return;
-  for (const OtherChoices& other : other_choices(c, choices)) {
-    const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
-    if (!again || (c.certificate.certified && !again->certificate.certified)) continue;
-    const Candidate& better = again->decomposition.choice();
-    if (!(better.largest_error < noticeably * choice.largest_error)) continue;
-    diagnostics.report<DiagnosticCode::felt_error>(c.network.name_span, choice.name, in_percent(choice.largest_error),
-                                                   c.device->name, in_percent(choices.tolerance));
-    diagnostics.note<DiagnosticCode::errs_less>({}, other.options, in_percent(better.largest_error), better.damping,
-                                                port_units(c.network.port_motion).damping);
-    return;
-  }
+  if (!exceeds(choice.largest_error)) return;
+  diagnostics.report<DiagnosticCode::felt_error>(c.network.name_span, choice.name, in_percent(choice.largest_error),
+                                                 c.device->name, in_percent(choices.tolerance));
+  tell_what_errs_less(c, choices, in_the_band, diagnostics);
 }
 
 void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

@@ -61,6 +61,14 @@ struct SlipRunError {
   double error = 0;    // the larger of peak and root mean square [1]
 };
 
+struct ExtremeRuns {
+  const SlipRunError& mildest;
+  const SlipRunError& worst;
+};
+
+// In: one run at least. Refers to `runs`.
+ExtremeRuns extreme_runs(const std::vector<SlipRunError>& runs);
+
 struct ComponentSplit {
   NormalTree rendered;  // of a tree what the law computes; under the gated law without the dampers beside the slips
   std::vector<std::size_t> rendered_elements;  // the same of a part that is no tree

@@ -152,6 +152,12 @@ bool has_what_was_asked_for(const Network& network, const SlipDecomposition& sli
 
 }  // namespace
 
+ExtremeRuns extreme_runs(const std::vector<SlipRunError>& runs) {
+  const auto [mildest, worst] = std::minmax_element(
+      runs.begin(), runs.end(), [](const SlipRunError& a, const SlipRunError& b) { return a.error < b.error; });
+  return {*mildest, *worst};
+}
+
 std::optional<Decomposition> decompose(const Network& network, const NormalForm& form, const Choices& asked,
                                        const Device* device, Diagnostics& diagnostics) {
   const Choices choices = with_names(asked, device != nullptr || form.has_slips());

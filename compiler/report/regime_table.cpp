@@ -110,12 +110,10 @@ std::string table(const Group& group, const Network& network) {
 // In which runs the law that is taken errs most and least.
 std::string worst_run(const SlipDecomposition& slips) {
   if (slips.runs.empty()) return "";
-  const auto [least, most] =
-      std::minmax_element(slips.runs.begin(), slips.runs.end(),
-                          [](const SlipRunError& a, const SlipRunError& b) { return a.error < b.error; });
+  const auto [least, most] = extreme_runs(slips.runs);
   return fmt::format(
       "<p>With the law that is taken, what is felt errs by up to {} % of the force, in {}; least in {}, by {} %.</p>\n",
-      number_text(100 * most->error), escaped(most->motion), escaped(least->motion), number_text(100 * least->error));
+      number_text(100 * most.error), escaped(most.motion), escaped(least.motion), number_text(100 * least.error));
 }
 
 // What each law does in runs of the whole network.

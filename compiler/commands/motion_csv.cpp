@@ -16,7 +16,10 @@ namespace dashpot::compiler {
 namespace {
 
 bool is_header(const std::vector<fitting::TableColumn>& columns) {
-  return !columns_for(columns, fitting::Role::time).empty() && !columns_for(columns, fitting::Role::position).empty();
+  const auto is_there = [&](fitting::Role role) {
+    return !columns_for(columns, role).empty() || misfit_unit(columns, role);
+  };
+  return is_there(fitting::Role::time) && is_there(fitting::Role::position);
 }
 
 // By its name or unit, or a word within its title: "Load cell (kgf)" is a force too.
@@ -33,6 +36,9 @@ bool is_answer(const fitting::TableColumn& column) {
       if (name.size() >= shortest_word && title.find(name) != std::string::npos) return true;
   return false;
 }
+
+// All that the commands write has what the motor made.
+bool is_own(const fitting::TableColumn& column) { return column.name == "motor_force"; }
 
 struct Cell {
   std::string_view text;
@@ -53,10 +59,18 @@ class CsvTable {
     find_dialect();
     std::vector<fitting::TableColumn> columns;
     for (const Cell& cell : find_header()) columns.push_back(fitting::table_column(cell.text));
-    return is_header(columns) && std::none_of(columns.begin(), columns.end(), is_answer);
+    return is_header(columns) && (std::any_of(columns.begin(), columns.end(), is_own) ||
+                                  std::none_of(columns.begin(), columns.end(), is_answer));
+  }
+
+  bool is_joint_motion() {
+    find_dialect();
+    const std::vector<Cell> header = names_in(next_line());
+    return header.size() >= 3 && header[0].text == "time" && header[1].text == "q1" && header[2].text == "q2";
   }
 
   std::optional<Motion> read() {
+    if (!is_text()) return std::nullopt;
     find_dialect();
     const std::vector<Cell> header = find_header();
     if (header.empty()) return refuse_empty();
@@ -70,7 +84,7 @@ class CsvTable {
     for (std::size_t i = 0; i < header.size(); ++i) {
       if (i == time->index || i == position->index || (velocity && i == velocity->index)) continue;
       others.push_back(i);
-      motion.others.push_back({std::string(header[i].text), header[i].span, {}, {}});
+      motion.others.push_back({columns[i], header[i].span, {}, {}});
     }
     digits_ = TimeDigits(time->factor);
     for (std::vector<Cell> row = next_row(header.size()); !row.empty(); row = next_row(header.size())) {
@@ -89,6 +103,7 @@ class CsvTable {
 
   std::optional<JointMotion> read_joints() {
     static const std::vector<std::string> names = {"time", "q1", "q2", "v1", "v2"};
+    if (!is_text()) return std::nullopt;
     find_dialect();
     const Cell line = next_line();
     if (line.text.empty()) return refuse_empty(), std::nullopt;
@@ -114,6 +129,15 @@ class CsvTable {
   }
 
  private:
+  // What a spreadsheet calls Unicode text is UTF-16, with a zero beside every letter.
+  bool is_text() {
+    const std::string_view text = file_.text();
+    const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+    if (!is_utf16 && text.substr(0, 4096).find('\0') == std::string_view::npos) return true;
+    diagnostics_.report<DiagnosticCode::recording_not_text>({}, file_.path());
+    return false;
+  }
+
   std::optional<Motion> refuse_empty() {
     diagnostics_.report<DiagnosticCode::csv_empty>({&file_, 0, 0});
     return std::nullopt;
@@ -172,7 +196,7 @@ class CsvTable {
   Cell next_line() {
     const std::string_view all = file_.text();
     while (place_ < all.size()) {
-      const std::size_t begin = place_, end = std::min(all.find('\n', place_), all.size());
+      const std::size_t begin = place_, end = std::min(all.find_first_of("\n\r", place_), all.size());
       place_ = end + 1;
       if (const Cell line = trimmed(begin, end); !line.text.empty()) return line;
     }
@@ -212,7 +236,11 @@ class CsvTable {
   std::optional<Column> column(const std::vector<fitting::TableColumn>& columns, const std::vector<Cell>& header,
                                fitting::Role role, Motion& motion) {
     const std::vector<std::size_t> found = columns_for(columns, role);
-    if (found.empty() && role != fitting::Role::velocity)
+    const auto misfit = found.empty() ? misfit_unit(columns, role) : std::nullopt;
+    if (misfit)
+      fail<DiagnosticCode::recording_wrong_unit>(header[misfit->index].span, columns[misfit->index].title, misfit->unit,
+                                                 name_of(role), likely_unit(role));
+    else if (found.empty() && role != fitting::Role::velocity)
       fail<DiagnosticCode::csv_missing_column>(header.front().span, name_of(role), fitting::other_names_of(role));
     if (found.size() > 1) fail<DiagnosticCode::csv_column_twice>(header[found[1]].span, name_of(role));
     if (found.size() != 1) return std::nullopt;
@@ -318,6 +346,11 @@ std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostic
 bool is_motion(const SourceFile& beginning) {
   Diagnostics unheard;
   return CsvTable(beginning, unheard).is_motion();
+}
+
+bool is_joint_motion(const SourceFile& beginning) {
+  Diagnostics unheard;
+  return CsvTable(beginning, unheard).is_joint_motion();
 }
 
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics) {

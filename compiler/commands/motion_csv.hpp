@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "fit/column_choice.hpp"
 #include "network/network.hpp"
 #include "source/diagnostic.hpp"
 
@@ -18,7 +19,7 @@ inline constexpr std::string_view own_columns[] = {"time", "position", "velocity
 
 // A column that is none of them.
 struct OtherColumn {
-  std::string name;
+  fitting::TableColumn column;
   Span span;                         // of the name
   std::vector<double> values;        // one a row; 0 where a cell is no finite number
   std::optional<Span> not_a_number;  // the first such cell
@@ -54,8 +55,9 @@ struct JointMotion {
 std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostics& diagnostics);
 
 // Whether a table that begins so is a motion: a line that names time and position, and no force, stress or anything
-// else that answered them.
+// else that answered them; or what `simulate` and `run` have written, which they read again.
 bool is_motion(const SourceFile& beginning);
+bool is_joint_motion(const SourceFile& beginning);
 
 // Refuses a motion in degrees for a tool that moves in metres, and the other way round.
 bool suits(const Motion& motion, dashpot::motion port_motion, Diagnostics& diagnostics);

@@ -29,7 +29,8 @@ bool is_recording(const std::string& path, const FitWords& words) {
   while (lines.number() < fitting::head_lines)
     if (const auto line = lines.next(unheard)) head.append(*line) += '\n';
     else break;
-  return !is_motion(SourceFile(path, head));
+  const SourceFile beginning(path, head);
+  return !is_motion(beginning) && !is_joint_motion(beginning);
 }
 
 // What is no JSON is told of as a network.
@@ -72,7 +73,7 @@ void check(const std::string& path, const Options& options, const fitting::ReadC
       is_table(path) ? files.open(path, diagnostics) : open_network(path, options, files, diagnostics);
   if (file == nullptr) return;
   if (is_table(path)) {
-    parse_motion(*file, diagnostics);
+    is_joint_motion(*file) ? void(parse_joint_motion(*file, diagnostics)) : void(parse_motion(*file, diagnostics));
   } else if (is_device(*file)) {
     axes_of(*file) > 1 ? void(read_axes_device(*file, diagnostics)) : void(read_device(*file, diagnostics));
   } else if (has_two_axes(*file)) {

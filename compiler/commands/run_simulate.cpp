@@ -67,6 +67,10 @@ std::string simulate(const Compilation& c, const Motion& motion, Diagnostics& di
     const Scalar velocity = static_cast<Scalar>(motion.velocity.empty() ? slope : motion.velocity[i]);
     last_position = position;
     const command<Scalar> now = law.step(static_cast<Scalar>(position), velocity);
+    if (!all_finite(now.damping * velocity, now.force)) {
+      diagnostics.report<DiagnosticCode::answer_not_finite>({}, motion.time[i], position, velocity);
+      break;
+    }
     text += fmt::format("{},{},{},{},{},{}\n", motion.time[i], static_cast<Scalar>(position), velocity,
                         now.damping * velocity + now.force, now.damping, now.force);
   }

@@ -3,37 +3,64 @@
 #include <algorithm>
 
 #include "commands/motion_cell.hpp"
+#include "fit/column_choice.hpp"
+#include "network/name_rules.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-const OtherColumn* column_of(const std::string& name, const Motion& motion, Diagnostics& diagnostics) {
-  const auto is_named = [&](const OtherColumn& column) { return column.name == name; };
-  const auto found = std::find_if(motion.others.begin(), motion.others.end(), is_named);
-  if (found == motion.others.end()) return nullptr;
-  const auto again = std::find_if(found + 1, motion.others.end(), is_named);
-  if (again != motion.others.end()) diagnostics.report<DiagnosticCode::csv_column_twice>(again->span, name);
-  if (found->not_a_number) report_cell(*found->not_a_number, name, diagnostics);
-  return &*found;
+bool is_called(const OtherColumn& other, const std::string& tunable) {
+  return other.column.title == tunable || parts_of(other.column).name == tunable;
+}
+
+// What 1 in the column stands for in the tunable's unit; a column without a unit is in that.
+double factor_of(const OtherColumn& other, const Tunable& tunable, Diagnostics& diagnostics) {
+  const std::optional<std::string> unit = parts_of(other.column).unit;
+  if (!unit || (other.column.title == tunable.name && !other.column.unit)) return 1;
+  const auto written = fitting::unit_named(*unit), own = fitting::unit_named(tunable.unit);
+  if (written && own && written->dimension == own->dimension) return written->factor / own->factor;
+  diagnostics.report<DiagnosticCode::recording_wrong_unit>(other.span, other.column.title, *unit,
+                                                           "value of '" + tunable.name + "'", tunable.unit);
+  return 1;
+}
+
+void warn_of_case(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics) {
+  for (const OtherColumn& other : motion.others)
+    if (folded(parts_of(other.column).name) == folded(tunable.name))
+      diagnostics.report<DiagnosticCode::csv_column_of_other_case>(other.span, other.column.title, tunable.name);
 }
 
 }  // namespace
+
+// Without a column where the motion has none for this tunable.
+ValueColumns::Values ValueColumns::values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics) {
+  const auto is_named = [&](const OtherColumn& other) { return is_called(other, tunable.name); };
+  const auto found = std::find_if(motion.others.begin(), motion.others.end(), is_named);
+  if (found == motion.others.end()) {
+    warn_of_case(tunable, motion, diagnostics);
+    return {};
+  }
+  const auto again = std::find_if(found + 1, motion.others.end(), is_named);
+  if (again != motion.others.end()) diagnostics.report<DiagnosticCode::csv_column_twice>(again->span, tunable.name);
+  if (found->not_a_number) report_cell(*found->not_a_number, tunable.name, diagnostics);
+  return {&*found, factor_of(*found, tunable, diagnostics)};
+}
 
 ValueColumns::ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics) : network_(c.network) {
   tunables_ = c.law.parameters();
   warned_.resize(tunables_.size());
   for (const Tunable& tunable : tunables_) {
     refuse_name_of_motion(tunable.name, diagnostics);
-    columns_.push_back(column_of(tunable.name, motion, diagnostics));
+    columns_.push_back(values_of(tunable, motion, diagnostics));
   }
-  is_empty_ =
-      std::all_of(columns_.begin(), columns_.end(), [](const OtherColumn* column) { return column == nullptr; });
+  is_empty_ = std::all_of(columns_.begin(), columns_.end(), [](const Values& v) { return v.column == nullptr; });
 }
 
 std::vector<double> ValueColumns::values_of(std::size_t row, double time, Diagnostics& diagnostics) {
   std::vector<double> values;
   for (std::size_t i = 0; i < tunables_.size(); ++i) {
-    values.push_back(columns_[i] == nullptr ? tunables_[i].range.value : columns_[i]->values[row]);
+    const Values& v = columns_[i];
+    values.push_back(v.column == nullptr ? tunables_[i].range.value : v.factor * v.column->values[row]);
     warn_once_outside_range(i, values.back(), time, diagnostics);
   }
   return values;

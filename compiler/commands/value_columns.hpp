@@ -11,8 +11,9 @@ namespace dashpot::compiler {
 
 class ValueColumns {
  public:
-  // Refuses: a cell that is no finite number, a column given twice, a tunable that is called like one of the motion's
-  // own.
+  // Columns are called like the tunable, "K1" or "K1 [N/mm]"; without a unit they are in the tunable's. Refuses: a unit
+  // of anything else, a cell that is no finite number, a column given twice, a tunable that is called like one of the
+  // motion's own. Warns of a column that is called so but for capitals.
   ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics);
 
   // Sets the values of a row, and warns once of each tunable that is out of its range.
@@ -24,6 +25,13 @@ class ValueColumns {
   }
 
  private:
+  // What the motion says of a tunable.
+  struct Values {
+    const OtherColumn* column = nullptr;  // none: its default stays
+    double factor = 1;                    // what 1 in the column is in the tunable's unit
+  };
+
+  static Values values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics);
   std::vector<double> values_of(std::size_t row, double time, Diagnostics& diagnostics);
   void warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics);
   Span place_of(const std::string& tunable) const;
@@ -31,7 +39,7 @@ class ValueColumns {
 
   const Network& network_;
   std::vector<Tunable> tunables_;
-  std::vector<const OtherColumn*> columns_;
+  std::vector<Values> columns_;
   std::vector<bool> warned_;
   bool is_empty_ = true;
 };

@@ -87,7 +87,7 @@ const std::vector<RoleRule>& rules() {
        "N"},
       {Role::velocity,
        "velocity",
-       {"velocity", "angularvelocity"},
+       {"velocity", "angularvelocity", "speed", "geschwindigkeit"},
        {dimensions::velocity, dimensions::angular_velocity},
        "m/s"},
   };
@@ -107,7 +107,8 @@ struct ReadUnit {
   double factor;
 };
 
-std::optional<ReadUnit> unit_in(std::string_view text) {
+std::optional<ReadUnit> unit_in(std::string_view field) {
+  const std::string_view text = unit_text(field);
   if (text == "-" || text == "1") return ReadUnit{dimensions::number, 1};
   const auto unit = parse_unit(text);
   if (!std::holds_alternative<Unit>(unit)) return std::nullopt;
@@ -471,6 +472,7 @@ class Chooser {
   void ask_for_columns() {
     for (const std::vector<Role>& group : needed()) {
       if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
+      if (report_misfit(group)) return note_answer();
       diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_, words_of(group));
       const bool has_spare = columns_.size() >= needed().size();
       if (is_force_after_a_step(group, has_spare)) diagnostics_.note<DiagnosticCode::recording_force_after_step>({});
@@ -478,6 +480,17 @@ class Chooser {
       else diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, columns_.size(), words_of_needed());
       return;
     }
+  }
+
+  // A column that is called like one of these, and is not taken for its unit.
+  bool report_misfit(const std::vector<Role>& group) {
+    for (const Role role : group)
+      if (const auto misfit = misfit_unit(columns_, role)) {
+        diagnostics_.report<DiagnosticCode::recording_wrong_unit>({}, columns_[misfit->index].title, misfit->unit,
+                                                                  rule_of(role).word, rule_of(role).likely_unit);
+        return true;
+      }
+    return false;
   }
 
   std::string words_of_columns() const {
@@ -559,7 +572,39 @@ std::string other_names_of(Role role) {
   }
   return text;
 }
+
 const std::vector<std::string>& names_of(Role role) { return rule_of(role).names; }
+
+const char* likely_unit(Role role) { return rule_of(role).likely_unit; }
+
+std::optional<ColumnUnit> unit_named(std::string_view unit) {
+  const std::optional<ReadUnit> read = unit_in(unit);
+  return read ? std::optional(ColumnUnit{read->dimension, read->factor}) : std::nullopt;
+}
+
+TitleParts parts_of(const TableColumn& column) {
+  if (column.unit) return {column.name, column.unit};
+  const std::string& title = column.title;
+  for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']'), std::pair('{', '}')}) {
+    const std::size_t begin = title.rfind(open);
+    if (begin == std::string::npos || begin == 0 || !title.ends_with(close) || begin + 2 >= title.size()) continue;
+    std::string name = title.substr(0, begin);
+    while (name.ends_with(' ')) name.pop_back();
+    return {name, title.substr(begin + 1, title.size() - begin - 2)};
+  }
+  return {title, std::nullopt};
+}
+
+std::optional<MisfitUnit> misfit_unit(const std::vector<TableColumn>& columns, Role role) {
+  const RoleRule& rule = rule_of(role);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const TitleParts parts = parts_of(columns[i]);
+    const bool is_named = std::find(rule.names.begin(), rule.names.end(), letters_of(parts.name)) != rule.names.end();
+    if (is_named && parts.unit && !(columns[i].unit && unit_of_column(columns[i], role)))
+      return MisfitUnit{i, *parts.unit};
+  }
+  return std::nullopt;
+}
 
 TableColumn table_column(std::string_view text) {
   const Title title = title_of(text);

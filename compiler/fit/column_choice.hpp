@@ -46,10 +46,26 @@ struct ColumnUnit {
   double factor;
 };
 std::optional<ColumnUnit> unit_of_column(const TableColumn& column, Role role);
+std::optional<ColumnUnit> unit_named(std::string_view unit);
 
 // Columns whose name says that they are this, and whose unit does not say otherwise; alone that which is called by the
 // role's own word, where there is one.
 std::vector<std::size_t> columns_for(const std::vector<TableColumn>& columns, Role role);
+
+// A column's title in two, "position [in]", whether the unit is known or not.
+struct TitleParts {
+  std::string name;
+  std::optional<std::string> unit;
+};
+TitleParts parts_of(const TableColumn& column);
+
+// The first column that is called like this and whose unit is none of it: "position [in]", "velocity [m]".
+struct MisfitUnit {
+  std::size_t index;
+  std::string unit;
+};
+std::optional<MisfitUnit> misfit_unit(const std::vector<TableColumn>& columns, Role role);
+const char* likely_unit(Role role);
 
 // A part of --columns: ROLE=[-]NAME[+NUMBER][:UNIT], the number in the column's unit; NAME may be the column's number.
 struct ColumnRequest {

@@ -115,10 +115,17 @@ std::vector<std::string> names_in(std::string_view line, const Dialect& dialect)
   return names;
 }
 
+std::string_view unit_text(std::string_view field) {
+  std::string_view text = trimmed(field);
+  for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']')})
+    if (text.size() > 2 && text.front() == open && text.find(close) == text.size() - 1)
+      text = trimmed(text.substr(1, text.size() - 2));
+  return text == "sec" ? "s" : text;
+}
+
 bool is_unit(std::string_view field) {
-  const std::string_view text = trimmed(field);
-  if (text.empty() || text == "-" || text == "1" || text == "%" || text == "[-]" || text == "°C" || text == "C" ||
-      text == "K")
+  const std::string_view text = unit_text(field);
+  if (text.empty() || text == "-" || text == "1" || text == "%" || text == "°C" || text == "C" || text == "K")
     return true;
   return std::holds_alternative<Unit>(parse_unit(text));
 }

@@ -37,6 +37,9 @@ std::vector<std::string_view> fields_of(std::string_view line, const Dialect& di
 // Of a header's line, without the sign of a comment in front.
 std::vector<std::string> names_in(std::string_view line, const Dialect& dialect);
 
+// What a table writes for a unit, as units are spelt elsewhere: "(mm)" and "[mm]" below a name are "mm", "sec" is "s".
+std::string_view unit_text(std::string_view field);
+
 // Whether a field of the line below the names is a unit, or says that there is none.
 bool is_unit(std::string_view field);
 

@@ -237,6 +237,31 @@ class Table(SimulateTest):
         for name in names:
             self.assertIn(f"`{name}`", listed)
 
+    def test_units_that_do_not_fit(self):
+        """Fails if a column that is there is called missing, or dropped without a word, for its unit."""
+        for header, column in {"time,position [in]": "position [in]", "time [fortnights],position": "time [fortnights]",
+                               "time,position [N]": "position [N]"}.items():
+            told = self.refuses(table([(0, 0), (0.001, 1)], header), "recording-wrong-unit").stderr
+            self.assertIn(f"column '{column}' in ", told)
+        self.refuses(table([(0, 0, 0)], "time,position,velocity [m]"), "recording-wrong-unit")
+        self.refuses("\ufefftime,position\n0,\0\n", "recording-not-text")
+
+    def test_lines_that_end_as_on_old_machines(self):
+        """Fails if carriage returns alone do not end lines."""
+        self.assertEqual(self.simulated("kelvin.json", table(ramp(5)).replace("\n", "\r")), self.simulated("kelvin.json", table(ramp(5))))
+
+    def test_forces_beyond_all_numbers(self):
+        """Fails if an infinite force is written as an answer."""
+        self.refuses(table([(0, 0), (0.001, 1e308), (0.002, -1e308)]), "answer-not-finite")
+
+    def test_its_own_answers_are_motions(self):
+        """Fails if `check` refuses what `simulate` writes and reads."""
+        self.write("motion.csv", table(ramp(5)))
+        self.write("answer.csv", self.dashpot("simulate", "kelvin.json", "--input", "motion.csv").stdout)
+        self.dashpot("check", "answer.csv")
+        self.write("joints.csv", "time,q1,q2\n0,0,0\n0.001,0,0\n")
+        self.dashpot("check", "joints.csv")
+
     def test_a_column_twice(self):
         """Fails if one of two columns of the same name is taken in silence."""
         self.refuses(table([(0, 0, 1)], "time,position,position"), "csv-column-twice")
@@ -314,6 +339,21 @@ class Tunables(SimulateTest):
         self.assertEqual([row["damping"] for row in rows], [2, 5, 5, 1])
         for row, force in zip(rows, [0, 0, 2, 4]):
             self.assertAlmostEqual(row["motor_force"], force, delta=1e-15)
+
+    def test_columns_have_units(self):
+        """Fails if the unit of a tunable's column is not heeded, beside its name or below it, or one of anything else is read."""
+        motion, expected = [(0, 0, 0.1), (0.001, 0, 0.1), (0.002, 0.01, 0.2)], [0, 0, 2]
+        for header in ["time,position,K [N/mm]", "time,position,K (N/mm)", "time,position,K_N/mm", "time,position,K\ns,m,N/mm",
+                       "time,position,K\n(sec),(m),(N/mm)"]:
+            rows = self.simulated("tuned.json", table(motion, header))
+            for row, force in zip(rows, expected, strict=True):
+                self.assertAlmostEqual(row["motor_force"], force, delta=1e-14, msg=header)
+        for header in ["time,position,K [N s/m]", "time,position,K [furlong]"]:
+            self.write("motion.csv", table(motion, header))
+            self.refused("simulate", "tuned.json", "--input", "motion.csv", code="recording-wrong-unit")
+        self.write("motion.csv", table(motion, "time,position,k"))
+        told = self.dashpot("simulate", "tuned.json", "--input", "motion.csv").stderr
+        self.assertIn("column 'k' is not read: the tunable is called 'K'", told)
 
     def test_columns_may_be_missing(self):
         """Fails if a tunable without a column is not at its own value, or none at all changes the law."""

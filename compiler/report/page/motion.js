@@ -17,17 +17,24 @@ function motion_of_csv(text, live) {
     return value * columns[role].factor;
   });
   const time = in_si('time'), position = in_si('position'), velocity = columns.velocity ? in_si('velocity') : null;
-  const recorded = { time, position, velocity, values: recorded_values(table, values, live.tunables) };
+  const recorded = { time, position, velocity, values: recorded_values(table, values, live.tunables, live.units) };
   if (time.length < 2) return recorded;
   const uniform = uniform_period(time, table.rows.map((row) => row[columns.time.place]), columns.time.factor, table.lines);
   return is_at_rate(uniform, live) ? recorded : resampled(recorded, live.period);
 }
 
+const likely_unit = { time: 's', position: 'mm', velocity: 'm/s' };
+
 // Where a column stands, and what 1 in it is in SI.
 function named_column(table, role, live, is_needed) {
   const places = columns_for(table.columns, role, live.columns);
   if (places.length > 1) throw new Error(`column '${role}' is there twice`);
-  if (places.length === 0 && is_needed) throw new Error(`no column '${role}'; 'time' and 'position' are expected`);
+  const misfit = places.length === 0 ? misfit_unit(table.columns, role, live.columns) : undefined;
+  if (misfit) throw new Error(`column '${misfit.title}' in '${parts_of(misfit).unit}'; a ${role} is expected in a unit such as '${likely_unit[role]}'`);
+  if (places.length === 0 && is_needed) {
+    const others = live.columns[role].filter((name) => name !== role).map((name) => `'${name}'`), last = others.pop();
+    throw new Error(`no column '${role}'; its name may also be ${others.join(', ')} or ${last}`);
+  }
   if (places.length === 0) return null;
   const { unit } = table.columns[places[0]], turns = live.position_unit === 'rad';
   if (unit && role !== 'time' && (unit.dimension[4] !== 0) !== turns)
@@ -50,14 +57,26 @@ function resampled(motion, period) {
 }
 
 // Of columns that are called like tunables; one that has none keeps its default.
-function recorded_values(table, values, tunables) {
+function recorded_values(table, values, tunables, known) {
+  const is_called = (column, name) => column.title === name || parts_of(column).name === name;
   const places = tunables.map(({ name }) => {
-    const found = table.columns.map((column, i) => i).filter((i) => table.columns[i].title === name);
+    const found = table.columns.map((column, i) => i).filter((i) => is_called(table.columns[i], name));
     if (found.length > 1) throw new Error(`column '${name}' is there twice`);
     return found[0] ?? -1;
   });
   if (places.every((place) => place < 0)) return null;
-  const columns = places.map((place, i) => (place < 0 ? null : values(place, tunables[i].name)));
+  // What 1 in a column stands for in the tunable's unit; a column without a unit is in that.
+  const factor_of = (column, { name, unit }) => {
+    const written = parts_of(column).unit, own = unit_of(unit, known);
+    if (written === null || (column.title === name && !column.unit)) return 1;
+    if (column.unit && own && own.dimension.every((power, i) => power === column.unit.dimension[i])) return column.unit.factor / own.factor;
+    throw new Error(`column '${column.title}' in '${written}'; a value of '${name}' is expected in a unit such as '${unit}'`);
+  };
+  const columns = places.map((place, i) => {
+    if (place < 0) return null;
+    const factor = factor_of(table.columns[place], tunables[i]);
+    return values(place, tunables[i].name).map((value) => value * factor);
+  });
   return table.rows.map((_, row) => tunables.map((tunable, i) => (columns[i] ? columns[i][row] : tunable.value)));
 }
 

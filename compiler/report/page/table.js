@@ -64,21 +64,30 @@ function dialect_of(lines) {
   return found;
 }
 
-const table_unit = (text, known) => (text === '-' || text === '1' ? { dimension: [0, 0, 0, 0, 0], factor: 1 } : unit_of(text, known));
+// "(mm)" and "[mm]" below a name are "mm", "sec" is "s".
+function unit_text(field) {
+  const inner = field.match(/^\(([^)]+)\)$|^\[([^\]]+)\]$/), text = inner ? free_of_blanks(inner[1] ?? inner[2]) : field;
+  return text === 'sec' ? 's' : text;
+}
+
+function table_unit(field, known) {
+  const text = unit_text(field);
+  return text === '-' || text === '1' ? { dimension: [0, 0, 0, 0, 0], factor: 1 } : unit_of(text, known);
+}
 
 // "Load (N)", "time [s]", "force_N", "t/s": a name, and what is its unit.
 function column_of(title, known) {
   for (const [open, close] of ['()', '[]', '{}']) {
     const begin = title.lastIndexOf(open);
     if (begin <= 0 || !title.endsWith(close)) continue;
-    const unit = table_unit(title.slice(begin + 1, -1), known);
-    if (unit) return { title, name: title.slice(0, begin).replace(/ +$/, ''), unit };
+    const text = title.slice(begin + 1, -1), unit = table_unit(text, known);
+    if (unit) return { title, name: title.slice(0, begin).replace(/ +$/, ''), unit: { text, ...unit } };
   }
   for (const sign of ['_', '/', ' ']) {
     const at = title.lastIndexOf(sign);
     if (at <= 0 || !/^[^0-9]/.test(title.slice(at + 1))) continue;
-    const unit = table_unit(title.slice(at + 1), known);
-    if (unit) return { title, name: title.slice(0, at), unit };
+    const text = title.slice(at + 1), unit = table_unit(text, known);
+    if (unit) return { title, name: title.slice(0, at), unit: { text, ...unit } };
   }
   return { title, name: title, unit: null };
 }
@@ -97,26 +106,41 @@ function columns_for(columns, role, names) {
   return (by_word.length > 0 ? by_word : called).map(([, i]) => i);
 }
 
+// A title in two, "position [in]", whether the unit is known or not.
+function parts_of({ title, name, unit }) {
+  if (unit) return { name, unit: unit.text };
+  const parts = title.match(/^(.+?) *(?:\(([^()]+)\)|\[([^[\]]+)\]|\{([^{}]+)\})$/);
+  return parts ? { name: parts[1], unit: parts[2] ?? parts[3] ?? parts[4] } : { name: title, unit: null };
+}
+
+// The first column that is called like the role and whose unit is none of it: "position [in]", "velocity [m]".
+const misfit_unit = (columns, role, names) => columns.find((column) => {
+  const parts = parts_of(column);
+  return names[role].includes(letters_of(parts.name)) && parts.unit !== null && !(column.unit && takes_unit(role, column.unit));
+});
+
 const is_unit_field = (field, known) =>
-  ['', '-', '1', '%', '[-]', '°C', 'C', 'K'].includes(field) || unit_of(field, known) !== null;
+  ['', '-', '1', '%', '°C', 'C', 'K'].includes(unit_text(field)) || table_unit(field, known) !== null;
 
 // In: the text of a file; `live` knows units and the names of columns. Out: {columns, rows, lines, dialect}, rows as fields,
 // lines as their numbers in the file. Throws what is wrong.
 function table_of(text, live) {
-  const lines = text.replace(/^\uFEFF/, '').split('\n').map((line) => line.replace(/^[ \t\r]+|[ \t\r]+$/g, ''));
+  if (text.slice(0, 4096).includes('\0')) throw new Error('no text in UTF-8; save the table as comma-separated values in UTF-8');
+  const lines = text.replace(/^\uFEFF/, '').split(/\r\n|\n|\r/).map((line) => line.replace(/^[ \t\r]+|[ \t\r]+$/g, ''));
   const filled = lines.map((line, i) => i).filter((i) => lines[i] !== '');
   if (filled.length === 0) throw new Error('no rows; a header and at least one row are expected');
   const dialect = dialect_of(filled.map((i) => lines[i]));
   const names_in = (i) => fields_of(lines[i].replace(/^[#%]+/, ''), dialect);
   const columns_in = (i) => names_in(i).map((title) => column_of(title, live.units));
-  const is_header = (i) => ['time', 'position'].every((role) => columns_for(columns_in(i), role, live.columns).length > 0);
+  const is_header = (i) => ['time', 'position'].every((role) =>
+    columns_for(columns_in(i), role, live.columns).length > 0 || misfit_unit(columns_in(i), role, live.columns));
   const found = filled.slice(0, head_lines).findIndex(is_header), place = Math.max(0, found);
   const columns = columns_in(filled[place]);
   let first = place + 1;
   const below = first < filled.length ? names_in(filled[first]) : [];
   if (below.length === columns.length && below.every((field) => is_unit_field(field, live.units))) {
     below.forEach((field, i) => {
-      if (field !== '') columns[i] = { title: columns[i].title, name: columns[i].title, unit: table_unit(field, live.units) ?? { dimension: [], factor: 1 } };
+      if (field !== '') columns[i] = { title: columns[i].title, name: columns[i].title, unit: { text: field, ...(table_unit(field, live.units) ?? { dimension: [], factor: 1 }) } };
     });
     ++first;
   }

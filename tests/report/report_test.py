@@ -510,7 +510,7 @@ class Pages(unittest.TestCase):
     def test_motions_that_are_refused(self):
         """Fails if an upload that `dashpot simulate` refuses is taken, or is refused without a word."""
         self.open(FIG_5)
-        for text, said in {"time,place\n0,1\n": "no column 'position'", "time,position\n0,0\n0.001,x\n": "a finite number is expected",
+        for text, said in {"time,place\n0,1\n": "no column 'position'; its name may also be 'pos', 'displacement'", "time,position\n0,0\n0.001,x\n": "a finite number is expected",
                            "time,position\n0,0\n0.001,1\n0.003,1\n0.004,1\n": "a uniform period", "": "no rows",
                            "time,position\n0,0\n0.002,1\n": "--rate 500", "time,position\n0,0,0\n": "row 2 has 3 fields",
                            "time,position,time\n0,0,0\n": "there twice"}.items():

@@ -43,10 +43,6 @@ const char* refusal_of_mode(const mechanics_description& mechanics, const scenar
   return nullptr;
 }
 
-std::uint64_t nanoseconds(double seconds) {
-  return seconds > 0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
-}
-
 }  // namespace
 
 const char* simulated_device::refusal(const device_description& device, const scenario& scene) noexcept {
@@ -119,8 +115,8 @@ void simulated_device::take_sample() noexcept {
     newest_.velocity +=
         description_.velocity.noise * draw_normal(scene_.seed, simulated::draw_stream::sensor_noise, index_);
   }
-  newest_.timestamp_ns = nanoseconds(shaft.time);
-  newest_.edge_time_ns = nanoseconds(sensors_.newest_edge());
+  newest_.timestamp_ns = simulated::nanoseconds(shaft.time);
+  newest_.edge_time_ns = simulated::nanoseconds(sensors_.newest_edge());
   newest_.sequence = static_cast<std::uint32_t>(index_);
   newest_.report = report();
 }

@@ -2,6 +2,7 @@
 // a velocity sensor. Both follow the true motion; the position is quantised before anything else sees it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <dashpot/device_description.hpp>
@@ -14,6 +15,11 @@ struct shaft_motion {
   double position = 0;  // [rad] or [m]
   double velocity = 0;  // [rad/s] or [m/s]
 };
+
+// As a device's clock counts them; 0 for an instant before its start.
+inline std::uint64_t nanoseconds(double seconds) noexcept {
+  return seconds > 0 ? static_cast<std::uint64_t>(std::llround(seconds * 1e9)) : 0;
+}
 
 class shaft_sensors {
  public:

@@ -81,8 +81,39 @@ std::string to_text(admission verdict, const model_facts& model, const loop_fact
     case admission::other_delay:
       return made_for(model) + " with a loop delay of " + std::to_string(model.loop_delay) +
              " samples, the device states " + std::to_string(timing.delay_samples);
+    case admission::other_brakes: break;  // of two axes alone
   }
   return "unknown verdict";
+}
+
+namespace {
+
+loop_facts of_joint(const arm_loop_facts& loop, unsigned joint) noexcept {
+  return {loop.identity, loop.device.joints[joint], loop.estimators[joint]};
+}
+
+}  // namespace
+
+admission admit(const arm_model_facts& model, const arm_loop_facts& loop, bool require_certified) noexcept {
+  admission verdict = admission::admitted;
+  for (unsigned joint = arm_axes; joint-- > 0;) {
+    const admission of_this = admit(model.joints[joint], of_joint(loop, joint), require_certified);
+    if (is_admitted(verdict) && of_this != admission::admitted) verdict = of_this;
+  }
+  if (is_admitted(verdict) && model.brakes != loop.device.brake_count) return admission::other_brakes;
+  return verdict;
+}
+
+std::string to_text(admission verdict, const arm_model_facts& model, const arm_loop_facts& loop) {
+  if (verdict == admission::other_brakes)
+    return "model commands " + std::to_string(model.brakes) + " brakes, device " + quoted(loop.identity.name) +
+           " has " + std::to_string(loop.device.brake_count);
+  for (unsigned joint = 0; joint < arm_axes; ++joint) {
+    const loop_facts one = of_joint(loop, joint);
+    if (admit(model.joints[joint], one, verdict == admission::not_certified) == verdict)
+      return to_text(verdict, model.joints[joint], one);
+  }
+  return {};
 }
 
 }  // namespace dashpot

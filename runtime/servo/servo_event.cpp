@@ -60,8 +60,10 @@ std::string evidence(const fault_report& report, motion joint) {
 std::string to_text(const servo_event& event, motion joint) {
   const std::string what = digits_of(event.time, std::chars_format::fixed) + " s: " + name_of(event.entered);
   if (!event.cause) return what;
-  if (event.entered == servo_state::idle) return what + ": cannot start: " + evidence(event.cause, joint);
-  return what + ": " + name_of(event.cause.kind) + ": " + evidence(event.cause, joint);
+  const std::string place = event.place.name != nullptr ? std::string(event.place.name) + ": " : std::string();
+  const std::string seen = place + evidence(event.cause, event.place.is_tip ? motion::translation : joint);
+  if (event.entered == servo_state::idle) return what + ": cannot start: " + seen;
+  return what + ": " + name_of(event.cause.kind) + ": " + seen;
 }
 
 }  // namespace dashpot

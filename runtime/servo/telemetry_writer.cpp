@@ -58,19 +58,12 @@ void append_cell(std::string& row, Number value) {
   append(row, value);
 }
 
-std::string column(const char* name, const char* unit) { return std::string(",") + name + " [" + unit + "]"; }
+std::string column(const std::string& name, const char* unit) { return "," + name + " [" + unit + "]"; }
 
-}  // namespace
+constexpr const char* timing_columns = "time [s],period,state,fault,fresh,lateness [ns],response [ns]";
 
-std::string csv_header(telemetry_units units) {
-  return "time [s],period,state,fault,fresh,lateness [ns],response [ns]" +
-         column("position", position_unit(units.model)) + column("velocity", velocity_unit(units.model)) +
-         column("damping", damping_unit(units.model)) + column("motor_force", force_unit(units.model)) +
-         column("motor_torque", force_unit(units.joint)) + column("brake_damping", damping_unit(units.joint)) +
-         column("stored_energy", "J") + column("energy", "J") + "\n";
-}
-
-std::string csv_row(const telemetry_record& record) {
+template <class Record>
+std::string timing_cells(const Record& record) {
   std::string row;
   append(row, record.time);
   append_cell(row, record.period);
@@ -78,6 +71,31 @@ std::string csv_row(const telemetry_record& record) {
   append_cell(row, record.fresh ? 1 : 0);
   append_cell(row, record.lateness);
   append_cell(row, record.response);
+  return row;
+}
+
+std::string columns(const char* name, const char* unit, unsigned count) {
+  std::string all;
+  for (unsigned number = 1; number <= count; ++number) all += column(name + std::to_string(number), unit);
+  return all;
+}
+
+void append_cells(std::string& row, const double* values, unsigned count) {
+  for (unsigned i = 0; i < count; ++i) append_cell(row, values[i]);
+}
+
+}  // namespace
+
+std::string csv_header(telemetry_units units) {
+  return timing_columns + column("position", position_unit(units.model)) +
+         column("velocity", velocity_unit(units.model)) + column("damping", damping_unit(units.model)) +
+         column("motor_force", force_unit(units.model)) + column("motor_torque", force_unit(units.joint)) +
+         column("brake_damping", damping_unit(units.joint)) + column("stored_energy", "J") + column("energy", "J") +
+         "\n";
+}
+
+std::string csv_row(const telemetry_record& record, telemetry_units) {
+  std::string row = timing_cells(record);
   for (const double value : {record.position, record.velocity, record.damping, record.motor_force, record.motor_torque,
                              record.brake_damping, record.stored_energy, record.energy}) {
     append_cell(row, value);
@@ -85,27 +103,56 @@ std::string csv_row(const telemetry_record& record) {
   return row += '\n';
 }
 
-telemetry_writer::telemetry_writer(std::size_t capacity, telemetry_outputs outputs, telemetry_units units)
+std::string csv_header(arm_telemetry_units units) {
+  const char* const damping = damping_unit(units.joint);
+  return timing_columns + columns("q", position_unit(units.joint), arm_axes) +
+         columns("v", velocity_unit(units.joint), arm_axes) + columns("damping_", damping, units.brakes) +
+         columns("torque_", force_unit(units.joint), arm_axes) +
+         columns("motor_torque_", force_unit(units.joint), arm_axes) +
+         columns("brake_damping_", damping, units.brakes) + column("stored_energy", "J") + column("energy", "J") + "\n";
+}
+
+std::string csv_row(const arm_telemetry_record& record, arm_telemetry_units units) {
+  std::string row = timing_cells(record);
+  append_cells(row, record.position, arm_axes);
+  append_cells(row, record.velocity, arm_axes);
+  append_cells(row, record.damping, units.brakes);
+  append_cells(row, record.torque, arm_axes);
+  append_cells(row, record.sent.motor_torque, arm_axes);
+  append_cells(row, record.sent.brake_damping, units.brakes);
+  append_cell(row, record.stored_energy);
+  append_cell(row, record.energy);
+  return row += '\n';
+}
+
+template <class Record, class Units>
+record_writer<Record, Units>::record_writer(std::size_t capacity, outputs_of<Record> outputs, Units units)
     : records_(capacity), events_(event_capacity), outputs_(std::move(outputs)), units_(units) {
   if (outputs_.csv == nullptr) return;
   const quiet_writes guard;
   put(csv_header(units_));
 }
 
-telemetry_writer::~telemetry_writer() { stop(); }
+template <class Record, class Units>
+record_writer<Record, Units>::~record_writer() {
+  stop();
+}
 
-void telemetry_writer::start() {
+template <class Record, class Units>
+void record_writer<Record, Units>::start() {
   stopping_.store(false);
   thread_ = std::thread([this] { run(); });
 }
 
-void telemetry_writer::stop() {
+template <class Record, class Units>
+void record_writer<Record, Units>::stop() {
   stopping_.store(true);
   if (thread_.joinable()) thread_.join();
   drain();
 }
 
-void telemetry_writer::run() {
+template <class Record, class Units>
+void record_writer<Record, Units>::run() {
   // A thread inherits the scheduling of the one that starts it; this one must never hold up a real-time loop.
   const sched_param ordinary{};
   pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
@@ -115,30 +162,37 @@ void telemetry_writer::run() {
   }
 }
 
-void telemetry_writer::drain() {
+template <class Record, class Units>
+void record_writer<Record, Units>::drain() {
   const quiet_writes guard;
   servo_event event;
   while (events_.pop(event)) say(to_text(event, units_.joint));
-  telemetry_record record;
+  Record record;
   while (records_.pop(record)) write(record);
   if (outputs_.csv != nullptr && std::fflush(outputs_.csv) != 0 && write_error_ == 0) write_error_ = errno;
 }
 
-void telemetry_writer::say(const std::string& line) {
+template <class Record, class Units>
+void record_writer<Record, Units>::say(const std::string& line) {
   if (outputs_.log == nullptr || line.empty()) return;
   const quiet_writes guard;
   std::fputs((line + '\n').c_str(), outputs_.log);
   std::fflush(outputs_.log);
 }
 
-void telemetry_writer::write(const telemetry_record& record) {
-  if (outputs_.csv != nullptr) put(csv_row(record));
+template <class Record, class Units>
+void record_writer<Record, Units>::write(const Record& record) {
+  if (outputs_.csv != nullptr) put(csv_row(record, units_));
   if (outputs_.observe) outputs_.observe(record);
 }
 
-void telemetry_writer::put(const std::string& text) {
+template <class Record, class Units>
+void record_writer<Record, Units>::put(const std::string& text) {
   if (write_error_ != 0) return;
   if (std::fwrite(text.data(), 1, text.size(), outputs_.csv) != text.size()) write_error_ = errno;
 }
+
+template class record_writer<telemetry_record, telemetry_units>;
+template class record_writer<arm_telemetry_record, arm_telemetry_units>;
 
 }  // namespace dashpot

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include <dashpot/arm_description.hpp>
+#include <dashpot/arm_model.hpp>
 #include <dashpot/device_description.hpp>
 #include <dashpot/model.hpp>
 
@@ -22,6 +24,12 @@ struct loop_facts {
   const char* estimator = "";
 };
 
+struct arm_loop_facts {
+  device_identity identity;
+  arm_description device;
+  const char* estimators[arm_axes] = {"", ""};
+};
+
 enum class admission : unsigned char {
   admitted,
   admitted_uncertified,  // compiled for the ideal device, or not certified on this one: runs, with a warning
@@ -33,6 +41,7 @@ enum class admission : unsigned char {
   other_digest,  // same name, another file
   other_estimator,
   other_delay,
+  other_brakes,  // of two axes: not as many brakes as the model commands
 };
 
 constexpr bool is_admitted(admission verdict) noexcept {
@@ -42,7 +51,11 @@ constexpr bool is_admitted(admission verdict) noexcept {
 // Periods are equal when they agree in single precision, which is all that a float model can state.
 admission admit(const model_facts& model, const loop_facts& loop, bool require_certified) noexcept;
 
+// Of two axes: what stands against it at either joint.
+admission admit(const arm_model_facts& model, const arm_loop_facts& loop, bool require_certified) noexcept;
+
 // One line for the log, what the model is made for against what is there; empty for `admitted`.
 std::string to_text(admission verdict, const model_facts& model, const loop_facts& loop);
+std::string to_text(admission verdict, const arm_model_facts& model, const arm_loop_facts& loop);
 
 }  // namespace dashpot

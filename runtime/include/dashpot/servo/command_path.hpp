@@ -2,12 +2,18 @@
 // actuator. No heap, lock, system call or exception; what can wait until the command has left is in finish().
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include <dashpot/actuator.hpp>
 #include <dashpot/command.hpp>
 #include <dashpot/device.hpp>
 #include <dashpot/model.hpp>
 #include <dashpot/servo/energy_account.hpp>
 #include <dashpot/servo/safety_monitor.hpp>
+#include <dashpot/servo/servo_event.hpp>
+#include <dashpot/servo/servo_summary.hpp>
+#include <dashpot/servo/telemetry_record.hpp>
 #include <dashpot/servo/velocity_feed.hpp>
 
 namespace dashpot {
@@ -23,6 +29,11 @@ class command_path {
   using scalar = typename Model::scalar;
 
  public:
+  using sample_type = device_sample;
+  using actuation_type = actuation;
+  using record_type = telemetry_record;
+  using summary_type = servo_summary;
+
   // Requires can_drive(device, network).
   command_path(Model& model, Estimator& estimator, const device_description& device, motion network,
                const command_options& options) noexcept
@@ -78,20 +89,46 @@ class command_path {
 
   const actuation& demand() const noexcept { return demand_; }
   const actuation& safe() const noexcept { return safe_; }
-  bool has_answered() const noexcept { return answered_; }  // this period's sample reached the model
+  bool has_answered() const noexcept { return answered_; }      // this period's sample reached the model
+  double energy() const noexcept { return energy_.balance(); }  // taken from the tool since start(), at least [J]
+  static fault_place place() noexcept { return {}; }            // of a fault: there is one axis
+
+  // Whether what a device applies is the safe command, to the rounding of one in single precision.
+  bool is_safe(const actuation& applied) const noexcept {
+    const double off = applied.brake_damping - safe_.brake_damping, rounding = 1e-6 * safe_.brake_damping;
+    return applied.motor_torque == 0 && off <= rounding && off >= -rounding;
+  }
+
+  // Of the period that has been answered.
+  void account(servo_summary& summary) noexcept {
+    if (is_motor_clipped()) ++summary.motor_clipped;
+    if (is_brake_clipped()) ++summary.brake_clipped;
+    if (kept_share_ < 1) ++summary.shed, summary.least_share = std::min(summary.least_share, kept_share_);
+    summary.lowest_position = has_moved_ ? std::min(summary.lowest_position, position_) : position_;
+    summary.highest_position = has_moved_ ? std::max(summary.highest_position, position_) : position_;
+    summary.largest_force = std::max(summary.largest_force, std::abs(wanted_.force));
+    summary.largest_damping = std::max(summary.largest_damping, wanted_.damping);
+    has_moved_ = true;
+  }
+
+  static void describe_sent(const actuation& sent, telemetry_record& record) noexcept {
+    record.motor_torque = sent.motor_torque;
+    record.brake_damping = sent.brake_damping;
+  }
+  void describe(telemetry_record& record) const noexcept {
+    record.position = position_;
+    record.velocity = velocity_;
+    record.damping = wanted_.damping;
+    record.motor_force = wanted_.force;
+  }
+
+ private:
   // By our limits or by the device's own.
   bool is_motor_clipped() const noexcept { return output_.motor_saturated() || motor_falls_short_; }
   bool is_brake_clipped() const noexcept {
     return is_less(output_.brake_damping, output_.brake_damping + output_.damping_clipped) || brake_falls_short_;
   }
-  // Of all forces in the network, what the model has kept for the motor to be able to follow: 1 where it shed nothing.
-  double kept_share() const noexcept { return kept_share_; }
-  double position() const noexcept { return position_; }              // as given to the model [m] or [rad]
-  double velocity() const noexcept { return velocity_; }              // [m/s] or [rad/s]
-  const command<double>& wanted() const noexcept { return wanted_; }  // by the model
-  double energy() const noexcept { return energy_.balance(); }        // taken from the tool since start(), at least [J]
 
- private:
   fault_report respond(const device_sample& sample) noexcept {
     if (!at_rest_) rest_at(sample);
     hold_coil_over_gap();
@@ -189,6 +226,7 @@ class command_path {
   bool has_left_ = false;           // the newest command
   bool motor_falls_short_ = false;  // of what it was asked for, by the newest report
   bool brake_falls_short_ = false;
+  bool has_moved_ = false;  // the summary has seen a position
 };
 
 }  // namespace dashpot

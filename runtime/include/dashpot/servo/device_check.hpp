@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <dashpot/arm_device.hpp>
 #include <dashpot/detected.hpp>
 #include <dashpot/device.hpp>
 
@@ -24,6 +25,15 @@ template <class D>
 using reset = std::enable_if_t<noexcept(device_status(std::declval<D&>().reset()))>;
 
 template <class D>
+using arm_read = std::enable_if_t<noexcept(device_status(std::declval<D&>().read(std::declval<arm_sample&>())))>;
+template <class D>
+using arm_write =
+    std::enable_if_t<noexcept(device_status(std::declval<D&>().write(std::declval<const arm_actuation&>())))>;
+template <class D>
+using arm_describes =
+    std::enable_if_t<noexcept(static_cast<const arm_description&>(std::declval<const D&>().description()))>;
+
+template <class D>
 using cause = std::enable_if_t<noexcept(static_cast<const char*>(std::declval<const D&>().cause()))>;
 
 }  // namespace device_claim
@@ -37,6 +47,18 @@ constexpr bool check_device() {
                 "the device needs 'dashpot::device_status write(const dashpot::actuation&) noexcept'");
   static_assert(is_detected<device_claim::description, Device>,
                 "the device needs 'const dashpot::device_description& description() const noexcept'");
+  return true;
+}
+
+// The same for a device of two axes.
+template <class Device>
+constexpr bool check_arm_device() {
+  static_assert(is_detected<device_claim::arm_read, Device>,
+                "the device needs 'dashpot::device_status read(dashpot::arm_sample&) noexcept'");
+  static_assert(is_detected<device_claim::arm_write, Device>,
+                "the device needs 'dashpot::device_status write(const dashpot::arm_actuation&) noexcept'");
+  static_assert(is_detected<device_claim::arm_describes, Device>,
+                "the device needs 'const dashpot::arm_description& description() const noexcept'");
   return true;
 }
 

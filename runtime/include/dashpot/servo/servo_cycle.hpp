@@ -2,13 +2,9 @@
 // rest. servo_loop.hpp sets it up and paces it.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include <dashpot/device.hpp>
-#include <dashpot/model.hpp>
-#include <dashpot/servo/command_path.hpp>
 #include <dashpot/servo/device_check.hpp>
 #include <dashpot/servo/period_grid.hpp>
 #include <dashpot/servo/servo_control.hpp>
@@ -18,22 +14,22 @@
 
 namespace dashpot {
 
-template <class Model, class Device, class Estimator, class Clock>
+// `Path` is command_path.hpp's for one axis, arm_path.hpp's for two.
+template <class Path, class Model, class Device, class Clock, class Writer>
 class servo_cycle {
+  using sample_type = typename Path::sample_type;
+  using actuation_type = typename Path::actuation_type;
+  using record_type = typename Path::record_type;
+  using summary_type = typename Path::summary_type;
+
  public:
-  // Refers to all but the options. Requires that the device can drive the model.
-  servo_cycle(Model& model, Device& device, Estimator& estimator, const command_options& options, Clock& clock,
-              servo_control& control, telemetry_writer& writer) noexcept
-      : model_(model),
-        device_(device),
-        clock_(clock),
-        control_(control),
-        writer_(writer),
-        loop_(device.description().loop),
-        path_(model, estimator, device.description(), facts_of(model).port_motion, options) {}
+  // Refers to all but the path.
+  servo_cycle(Path path, const loop_description& loop, Model& model, Device& device, Clock& clock,
+              servo_control& control, Writer& writer) noexcept
+      : model_(model), device_(device), clock_(clock), control_(control), writer_(writer), loop_(loop), path_(path) {}
 
   void serve(const wake_up& woken) {
-    device_sample sample;
+    sample_type sample;
     const device_status status = listen(sample);
     const bool starts = start_asked_ && status == device_status::ok && begin();
     const bool running = machine_.is_running();
@@ -80,8 +76,8 @@ class servo_cycle {
   }
 
   // Of everything served so far.
-  servo_summary summary() const noexcept {
-    servo_summary result = summary_;
+  summary_type summary() const noexcept {
+    summary_type result = summary_;
     result.state = machine_.state();
     result.faults = machine_.counts();
     result.last_fault = machine_.last_fault();
@@ -89,7 +85,7 @@ class servo_cycle {
   }
 
  private:
-  device_status listen(device_sample& sample) noexcept {
+  device_status listen(sample_type& sample) noexcept {
     const device_status status = device_.read(sample);
     tells_ = tells_ || sample.report.told;
     heard_ = heard_ || (commanded_ && status == device_status::ok);
@@ -99,7 +95,7 @@ class servo_cycle {
   // A device tells nothing before its first command.
   bool may_tell() const noexcept { return tells_ || !heard_; }
 
-  device_status write(const actuation& command) noexcept {
+  device_status write(const actuation_type& command) noexcept {
     const device_status taken = device_.write(command);
     commanded_ = commanded_ || taken == device_status::ok;
     path_.note_write(command, taken == device_status::ok);
@@ -113,13 +109,10 @@ class servo_cycle {
 
   // Only a sample that knows one of the last `taken` commands, all of them the safe one, says anything.
   void confirm(unsigned taken) noexcept {
-    device_sample sample;
+    sample_type sample;
     listen(sample);
-    const device_report& report = sample.report;
-    const double off = report.applied.brake_damping - path_.safe().brake_damping;
-    const double rounding = 1e-6 * path_.safe().brake_damping;  // of a device in single precision
-    summary_.safe_confirmed = report.told && report.commands_ago < taken && report.applied.motor_torque == 0 &&
-                              off <= rounding && off >= -rounding;
+    summary_.safe_confirmed =
+        sample.report.told && sample.report.commands_ago < taken && path_.is_safe(sample.report.applied);
   }
 
   bool begin() noexcept {
@@ -136,7 +129,7 @@ class servo_cycle {
   }
 
   void trip(const fault_report& report, std::uint64_t period) {
-    if (report && machine_.trip(explained(report))) announce(period, explained(report));
+    if (report && machine_.trip(explained(report))) announce(period, explained(report), path_.place());
   }
 
   // What the device itself says of the fault that it answers.
@@ -156,9 +149,9 @@ class servo_cycle {
     waiting_announced_ = true;
   }
 
-  void announce(std::uint64_t period, const fault_report& cause) {
+  void announce(std::uint64_t period, const fault_report& cause, fault_place place = {}) {
     make_room(writer_.events());
-    writer_.events().push({time_of(period), period, machine_.state(), cause});
+    writer_.events().push({time_of(period), period, machine_.state(), cause, place});
   }
 
   void account(const wake_up& woken, std::int64_t left, bool running) noexcept {
@@ -172,54 +165,32 @@ class servo_cycle {
 
   void account_answer() noexcept {
     if (!path_.has_answered()) ++summary_.held;
-    if (path_.has_answered()) account_command();
+    if (path_.has_answered()) path_.account(summary_);
     summary_.energy = path_.energy();
     if (summary_.energy < summary_.lowest_energy) summary_.lowest_energy = summary_.energy;
   }
 
-  void account_command() noexcept {
-    if (path_.is_motor_clipped()) ++summary_.motor_clipped;
-    if (path_.is_brake_clipped()) ++summary_.brake_clipped;
-    if (path_.kept_share() < 1) account_shed(path_.kept_share());
-    const double position = path_.position(), force = std::abs(path_.wanted().force);
-    summary_.lowest_position = has_moved_ ? std::min(summary_.lowest_position, position) : position;
-    summary_.highest_position = has_moved_ ? std::max(summary_.highest_position, position) : position;
-    summary_.largest_force = std::max(summary_.largest_force, force);
-    summary_.largest_damping = std::max(summary_.largest_damping, path_.wanted().damping);
-    has_moved_ = true;
-  }
-
-  void account_shed(double share) noexcept {
-    ++summary_.shed;
-    if (share < summary_.least_share) summary_.least_share = share;
-  }
-
-  telemetry_record record_of(const wake_up& woken, std::int64_t left, bool running) const noexcept {
-    telemetry_record record;
+  record_type record_of(const wake_up& woken, std::int64_t left, bool running) const noexcept {
+    record_type record;
     record.time = time_of(woken.period);
     record.period = woken.period;
     record.state = machine_.state();
     record.lateness = woken.lateness;
     record.response = left - woken.instant;
-    const actuation& sent = running ? path_.demand() : path_.safe();
-    record.motor_torque = sent.motor_torque;
-    record.brake_damping = sent.brake_damping;
+    path_.describe_sent(running ? path_.demand() : path_.safe(), record);
     record.stored_energy = static_cast<double>(model_.stored_energy());
     if (running) describe_answer(record);
     return record;
   }
 
-  void describe_answer(telemetry_record& record) const noexcept {
+  void describe_answer(record_type& record) const noexcept {
     if (!machine_.is_running()) record.tripped = machine_.last_fault().kind;
     record.fresh = path_.has_answered();
-    record.position = path_.position();
-    record.velocity = path_.velocity();
-    record.damping = path_.wanted().damping;
-    record.motor_force = path_.wanted().force;
+    path_.describe(record);
     record.energy = path_.energy();
   }
 
-  void publish(const telemetry_record& record) {
+  void publish(const record_type& record) {
     make_room(writer_.records());
     writer_.records().push(record);
   }
@@ -238,18 +209,17 @@ class servo_cycle {
   Device& device_;
   Clock& clock_;
   servo_control& control_;
-  telemetry_writer& writer_;
+  Writer& writer_;
   loop_description loop_;
-  command_path<Model, Estimator> path_;
+  Path path_;
   servo_state_machine machine_;
   bool start_asked_ = false;
   bool waiting_announced_ = false;
   bool tells_ = false;      // the device says what it applies
   bool commanded_ = false;  // it has taken a command
   bool heard_ = false;      // and given a sample since
-  bool has_moved_ = false;  // the model has got a position
   unsigned waited_ = 0;     // for the first sample [periods]
-  servo_summary summary_;
+  summary_type summary_;
 };
 
 }  // namespace dashpot

@@ -5,6 +5,9 @@
 //     stop_on_signals guard(loop.control());                // Ctrl-C leaves the device safe
 //     const servo_summary summary = loop.run();
 //
+// A model of two axes, a device of arm_device.hpp and an array of one estimator for each joint make a loop of two axes;
+// its options are arm_servo_options, its summary an arm_servo_summary.
+//
 // A model made for another device, estimator, loop delay or rate is refused before the device is touched
 // (admission.hpp). Every fault (fault.hpp) ends in the safe command within the period in which it is seen: motor 0,
 // brake at the device's safe damping. It is counted, named in the log, and left only through control().reset() and then
@@ -14,9 +17,13 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 
+#include <dashpot/arm_model.hpp>
 #include <dashpot/model.hpp>
+#include <dashpot/servo/arm_path.hpp>
+#include <dashpot/servo/command_path.hpp>
 #include <dashpot/servo/device_check.hpp>
 #include <dashpot/servo/estimator_check.hpp>
 #include <dashpot/servo/monotonic_clock.hpp>
@@ -31,15 +38,27 @@ namespace dashpot {
 
 template <class Model, class Device, class Estimator, class Clock = monotonic_clock>
 class servo_loop {
-  static_assert(check_model<Model>() && check_device<Device>() && check_estimator<Estimator>());
+  static constexpr bool is_arm = has_two_axes<Model>;
+  using path_type = std::conditional_t<is_arm, arm_path<Model, Estimator>, command_path<Model, Estimator>>;
+  using options_type = std::conditional_t<is_arm, arm_servo_options, servo_options>;
+  using writer_type = std::conditional_t<is_arm, arm_telemetry_writer, telemetry_writer>;
+  using summary_type = std::conditional_t<is_arm, arm_servo_summary, servo_summary>;
+
+  static constexpr bool check() {
+    if constexpr (is_arm) return check_arm_model<Model>() && check_arm_device<Device>();
+    else return check_model<Model>() && check_device<Device>();
+  }
+  static_assert(check() && check_estimator<std::remove_extent_t<Estimator>>());
+  static_assert(std::extent_v<Estimator> == (is_arm ? arm_axes : 0),
+                "a loop of two axes takes an array of two estimators, a loop of one takes one");
 
  public:
   // Refers to all three for as long as it lives.
-  servo_loop(Model& model, Device& device, Estimator& estimator, servo_options options = {}, Clock clock = {})
+  servo_loop(Model& model, Device& device, Estimator& estimator, options_type options = {}, Clock clock = {})
       : model_(model),
         device_(device),
         estimator_(estimator),
-        facts_(facts_of(model)),
+        facts_(facts()),
         options_(std::move(options)),
         clock_(std::move(clock)) {}
 
@@ -48,12 +67,12 @@ class servo_loop {
 
   // Runs in the calling thread until the duration is over or a stop is asked for; leaves the device with the safe
   // command.
-  servo_summary run() {
-    const loop_facts loop{options_.identity, device_.description(), estimator_name(estimator_)};
+  summary_type run() {
+    const auto loop = facts_of_loop();
     const admission verdict = admit(facts_, loop, options_.require_certified);
-    telemetry_writer writer(options_.telemetry_capacity, options_.outputs, {facts_.port_motion, loop.device.motion});
+    writer_type writer(options_.telemetry_capacity, options_.outputs, units());
     writer.say(to_text(verdict, facts_, loop));
-    servo_summary summary = is_admitted(verdict) ? run_admitted(writer) : servo_summary{};
+    summary_type summary = is_admitted(verdict) ? run_admitted(writer) : summary_type{};
     writer.stop();
     summary.verdict = verdict;
     summary.telemetry_dropped = writer.records().dropped();
@@ -63,8 +82,36 @@ class servo_loop {
   }
 
  private:
-  servo_summary run_admitted(telemetry_writer& writer) {
-    servo_cycle cycle(model_, device_, estimator_, options_.command, clock_, control_, writer);
+  auto facts() const {
+    if constexpr (is_arm) return arm_facts_of(model_);
+    else return facts_of(model_);
+  }
+
+  auto facts_of_loop() const {
+    if constexpr (is_arm)
+      return arm_loop_facts{
+          options_.identity, device_.description(), {estimator_name(estimator_[0]), estimator_name(estimator_[1])}};
+    else return loop_facts{options_.identity, device_.description(), estimator_name(estimator_)};
+  }
+
+  auto units() const {
+    if constexpr (is_arm) return arm_telemetry_units{device_.description().motion(), device_.description().brake_count};
+    else return telemetry_units{facts_.port_motion, device_.description().motion};
+  }
+
+  path_type path() {
+    if constexpr (is_arm) return {model_, estimator_, device_.description(), options_.command};
+    else return {model_, estimator_, device_.description(), facts_.port_motion, options_.command};
+  }
+
+  const loop_description& timing() const {
+    if constexpr (is_arm) return device_.description().loop();
+    else return device_.description().loop;
+  }
+
+  summary_type run_admitted(writer_type& writer) {
+    servo_cycle<path_type, Model, Device, Clock, writer_type> cycle(path(), timing(), model_, device_, clock_, control_,
+                                                                    writer);
     if constexpr (Clock::is_real) {
       writer.start();
       const realtime_session session(options_.realtime);
@@ -78,7 +125,7 @@ class servo_loop {
 
   template <class Cycle>
   void pace(Cycle& cycle) {
-    const double sample_period = device_.description().loop.sample_period;
+    const double sample_period = timing().sample_period;
     const std::uint64_t periods = periods_in(options_.duration, sample_period);
     if (options_.start_running) control_.start();
     clock_.start(sample_period);
@@ -100,8 +147,8 @@ class servo_loop {
   Model& model_;
   Device& device_;
   Estimator& estimator_;
-  model_facts facts_;
-  servo_options options_;
+  std::conditional_t<is_arm, arm_model_facts, model_facts> facts_;
+  options_type options_;
   Clock clock_;
   servo_control control_;
 };

@@ -14,17 +14,20 @@
 #include <thread>
 
 #include <dashpot/command.hpp>
+#include <dashpot/servo/arm_telemetry.hpp>
 #include <dashpot/servo/servo_event.hpp>
 #include <dashpot/servo/spsc_ring.hpp>
 #include <dashpot/servo/telemetry_record.hpp>
 
 namespace dashpot {
 
-struct telemetry_outputs {
-  std::FILE* csv = nullptr;                              // null: no table
-  std::FILE* log = stderr;                               // null: silent
-  std::function<void(const telemetry_record&)> observe;  // called for every record that was not dropped; must not throw
+template <class Record>
+struct outputs_of {
+  std::FILE* csv = nullptr;                    // null: no table
+  std::FILE* log = stderr;                     // null: silent
+  std::function<void(const Record&)> observe;  // called for every record that was not dropped; must not throw
 };
+using telemetry_outputs = outputs_of<telemetry_record>;
 
 // The units of a run: `model` names those of position, velocity and command, `joint` those sent to the device.
 struct telemetry_units {
@@ -32,18 +35,22 @@ struct telemetry_units {
   motion joint = motion::translation;
 };
 
-std::string csv_header(telemetry_units units);        // with its line end
-std::string csv_row(const telemetry_record& record);  // with its line end
+std::string csv_header(telemetry_units units);                                    // with its line end
+std::string csv_row(const telemetry_record& record, telemetry_units units = {});  // with its line end
+std::string csv_header(arm_telemetry_units units);
+std::string csv_row(const arm_telemetry_record& record, arm_telemetry_units units);
 
-class telemetry_writer {
+// Of telemetry_records in telemetry_units, or of arm_telemetry_records in arm_telemetry_units.
+template <class Record, class Units>
+class record_writer {
  public:
-  telemetry_writer(std::size_t capacity, telemetry_outputs outputs, telemetry_units units);
-  ~telemetry_writer();  // stops the thread and writes what is left
-  telemetry_writer(const telemetry_writer&) = delete;
-  telemetry_writer& operator=(const telemetry_writer&) = delete;
+  record_writer(std::size_t capacity, outputs_of<Record> outputs, Units units);
+  ~record_writer();  // stops the thread and writes what is left
+  record_writer(const record_writer&) = delete;
+  record_writer& operator=(const record_writer&) = delete;
 
   // The loop's side: wait-free.
-  spsc_ring<telemetry_record>& records() noexcept { return records_; }
+  spsc_ring<Record>& records() noexcept { return records_; }
   spsc_ring<servo_event>& events() noexcept { return events_; }
 
   void start();  // the thread; without it, drain() is called by hand
@@ -55,16 +62,21 @@ class telemetry_writer {
 
  private:
   void run();
-  void write(const telemetry_record& record);
+  void write(const Record& record);
   void put(const std::string& text);
 
-  spsc_ring<telemetry_record> records_;
+  spsc_ring<Record> records_;
   spsc_ring<servo_event> events_;
-  telemetry_outputs outputs_;
-  telemetry_units units_;
+  outputs_of<Record> outputs_;
+  Units units_;
   int write_error_ = 0;
   std::atomic<bool> stopping_{false};
   std::thread thread_;
 };
+
+using telemetry_writer = record_writer<telemetry_record, telemetry_units>;
+using arm_telemetry_writer = record_writer<arm_telemetry_record, arm_telemetry_units>;
+extern template class record_writer<telemetry_record, telemetry_units>;
+extern template class record_writer<arm_telemetry_record, arm_telemetry_units>;
 
 }  // namespace dashpot

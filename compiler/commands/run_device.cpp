@@ -88,18 +88,22 @@ std::string filled_text(const SourceFile& file, const FilledBrake& brake, bool r
   return json.dump(2) + "\n";
 }
 
-ExitStatus write_as_code(const Device& device, const Options& options, Diagnostics& diagnostics) {
+ExitStatus write_as_code(const DeviceChoice& device, const Options& options, Diagnostics& diagnostics) {
   if (options.output && !spares_inputs(options, {*options.output}, diagnostics)) return ExitStatus::command_line_wrong;
-  const std::optional<std::string> text = emit_device(device, *options.device_language, diagnostics);
+  const std::optional<std::string> text = device.device
+                                              ? emit_device(*device.device, *options.device_language, diagnostics)
+                                              : emit_arm_device(*device.axes_device, diagnostics);
   return text ? write_output(options, *text, diagnostics) : ExitStatus::input_refused;
 }
 
 }  // namespace
 
 ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
-  const DeviceChoice device = open_device(options, files, diagnostics);
+  const bool in_cpp = options.device_language == DeviceLanguage::cpp;  // which alone describes two axes
+  const DeviceChoice device =
+      in_cpp ? open_any_device(options, files, diagnostics) : open_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
-  if (options.device_language) return write_as_code(*device.device, options, diagnostics);
+  if (options.device_language) return write_as_code(device, options, diagnostics);
   Words words(diagnostics);
   const std::optional<FilledBrake> brake = fill_in(*device.device, options.blade, words, diagnostics);
   files.keep(words.take_sources());

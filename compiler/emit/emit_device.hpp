@@ -5,6 +5,7 @@
 #include <string>
 
 #include "emit/device_facts.hpp"
+#include "network/axes_device.hpp"
 #include "network/device.hpp"
 #include "source/diagnostic.hpp"
 
@@ -12,5 +13,8 @@ namespace dashpot::compiler {
 
 // A header with name, digest and description. Refuses: templates that do not fit.
 std::optional<std::string> emit_device(const Device& device, DeviceLanguage language, Diagnostics& diagnostics);
+
+// The same of a device of two axes, in C++.
+std::optional<std::string> emit_arm_device(const AxesDevice& device, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -1,22 +1,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstring>
-#include <memory>
 
 #include <dashpot/board/board_device.hpp>
 #include <dashpot/estimators/any_estimator.hpp>
-#include <dashpot/servo/servo_loop.hpp>
 #include <dashpot/simulated/simulated_device.hpp>
 
+#include "commands/axes_commands.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/hand_motion.hpp"
 #include "commands/live_line.hpp"
 #include "commands/model_library.hpp"
 #include "commands/played_motion.hpp"
+#include "commands/run_axes.hpp"
+#include "commands/run_loop.hpp"
 #include "compile.hpp"
 #include "emit/write_files.hpp"
 #include "insist.hpp"
@@ -24,11 +22,6 @@
 
 namespace dashpot::compiler {
 namespace {
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using LogFile = std::unique_ptr<std::FILE, CloseFile>;
 
 const std::map<std::string, simulated::hand (*)()> hands = {{"none", simulated::no_hand},
                                                             {"relaxed", simulated::relaxed_hand},
@@ -58,24 +51,8 @@ servo_options loop_options(const Options& options, const Compilation& compilatio
   return loop;
 }
 
-// The log is opened when the device is there, so that a former one survives a failure before.
-template <class Port, class Clock>
-std::optional<servo_summary> run_on(Port& device, LoadedModel& model, servo_options options, Clock clock,
-                                    const std::string& log_name, Diagnostics& diagnostics) {
-  // Who reads along may leave, and a file may reach its limit: the device is driven to the end, and left safe. Beyond
-  // the loop too, for the log is closed and the summary told after it.
-  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
-  const LogFile log(std::fopen(log_name.c_str(), "w"));
-  if (!log) {
-    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));
-    return std::nullopt;
-  }
-  options.outputs.csv = log.get();
-  const device_description& facts = device.description();
-  any_estimator<double> estimator(facts.velocity, facts.loop.sample_period, facts.encoder.step);
-  servo_loop<LoadedModel, Port, any_estimator<double>, Clock> loop(model, device, estimator, options, clock);
-  const stop_on_signals ctrl_c(loop.control());
-  return loop.run();
+any_estimator<double> estimator_of(const device_description& device) {
+  return {device.velocity, device.loop.sample_period, device.encoder.step};
 }
 
 std::optional<servo_summary> run_on_board(const Options& options, const Compilation& compilation, LoadedModel& model,
@@ -84,8 +61,9 @@ std::optional<servo_summary> run_on_board(const Options& options, const Compilat
   auto stream = board::open_transport(*options.port, error);
   if (stream) {
     board_device device(std::move(*stream), compilation.device->description);
+    any_estimator<double> estimator = estimator_of(device.description());
     if (device.start(error))
-      return run_on(device, model, loop, monotonic_clock{}, log_name(options, compilation), diagnostics);
+      return run_on(device, model, estimator, loop, monotonic_clock{}, log_name(options, compilation), diagnostics);
   }
   diagnostics.report<DiagnosticCode::cannot_start_device>({}, *options.port, error);
   return std::nullopt;
@@ -100,9 +78,10 @@ std::optional<servo_summary> run_simulated(const Options& options, const Compila
     return std::nullopt;
   }
   simulated_device device(description, scene);
+  any_estimator<double> estimator = estimator_of(description);
   const std::string log = log_name(options, compilation);
-  return options.fast ? run_on(device, model, loop, simulated_clock{}, log, diagnostics)
-                      : run_on(device, model, loop, monotonic_clock{}, log, diagnostics);
+  return options.fast ? run_on(device, model, estimator, loop, simulated_clock{}, log, diagnostics)
+                      : run_on(device, model, estimator, loop, monotonic_clock{}, log, diagnostics);
 }
 
 std::string commands_text(const servo_summary& summary, const PortUnits& units) {
@@ -110,18 +89,6 @@ std::string commands_text(const servo_summary& summary, const PortUnits& units) 
       "range     the tool from {:.4g} to {:.4g} {}, the motor up to {:.4g} {}, the brake up to {:.4g} {}\n",
       summary.lowest_position, summary.highest_position, units.position, summary.largest_force, units.force,
       summary.largest_damping, units.damping);
-}
-
-ExitStatus conclude(const servo_summary& summary, const PortUnits& units, const std::string& log,
-                    Diagnostics& diagnostics) {
-  const int unwritten = summary.telemetry_error;
-  if (unwritten != 0)
-    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log, std::string(std::strerror(unwritten)));
-  const bool has_log = is_admitted(summary.verdict) && unwritten == 0;
-  const bool sound = has_log && summary.left_safe && summary.faults.total() == 0;
-  const ExitStatus told = write_standard_output(
-      to_text(summary) + (has_log ? commands_text(summary, units) + "log: " + log + "\n" : ""), diagnostics);
-  return sound ? told : ExitStatus::input_refused;
 }
 
 // A board has a hand, chance and time of its own.
@@ -177,9 +144,12 @@ ExitStatus play_motion(const Options& options, const Compilation& compilation, S
 ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diagnostics) {
   if (asks_a_board_to_be_simulated(options, diagnostics) || asks_for_more_than_a_motion(options, diagnostics))
     return ExitStatus::command_line_wrong;
-  const DeviceChoice device = open_device(options, files, diagnostics);
+  const DeviceChoice device = open_any_device(options, files, diagnostics);
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = open_network(options.networks.front(), options, files, diagnostics);
+  if (file && has_two_axes(*file))
+    return run_axes(options, hands.at(options.hand.value_or("relaxed"))(), *file, device, diagnostics);
+  if (file && !as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
   Choices choices = options.choices;
   choices.varies_assumed = false;  // nothing is told of it
   const std::optional<Compilation> compilation =
@@ -198,8 +168,8 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
                                                    ? run_on_board(options, *compilation, *model, loop, diagnostics)
                                                    : run_simulated(options, *compilation, *model, loop, diagnostics);
   live.finish();
-  return summary ? conclude(*summary, port_units(compilation->network.port_motion), log_name(options, *compilation),
-                            diagnostics)
+  return summary ? conclude(*summary, commands_text(*summary, port_units(compilation->network.port_motion)),
+                            log_name(options, *compilation), diagnostics)
                  : ExitStatus::input_refused;
 }
 

@@ -7,7 +7,7 @@ import struct
 import subprocess
 import unittest
 
-from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
+from dashpot_command import COMMAND_LINE_WRONG, INPUT_REFUSED, SOURCE, CommandTest
 
 FIELD, BALL, WALL = (SOURCE / f"networks/axes/{name}.json" for name in ["kelvin_field", "soft_ball", "viscous_wall"])
 PANTOGRAPH = SOURCE / "runtime/devices/pantograph_2dof.json"
@@ -248,6 +248,32 @@ class AxesTest(CommandTest):
         self.dashpot("explain", *map_of(cavity={"centre": ["0 mm", "95 mm"], "radius": "20 mm"}))
         self.dashpot("explain", *map_of(line={"through": ["0 mm", "160 mm"], "direction": [1, 0], "radius": "50 mm"}))
 
+    # If this fails, a law of two axes does not run on its device, or does not run as it computes.
+    def test_a_law_runs_on_its_simulated_arm(self):
+        run = ["run", FIELD, "--device", PANTOGRAPH, "--fast", "--for", "0.2", "--hand", "firm", "--seed", "7"]
+        done = self.dashpot(*run, "-o", "run.csv")
+        for words in ("2000 served", "faults    none", "range     the tip from ", "device left safe", "log: run.csv"):
+            self.assertIn(words, done.stdout)
+        self.assertIn("[nothing-proved]", done.stderr)
+        lines = (self.folder / "run.csv").read_text().splitlines()
+        names = [name.split(" ")[0] for name in lines[0].split(",")]
+        table = [dict(zip(names, line.split(","))) for line in lines[1:]]
+        self.assertEqual(len(table), 2000)
+        read = lambda row, *columns: [float(row[column]) for column in columns]
+        rows = [read(row, "q1", "q2", "v1", "v2") for row in table]
+        x, y = zip(*(tip_of(row[:2]) for row in rows))
+        self.assertLess(math.hypot(x[0], y[0] - 0.095), 1e-4)  # the middle of the workspace, to an encoder's step
+        self.assertGreater(max(x) - min(x), 1e-3)
+        for row, told in zip(table, self.answers(self.compile(FIELD, "--device", PANTOGRAPH), rows)):
+            self.assertEqual(read(row, "damping_1", "damping_2", "torque_1", "torque_2", "stored_energy")[:4], told[:4])
+            for j in ("1", "2"):  # within what motors and brakes can do
+                wanted, sent = read(row, "torque_" + j, "motor_torque_" + j)
+                self.assertEqual(sent, min(max(-wanted, -0.1), 0.1))
+                wanted, sent = read(row, "damping_" + j, "brake_damping_" + j)
+                self.assertEqual(sent, min(wanted, 0.014))
+        self.dashpot(*run, "-o", "again.csv")
+        self.assertEqual((self.folder / "again.csv").read_bytes(), (self.folder / "run.csv").read_bytes())
+
     # If this fails, a loop of one's own has other numbers than the device's file, or takes a law for another's.
     def test_a_device_is_written_as_code(self):
         self.dashpot("device", PANTOGRAPH, "--target", "cpp", "-o", "arm.hpp")
@@ -273,9 +299,13 @@ int main() {
         self.assertEqual(told, "0 0.025 0.12 30 0.001 0.002 1\n0.02 0.015 5e-05\n")
 
     def test_what_knows_one_axis_says_so(self):
-        for command in (["report", FIELD, "-o", "a.html"], ["run", FIELD, "--device", ONE_AXIS], ["export", "--to", "generic", FIELD]):
+        for command in (["report", FIELD, "-o", "a.html"], ["export", "--to", "generic", FIELD]):
             self.assertIn("[several-axes]", self.dashpot(*command, status=INPUT_REFUSED).stderr, command)
         self.assertIn("[device-of-several-axes]", self.dashpot("device", PANTOGRAPH, "--target", "c99", "-o", ".", status=INPUT_REFUSED).stderr)
+        for option in (["--port", "unix:none"], ["--motion", "none.csv"]):
+            self.assertIn("[option-on-two-axes]",
+                          self.dashpot("run", FIELD, "--device", PANTOGRAPH, *option, status=COMMAND_LINE_WRONG).stderr)
+        self.assertIn("[axes-differ]", self.dashpot("run", FIELD, "--device", ONE_AXIS, status=INPUT_REFUSED).stderr)
         for target in ("c99", "hal", "fmi2", "python", "wasm"):
             self.assertIn("[target-on-two-axes]", self.dashpot("compile", FIELD, "--target", target, status=None).stderr, target)
         self.assertIn("[option-on-two-axes]", self.dashpot("compile", FIELD, "--batch", status=INPUT_REFUSED).stderr)

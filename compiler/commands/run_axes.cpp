@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <dashpot/estimators/any_estimator.hpp>
+#include <dashpot/simulated/simulated_arm.hpp>
+
+#include "commands/arm_library.hpp"
+#include "commands/axes_commands.hpp"
+#include "commands/live_line.hpp"
+#include "commands/run_axes.hpp"
+#include "commands/run_loop.hpp"
+#include "network/arm_description.hpp"
+#include "network/port_units.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// The tip goes round the middle of the workspace, at different rates along x and y, and so all over a rectangle of 40 %
+// of the room that there is, but of no more than 20 mm.
+constexpr double tip_frequency[2] = {0.5, 0.7};  // [Hz]
+constexpr double share_of_workspace = 0.4;
+constexpr double most_tip_amplitude = 0.01;  // [m]
+
+simulated::tip_path path_in(const axes::Box& workspace) {
+  double centre[2], amplitude[2], rate[2];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double low = workspace[i].low, high = workspace[i].high;
+    centre[i] = (low + high) / 2;
+    amplitude[i] =
+        low < high ? std::min(most_tip_amplitude, share_of_workspace * (high - low) / 2) : most_tip_amplitude;
+    rate[i] = 2 * 3.14159265358979323846 * tip_frequency[i];
+  }
+  return [=](double time) -> simulated::tip_motion {
+    simulated::tip_motion at;
+    for (std::size_t i = 0; i < 2; ++i) {
+      at.position[i] = centre[i] + amplitude[i] * std::sin(rate[i] * time);
+      at.velocity[i] = amplitude[i] * rate[i] * std::cos(rate[i] * time);
+    }
+    return at;
+  };
+}
+
+// Options that only a run of one axis knows.
+const char* option_beyond_two_axes(const Options& options) {
+  if (options.port) return "--port";
+  if (options.motion) return "--motion";
+  return nullptr;
+}
+
+telemetry_record largest_of(const arm_telemetry_record& record) {
+  telemetry_record line;
+  line.time = record.time;
+  line.lateness = record.lateness;
+  line.tripped = record.tripped;
+  line.energy = record.energy;
+  for (const double torque : record.torque) line.motor_force = std::max(line.motor_force, std::abs(torque));
+  for (const double damping : record.damping) line.damping = std::max(line.damping, damping);
+  return line;
+}
+
+std::string list_of(const double* values, unsigned count) {
+  std::string all;
+  for (unsigned i = 0; i < count; ++i) all += fmt::format("{}{:.4g}", i == 0 ? "" : ", ", values[i]);
+  return all;
+}
+
+std::string range_of(const arm_servo_summary& summary, unsigned brakes, const PortUnits& units) {
+  return fmt::format(
+      "range     the tip from {:.4g} to {:.4g} mm along x and from {:.4g} to {:.4g} mm along y, the motors up to {} "
+      "{}, "
+      "the brakes up to {} {}\n",
+      1e3 * summary.lowest_tip[0], 1e3 * summary.highest_tip[0], 1e3 * summary.lowest_tip[1],
+      1e3 * summary.highest_tip[1], list_of(summary.largest_torques, arm_axes), units.force,
+      list_of(summary.largest_dampings, brakes), units.damping);
+}
+
+void warn_of_uncertified_axes(const AxesCompilation& c, Diagnostics& diagnostics) {
+  if (!c.certificate.certified)
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name,
+                                                       fmt::format("device '{}'", c.device.name),
+                                                       why_not_certified(c.certificate, c.device));
+}
+
+}  // namespace
+
+ExitStatus run_axes(const Options& options, const simulated::hand& user, const SourceFile& network,
+                    const DeviceChoice& device, Diagnostics& diagnostics) {
+  const auto compilation = compile_axes(network, options, device, diagnostics);
+  if (!compilation) return ExitStatus::input_refused;
+  if (const char* option = option_beyond_two_axes(options)) {
+    diagnostics.report<DiagnosticCode::option_on_two_axes>(compilation->network.name_span, option);
+    return ExitStatus::command_line_wrong;
+  }
+  warn_of_uncertified_axes(*compilation, diagnostics);
+  const arm_description arm = arm_description_of(compilation->device);
+  simulated::arm_scenario scene;
+  scene.user = simulated::planar(user.mass, user.damping, user.input[0] * user.output[0]);  // alike in all directions
+  scene.seed = options.seed.value_or(0);
+  scene.intended = path_in(compilation->device.workspace);
+  const simulated::tip_motion start = scene.intended(0);
+  const auto joints = axes::joints_at(compilation->device.arm, {start.position[0], start.position[1]});
+  for (unsigned j = 0; joints && j < arm_axes; ++j) scene.initial_position[j] = (*joints)[j];
+  if (const char* refusal = simulated_arm::refusal(arm, scene)) {
+    diagnostics.report<DiagnosticCode::cannot_start_device>({}, compilation->device.name, std::string(refusal));
+    return ExitStatus::input_refused;
+  }
+  std::optional<LoadedArmModel> model = load_arm_model(*compilation, options.emission, diagnostics);
+  if (!model) return ExitStatus::input_refused;
+  if (!options.json_diagnostics) tell(options, diagnostics);
+  LiveLine live(arm.motion() == motion::rotation);
+  arm_servo_options loop;
+  loop.identity = {compilation->device.name.c_str(), compilation->device.digest.c_str()};
+  loop.duration = options.duration.value_or(0);
+  loop.outputs.observe = [&live](const arm_telemetry_record& record) { live.show(largest_of(record)); };
+  const auto estimator_of = [&arm](unsigned j) {
+    return any_estimator<double>(arm.joints[j].velocity, arm.loop().sample_period, arm.joints[j].encoder.step);
+  };
+  any_estimator<double> estimators[arm_axes] = {estimator_of(0), estimator_of(1)};
+  simulated_arm simulation(arm, scene);
+  const std::string log = options.output.value_or(compilation->network.name + "_run.csv");
+  const auto summary = options.fast ? run_on(simulation, *model, estimators, loop, simulated_clock{}, log, diagnostics)
+                                    : run_on(simulation, *model, estimators, loop, monotonic_clock{}, log, diagnostics);
+  live.finish();
+  return summary ? conclude(*summary, range_of(*summary, arm.brake_count, port_units(arm.motion())), log, diagnostics)
+                 : ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

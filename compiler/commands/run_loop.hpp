@@ -1,0 +1,52 @@
+// What `dashpot run` does with a loop of one axis and of two.
+#pragma once
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <dashpot/servo/servo_loop.hpp>
+
+#include "commands/commands.hpp"
+
+namespace dashpot::compiler {
+
+// The log is opened when the device is there, so that a former one survives a failure before.
+template <class Port, class Model, class Estimator, class LoopOptions, class Clock>
+auto run_on(Port& device, Model& model, Estimator& estimator, LoopOptions options, Clock clock,
+            const std::string& log_name, Diagnostics& diagnostics) {
+  servo_loop<Model, Port, Estimator, Clock>* const kind = nullptr;
+  using Summary = decltype(kind->run());
+  // Who reads along may leave, and a file may reach its limit: the device is driven to the end, and left safe. Beyond
+  // the loop too, for the log is closed and the summary told after it.
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+  const auto close = [](std::FILE* file) { std::fclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> log(std::fopen(log_name.c_str(), "w"), close);
+  if (!log) {
+    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log_name, std::string(std::strerror(errno)));
+    return std::optional<Summary>();
+  }
+  options.outputs.csv = log.get();
+  servo_loop<Model, Port, Estimator, Clock> loop(model, device, estimator, options, clock);
+  const stop_on_signals ctrl_c(loop.control());
+  return std::optional<Summary>(loop.run());
+}
+
+// Prints the summary, with `range` of what moved; `log` is where the run was written to.
+inline ExitStatus conclude(const servo_summary& summary, const std::string& range, const std::string& log,
+                           Diagnostics& diagnostics) {
+  const int unwritten = summary.telemetry_error;
+  if (unwritten != 0)
+    diagnostics.report<DiagnosticCode::cannot_write_file>({}, log, std::string(std::strerror(unwritten)));
+  const bool has_log = is_admitted(summary.verdict) && unwritten == 0;
+  const bool sound = has_log && summary.left_safe && summary.faults.total() == 0;
+  const ExitStatus told =
+      write_standard_output(to_text(summary) + (has_log ? range + "log: " + log + "\n" : ""), diagnostics);
+  return sound ? told : ExitStatus::input_refused;
+}
+
+}  // namespace dashpot::compiler

@@ -13,22 +13,18 @@ namespace dashpot_check {
 using Integer = boost::multiprecision::cpp_int;
 using Rational = boost::multiprecision::cpp_rational;
 using Form = std::map<std::string, Rational>;  // a sum: coefficients by quantity, the constant under the empty name
+using Forms = std::map<std::string, Form>;
 using Matrix = std::vector<std::vector<Integer>>;
 using Storage = std::vector<std::vector<double>>;  // P, by rows up to the diagonal
 using Unknown = std::runtime_error;
-
-Form operator+(Form sum, const Form& other);
-Form operator*(const Rational& factor, Form form);
-Rational of(const Form& form, const std::string& name);
 
 // What a header computes in a sample, in exact arithmetic, while samples arrive and the motor is within its limit.
 struct Program {
   std::map<std::string, Rational> constants;  // and the states at rest
   std::vector<std::string> states;            // in the order of the text
-  std::map<std::string, Form> next;           // what they become, of the states, `position` and `velocity`
+  Forms next;                                 // what they become, of the states, `position` and `velocity`
   Form force;
 };
-Program program_of(const std::string& header);
 
 // What the certificate tells of the loop, in SI.
 struct Device {
@@ -45,9 +41,9 @@ struct Device {
 // of the law, and with an amplifier lag what the force still lacks at the sample, whose own decay is left out here.
 struct LoopForm {
   std::vector<std::string> states;
-  std::map<std::string, Form> next;  // of the states, w and, where the estimate divides by T itself, pace = w/T
-  Form force;                        // of the states [N]
-  Rational stiffness;                // k0 [N/m]
+  Forms next;          // of the states, w and, where the estimate divides by T itself, pace = w/T
+  Form force;          // of the states [N]
+  Rational stiffness;  // k0 [N/m]
 };
 LoopForm loop_form(Program program, const Device& device);
 

@@ -7,11 +7,9 @@
 
 int main(int count, char** words) {
   std::string texts[2];
-  for (int i : {0, 1}) {
-    std::ifstream file(count == 3 ? words[i + 1] : "");
-    if (!file) return std::cerr << "dashpot-check HEADER CERTIFICATE: two files that can be read\n", 2;
-    std::getline(file, texts[i], '\0');
-  }
+  for (int i : {0, 1})
+    if (std::ifstream file(count == 3 ? words[i + 1] : ""); file) std::getline(file, texts[i], '\0');
+    else return std::cerr << "dashpot-check HEADER CERTIFICATE: two files that can be read\n", 2;
   if (texts[0].starts_with('{')) std::swap(texts[0], texts[1]);  // the certificate came first
   const auto [status, said] = dashpot_check::verdict(texts[0], texts[1]);
   std::cout << said;

@@ -1,0 +1,455 @@
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "check.hpp"
+
+namespace dashpot_check {
+namespace {
+
+Form operator+(Form sum, const Form& other) {
+  for (const auto& [name, value] : other)
+    if ((sum[name] += value) == 0) sum.erase(name);
+  return sum;
+}
+Form operator*(const Rational& factor, Form form) {
+  for (auto& [name, value] : form) value *= factor;
+  return factor == 0 ? Form{} : form;
+}
+Rational of(const Form& form, const std::string& name) { return form.count(name) ? form.at(name) : Rational(0); }
+
+// What a header is made of, once it reads as below.
+const std::regex function(
+    R"((?:command<scalar>|void) (output|step|update)\((?:scalar position, scalar velocity)?\) \{ )");
+const std::regex declaration(R"((static constexpr )?(?:scalar|unsigned) (\w+)(?:\[(\d+)\])? = \{?)");
+const std::regex assignment(R"((const (?:scalar|vector) )?(\w+(?:\[\d+\])?) = |return \{damping, )");
+const std::regex loop(R"(for \(int i = 0; i < (\d+); i \+= (\d+)\) )"
+                      R"(for \(int j = i; j < i \+ \2; j \+= vector::width\) \{ ([^{}]*)\} )");
+const std::regex name(R"([A-Za-z_]\w*(\[\d+\])?)");
+const std::regex number(R"((-?(?:0|[1-9]\d*)(?:(\.\d*(?:e[-+]?\d+)?|e[-+]?\d+)(f?))?))");
+// What computes nothing, nothing of a sample, or nothing while samples arrive and no state is small.
+const std::regex frame(
+    R"( ?#pragma once (?:#include <dashpot/\w+\.hpp> )+namespace dashpot::generated \{ class \w+ \{ public: |private: |)"
+    R"(using scalar = (?:double|float); |struct certified_for \{ |struct parameters \{\}; |int \w+_turn_ = 0; |\}; |\} |)"
+    R"(static constexpr (?:bool|motion|const char\*) \w+ = [^;{}]*; |using vector = [^;]*; |if \(!sampled_\) return; |)"
+    R"(if \(!all_finite\([^;{}]*\)\) (?:return \{damping, 0\}; |\{ (?:sampled_ = false; )?return \{damping, 0\}; \} )|)"
+    R"((?:bool )?sampled_ = (?:true|false); |void reset\(scalar position = 0\) \{ (?:static_cast<void>\(position\); |)"
+    R"(last_position_ = all_finite\(position, position, position\) \? position : 0; )(?:\w+_ = (?:0|false); |)"
+    R"(clear\(\w+_\); )*\} |unsigned set\(const parameters&\) \{ return 0; \} |)"
+    R"(scalar \w+\(\) const \{ (?:[^{}]|\{[^{}]*\})*\} |template <int size> static void clear\(volatile scalar )"
+    R"(\(&states\)\[size\]\) \{ for \(int i = 0; i < size; \+\+i\) states\[i\] = 0; \} |command<scalar> )"
+    R"(step\(scalar position, scalar velocity\) \{ const command<scalar> now = output\(position, velocity\); )"
+    R"(update\(\); return now; \} |for \(int j = 0, first = (\w+_)turn_; j < (\d+); j \+= vector::width\) )"
+    R"(vector::put\(\1, first \+ j, \(vector::at\(\1, first \+ j\)\)\); \1turn_ \+= \2; )"
+    R"(\1turn_ = \1turn_ < \d+ \? \1turn_ : 0; )");
+
+// How a header reads: without remarks, with one space between words, and with the expressions that are left while the
+// motor is within its limit and nothing is flushed to zero.
+const std::pair<const char*, const char*> readings[] = {
+    {R"(//[^\n]*|DASHPOT_UNROLL| noexcept|alignas\(\d+\))", ""},
+    {R"(dashpot::(?!generated))", ""},
+    {R"(\s+)", " "},
+    {R"( - )", " + -1 * "},
+    {R"(partial_sums<[^;]*> lane; )", "const vector lane = 0; "},
+    {R"(lane\.add\(j \+ -1 \* i, )", "const vector lane = (lane + "},
+    {R"(lane\.total\(\))", "lane"},
+    {R"(vector::put\((\w+), j, )", "$1[j] = ("},
+    {R"(vector::at\((\w+), j\))", "$1[j]"},
+    {R"(relaxed\(threshold, (\w+), (\w+), )", "($1 * $2 + "},
+    {R"((vector::)?flush_below\(threshold, |clamp_to\(motor_limit, |vector::in_register\()", "("},
+    {R"(\(wanted \+ -1 \* force\) \* wanted > 0 \? force / wanted : all_kept)", "all_kept"},
+    {R"(rest_shift_ > 0 \? \(position > 0 \? \(rest_shift_ \+ -1 \* position > 0 \? position : rest_shift_\) : no_shift\))"
+     R"( : \(position > 0 \? no_shift : \(rest_shift_ \+ -1 \* position > 0 \? rest_shift_ : position\)\))",
+     "rest_shift_ + no_shift"}};
+
+class Header {
+ public:
+  explicit Header(std::string text) {
+    if (std::regex_search(text, std::regex(R"(\\\s|\?\?/|\r|/\*)"))) throw Unknown("a remark is not of one line");
+    for (const auto& [known, reading] : readings) text = std::regex_replace(text, std::regex(known), reading);
+    is_float_ = text.find("using scalar = float; ") != text.npos;
+    const std::size_t own = text.find("private: ");  // numbers and states, which are needed first
+    text_ = text.substr(own) + text.substr(0, own);
+    while (!text_.empty()) read_part();
+    for (auto* states : {&now_, &apart_})
+      std::erase_if(*states, [](const auto& of) { return of.first.starts_with("sampled_"); });
+    if (functions_ != "output update " && !(functions_ == "output update step " && apart_ == now_))
+      throw Unknown("step() is not output() and update()");
+    program.force = now_.extract("").mapped();
+    program.next = now_;
+  }
+  Program program;
+
+ private:
+  void read_part() {
+    if (take(frame)) return;
+    if (take(function)) {
+      functions_ += found_[1] + " ";
+      if (found_[1] == "output") at_rest_ = now_;
+      if (found_[1] == "step") apart_ = std::exchange(now_, at_rest_);
+    } else if (take(loop)) {
+      std::string all;
+      for (int j = 0, step = std::stoi(found_[2]); j % step != 0 || j < std::stoi(found_[1]); ++j)
+        all += std::regex_replace(found_[3], std::regex(R"(\[j\])"), "[" + std::to_string(j) + "]");
+      text_.insert(0, all);
+    } else if (take(declaration)) {  // of a constant, or of a state, which begins at zero
+      const bool is_state = found_[1].empty(), is_list = !found_[3].empty();
+      const std::string called = found_[2];
+      for (std::size_t i = 0, count = is_list ? std::stoul(found_[3]) : 1; i < count; ++i) {
+        const std::string cell = is_list ? called + "[" + std::to_string(i) + "]" : called;
+        const Rational value = is_list && text_[0] == '}' ? Rational(0) : literal();
+        if (!program.constants.emplace(cell, value).second || (is_state && value != 0)) refuse();
+        if (is_state) program.states.push_back(cell);
+        (is_state ? now_ : others_)[cell] = {{is_state ? cell : "", is_state ? 1 : value}};
+        if (is_list) take(", ");
+      }
+      expect(is_list ? "}; " : "; ");
+    } else {
+      if (!take(assignment) || (!found_[1].empty() && program.constants.contains(found_[2]))) refuse();
+      Form& to = found_[1].empty() ? now_.at(found_[2]) : others_[found_[2]];
+      const char* const end = found_[2].empty() ? "}; " : "; ";
+      to = sum();
+      expect(end);
+    }
+  }
+  Form sum() {
+    Form all, term = factor();
+    for (;;)
+      if (take(" + ")) all = all + std::exchange(term, factor());
+      else if (take(" * ")) term = product(term, factor());
+      else return all + term;
+  }
+  Form product(const Form& left, const Form& right) const {
+    if (left.size() == left.count("")) return of(left, "") * right;
+    return right.size() == right.count("") ? of(right, "") * left : (refuse(), Form());
+  }
+  Form factor() {
+    if (take(name)) return (now_.contains(found_[0]) ? now_ : others_).at(found_[0]);
+    if (!take("(")) return {{"", literal()}};
+    const Form value = sum();
+    return expect(")"), value;
+  }
+  Rational literal() {  // as a C++ compiler reads it
+    if (!take(number) || (!found_[2].empty() && is_float_ == found_[3].empty())) refuse();
+    const double value = is_float_ ? double(std::strtof(&found_[1][0], nullptr)) : std::strtod(&found_[1][0], nullptr);
+    return std::isfinite(value) ? Rational(value) : (refuse(), Rational());
+  }
+  bool take(const std::string& word) { return text_.starts_with(word) && (text_.erase(0, word.size()), true); }
+  bool take(const std::regex& pattern) {
+    std::smatch match;
+    if (!std::regex_search(text_, match, pattern, std::regex_constants::match_continuous)) return false;
+    found_.assign(match.begin(), match.end());
+    return take(found_[0]);
+  }
+  void expect(const std::string& word) { take(word) || (refuse(), false); }
+  [[noreturn]] void refuse() const { throw Unknown("this is not known: " + text_.substr(0, 60)); }
+
+  std::string text_, functions_;    // what has not been read; what was
+  std::vector<std::string> found_;  // by a pattern, with its parts
+  bool is_float_ = false;
+  // The states as they become, and what is returned; the same before output(), and by output() and update() alone.
+  Forms now_ = {{"", {{"", 1}}}}, at_rest_, apart_;
+  Forms others_ = {{"position", {{"position", 1}}}, {"velocity", {{"velocity", 1}}}};
+};
+
+Form substituted(const Form& form, const Forms& values) {
+  Form result;
+  for (const auto& [name, value] : form) result = std::move(result) + value * values.at(name);
+  return result;
+}
+std::string displacement(unsigned age) { return "q" + std::to_string(age); }
+Form add(LoopForm& loop, const std::string& state, const Form& next) {
+  loop.states.push_back(state), loop.next[state] = next;
+  return {{state, 1}};
+}
+
+// The velocity estimate in terms of the states after the sample; adds those that it has of its own. Its coefficients
+// are those of the certificate, which must be what the description says, to the rounding of doubles.
+Form estimate(const Device& device, LoopForm& loop) {
+  const std::string& kind = device.estimator;
+  const bool adapts = kind == "foaw", slope = adapts ? device.best_fit : kind == "least_squares";
+  std::size_t at = adapts ? device.chosen - 1 : 0;
+  const auto coefficient = [&](long double derived, long double off = 1e-13L) {
+    const double given = device.estimator_coefficients.at(at++);
+    if (std::fabs(given - derived) <= off * std::fabs(derived)) return Rational(given);
+    throw Unknown("a coefficient of the estimator is not what its description gives");
+  };
+  const long double T = device.sample_period;
+  const Form arriving = loop.next.at(displacement(device.delay_samples));
+  if (kind == "butterworth") {  // sections of two trapezoidal integrators
+    const unsigned order = device.order < 4 ? 2 : 4;
+    const long double turn = std::numbers::pi_v<long double>, warped = std::tan(turn * (device.cutoff * T));
+    Form value = coefficient(1 / T) * arriving;
+    const Rational g = coefficient(warped);
+    for (unsigned i = 0; i < order / 2; ++i) {
+      const long double k = 2 * std::sin(turn * (order - 1 - 2 * i) / (2 * order));
+      const std::string band = "band" + std::to_string(i), low = "low" + std::to_string(i);
+      const Rational solve = coefficient(1 / (1 + warped * (warped + k))), damped = coefficient(warped + k);
+      const Form high = solve * (value + Form{{band, -damped}, {low, -1}}), middle = Form{{band, 1}} + g * high;
+      value = Form{{low, 1}} + g * middle;
+      add(loop, band, middle + g * high), add(loop, low, value + g * middle);
+    }
+    return add(loop, "estimate", value);
+  }
+  if (kind == "kalman") {  // e ← Δ + r² e − T v̂, v̂ ← v̂ + (β/T) e
+    const long double L = device.acceleration * T * T * std::sqrt(12.0L) / device.joint_encoder_step;
+    const long double r = 4 / (4 + L + std::sqrt(8 * L + L * L)), gain = 2 * (1 - r) * (1 - r) / T;
+    const Rational period = coefficient(T), leak = coefficient(r * r), beta = coefficient(gain, 1e-14L / (1 - r));
+    const Form innovation = arriving + Form{{"innovation", leak}, {"estimate", -period}};
+    return add(loop, "innovation", innovation), add(loop, "estimate", Form{{"estimate", 1}} + beta * innovation);
+  }
+  if (kind == "interval_difference") {
+    if (device.jitter >= device.sample_period) throw Unknown("the estimate may divide by no time at all");
+    Form oldest = {{"pace", 1}};
+    for (unsigned age = 0; age <= device.delay_samples; ++age) oldest = add(loop, "pace" + std::to_string(age), oldest);
+    return oldest;
+  }
+  const bool is_one = kind == "difference of two samples";
+  if (!adapts && !slope && !is_one && kind != "backward_difference")
+    throw Unknown("nothing is known of the estimator " + kind);
+  if (adapts && device.amplifier_lag != 0)
+    throw Unknown("the window adapts, and the force that lacks is of two windows");
+  const unsigned longest = is_one ? 1 : std::max(device.window, 1u), n = adapts ? device.chosen : longest;
+  const Rational rate = coefficient((slope ? 6.0L / (n * (n + 1.0L) * (n + 2.0L)) : 1.0L / n) / T);
+  Form sum;
+  for (unsigned j = 0, age = device.delay_samples; j < longest; ++j, ++age) {
+    if (j > 0) add(loop, displacement(age), {{displacement(age - 1), 1}});
+    if (j < n) sum[displacement(age)] = rate * (slope ? (j + 1) * (n - j) : 1);
+  }
+  return sum;
+}
+
+// value · 2^digits, rounded down
+Integer whole(const Rational& value, unsigned digits) {
+  const Integer scaled = numerator(value) << digits, quotient = scaled / denominator(value);
+  return quotient * denominator(value) > scaled ? Integer(quotient - 1) : quotient;
+}
+constexpr unsigned kept_digits = 200;  // of what is eliminated
+constexpr unsigned rate_digits = 90;   // of what is no sum or product of doubles: decays, shares and rates
+Rational below(const Rational& value) { return Rational(whole(value, rate_digits), Integer(1) << rate_digits); }
+Rational above(const Rational& value) { return -below(-value); }
+
+// Not above and not below e^{−time/lag}: (1 − x/n)ⁿ and (1 + x/n)⁻ⁿ, of which the two differ by x²/n of themselves.
+std::pair<Rational, Rational> enclosed_decay(const Rational& time, const Rational& lag) {
+  if (lag == 0) return {0, 0};
+  constexpr unsigned squarings = 110, digits = 220;
+  const Rational part = time / lag / (Integer(1) << squarings);
+  Integer low = part < 1 ? whole(1 - part, digits) : Integer(0), high = whole(1 / (1 + part), digits) + 1;
+  for (unsigned i = 0; i < squarings; ++i) low = low * low >> digits, high = (high * high >> digits) + 1;
+  return {below(Rational(low, Integer(1) << digits)), above(Rational(high, Integer(1) << digits))};
+}
+
+// The inequality's matrix for one hold, over the states, w and ρ, on and below the diagonal: whole, because scaled by
+// 2^digits for each of three factors, but for b/T and b/(κT), which are rounded down.
+Matrix matrix_of(LoopForm loop, const Matrix& P, unsigned digits, const Rational& damping, const Hold& hold) {
+  const std::size_t n = P.size(), lags = hold.spread != 0;
+  if (lags) loop.next["lacking"]["lacking"] += hold.decay, loop.force["lacking"] += hold.share;
+  std::map<std::string, std::size_t> place = {{"w", n}, {"pace", n}};
+  for (const std::string& state : loop.states) place.emplace(state, place.size() - 2);
+  Matrix M(n + 1 + lags, std::vector<Integer>(n + 1 + lags)), A(n, std::vector<Integer>(n + 1));  // B last
+  for (const auto& [state, next] : loop.next)
+    for (const auto& [name, value] : next)
+      A[place.at(state)][place.at(name)] += whole(name == "pace" ? value * hold.rate : value, digits);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<Integer> PA(n + 1);  // a row of it
+    for (std::size_t l = 0; l < n; ++l)
+      for (std::size_t j = 0; j <= n; ++j)
+        if (A[l][j] != 0) PA[j] += P[k][l] * A[l][j];
+    for (std::size_t i = 0; i <= n; ++i)
+      for (std::size_t j = 0; j <= i && A[k][i] != 0; ++j) M[i][j] -= A[k][i] * PA[j];
+    for (std::size_t j = 0; j <= k; ++j) M[k][j] += P[k][j] << (2 * digits);
+  }
+  for (const auto& [name, value] : loop.force) M[n][place.at(name)] += whole(value / 2, 3 * digits);
+  M[n][n] += whole(damping / hold.longest - loop.stiffness / 2, 3 * digits);
+  if (lags) M[n + 1][n - 1] = whole(Rational(1, 2), 3 * digits);
+  if (lags) M[n + 1][n + 1] = whole(damping / hold.longest / hold.spread, 3 * digits);
+  return M;
+}
+
+// Whether M, which is read on and below the diagonal, is L D Lᵀ + R with D > 0 and R diagonally dominant, by
+// elimination, once its last binary digits are dropped. Entries are rounded, by less than one each time: until row k is
+// eliminated, all roundings in it come to less than n (k + 1), which R keeps of its diagonal.
+bool is_nonnegative(Matrix M, unsigned dropped) {
+  const std::size_t n = M.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n && M[i][i] <= 0; ++j)  // then all beside it has to be zero, as it is
+      if (M[std::max(i, j)][std::min(i, j)] != 0) return false;
+    if (M[i][i] == 0) M[i][i] = Integer(1) << (dropped + 2 * n);
+    for (std::size_t j = 0; j <= i; ++j) M[i][j] >>= dropped;
+  }
+  for (std::size_t k = 0; k < n; ++k) {
+    M[k][k] -= n * (k + 1);
+    if (M[k][k] <= 0) return false;
+    for (std::size_t i = k + 1; i < n; ++i)
+      for (std::size_t j = k + 1; j <= i; ++j) M[i][j] -= M[i][k] * M[j][k] / M[k][k];
+  }
+  return true;
+}
+
+// β of a motor that position alone drives, without lag: V⁺ − V ≤ m w + β w² with V = ½ k0 u² + Σ F²/(2 c) and
+// β = k0/2 + Σ c/(1 + a) + |the answer within a sample that no mode explains|; n samples late, β (1 + 2n).
+Rational hold_stiffness(const LoopForm& loop, const Device& device) {
+  const std::string drive = "q" + std::to_string(device.delay_samples);
+  Rational sum = loop.stiffness / 2, left = of(loop.force, drive);
+  if (device.amplifier_lag != 0 || loop.stiffness < 0) throw Unknown("the amplifier lags, or the spring pushes");
+  for (std::size_t i = device.delay_samples + 1; i < loop.states.size(); ++i) {
+    const Form& next = loop.next.at(loop.states[i]);
+    const Rational a = of(next, loop.states[i]), d = of(next, drive);
+    if (next.size() != (a == 0 ? 1u : 2u) || a < 0 || a >= 1 || d <= 0 || of(loop.force, loop.states[i]) != 1)
+      throw Unknown("'" + loop.states[i] + "' is not a mode that relaxes and that position alone drives");
+    sum += a == 0 ? d : Rational(d / (a + a * a)), left -= a == 0 ? Rational(0) : Rational(d / a);
+  }
+  return (sum + abs(left)) * (1 + 2 * device.delay_samples);
+}
+
+}  // namespace
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Device, sample_period, jitter, amplifier_lag, cutoff, acceleration,
+                                   joint_encoder_step, delay_samples, window, order, best_fit, estimator,
+                                   estimator_coefficients)
+
+LoopForm loop_form(Program program, const Device& device) {
+  if (device.delay_samples > 1000 || device.window > 1000) throw Unknown("more than a thousand samples are remembered");
+  auto& next = program.next;
+  next[""] = program.force;
+  const auto stays_at_zero = [](const auto& of) { return of.second.size() == of.second.count(of.first); };
+  for (auto at = next.begin(); (at = std::ranges::find_if(next, stays_at_zero)) != next.end(); next.erase(at))
+    for (auto& [other, form] : next) form.erase(at->first);
+  LoopForm loop;
+  Form position = {{"u", 1}};  // when the law saw it
+  for (unsigned age = 0; age <= device.delay_samples; ++age)
+    add(loop, displacement(age), {{age == 0 ? "w" : displacement(age - 1), 1}});
+  for (unsigned age = 0; age < device.delay_samples; ++age) position[displacement(age)] = -1;
+  const Form drive = {{displacement(device.delay_samples), 1}}, seen = {{"position", 1}};
+  Form sum, all;  // of the states but for a last position, and of what they become
+  for (const auto& [state, form] : next)
+    if (!state.empty() && form != seen) sum[state] = 1, all = std::move(all) + form;
+  Forms values = {{"position", position}};
+  if (std::ranges::any_of(next, [](const auto& of) { return of.second.contains("velocity"); }))
+    values["velocity"] = estimate(device, loop);
+  for (const std::string& state : program.states) {
+    if (!next.contains(state)) continue;
+    if (next[state] == seen) values[state] = position + Rational(-1) * drive;
+    else if (!all.count(state) && all == Rational(2) * next[state])
+      values[state] = sum + Form{{state, -1}};  // of the rest
+    else values[state] = add(loop, state, next[state]);
+  }
+  for (auto& [state, form] : loop.next)
+    if (next.count(state)) form = substituted(form, values);
+  loop.force = substituted(next[""], values);
+  loop.stiffness = of(loop.force, "u");
+  loop.force.erase("u");
+  if (device.amplifier_lag == 0) return loop;
+  values = loop.next, values["w"] = {{"w", 1}};
+  add(loop, "lacking", loop.force + Form{{"w", -loop.stiffness}} + Rational(-1) * substituted(loop.force, values));
+  return loop;
+}
+
+std::vector<Hold> holds(const Device& device) {
+  const Rational period = device.sample_period, late = device.jitter, lag = device.amplifier_lag;
+  if (period <= 0 || late < 0 || lag < 0) throw Unknown("a time is negative");
+  const Rational first = std::max(Rational(period - late), Rational(0));
+  const bool divides = device.estimator == "interval_difference" && first > 0;
+  const int parts = late == 0 || lag == 0 ? 1 : 6;
+  std::vector<Hold> holds;
+  for (int i = 0; i < parts; ++i) {
+    const Rational step = (period + late - first) / parts, shortest = first + step * i, longest = shortest + step;
+    const auto [low, high] = enclosed_decay(longest, lag);
+    const Rational part = lag / longest, spread = (1 - low) * part * ((1 + high) / 2 - (1 - high) * part);
+    std::vector<Rational> rates = {1 / longest};
+    if (divides) rates = {below(rates[0]), above(1 / shortest)};
+    for (const Rational& decay : std::set{low, enclosed_decay(shortest, lag).second})
+      for (const Rational& share : std::set{below((1 - high) * part), above((1 - low) * part)})
+        for (const Rational& rate : rates) holds.push_back({1 / rate, decay, share, spread, rate});
+  }
+  return holds;
+}
+
+bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping) {
+  const unsigned choices = device.estimator == "foaw" ? std::max(device.window, 1u) : 1;
+  for (device.chosen = 1; device.chosen <= choices; ++device.chosen) {
+    const LoopForm loop = loop_form(program, device);
+    const std::size_t n = loop.states.size();
+    auto forms = loop.next;
+    forms[""] = loop.force;
+    unsigned digits = kept_digits;  // those of P are cut off, which makes another P of it
+    for (const auto& [state, form] : forms)
+      for (const auto& [name, value] : form)
+        digits = std::max(digits, msb(denominator(value)) + (name == "pace" ? rate_digits : 0));
+    Matrix P(n, std::vector<Integer>(n));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j) P[i][j] = P[j][i] = whole(storage.at(i).at(j), digits);
+    bool holds_for_all = loop.stiffness >= 0 && is_nonnegative(P, digits - kept_digits);
+    for (const Hold& hold : holds(device))
+      holds_for_all =
+          holds_for_all && is_nonnegative(matrix_of(loop, P, digits, damping, hold), 3 * digits - kept_digits);
+    if (!holds_for_all) return false;
+  }
+  return true;
+}
+
+std::pair<int, std::string> verdict(const std::string& header, const std::string& certificate) try {
+  const nlohmann::json all = nlohmann::json::parse(certificate);
+  const auto &passivity = all.at("passivity"), &stated = all.at("loop"), &storage = all.at("storage");
+  if (passivity.at("any_regime").get<bool>() || passivity.at("any_value").get<bool>())
+    throw Unknown("the law has slips, a contact or values that change, and only linear laws are known here");
+  const auto number = [](const nlohmann::json& of, const char* name) { return Rational(of.at(name).get<double>()); };
+  const auto require = [](bool holds, const char* otherwise) {
+    if (!holds) throw std::domain_error(otherwise);
+  };
+  const Program program = Header(header).program;
+  Device device = stated;
+  const Rational needed = number(passivity, "needed_damping"), said = program.constants.at("sample_period");
+  const bool is_punctual = passivity.at("constant_period_only"), is_certified = passivity.at("certified");
+  if (is_punctual) device.jitter = 0;
+  const Rational longest = Rational(device.sample_period) + device.jitter;
+  require(said == device.sample_period || said == float(device.sample_period), "the sample periods differ");
+  require(program.constants.at("loop_delay") == device.delay_samples, "the delays differ");
+  if (passivity.at("proof") == "hold")
+    require(needed >= hold_stiffness(loop_form(program, device), device) * longest,
+            "the hold certificate asks for more damping");
+  else
+    require(!storage.is_null() && proves(program, device, storage.at("matrix"), needed),
+            "no storage function proves the damping that is stated");
+  // Of what the brake gives, the share that is left at the largest speed, v / v_critical.
+  const Rational critical = number(stated, "critical_speed"), fastest = number(stated, "largest_speed");
+  const Rational slow = critical * critical, fast = fastest * fastest;
+  const Rational share = critical == 0 ? Rational(1) : fastest == 0 ? Rational(0) : Rational(slow / (slow + fast));
+  const Rational told = share * (1 - number(stated, "brake_tolerance"));
+  const Rational assured = told * program.constants.at("damping") + share * number(stated, "residual_damping") +
+                           number(stated, "device_damping");
+  require(assured >= needed || !is_certified, "the brake does not surely give the damping that is needed");
+  require(assured * (1 + Rational(1e-12)) >= number(passivity, "assured_damping"), "less is assured");
+  if (!passivity.at("minimum_damping").is_null())
+    require(assured + told * number(passivity, "minimum_damping") >= needed, "more would have to be added");
+  std::ostringstream words;
+  words.precision(17);
+  words << "proved: with a damping of " << needed.convert_to<double>()
+        << " at the tool, no motion takes energy out of the loop, for holds of "
+        << (is_punctual ? "one length, " : "any lengths up to ") << longest.convert_to<double>() << " s\n"
+        << (is_certified ? "proved: brake and device surely give as much\n"
+                         : "not proved: that as much damping is there\n");
+  if (assured > needed)  // e u̇ ≤ e²/4x + x u̇², x of the damping being left over
+    words << "proved: " << Rational(assured - needed).convert_to<double>()
+          << " more than that is there; if rounding puts the held force off by e, that brings in at most "
+          << Rational(1 / (4 * (assured - needed))).convert_to<double>() << " e^2 a second\n";
+  words
+      << R"(assumed: exact arithmetic in output(), update() and step(), no state that is flushed to zero, and a motor within its
+  limits; delay, lag, estimator and damping of the device as the certificate states them
+not proved here: that the constants are those of the network, the remarks and the other functions of the header,
+  what the encoder's steps and the motor's limits add, and by how much rounding puts the force off
+)";
+  return {0, words.str()};
+} catch (const std::domain_error& refuted) {
+  return {1, std::string("not proved: ") + refuted.what() + "\n"};
+} catch (const std::out_of_range&) {
+  return {3, "not proved here: a name or a place is used that is not there\n"};
+} catch (const std::exception& unknown) {
+  return {3, std::string("not proved here: ") + unknown.what() + "\n"};
+}
+
+}  // namespace dashpot_check

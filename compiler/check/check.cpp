@@ -69,7 +69,8 @@ const std::pair<const char*, const char*> readings[] = {
 class Header {
  public:
   explicit Header(std::string text) {
-    if (std::regex_search(text, std::regex(R"(\\\s|\?\?/|\r|/\*)"))) throw Unknown("a remark is not of one line");
+    if (std::regex_search(text, std::regex(R"(\\\s|\?\?/|\r|/\*|(^|\n)[^\n/]*"[^\n]*//)")))
+      throw Unknown("a remark is not of one line");
     for (const auto& [known, reading] : readings) text = std::regex_replace(text, std::regex(known), reading);
     is_float_ = text.find("using scalar = float; ") != text.npos;
     const std::size_t own = text.find("private: ");  // numbers and states, which are needed first
@@ -95,7 +96,11 @@ class Header {
       std::string all;
       for (int j = 0, step = std::stoi(found_[2]); j % step != 0 || j < std::stoi(found_[1]); ++j)
         all += std::regex_replace(found_[3], std::regex(R"(\[j\])"), "[" + std::to_string(j) + "]");
-      text_.insert(0, all);
+      const std::string after = std::exchange(text_, all);
+      Forms outside = others_;  // where names that the loop declares mean what they meant, but for sums over it
+      while (!text_.empty()) read_part();
+      if (others_.contains("lane")) outside["lane"] = others_["lane"];
+      others_ = outside, text_ = after;
     } else if (take(declaration)) {  // of a constant, or of a state, which begins at zero
       const bool is_state = found_[1].empty(), is_list = !found_[3].empty();
       const std::string called = found_[2];

@@ -47,7 +47,12 @@ CODE = [("position_change = position - last_position_", "position_change = posit
         ("scalar last_position_ = 0;", "scalar last_position_ = 0; static inline int more = 0;"),
         ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 050.0;"),
         ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 5.0f;"),
-        ("B2_K2_decay, B2_K2_force_,", "B1_K1_decay, B2_K2_force_,")]
+        ("B2_K2_decay, B2_K2_force_,", "B1_K1_decay, B2_K2_force_,"),
+        ('device = "ideal";', 'device = "//"; static inline int more = 0;')]
+# A name that means another thing in a loop than after it, where `kept` is what it says before.
+SHADOWED = [("    const vector sampled_position_change =", "    const scalar kept = KEPT;\n    const vector sampled_position_change ="),
+            ("        vector::put(mode_force_, j, vector::at(mode_gain", "        const vector kept = 1;\n        vector::put(mode_force_, j, vector::at(mode_gain"),
+            ("last_position_ = sampled_position_;", "last_position_ = sampled_position_ * kept;")]
 # Edits of a certificate, each of which makes a false statement of it, or a proof of none.
 FALSE = {"less is needed": lambda c: c["passivity"].update(needed_damping=c["passivity"]["needed_damping"] * (1 - 1e-7)),
          "the hold certificate": lambda c: c["passivity"].update(proof="hold"),
@@ -220,6 +225,16 @@ class CheckTest(CommandTest):
         for old, new in CODE:
             self.assertIn(old, header)
             self.assertFalse(self.accepts(header.replace(old, new, 1), certificate), new)
+
+    # What a loop declares would be taken for what has that name after it.
+    def test_scopes(self):
+        header, certificate = self.compiled([TWENTY])
+        for kept in "10":
+            edited = header
+            for old, new in SHADOWED:
+                self.assertIn(old, edited)
+                edited = edited.replace(old, new.replace("KEPT", kept), 1)
+            self.assertEqual(self.accepts(edited, certificate), kept == "1")
 
     def adaptive_device(self, **edits):
         device = json.loads(PANTOGRAPH.read_text())

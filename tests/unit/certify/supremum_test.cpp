@@ -1,11 +1,12 @@
-// The bound over all frequencies against the condition itself in 50 digits, where doubles lose theirs: slow and fast
+// The bound over all frequencies against the condition itself in 60 digits, where doubles lose theirs: slow and fast
 // modes, estimators whose poles lie next to 1 or to −1.
 #include <gtest/gtest.h>
 
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <dashpot/estimators/kalman.hpp>
 
 #include "certify/storage_function.hpp"
-#include "linear/real.hpp"
+#include "linear/real_traits.hpp"
 #include "motors.hpp"
 #include "support/random.hpp"
 #include "support/repetitions.hpp"
@@ -16,43 +17,45 @@ namespace {
 using dashpot::testing::Random;
 using dashpot::testing::repetitions;
 
+using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>, boost::multiprecision::et_off>;
+
 struct Exact {
-  Real real = 0, imaginary = 0;
+  Digits real = 0, imaginary = 0;
   friend Exact operator+(const Exact& x, const Exact& y) { return {x.real + y.real, x.imaginary + y.imaginary}; }
   friend Exact operator-(const Exact& x, const Exact& y) { return {x.real - y.real, x.imaginary - y.imaginary}; }
   friend Exact operator*(const Exact& x, const Exact& y) {
     return {x.real * y.real - x.imaginary * y.imaginary, x.real * y.imaginary + x.imaginary * y.real};
   }
   friend Exact operator/(const Exact& x, const Exact& y) {
-    const Real square = y.real * y.real + y.imaginary * y.imaginary;
+    const Digits square = y.real * y.real + y.imaginary * y.imaginary;
     return {(x.real * y.real + x.imaginary * y.imaginary) / square,
             (x.imaginary * y.real - x.real * y.imaginary) / square};
   }
-  Real square() const { return real * real + imaginary * imaginary; }
+  Digits square() const { return real * real + imaginary * imaginary; }
 };
 
-Real half_turn() { return 4 * atan(Real(1)); }
+Digits half_turn() { return 4 * atan(Digits(1)); }
 
 // E(z) as the runtime's headers state it: Butterworth's sections by the bilinear transform, 1/(1 + k s + s²) with
 // s = (1 − w)/(g (1 + w)), of the one-sample difference; the filter in its steady state by its recursion.
 Exact estimate(const SampledLoop& loop, const Exact& w) {
-  const Exact one{1, 0}, difference = (one - w) * Exact{1 / Real(loop.sample_period), 0};
+  const Exact one{1, 0}, difference = (one - w) * Exact{1 / Digits(loop.sample_period), 0};
   const velocity_description& v = loop.velocity;
   if (v.estimator == estimator_kind::backward_difference) {
     Exact sum, power = one;
     for (unsigned i = 0; i < v.window; ++i, power = power * w) sum = sum + power;
-    return difference * sum * Exact{1 / Real(v.window), 0};
+    return difference * sum * Exact{1 / Digits(v.window), 0};
   }
   if (v.estimator == estimator_kind::kalman) {
     const kalman<double> filter(v.acceleration, loop.joint_encoder_step, loop.sample_period);
-    const Real leak = filter.leak(), gain = filter.beta() / loop.sample_period;  // as rounded in the recursion
-    const Real sum = 1 + leak - gain * Real(loop.sample_period);
+    const Digits leak = filter.leak(), gain = filter.beta() / loop.sample_period;  // as rounded in the recursion
+    const Digits sum = 1 + leak - gain * Digits(loop.sample_period);
     return Exact{gain, 0} * (one - w) / (one - Exact{sum, 0} * w + Exact{leak, 0} * w * w);
   }
-  const Real g = tan(half_turn() * Real(v.cutoff) * Real(loop.sample_period));
+  const Digits g = tan(half_turn() * Digits(v.cutoff) * Digits(loop.sample_period));
   Exact response = difference;
   for (unsigned i = 0; i < v.order / 2; ++i) {
-    const Real k = 2 * sin(half_turn() * Real(v.order - 1 - 2 * i) / Real(2 * v.order));
+    const Digits k = 2 * sin(half_turn() * Digits(v.order - 1 - 2 * i) / Digits(2 * v.order));
     const Exact up = one + w, down = one - w;
     const Exact denominator = up * up * Exact{g * g, 0} + Exact{k * g, 0} * up * down + down * down;
     response = response * up * up * Exact{g * g, 0} / denominator;
@@ -61,13 +64,13 @@ Exact estimate(const SampledLoop& loop, const Exact& w) {
 }
 
 // Colgate & Schenkel's condition; with lag the eigenvalue of the form of needed_damping.hpp.
-Real needed_in_digits(const MotorConstants& motor, const SampledLoop& loop, const Real& angle) {
+Digits needed_in_digits(const MotorConstants& motor, const SampledLoop& loop, const Digits& angle) {
   const Exact w{cos(angle), -sin(angle)}, one{1, 0};
-  const Real half = sin(angle / 2);
+  const Digits half = sin(angle / 2);
   const Exact delta{2 * half * half, sin(angle)};
   Exact from_position{motor.step_stiffness, 0}, from_velocity{motor.velocity_gain, 0};
   for (const MotorMode& mode : motor.modes) {
-    const Real decay = motor.loss_is_emitted ? 1 - Real(mode.loss) : Real(mode.decay);
+    const Digits decay = motor.loss_is_emitted ? 1 - Digits(mode.loss) : Digits(mode.decay);
     const Exact memory = w / (one - Exact{decay, 0} * w);
     from_position = from_position + Exact{mode.position_drive, 0} * memory;
     from_velocity = from_velocity + Exact{mode.velocity_drive, 0} * memory;
@@ -75,34 +78,43 @@ Real needed_in_digits(const MotorConstants& motor, const SampledLoop& loop, cons
   Exact H = Exact{motor.static_stiffness, 0} + delta * from_position;
   if (motor.follows_estimate()) H = H + estimate(loop, w) * from_velocity;
   for (unsigned i = 0; i < loop.delay_samples; ++i) H = H * w;
-  const Real T = loop.sample_period, held = T * (delta * H).real / delta.square();
+  const Digits T = loop.sample_period, held = T * (delta * H).real / delta.square();
   if (loop.amplifier_lag == 0) return held;
-  const Real y = T / Real(loop.amplifier_lag), q = exp(-y), p = (1 - q) / y, spread = p * ((1 + q) / 2 - p);
+  const Digits y = T / Digits(loop.amplifier_lag), q = exp(-y), p = (1 - q) / y, spread = p * ((1 + q) / 2 - p);
   const Exact lagged = w * H / (one - Exact{q, 0} * w);
-  const Real R = held + p * T * lagged.real;
-  const Real Z = spread * T * T * H.square() / (one - Exact{q, 0} * w).square();
+  const Digits R = held + p * T * lagged.real;
+  const Digits Z = spread * T * T * H.square() / (one - Exact{q, 0} * w).square();
   return (R + sqrt(R * R + Z)) / 2;
 }
 
+struct Peak {
+  Digits angle, needed;
+  Digits fastest;  // the largest angle seen at which all of it is needed but a thousandth
+};
+
 // The highest of angles spread over the decades next to rest and next to Nyquist, and what lies around it.
-Real highest_in_digits(const MotorConstants& motor, const SampledLoop& loop, int points) {
-  std::vector<Real> angles;
+Peak peak_in_digits(const MotorConstants& motor, const SampledLoop& loop, int points) {
+  std::vector<Digits> angles;
   for (int i = 0; i <= points; ++i) {
-    const Real share = pow(Real(10), Real(-14) * i / points);
+    const Digits share = pow(Digits(10), Digits(-14) * i / points);
     angles.push_back(half_turn() * share);
     angles.push_back(half_turn() * (1 - share / 2));
     if (i > 0) angles.push_back(half_turn() * i / points);
   }
-  Real best = angles.front(), most = needed_in_digits(motor, loop, best);
-  for (const Real& angle : angles)
-    if (const Real here = needed_in_digits(motor, loop, angle); here > most) most = here, best = angle;
-  const Real reach = std::min(best, Real(half_turn() - best));
-  for (Real step = (reach > 0 ? reach : best) / 4; step > 1e-12 * best; step *= Real(0.6))
-    for (const Real& angle : {Real(best - step), Real(best + step)}) {
-      if (angle <= 0 || angle > half_turn()) continue;
-      if (const Real here = needed_in_digits(motor, loop, angle); here > most) most = here, best = angle;
-    }
-  return most;
+  Peak peak = {angles.front(), needed_in_digits(motor, loop, angles.front()), 0};
+  std::vector<std::pair<Digits, Digits>> seen;
+  const auto look_at = [&](const Digits& angle) {
+    seen.emplace_back(angle, needed_in_digits(motor, loop, angle));
+    if (seen.back().second > peak.needed) peak.angle = angle, peak.needed = seen.back().second;
+  };
+  for (const Digits& angle : angles) look_at(angle);
+  const Digits reach = std::min(peak.angle, Digits(half_turn() - peak.angle));
+  for (Digits step = (reach > 0 ? reach : peak.angle) / 4; step > 1e-12 * peak.angle; step *= Digits(0.6))
+    for (const Digits& angle : {Digits(peak.angle - step), Digits(peak.angle + step)})
+      if (angle > 0 && angle <= half_turn()) look_at(angle);
+  for (const auto& [angle, needed] : seen)
+    if (needed >= 0.999 * peak.needed) peak.fastest = std::max(peak.fastest, angle);
+  return peak;
 }
 
 MotorConstants extreme_motor(Random& random, double period) {
@@ -140,11 +152,11 @@ void expect_supremum_of(const MotorConstants& motor, const SampledLoop& loop, in
   ASSERT_TRUE(factors);
   const NeededDamping needed(motor, loop, *factors);
   const SampledBound bound = sampled_bound(needed, loop.sample_period);
-  const Real most = highest_in_digits(motor, loop, points);
-  EXPECT_GE(Real(bound.needed), most);
+  const Digits most = peak_in_digits(motor, loop, points).needed;
+  EXPECT_GE(Digits(bound.needed), most);
   // Ill-conditioned terms are known to their rounding, times the number of operations on them.
   const double margin = std::max(1e-9, 8 * needed.roundoff()) * needed.scale();
-  EXPECT_LE(bound.needed, std::max(to_double(most), 0.0) * (1 + looseness) + margin);
+  EXPECT_LE(bound.needed, std::max(most.convert_to<double>(), 0.0) * (1 + looseness) + margin);
 }
 
 TEST(Supremum, IsMetByRandomMotorsToTheEndsOfTheirRanges) {
@@ -159,11 +171,53 @@ TEST(Supremum, IsMetByRandomMotorsToTheEndsOfTheirRanges) {
   }
 }
 
+using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
+// Of the energy that `damping` takes up, the share that a motion gets out beyond it: from rest, w_k = cos(kθ) over as
+// many holds as it takes, 2ⁿ of them; within a hold the tool moves evenly, but with an amplifier's lag as the force
+// that it lacks, e, makes worst, ρ = −e κT/2b (check.hpp). What is left in the static spring at the end counts as lost.
+// The energy is a quadratic form in the law's states and the motion's two, which 2ⁿ holds carry as n squarings.
+double extracted_share(const MotorConstants& motor, const SampledLoop& loop, double damping, const Digits& angle) {
+  const dashpot_check::LoopForm form = dashpot_check::loop_form(checked_program(motor), checked_device(loop));
+  const auto exact = [](const dashpot_check::Rational& value) {
+    return Real(numerator(value)) / Real(denominator(value));
+  };
+  const Eigen::Index n = Eigen::Index(form.states.size()), w = n, u = n + 2;
+  std::map<std::string, Eigen::Index> place = {{"w", w}};
+  for (Eigen::Index i = 0; i < n; ++i) place[form.states[std::size_t(i)]] = i;
+  const Real T = loop.sample_period, b = damping, k0 = exact(form.stiffness);
+  Square step = Square::Zero(n + 3, n + 3), work = step, dissipated = step, spring = step;
+  for (const auto& [state, next] : form.next)
+    for (const auto& [name, value] : next) step(place.at(state), place.at(name)) += exact(value);
+  step(w, w) = step(w + 1, w + 1) = Real(cos(angle));
+  step(w + 1, w) = Real(sin(angle)), step(w, w + 1) = -step(w + 1, w);
+  step(u, u) = step(u, w) = 1;
+  for (const auto& [name, value] : form.force)
+    work(w, place.at(name)) += exact(value) / 2, work(place.at(name), w) += exact(value) / 2;
+  work(w, w) -= k0 / 2, dissipated(w, w) += b / T, spring(u, u) = k0 / 2;
+  if (loop.amplifier_lag > 0) {
+    const Real x = T / Real(loop.amplifier_lag), q = exp(-x), p = (1 - q) / x,
+               rho = -p * ((1 + q) / 2 - p) * T / (2 * b);
+    const Eigen::Index e = n - 1;
+    step(e, e) += q, work(w, e) += p / 2, work(e, w) += p / 2;
+    work(e, e) += rho, dissipated(e, e) -= rho / 2;
+  }
+  Real most = 0;
+  for (int doubling = 0; doubling < 64 && most < 0.04; ++doubling) {
+    const Real stored = (step.transpose() * spring * step)(w, w), taken = dissipated(w, w);
+    if (taken > 0) most = std::max(most, Real(-(work(w, w) + taken + stored) / taken));
+    work += Square(step.transpose() * work * step), dissipated += Square(step.transpose() * dissipated * step);
+    step = Square(step * step);
+  }
+  return most.convert_to<double>();
+}
+
 // A storage function would prove less damping than some frequency needs, or the statement ask for more than 1e-8 beyond
-// it.
+// it; or with 0.95 of what is proved there would be no motion that gets energy out of the loop: of a sinusoid in its
+// steady state (1/0.95 − 1) of what the damping takes up, and of no motion more.
 TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) {
-  const std::uint64_t cases = repetitions(60, 5000);
-  std::uint64_t proved = 0, nearly = 0;
+  const std::uint64_t cases = repetitions(40, 5000);
+  std::uint64_t proved = 0, nearly = 0, needed = 0, extracted = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 17000);
@@ -172,14 +226,20 @@ TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) {
     const std::optional<StorageProof> proof = estimator_factors(loop) ? storage_proof(motor, loop) : std::nullopt;
     if (!proof) continue;
     ++proved;
-    const Real most = highest_in_digits(motor, loop, 120);
-    EXPECT_GE(Real(proof->damping), most);
-    nearly += proof->damping <= most * (1 + 1e-8) ? 1 : 0;
+    const Peak peak = peak_in_digits(motor, loop, 120);
+    EXPECT_GE(Digits(proof->damping), peak.needed);
+    nearly += proof->damping <= peak.needed * (1 + 1e-8) ? 1 : 0;
+    if (peak.needed <= 0) continue;
+    ++needed;
+    const double share = extracted_share(motor, loop, 0.95 * proof->damping, peak.fastest);
+    EXPECT_LE(share, 1 / 0.95 - 1 + 1e-8);
+    extracted += share >= 0.04 ? 1 : 0;
   }
-  RecordProperty("proved", int(proved));
-  RecordProperty("within 1e-8", int(nearly));
+  std::printf("%d proved, %d of them within 1e-8 of the supremum; 0.95 of it is too little for a motion in %d of %d\n",
+              int(proved), int(nearly), int(extracted), int(needed));
   EXPECT_GE(proved, cases * 9 / 10);
   EXPECT_GE(nearly, proved * 9 / 10);
+  EXPECT_GE(extracted, needed * 95 / 100);
 }
 
 // A pole of the filter next to −1 would keep no digits, and the bound fall below the supremum.

@@ -353,6 +353,8 @@ class Chooser {
     for (const std::vector<Role>& group : needed()) {
       if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
       find_one_of(group);
+      const bool is_found = std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); });
+      if (!is_found && has_unknown_unit(group)) return;
     }
     if (!has(Role::deviation) && candidates(Role::deviation).size() == 1) take_quietly(Role::deviation);
   }
@@ -360,6 +362,22 @@ class Chooser {
   void take_quietly(Role role) {
     const TableColumn& column = columns_[candidates(role).front()];
     if (column.unit) take({role, column.title, false, 0, {}});
+  }
+
+  // A column that is plainly one of these, in a unit that is not known: no command line is right for that.
+  bool has_unknown_unit(const std::vector<Role>& group) {
+    for (const Role role : group)
+      for (const TableColumn& column : columns_) {
+        const RoleRule& rule = rule_of(role);
+        const bool is_named =
+            std::find(rule.names.begin(), rule.names.end(), letters_of(column.name)) != rule.names.end();
+        if (!is_named || !column.unit || unit_in(*column.unit)) continue;
+        diagnostics_.report<DiagnosticCode::recording_wrong_unit>({}, column.title, *column.unit, rule.word,
+                                                                  rule.likely_unit);
+        diagnostics_.note<DiagnosticCode::recording_columns_remedy>({}, words_of_columns(), words_of_needed());
+        return true;
+      }
+    return false;
   }
 
   // The first role of the group that has a column: force before stress.

@@ -101,7 +101,14 @@ void find_header(TableShape& shape, const std::vector<HeadLine>& head) {
   }
   const auto fits = [&](std::size_t i) { return i < above.size() && above[i].size() == shape.width; };
   if (!fits(0)) return;
-  const bool are_units = std::all_of(above[0].begin(), above[0].end(), [](const auto& f) { return is_unit(f); });
+  // Below names most of them do, and what is none is one that is not known.
+  const auto units = std::count_if(above[0].begin(), above[0].end(), [](const auto& f) { return is_unit(f); });
+  const auto names = [](const std::vector<std::string>& line) {
+    return std::count_if(line.begin(), line.end(), [](const auto& f) { return !is_unit(f); });
+  };
+  const bool are_units =
+      static_cast<std::size_t>(units) == shape.width ||
+      (2 * static_cast<std::size_t>(units) > shape.width && fits(1) && names(above[1]) > names(above[0]));
   if (are_units && fits(1)) shape.units = above[0], shape.names = above[1];
   else shape.names = above[0];
 }

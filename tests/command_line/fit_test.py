@@ -319,6 +319,16 @@ int main() {
             self.assertEqual(plain.replace("plain.json", ""), asked.replace(f"{option} ", "").replace("asked.json", ""))
             self.refused("fit", "table.csv", "--columns", "time=time", "-o", "not.json", code="recording-column-missing")
 
+    def test_a_unit_that_is_not_known(self):
+        """Fails if a row of units with one that is not known is taken for names, whose units are then made up."""
+        rows = recording().splitlines()[1:]
+        for units, column, unit in (("fortnights,mm,mN", "Time", "fortnights"), ("min,mm,gf", "Force", "gf")):
+            self.write("units.csv", "\n".join(["Time,Displacement,Force", units, *rows]) + "\n")
+            done = self.refused("fit", "units.csv", "-o", "not.json", code="recording-wrong-unit")
+            self.assertIn(f"column '{column}' in '{unit}'", done.stderr)
+            for made_up in ("=mm", "=mN", "=min", "=gf", "=fortnights", "[recording-answer]"):
+                self.assertNotIn(made_up, done.stderr)
+
     def test_a_line_without_end(self):
         """Fails if a line is read for as long as it lasts."""
         self.write("endless.csv", "time [s],position [mm],force [N]\n" + "1" * (3 << 20))

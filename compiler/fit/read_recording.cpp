@@ -189,6 +189,9 @@ class RecordingReader {
       ++count;
     };
     for_each_field(line, take);
+    // A delimiter ends the last field, or stands before one that is empty: the width tells.
+    if (count + 1 == shape_.width && shape_.dialect.delimiter != ' ' && line.ends_with(shape_.dialect.delimiter))
+      take(line.substr(line.size()));
     if (count != shape_.width) return report_width(line, number, count);
     if (is_whole && is_in_order(row, line, number)) add(row, number);
   }

@@ -329,6 +329,16 @@ int main() {
             for made_up in ("=mm", "=mN", "=min", "=gf", "=fortnights", "[recording-answer]"):
                 self.assertNotIn(made_up, done.stderr)
 
+    def test_an_empty_last_field(self):
+        """Fails if a row whose last field is empty is said to be short of it; or a row that only ends with a comma is refused."""
+        rows = recording().splitlines()
+        self.write("open.csv", "\n".join(rows[:50] + [rows[50].rsplit(",", 1)[0] + ","] + rows[51:]) + "\n")
+        done = self.refused("fit", "open.csv", "-o", "not.json", code="recording-not-a-number")
+        self.assertIn("force", done.stderr)
+        self.assertNotIn("[recording-field-count]", done.stderr)
+        self.write("commas.csv", "\n".join([rows[0]] + [row + "," for row in rows[1:]]) + "\n")
+        self.fit("commas.csv")
+
     def test_a_line_without_end(self):
         """Fails if a line is read for as long as it lasts."""
         self.write("endless.csv", "time [s],position [mm],force [N]\n" + "1" * (3 << 20))

@@ -94,8 +94,7 @@ class FitText {
   }
 
   std::string between(const Interval& interval, const FittedCurveValue& value) const {
-    const std::string unit = unit_of(value.quantity, units_);
-    return fmt::format("{:.4g} … {:.4g}{}{}", interval.low, interval.high, unit.empty() ? "" : " ", unit);
+    return interval_text(interval, unit_of(value.quantity, units_));
   }
 
   std::string shapes() const {

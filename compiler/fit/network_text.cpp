@@ -23,20 +23,14 @@ std::string range_text(double low, double high, const std::string& unit) {
   return fmt::format("[{}, {}]", quoted(quantity_text(low, unit, 4)), quoted(quantity_text(high, unit, 4)));
 }
 
-// As the file writes numbers: a power bare, all else with its unit, where "1/m" takes no prefix.
+// As the file writes numbers: a power bare, all else with its unit.
 std::string range_text(const Interval& interval, const std::string& unit) {
-  if (unit.empty()) return fmt::format("[{:.4g}, {:.4g}]", interval.low, interval.high);
-  if (unit.starts_with("1/"))
-    return fmt::format("[\"{:.4g} {}\", \"{:.4g} {}\"]", interval.low, unit, interval.high, unit);
-  return range_text(interval.low, interval.high, unit);
+  const auto [low, high] = interval_ends(interval, unit);
+  return unit.empty() ? fmt::format("[{}, {}]", low, high) : fmt::format("[{}, {}]", quoted(low), quoted(high));
 }
 
-// A bound that holds what was measured, whatever its digits: rounded outwards.
-double outwards(double value, double direction) {
-  if (value == 0) return 0;
-  const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - 2);
-  return (direction > 0 ? std::ceil(value / step) : std::floor(value / step)) * step;
-}
+// A bound that holds what was measured, whatever its digits.
+double bound(double value, double direction) { return outwards(value, direction, 3); }
 
 struct Covered {
   double fastest = 0, low = 0, high = 0;
@@ -60,12 +54,12 @@ Covered covered_by(const std::vector<Recording>& recordings) {
 std::string valid_text(const Fit& fit, const Problem& problem) {
   const PortUnits units = port_units(fit.choices.port_motion);
   const double low = 1 / (2 * pi * problem.duration()), high = 1 / (2 * pi * problem.shortest_step());
-  const std::string frequency = "\"frequency\": " + range_text(outwards(low, -1), outwards(high, 1), "Hz");
+  const std::string frequency = "\"frequency\": " + range_text(bound(low, -1), bound(high, 1), "Hz");
   if (problem.recordings().front().kind != RecordingKind::motion) return "{ " + frequency + " }";
   const Covered covered = covered_by(problem.recordings());
   return fmt::format("{{ \"rate\": {}, \"displacement\": {},\n             {} }}",
-                     quoted(quantity_text(outwards(covered.fastest, 1), units.velocity, 4)),
-                     range_text(outwards(covered.low, -1), outwards(covered.high, 1), units.position), frequency);
+                     quoted(quantity_text(bound(covered.fastest, 1), units.velocity, 4)),
+                     range_text(bound(covered.low, -1), bound(covered.high, 1), units.position), frequency);
 }
 
 std::string recordings_text(const Fit& fit, const Problem& problem) {
@@ -95,7 +89,7 @@ std::string intervals_text(const Fit& fit, const char* key, std::optional<Interv
   for (const FittedElement& element : fit.elements)
     if (const std::optional<Interval>& interval = element.*which)
       text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ",\n      ", element.name,
-                          range_text(interval->low, interval->high, unit_of(element.kind, units)));
+                          range_text(*interval, unit_of(element.kind, units)));
   return text.empty() ? "" : fmt::format(",\n    \"{}\": {{\n      {} }}", key, text);
 }
 

@@ -161,12 +161,29 @@ std::string quantity_text(double value, const std::string& unit, int digits) {
   return fmt::format("{:.{}g} {}", value, digits, unit);
 }
 
-std::string interval_text(const Interval& interval, const std::string& unit) {
+double outwards(double value, double direction, int digits) {
+  if (value == 0) return 0;
+  const double step = std::pow(10, std::floor(std::log10(std::abs(value))) - (digits - 1));
+  const double nearest = std::round(value / step);
+  const bool holds = direction * (nearest * step - value) >= -1e-14 * std::abs(value);
+  return (holds ? nearest : nearest + std::copysign(1, direction)) * step;
+}
+
+std::pair<std::string, std::string> interval_ends(const Interval& interval, const std::string& unit) {
   constexpr int least = 4, most = 15;
   const double width = interval.high - interval.low, size = std::max(std::abs(interval.low), std::abs(interval.high));
   const int digits =
       width > 0 ? std::clamp(static_cast<int>(std::ceil(std::log10(size / width))) + 2, least, most) : least;
-  return quantity_text(interval.low, unit, digits) + " … " + quantity_text(interval.high, unit, digits);
+  const auto text = [&](double end) {
+    if (unit.empty()) return fmt::format("{:.{}g}", end, digits);
+    return unit.starts_with("1/") ? fmt::format("{:.{}g} {}", end, digits, unit) : quantity_text(end, unit, digits);
+  };
+  return {text(outwards(interval.low, -1, digits)), text(outwards(interval.high, 1, digits))};
+}
+
+std::string interval_text(const Interval& interval, const std::string& unit) {
+  const auto [low, high] = interval_ends(interval, unit);
+  return low + " … " + high;
 }
 
 void round_values(std::vector<FittedElement>& elements, const Model& model, motion port_motion, int extra) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fit/uncertainty.hpp"
@@ -61,8 +62,13 @@ std::string tree_text(const std::vector<FittedElement>& elements, Form form);
 // A number with its unit, so many significant digits, a prefix of the unit where one serves.
 std::string quantity_text(double value, const std::string& unit, int digits);
 
-// Both ends with their unit, in as many digits as tell how wide it is; four or more.
-std::string interval_text(const Interval& interval, const std::string& unit);
+// Both ends with their unit, in as many digits as tell how wide it is, four or more, and rounded outwards: what lies in
+// the interval lies between them. Without a unit bare numbers; one such as "1/m" takes no prefix.
+std::pair<std::string, std::string> interval_ends(const Interval& interval, const std::string& unit);
+std::string interval_text(const Interval& interval, const std::string& unit);  // "1.2 N … 1.3 N"
+
+// A bound of that many digits on the side of `direction` of a value, or the value itself.
+double outwards(double value, double direction, int digits);
 
 // In: a network as it was written and read back; the names are those of `elements_of`. Out: its terms with their
 // weights, behind its curve, so that what is told of the file is told of what stands in it.

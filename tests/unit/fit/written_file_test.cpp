@@ -7,6 +7,7 @@
 #include "law/evaluate.hpp"
 #include "fit/fit.hpp"
 #include "fit/network_text.hpp"
+#include "fit/written_network.hpp"
 #include "recordings.hpp"
 #include "synthetic.hpp"
 
@@ -265,6 +266,16 @@ TEST(WrittenFile, FindsTheSurface) {
   const Eigen::VectorXd force = problem.columns(truth.terms) * truth.weights;
   for (std::size_t i = 0; i < recording.force.size(); ++i) recording.force[i] = force[static_cast<Eigen::Index>(i)];
   EXPECT_NEAR(find_contact({recording}), at, 2e-6);
+}
+
+// Fails if an interval that is written or told does not hold the numbers that it is of.
+TEST(WrittenFile, RoundsIntervalsOutwards) {
+  const auto ends = [](double low, double high, const char* unit) { return interval_ends({low, high}, unit); };
+  EXPECT_EQ(ends(60.014, 60.014, "N/m"), std::pair(std::string("60.01 N/m"), std::string("60.02 N/m")));
+  EXPECT_EQ(ends(60.0137, 60.0143, "N/m"), std::pair(std::string("60.0137 N/m"), std::string("60.0143 N/m")));
+  EXPECT_EQ(ends(249.99, 250.01, "1/m"), std::pair(std::string("249.99 1/m"), std::string("250.01 1/m")));
+  EXPECT_EQ(ends(2.4999, 2.5001, ""), std::pair(std::string("2.4999"), std::string("2.5001")));
+  EXPECT_EQ(ends(0.25, 0.5, "N"), std::pair(std::string("250 mN"), std::string("500 mN")));
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ Json score_json(const FileScore& score) {
   return {{"file", score.name},
           {"digest", score.digest},
           {"rows", score.rows},
+          {"free_rows", score.free_rows},
           {"rms", number(score.rms)},
           {"range", number(score.range)},
           {"r_squared", number(score.r_squared)},
@@ -76,6 +77,8 @@ std::string fit_json(const Fit& fit, const std::vector<Recording>& recordings) {
             {"effective_samples", number(fit.effective_samples)},
             {"criterion", number(fit.criterion)},
             {"condition", number(fit.condition)}};
+  if (fit.choices.contact)
+    json["contact"] = {{"at", number(*fit.choices.contact)}, {"found", fit.choices.contact_is_found}};
   if (fit.model.curve) {
     json["static"] = {{"kind", word_of(fit.model.curve->kind())},
                       {"is", curve_stiffness(fit.model).is_instantaneous ? "instantaneous" : "equilibrium"}};

@@ -30,6 +30,9 @@ class FitText {
     if (fit_.noise && fit_.choices.weighting == Weighting::uniform)
       text += fmt::format("; the noise is about {}", error(*fit_.noise));
     text += fmt::format("\n{:.4g} effective samples, condition {:.3g}\n", fit_.effective_samples, fit_.condition);
+    if (fit_.choices.contact)
+      text += fmt::format("surface {} at {}\n", fit_.choices.contact_is_found ? "found" : "given",
+                          place_text(*fit_.choices.contact, fit_.choices.port_motion));
     text += "\nrecordings\n";
     for (const FileScore& file : fit_.files) text += file_text(file);
     if (!fit_.held_out.empty()) text += "\nheld out\n";
@@ -62,6 +65,11 @@ class FitText {
     if (file.offset != 0)
       text += fmt::format("; offset {}", quantity_text(file.offset, measured_unit(fit_, problem_), 4));
     if (file.left_out_rms) text += fmt::format("\n    rms {} by the other files alone", error(*file.left_out_rms));
+    if (file.free_rows > 0)
+      text += fmt::format(
+          "\n    {} of the rows are left out: there the tool has left the tissue, which does not come back as fast, "
+          "and the force tells nothing of it",
+          file.free_rows);
     return text + "\n";
   }
 
@@ -145,7 +153,8 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
       case Kind::floor_above_noise:
         diagnostics.report<DiagnosticCode::fit_floor_above_noise>({}, error_text(n[0], fit, problem),
                                                                   error_text(n[1], fit, problem));
-        diagnostics.note<DiagnosticCode::fit_floor_remedy>({});
+        // Its advice is about options; with a shape it would name one that was taken.
+        if (fit.choices.reduction.shape == ShapeChoice::none) diagnostics.note<DiagnosticCode::fit_floor_remedy>({});
         break;
       case Kind::floor_not_certified: diagnostics.report<DiagnosticCode::fit_floor_not_certified>({}, n[0]); break;
       case Kind::slower_than_record:

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <map>
 
@@ -278,11 +279,15 @@ class FitCommand {
     return true;
   }
 
+  // A surface that was found, in as many digits as are told of it.
+  static double in_digits(double place) { return std::strtod(fmt::format("{:.3e}", place).c_str(), nullptr); }
+
   void settle_surface() {
     if (!words_.contact) return;
     if (!choices_.contact) {
       line_.show("fitting: looking for the surface");
-      choices_.contact = find_contact(recordings_);
+      choices_.contact = in_digits(find_contact(recordings_, choices_.reduction));
+      choices_.contact_is_found = true;
     }
     recordings_ = behind_surface(std::move(recordings_), *choices_.contact);
     held_out_ = behind_surface(std::move(held_out_), *choices_.contact);
@@ -312,7 +317,7 @@ class FitCommand {
           (&recording == &recordings_.front() ? "" : ", ") + std::filesystem::path(recording.name).filename().string();
     if (read_.geometry) text += "; " + read_.geometry->sentence;
     if (words_.scale) text += "; values are relative to " + *words_.scale;
-    if (words_.contact) text += "; displacements are from the surface";
+    if (words_.contact) text += "; displacements of network and curve are from the surface";
     for (const Recording& recording : recordings_)
       if (recording.origin != 0) {
         text += "; displacements are from each recording's first row";

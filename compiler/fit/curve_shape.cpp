@@ -148,6 +148,20 @@ ShapeRange range_of(CurveShape::Kind kind) {
   return {0, 0};
 }
 
+std::vector<CurveShape> some_powers(double reach) {
+  std::vector<CurveShape> curves;
+  for (const double exponent : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 9.0})
+    curves.push_back(CurveShape::power(exponent, reach));
+  return curves;
+}
+
+std::vector<CurveShape> some_exponentials(double reach) {
+  std::vector<CurveShape> curves;
+  for (const double steepness : {0.5, 1.0, 2.0, 3.0, 4.5, 6.5, 9.0, 13.0})
+    curves.push_back(CurveShape::exponential(steepness, reach));
+  return curves;
+}
+
 const char* word_of(CurveShape::Kind kind) {
   switch (kind) {
     case CurveShape::Kind::power: return "power";

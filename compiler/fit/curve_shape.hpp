@@ -24,6 +24,8 @@ class CurveShape {
   static CurveShape power(double exponent, double reach);
   static CurveShape exponential(double rate_times_reach, double reach);
   static CurveShape table(std::vector<double> log_slopes, double reach);
+  // With the same parameters and another reach [m].
+  CurveShape over(double reach) const { return {kind(), parameters_, reach}; }
   // As many stretches of a table, through the curve at their ends.
   CurveShape sampled(std::size_t stretches) const;
   // A curve as it stands in a file, over its network's stiffness.
@@ -66,6 +68,10 @@ struct ShapeRange {
   double least, most;
 };
 ShapeRange range_of(CurveShape::Kind kind);
+
+// Of which a search takes the best to begin from: from nearly straight to as steep as tissue is.
+std::vector<CurveShape> some_powers(double reach);
+std::vector<CurveShape> some_exponentials(double reach);
 
 const char* word_of(CurveShape::Kind kind);  // "power", "exponential", "table"
 

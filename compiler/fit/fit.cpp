@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "fit/criterion.hpp"
@@ -21,6 +22,7 @@ using Eigen::VectorXd;
 constexpr std::size_t rows_searched = 20'000;  // of a recording, while the structure is looked for
 constexpr std::size_t every_row = static_cast<std::size_t>(-1) / 2;
 constexpr int bootstrap_draws = 60;
+constexpr int surface_turns = 40;       // of a network and the surface that it leaves behind a tool
 constexpr double rounding_cost = 1e-3;  // relative, of the rms: what the digits of the file may add
 
 double rms_of(double residual_sum, const Problem& problem) { return std::sqrt(residual_sum / problem.weighed_rows()); }
@@ -46,13 +48,21 @@ class Fitter {
       : recordings_(recordings),
         diagnostics_(diagnostics),
         progress_(progress),
-        whole_(recordings, choices.form, choices.weighting, every_row) {
+        whole_(recordings_, choices.form, choices.weighting, every_row) {
     fit_.choices = choices;
     fit_.network_name = choices.name;
   }
 
   std::optional<Fit> run(const std::vector<Recording>& held_out) {
     search();
+    // Which rows tell of the tissue depends on the network, and the network on these rows: by turns. What was found
+    // with other rows is no start for the structure, so that is looked for again.
+    if (follow_surface(fit_.model)) {
+      refine_with_surface();
+      search();
+      refine_with_surface();
+    }
+    measure();
     const bool has_no_curve = fit_.model.curve && curve_stiffness(fit_.model).value == 0;
     if (fit_.model.terms.empty() || elements_of(whole_, fit_.model).empty() || has_no_curve) {
       diagnostics_.report<DiagnosticCode::fit_nothing_resists>({});
@@ -61,6 +71,7 @@ class Fitter {
     measure_uncertainty();
     const std::optional<Model> written = write_values();
     if (!written) return std::nullopt;
+    follow_surface(*written);
     score(*written);
     for (const Recording& recording : held_out) fit_.held_out.push_back(score_held_out(recording, *written));
     fit_.findings = findings_of(fit_, whole_, *uncertainty_, size_was_met_);
@@ -78,6 +89,38 @@ class Fitter {
 
   bool gains_are_free() const { return fit_.choices.reduction.gains_are_free; }
 
+  // Puts the surface where the network leaves it; whether it has moved.
+  bool follow_surface(const Model& model) {
+    if (!fit_.choices.contact || fit_.choices.form != Form::stiffness) return false;
+    bool has_moved = false;
+    for (Recording& recording : recordings_) has_moved |= follow_surface(recording, model, whole_);
+    if (has_moved) stack();
+    return has_moved;
+  }
+
+  static bool follow_surface(Recording& recording, const Model& model, const Problem& problem) {
+    constexpr double same = 1e-10;  // of the reach
+    std::vector<double> surface = surface_under(recording, model.terms, model.weights, problem.band(), model.curve);
+    const std::vector<double>& before = recording.surface.empty() ? recording.position : recording.surface;
+    bool has_moved = false;
+    for (std::size_t i = 0; i < surface.size(); ++i)
+      has_moved |= std::abs(surface[i] - before[i]) > same * problem.largest_reach();
+    if (has_moved) recording.surface = std::move(surface);
+    return has_moved;
+  }
+
+  void stack() {
+    whole_ = Problem(recordings_, fit_.choices.form, fit_.choices.weighting, every_row);
+    if (thinned_) thinned_.emplace(recordings_, fit_.choices.form, fit_.choices.weighting, rows_searched);
+  }
+
+  void refine_with_surface() {
+    tell("following the surface where the tool leaves it");
+    for (int turn = 0; turn < surface_turns && follow_surface(fit_.model); ++turn)
+      fit_.model = refined(searched(), fit_.model, gains_are_free(), {10, 1e-9});
+    fit_.model = tidied(std::move(fit_.model));
+  }
+
   void search() {
     const bool is_thinned = static_cast<std::size_t>(whole_.rows()) > rows_searched * recordings_.size();
     if (is_thinned) thinned_.emplace(recordings_, fit_.choices.form, fit_.choices.weighting, rows_searched);
@@ -93,6 +136,9 @@ class Fitter {
     fit_.shapes = std::move(reduction.shapes);
     fit_.model = std::move(reduction.model);
     if (is_thinned) fit_.model = tidied(refined(whole_, fit_.model, gains_are_free(), {3, 1e-5}));
+  }
+
+  void measure() {
     fit_.parameters = parameter_count(fit_.model, gains_are_free());
     fit_.criterion = criterion(whole_, fit_.model, fit_.effective_samples, gains_are_free());
     find_floor();
@@ -244,6 +290,7 @@ class Fitter {
     score.name = recording.name;
     score.digest = recording.digest;
     score.rows = recording.measured_rows();
+    score.free_rows = recording.free_rows();
     const double weighed = std::max<double>(1, static_cast<double>((weights.array() > 0).count()));
     score.rms = std::sqrt(own.squaredNorm() / weighed);
     const auto [low, high] = std::minmax_element(recording.force.begin(), recording.force.end());
@@ -266,7 +313,8 @@ class Fitter {
   }
 
   FileScore score_held_out(const Recording& recording, const Model& written) const {
-    const std::vector<Recording> alone{recording};
+    std::vector<Recording> alone{recording};
+    if (fit_.choices.contact && fit_.choices.form == Form::stiffness) follow_surface(alone[0], written, whole_);
     const Problem problem(alone, fit_.choices.form, fit_.choices.weighting, every_row);
     Model network = written;
     network.gains = {1.0};
@@ -275,7 +323,7 @@ class Fitter {
     return score_of(problem, 0, residual(problem, network), answer_of(problem, network));
   }
 
-  const std::vector<Recording>& recordings_;
+  std::vector<Recording> recordings_;  // with the surface, where a tool leaves it
   Diagnostics& diagnostics_;
   const std::function<void(const std::string&)>& progress_;
   Problem whole_;
@@ -286,14 +334,98 @@ class Fitter {
   bool size_was_met_ = true;
 };
 
-double floor_behind(const std::vector<Recording>& recordings, double contact) {
-  const std::vector<Recording> moved = behind_surface(recordings, contact);
-  const Problem problem(moved, Form::stiffness, Weighting::uniform, 4000);
-  if (problem.largest_reach() <= 0) return problem.target().squaredNorm();
-  std::vector<Term> terms = plain_terms(problem);
-  for (const double time : even_grid(resolved_times(problem), 4)) terms.push_back({TermKind::maxwell, time, 0, 0, 0});
-  return solve_weights(problem, terms, {}).residual_sum;
+// The rows before the force has come back to nothing: behind them the tool may have left the tissue.
+Recording until_free(Recording recording) {
+  constexpr double little = 0.01, much = 0.5;  // of the largest force
+  double largest = 0;
+  for (const double force : recording.force) largest = std::max(largest, std::abs(force - recording.force.front()));
+  bool has_pushed = false;
+  std::size_t rows = 0;
+  for (; rows < recording.force.size(); ++rows) {
+    const double push = std::abs(recording.force[rows] - recording.force.front());
+    has_pushed |= push > much * largest;
+    if (has_pushed && push < little * largest) break;
+  }
+  for (std::vector<double>* const values : {&recording.time, &recording.position, &recording.force})
+    values->resize(rows);
+  if (!recording.deviation.empty()) recording.deviation.resize(rows);
+  return recording;
 }
+
+// Looks for the surface behind curves of one kind, or behind none.
+class SurfaceSearch {
+ public:
+  SurfaceSearch(const std::vector<Recording>& recordings, const ReductionChoices& choices,
+                std::vector<std::optional<CurveShape>> curves)
+      : recordings_(recordings), choices_(choices), curves_(std::move(curves)) {
+    for (const Recording& recording : recordings_)
+      for (const double position : recording.position)
+        furthest_ = std::max(furthest_, position), nearest_ = std::min(nearest_, position);
+  }
+
+  struct Found {
+    double at, criterion;
+  };
+
+  // Over the whole way a scan finds the valley, then golden sections its bottom.
+  Found run() const {
+    constexpr int steps = 40;
+    const double width = 0.9 * (furthest_ - nearest_) / steps;
+    int best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= steps; ++i)
+      if (const double left = left_behind(nearest_ + i * width, false); left < least) least = left, best = i;
+    constexpr double golden = 0.6180339887498949;
+    double low = nearest_ + (best - 1) * width, high = nearest_ + (best + 1) * width;
+    double a = high - golden * (high - low), b = low + golden * (high - low);
+    double left_a = left_behind(a, true), left_b = left_behind(b, true);
+    for (int i = 0; i < 24; ++i)
+      if (left_a < left_b) {
+        high = b, b = a, left_b = left_a;
+        left_a = left_behind(a = high - golden * (high - low), true);
+      } else {
+        low = a, a = b, left_a = left_b;
+        left_b = left_behind(b = low + golden * (high - low), true);
+      }
+    const double at = (low + high) / 2;
+    const std::vector<Recording> moved = behind_surface(recordings_, at);
+    const Problem problem(moved, Form::stiffness, Weighting::uniform, rows);
+    const Model model = network_behind(problem, true);
+    return {at, criterion(problem, model, effective_samples(problem, model), false)};
+  }
+
+ private:
+  static constexpr std::size_t rows = 2000;
+
+  double left_behind(double contact, bool is_refined) const {
+    const std::vector<Recording> moved = behind_surface(recordings_, contact);
+    const Problem problem(moved, Form::stiffness, Weighting::uniform, rows);
+    if (problem.largest_reach() <= 0) return problem.target().squaredNorm();
+    return network_behind(problem, is_refined).residual_sum;
+  }
+
+  Model network_behind(const Problem& problem, bool is_refined) const {
+    std::vector<Term> terms = plain_terms(problem);
+    if (choices_.is_elastic) terms.resize(1);
+    else
+      for (const double time : even_grid(resolved_times(problem), 3))
+        terms.push_back({TermKind::maxwell, time, 0, 0, 0});
+    terms.insert(terms.end(), choices_.beside.begin(), choices_.beside.end());
+    Model best;
+    best.residual_sum = std::numeric_limits<double>::infinity();
+    for (std::optional<CurveShape> curve : curves_) {
+      if (curve) curve = curve->over(problem.curve_reach());
+      Model model = solve_weights(problem, terms, {}, curve);
+      if (model.residual_sum < best.residual_sum) best = std::move(model);
+    }
+    return is_refined ? refined(problem, tidied(std::move(best)), false, {12, 1e-6}) : best;
+  }
+
+  const std::vector<Recording>& recordings_;
+  const ReductionChoices& choices_;
+  std::vector<std::optional<CurveShape>> curves_;
+  double furthest_ = 0, nearest_ = 0;
+};
 
 }  // namespace
 
@@ -305,30 +437,34 @@ std::optional<Fit> fit(const std::vector<Recording>& recordings, const std::vect
 
 std::vector<Recording> behind_surface(std::vector<Recording> recordings, double contact) {
   for (Recording& recording : recordings)
-    for (double& position : recording.position) position = std::max(0.0, position - contact);
+    for (double& position : recording.position) {
+      recording.in_front = std::max(recording.in_front, contact - position);
+      position = std::max(0.0, position - contact);
+    }
   return recordings;
 }
 
-// Over the whole way a scan finds the valley, then golden sections its bottom.
-double find_contact(const std::vector<Recording>& recordings) {
-  double furthest = 0, nearest = 0;
-  for (const Recording& recording : recordings)
-    for (const double position : recording.position)
-      furthest = std::max(furthest, position), nearest = std::min(nearest, position);
-  constexpr int steps = 40;
-  const double width = 0.9 * (furthest - nearest) / steps;
-  int best = 0;
-  double least = floor_behind(recordings, nearest);
-  for (int i = 1; i <= steps; ++i)
-    if (const double left = floor_behind(recordings, nearest + i * width); left < least) least = left, best = i;
-  constexpr double golden = 0.6180339887498949;
-  double low = nearest + (best - 1) * width, high = nearest + (best + 1) * width;
-  for (int i = 0; i < 24; ++i) {
-    const double a = high - golden * (high - low), b = low + golden * (high - low);
-    if (floor_behind(recordings, a) < floor_behind(recordings, b)) high = b;
-    else low = a;
+double find_contact(const std::vector<Recording>& recordings, const ReductionChoices& choices) {
+  std::vector<Recording> touching;
+  for (const Recording& recording : recordings) touching.push_back(until_free(recording));
+  const auto tries = [&](ShapeChoice one) {
+    return choices.shape == one || choices.shape == ShapeChoice::table || choices.shape == ShapeChoice::automatic;
+  };
+  std::vector<std::vector<std::optional<CurveShape>>> kinds;
+  if (tries(ShapeChoice::none)) kinds.push_back({std::nullopt});
+  if (tries(ShapeChoice::power)) {
+    kinds.emplace_back();
+    for (const CurveShape& curve : some_powers(1)) kinds.back().emplace_back(curve);
   }
-  return (low + high) / 2;
+  if (tries(ShapeChoice::exponential)) {
+    kinds.emplace_back();
+    for (const CurveShape& curve : some_exponentials(1)) kinds.back().emplace_back(curve);
+  }
+  SurfaceSearch::Found best{0, std::numeric_limits<double>::infinity()};
+  for (auto& curves : kinds)
+    if (const auto found = SurfaceSearch(touching, choices, std::move(curves)).run(); found.criterion < best.criterion)
+      best = found;
+  return best.at;
 }
 
 }  // namespace dashpot::compiler::fitting

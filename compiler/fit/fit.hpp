@@ -23,6 +23,7 @@ struct FitChoices {
   ReductionChoices reduction;
   std::vector<std::size_t> assumed_starts;  // files that were taken to start from rest before their first row
   std::optional<double> contact;            // where the surface was found or said to lie [m]
+  bool contact_is_found = false;
 };
 
 // What the written network leaves of one recording, over the recording's own times.
@@ -30,8 +31,9 @@ struct FileScore {
   std::string name;
   std::string digest;
   std::size_t rows = 0;
-  double rms = 0;    // in the recording's quantity; with weights that are not uniform, of the weighted rows
-  double range = 0;  // of what was measured: greatest less least
+  std::size_t free_rows = 0;  // of these: the tool has left the tissue, and they are left out
+  double rms = 0;             // in the recording's quantity; with weights that are not uniform, of the weighted rows
+  double range = 0;           // of what was measured: greatest less least
   double r_squared = 0;
   double largest_error = 0;
   double largest_time = 0;      // where [s] or [rad/s]
@@ -102,14 +104,18 @@ struct Fit {
 };
 
 // In: recordings of one kind. Out: the network file's text, and all that is known of it. Ensures: the file compiles;
-// `files` is computed from the file as it was read back. Refuses: recordings in which nothing resists, with a
-// diagnostic. `progress` hears what is being done.
+// `files` is computed from the file as it was read back. Behind a surface, rows in which the network would pull at a
+// tool that withdraws faster than the tissue comes back are left out, and the surface goes on without the tool.
+// Refuses: recordings in which nothing resists, with a diagnostic. `progress` hears what is being done.
 std::optional<Fit> fit(const std::vector<Recording>& recordings, const std::vector<Recording>& held_out,
                        const FitChoices& choices, Diagnostics& diagnostics,
                        const std::function<void(const std::string&)>& progress = {});
 
-// The surface that leaves the least for the linear floor: displacement beyond it counts, force in front of it is none.
-double find_contact(const std::vector<Recording>& recordings);
+// The surface that leaves the least for a network behind one of the shapes that are asked for (a table, or any of them:
+// behind a line, a power or an exponential). Of each recording it looks at the rows before the force has first come
+// back to nothing.
+double find_contact(const std::vector<Recording>& recordings, const ReductionChoices& choices = {});
+// Displacement beyond the surface counts, in front of it there is none.
 std::vector<Recording> behind_surface(std::vector<Recording> recordings, double contact);
 
 }  // namespace dashpot::compiler::fitting

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -36,13 +37,15 @@ struct Covered {
   double fastest = 0, low = 0, high = 0;
 };
 
-Covered covered_by(const std::vector<Recording>& recordings) {
+// Of displacements as those who read the file take them: from the tool's zero, wherever the surface lies.
+Covered covered_by(const std::vector<Recording>& recordings, double surface) {
   Covered covered;
   for (const Recording& recording : recordings) {
     const std::vector<double> steps = steps_of(recording.time);
+    covered.low = std::min(covered.low, surface - recording.in_front);
     for (std::size_t i = 0; i < recording.position.size(); ++i) {
-      covered.low = std::min(covered.low, recording.position[i]);
-      covered.high = std::max(covered.high, recording.position[i]);
+      covered.low = std::min(covered.low, surface + recording.position[i]);
+      covered.high = std::max(covered.high, surface + recording.position[i]);
       if (i > recording.assumed_rows)
         covered.fastest =
             std::max(covered.fastest, std::abs(recording.position[i] - recording.position[i - 1]) / steps[i]);
@@ -56,7 +59,7 @@ std::string valid_text(const Fit& fit, const Problem& problem) {
   const double low = 1 / (2 * pi * problem.duration()), high = 1 / (2 * pi * problem.shortest_step());
   const std::string frequency = "\"frequency\": " + range_text(bound(low, -1), bound(high, 1), "Hz");
   if (problem.recordings().front().kind != RecordingKind::motion) return "{ " + frequency + " }";
-  const Covered covered = covered_by(problem.recordings());
+  const Covered covered = covered_by(problem.recordings(), fit.choices.contact.value_or(0));
   return fmt::format("{{ \"rate\": {}, \"displacement\": {},\n             {} }}",
                      quoted(quantity_text(bound(covered.fastest, 1), units.velocity, 4)),
                      range_text(bound(covered.low, -1), bound(covered.high, 1), units.position), frequency);
@@ -69,6 +72,7 @@ std::string recordings_text(const Fit& fit, const Problem& problem) {
         fmt::format("      {{ \"file\": {}, \"digest\": \"{}\", \"rows\": {}, \"rms\": \"{}\", \"r_squared\": {:.6g}",
                     quoted(std::filesystem::path(file.name).filename().string()), file.digest, file.rows,
                     error_text(file.rms, fit, problem), file.r_squared);
+    if (file.free_rows > 0) text += fmt::format(", \"free_rows\": {}", file.free_rows);
     if (file.gain != 1) text += fmt::format(", \"gain\": {:.5g}", file.gain);
     if (file.offset != 0)
       text += fmt::format(", \"offset\": \"{}\"", quantity_text(file.offset, measured_unit(fit, problem), 4));
@@ -99,6 +103,10 @@ std::string static_line(const Fit& fit) {
 }
 
 }  // namespace
+
+std::string place_text(double place, motion port_motion) {
+  return quantity_text(place, port_units(port_motion).position, std::numeric_limits<double>::digits10);
+}
 
 std::string measured_unit(const Fit& fit, const Problem& problem) {
   const PortUnits units = port_units(fit.choices.port_motion);
@@ -146,7 +154,7 @@ std::string network_text(const Fit& fit, const Problem& problem) {
   text += fmt::format("  \"network\": {},\n", tree_text(fit.elements, fit.choices.form));
   if (fit.choices.contact)
     text += fmt::format("  \"contact\": {{ \"at\": \"{}\" }},\n",
-                        quantity_text(*fit.choices.contact, port_units(fit.choices.port_motion).position, 4));
+                        place_text(*fit.choices.contact, fit.choices.port_motion));
   text += fmt::format("  \"valid\": {},\n", valid_text(fit, problem));
   text += fmt::format("  \"fit\": {{\n    \"command\": {},\n", quoted(fit.choices.command));
   text += fmt::format("    \"recordings\": [\n{},\n", recordings_text(fit, problem));

@@ -29,7 +29,7 @@ double relative_weight(const Recording& recording, const std::vector<double>& va
 }
 
 double weight_of(const Recording& recording, const std::vector<double>& values, std::size_t row, Weighting weighting) {
-  if (row < recording.assumed_rows) return 0;
+  if (row < recording.assumed_rows || recording.is_free(row)) return 0;
   if (weighting == Weighting::relative) return relative_weight(recording, values, row);
   if (weighting == Weighting::deviation && row < recording.deviation.size())
     return recording.deviation[row] > 0 ? 1 / recording.deviation[row] : 0;

@@ -20,4 +20,10 @@ std::vector<double> steps_of(const std::vector<double>& time) {
   return steps;
 }
 
+std::size_t Recording::free_rows() const {
+  std::size_t count = 0;
+  for (std::size_t row = 0; row < surface.size(); ++row) count += is_free(row) ? 1 : 0;
+  return count;
+}
+
 }  // namespace dashpot::compiler::fitting

@@ -26,8 +26,13 @@ struct Recording {
   std::vector<double> deviation;  // of the force, in its unit; empty where it was not measured
   std::size_t assumed_rows = 0;   // at the start: rest before the first measured row; they carry no weight
   double origin = 0;              // position at rest, as it stands in the file [m]
+  double in_front = 0;            // of a motion behind a surface: how far in front of it the tool has been [m]
+  std::vector<double> surface;    // where a tool leaves the tissue: of that, from rest [m]; else empty, the position
 
   std::size_t measured_rows() const { return time.size() - assumed_rows; }
+  // Of a tool that has left the tissue: there its force tells nothing of it.
+  bool is_free(std::size_t row) const { return !surface.empty() && surface[row] != position[row]; }
+  std::size_t free_rows() const;
 };
 
 // From row to row [s]; the first is 0. Periods that differ by no more than the rounding of the times are made equal.

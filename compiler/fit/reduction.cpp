@@ -150,24 +150,10 @@ class Reducer {
     };
     std::vector<Model> list;
     if (wants(ShapeChoice::none)) list.push_back(start({}));
-    if (wants(ShapeChoice::power)) list.push_back(best_start(powers()));
-    if (wants(ShapeChoice::exponential)) list.push_back(best_start(exponentials()));
+    if (wants(ShapeChoice::power)) list.push_back(best_start(some_powers(problem_.curve_reach())));
+    if (wants(ShapeChoice::exponential)) list.push_back(best_start(some_exponentials(problem_.curve_reach())));
     if (wants(ShapeChoice::table)) list.push_back(table_start());
     return list;
-  }
-
-  std::vector<CurveShape> powers() const {
-    std::vector<CurveShape> curves;
-    for (const double exponent : {1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 9.0})
-      curves.push_back(CurveShape::power(exponent, problem_.curve_reach()));
-    return curves;
-  }
-
-  std::vector<CurveShape> exponentials() const {
-    std::vector<CurveShape> curves;
-    for (const double steepness : {0.5, 1.0, 2.0, 3.0, 4.5, 6.5, 9.0, 13.0})
-      curves.push_back(CurveShape::exponential(steepness, problem_.curve_reach()));
-    return curves;
   }
 
   Model best_start(const std::vector<CurveShape>& curves) const {
@@ -180,8 +166,8 @@ class Reducer {
 
   // From the best closed form, or from a straight line: a table may soften.
   Model table_start() const {
-    std::vector<CurveShape> curves = powers();
-    for (const CurveShape& curve : exponentials()) curves.push_back(curve);
+    std::vector<CurveShape> curves = some_powers(problem_.curve_reach());
+    for (const CurveShape& curve : some_exponentials(problem_.curve_reach())) curves.push_back(curve);
     curves.push_back(CurveShape::power(1, problem_.curve_reach()));
     Model model = best_start(curves);
     model.curve = model.curve->sampled(least_stretches);

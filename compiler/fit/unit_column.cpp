@@ -247,13 +247,16 @@ Column damper(const Signal& signal) {
   return {};
 }
 
-Column springpot(const Signal& signal, double exponent) {
+std::vector<MaxwellBranch> springpot_branches(double exponent, const Band& band) {
   constexpr double step = std::numbers::ln10 / springpot_branches_per_decade;
-  const double first = std::log(signal.band.low);
-  const auto points = static_cast<std::size_t>(std::ceil((std::log(signal.band.high) - first) / step)) + 1;
+  const double first = std::log(band.low);
+  const auto points = static_cast<std::size_t>(std::ceil((std::log(band.high) - first) / step)) + 1;
+  return springpot_ladder(exponent, band.low, band.high, SpringpotGrid{first, step, points}).branches;
+}
+
+Column springpot(const Signal& signal, double exponent) {
   Column column = Column::Zero(signal.rows());
-  for (const MaxwellBranch& branch :
-       springpot_ladder(exponent, signal.band.low, signal.band.high, SpringpotGrid{first, step, points}).branches)
+  for (const MaxwellBranch& branch : springpot_branches(exponent, signal.band))
     column += branch.stiffness * maxwell(signal, 1 / branch.relaxation_rate);
   return column;
 }
@@ -261,6 +264,93 @@ Column springpot(const Signal& signal, double exponent) {
 Column initial(const Signal& signal, double time) {
   const double start = signal.recording->time.front();
   return over_time(signal, [&](double t) { return std::exp(-(t - start) / time); });
+}
+
+// One element of a tissue whose surface is followed. It is copied to try where the surface might go.
+class Follower {
+ public:
+  Follower(const Term& term, double weight)
+      : term_(term), weight_(weight), decay_(term.time), sliding_(term.threshold, term.time) {}
+
+  // At the first row nothing but a spring has had time to be pushed.
+  void begin(double position) { state_ = term_.kind == TermKind::spring ? position : 0; }
+
+  // Moves on; returns its force then.
+  double advance(double change, double step) {
+    switch (term_.kind) {
+      case TermKind::spring: return weight_ * (state_ += change);
+      case TermKind::damper: return step > 0 ? weight_ * change / step : 0;
+      case TermKind::maxwell:
+        decay_.advance(step);
+        return weight_ * (state_ = decay_.factor * state_ + decay_.share * change);
+      case TermKind::stop: return weight_ * (state_ = std::clamp(state_ + change, -term_.threshold, term_.threshold));
+      case TermKind::sliding: return weight_ * sliding_.advance(change, step);
+      default: return 0;
+    }
+  }
+
+ private:
+  Term term_;
+  double weight_;
+  Decay decay_;
+  SlidingSpring sliding_;
+  double state_ = 0;
+};
+
+class Followers {
+ public:
+  Followers(const std::vector<Term>& terms, const Column& weights, const Band& band) {
+    for (std::size_t j = 0; j < terms.size(); ++j) {
+      const double weight = weights[static_cast<Eigen::Index>(j)];
+      const Term& term = terms[j];
+      if (weight == 0 || is_signed(term)) continue;
+      is_straight_ = is_straight_ && term.kind != TermKind::stop && term.kind != TermKind::sliding;
+      if (term.kind != TermKind::springpot) list_.emplace_back(term, weight);
+      else
+        for (const MaxwellBranch& branch : springpot_branches(term.exponent, band))
+          list_.emplace_back(Term{TermKind::maxwell, 1 / branch.relaxation_rate, 0, 0, 0}, weight * branch.stiffness);
+    }
+  }
+
+  void begin(double position) {
+    for (Follower& one : list_) one.begin(position);
+  }
+
+  double advance(double change, double step) {
+    double force = 0;
+    for (Follower& one : list_) force += one.advance(change, step);
+    return force;
+  }
+
+  double tried(double change, double step) const { return Followers(*this).advance(change, step); }
+
+  // Where the force is 0, one change being known at which it pulls. The force rises with the change, in a straight line
+  // but for slips.
+  double released(double pulling, double step, double most) const {
+    const double other = pulling < 0 ? 0 : most;
+    const double at_other = tried(other, step), at_pulling = tried(pulling, step);
+    if (is_straight_) return at_other > at_pulling ? other - at_other * (other - pulling) / (at_other - at_pulling) : 0;
+    double low = pulling, high = at_other < 0 ? most : other;
+    for (int halving = 0; halving < 100; ++halving) {
+      const double middle = (low + high) / 2;
+      (tried(middle, step) < 0 ? low : high) = middle;
+    }
+    return high;
+  }
+
+ private:
+  std::vector<Follower> list_;
+  bool is_straight_ = true;
+};
+
+// The displacement at which a curve's map has that value.
+double unmapped(const CurveShape& curve, double value, double most) {
+  double low = 0, high = most;
+  for (int halving = 0; halving < 100; ++halving) {
+    const double middle = (low + high) / 2;
+    (curve.at(middle).value < value ? low : high) = middle;
+  }
+  return high;
 }
 
 Term shaped(Term term, Shape shape, double change) {
@@ -319,7 +409,8 @@ Signal signal_of(const Recording& recording, std::size_t file, Form form, const 
   Signal signal{&recording, file, {}, {}, {}, {}, band, form};
   if (recording.kind != RecordingKind::motion) return signal;
   signal.steps = steps_of(recording.time);
-  signal.drive = form == Form::stiffness ? recording.position : recording.force;
+  const std::vector<double>& pushed = recording.surface.empty() ? recording.position : recording.surface;
+  signal.drive = form == Form::stiffness ? pushed : recording.force;
   if (curve) put_behind(signal, *curve);
   signal.change.assign(signal.drive.size(), 0.0);
   for (std::size_t i = 1; i < signal.drive.size(); ++i) signal.change[i] = signal.drive[i] - signal.drive[i - 1];
@@ -332,6 +423,27 @@ Column unit_column(const Signal& signal, const Term& term) {
 
 Column column_slope(const Signal& signal, const Term& term, Shape shape) {
   return levered(signal, term, straight_slope(signal, term, shape));
+}
+
+std::vector<double> surface_under(const Recording& recording, const std::vector<Term>& terms, const Column& weights,
+                                  const Band& band, const std::optional<CurveShape>& curve) {
+  const std::vector<double> steps = steps_of(recording.time);
+  const double furthest = *std::max_element(recording.position.begin(), recording.position.end());
+  const auto mapped = [&](double position) { return curve ? curve->at(position).value : position; };
+  const double most = mapped(furthest);
+  Followers tissue(terms, weights, band);
+  std::vector<double> surface{recording.position.front()};
+  double last = mapped(surface.front());
+  tissue.begin(last);
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    const double tool = mapped(recording.position[i]), approach = tool - last;
+    const bool pulls = tissue.tried(approach, steps[i]) < 0;
+    const double change = pulls ? tissue.released(approach, steps[i], most) : approach;
+    tissue.advance(change, steps[i]);
+    last = pulls ? last + change : tool;
+    surface.push_back(!pulls ? recording.position[i] : curve ? unmapped(*curve, last, furthest) : last);
+  }
+  return surface;
 }
 
 }  // namespace dashpot::compiler::fitting

@@ -43,6 +43,13 @@ Signal signal_of(const Recording& recording, std::size_t file, Form form, const 
 // Force [N] (position [m] in the compliance form) of the term with weight one, at each row; left limits.
 Eigen::VectorXd unit_column(const Signal& signal, const Term& term);
 
+// Where the surface of a tissue is that a tool may leave, at each row from rest [m]: with the tool, or where that would
+// pull, where the force is 0 (theory, section 5, "Contact"). In: a motion, and the tissue's terms with their weights.
+// The rule is that of the laws that are emitted, sample by sample.
+std::vector<double> surface_under(const Recording& recording, const std::vector<Term>& terms,
+                                  const Eigen::VectorXd& weights, const Band& band,
+                                  const std::optional<CurveShape>& curve);
+
 // Its derivative with respect to the logarithm of a time or threshold, or to an exponent.
 enum class Shape { time, threshold, exponent };
 Eigen::VectorXd column_slope(const Signal& signal, const Term& term, Shape shape);

@@ -14,9 +14,9 @@ void expect_number(const ObjectReader& reader, std::string_view key, Diagnostics
 void check_recording(const JsonValue& value, Diagnostics& diagnostics) {
   if (value.kind != Kind::object) return report_wrong_type("recordings", value, "a list of objects", diagnostics);
   ObjectReader reader(value, "a recording", diagnostics);
-  reader.refuse_other_keys({"file", "digest", "rows", "rms", "r_squared", "gain", "offset"});
+  reader.refuse_other_keys({"file", "digest", "rows", "free_rows", "rms", "r_squared", "gain", "offset"});
   for (const std::string_view key : {"file", "digest"}) reader.text(key);
-  for (const std::string_view key : {"rows", "r_squared", "gain"}) expect_number(reader, key, diagnostics);
+  for (const std::string_view key : {"rows", "free_rows", "r_squared", "gain"}) expect_number(reader, key, diagnostics);
   for (const std::string_view key : {"rms", "offset"}) reader.value(key);
 }
 

@@ -339,6 +339,27 @@ int main() {
         self.write("commas.csv", "\n".join([rows[0]] + [row + "," for row in rows[1:]]) + "\n")
         self.fit("commas.csv")
 
+    def test_a_surface_is_told(self):
+        """Fails if it is not said where the surface was found, and how many rows are without touch."""
+        self.write("touched.json", """{ "dashpot": 1, "name": "touched", "contact": { "at": "0.5 mm" }, "network": { "parallel": [
+            { "spring": "300 N/m" }, { "series": [ { "spring": "200 N/m" }, { "damper": "100 N s/m" } ] } ] } }""")
+        ends = [(0, 0), (2, 2e-3), (4, 2e-3), (4.2, 0), (5, 0)]
+
+        def way(t):
+            (a, x), (b, y) = next(pair for pair in zip(ends, ends[1:]) if t <= pair[1][0])
+            return x + (y - x) * (t - a) / (b - a)
+        self.write("motion.csv", "time,position\n" + "".join(f"{i / 100},{way(i / 100)!r}\n" for i in range(501)))
+        self.dashpot("simulate", "touched.json", "--input", "motion.csv", "-o", "touched.csv")
+        columns = ["touched.csv", "--columns", "time=time:s,position=position:m,force=force:N"]
+        done = self.fit(*columns, "--contact", "find", "-o", "fitted.json")
+        self.assertRegex(done.stdout, r"surface found at (500|499\.\d|500\.\d) um")
+        self.assertRegex(done.stdout, r"\d+ of the rows are left out: there the tool has left the tissue")
+        self.assertGreater(json.loads((self.folder / "fitted.json").read_text())["fit"]["recordings"][0]["free_rows"], 5)
+        told = self.told(*columns, "--contact", "0.5 mm")
+        self.assertEqual(told["contact"], {"at": 5e-4, "found": False})
+        for element, value in zip(told["elements"], (300, 200, 100), strict=True):
+            self.assertAlmostEqual(element["value"] / value, 1, places=4)
+
     def test_a_line_without_end(self):
         """Fails if a line is read for as long as it lasts."""
         self.write("endless.csv", "time [s],position [mm],force [N]\n" + "1" * (3 << 20))

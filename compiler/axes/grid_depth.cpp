@@ -96,15 +96,23 @@ Symmetric<Interval> bend(const Grid& grid, const Pair<Interval>& x) {
   return *all;
 }
 
+namespace {
+
+// A function of x and y by its derivatives over a box.
+Sloped over_box(const Interval& value, const Interval& middle, const Interval& by_x, const Interval& by_y,
+                const Pair<Sloped>& x) {
+  return {value, middle, combined(by_x, x[0].slope, by_y, x[1].slope)};
+}
+
+}  // namespace
+
 Depth<Sloped> depth(const Grid& grid, const Pair<Sloped>& x) {
-  const Box box{x[0].value, x[1].value};
-  const Depth<Interval> over = depth(grid, box);
+  const Box box{x[0].value, x[1].value}, at{x[0].middle, x[1].middle};
+  const Depth<Interval> over = depth(grid, box), middle = depth(grid, at);
   const Symmetric<Interval> bends = bend(grid, box);
-  const auto along = [&](const Interval& by_x, const Interval& by_y) {
-    return combined(by_x, x[0].slope, by_y, x[1].slope);
-  };
-  return {{over.value, along(over.gradient[0], over.gradient[1])},
-          {Sloped(over.gradient[0], along(bends.xx, bends.xy)), Sloped(over.gradient[1], along(bends.xy, bends.yy))}};
+  return {over_box(over.value, middle.value, over.gradient[0], over.gradient[1], x),
+          {over_box(over.gradient[0], middle.gradient[0], bends.xx, bends.xy, x),
+           over_box(over.gradient[1], middle.gradient[1], bends.xy, bends.yy, x)}};
 }
 
 // From cell to cell second derivatives jump.
@@ -119,7 +127,7 @@ Symmetric<Sloped> bend(const Grid& grid, const Pair<Sloped>& x) {
   const Interval all(-infinity, infinity);
   const Slopes any{all, all, all, all};
   const Symmetric<Interval> over = bend(grid, box);
-  return {{over.xx, any}, {over.xy, any}, {over.yy, any}};
+  return {{over.xx, over.xx, any}, {over.xy, over.xy, any}, {over.yy, over.yy, any}};
 }
 
 }  // namespace dashpot::compiler::axes

@@ -1,10 +1,12 @@
 // Enclosures: every operation returns an interval that holds each result that its operands' members have. Ends are
-// rounded to nearest and then moved outward by one step of double precision for + − * / √, which are exact to half of
-// one, and by four for sin, cos, atan, acos, of which the C library's are within one. So no mode of rounding is set,
-// and what the compiler makes of the text cannot undo it.
+// rounded to nearest and then moved outward by one or two steps of double precision for + − * / √, which are exact to
+// half of one, and by four for sin, cos, atan, acos, of which the C library's are within one. So no mode of rounding is
+// set, and what the compiler makes of the text cannot undo it.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace dashpot::compiler::axes {
 
@@ -20,20 +22,59 @@ struct Interval {
   bool holds(double value) const { return low <= value && value <= high; }
 };
 
-Interval operator-(const Interval& a);
-Interval operator+(const Interval& a, const Interval& b);
-Interval operator-(const Interval& a, const Interval& b);
-Interval operator*(const Interval& a, const Interval& b);
+// A step below and above: 2⁻⁵² |x| is one or two units in the last place of x, and the smallest normal number does for
+// those that have fewer places. Of an end beyond all numbers the largest is below.
+inline double below(double x) {
+  constexpr double largest = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::min();
+  const double finite = std::min(x, largest);
+  return finite - (std::numeric_limits<double>::epsilon() * std::abs(finite) + least);
+}
+inline double above(double x) { return -below(-x); }
+
+inline Interval operator-(const Interval& a) { return {-a.high, -a.low}; }
+
+// What is added to 0 stays what it is.
+inline Interval operator+(const Interval& a, const Interval& b) {
+  const auto exact = [](double x, double y) { return x == 0 || y == 0; };
+  const double low = a.low + b.low, high = a.high + b.high;
+  return {exact(a.low, b.low) ? low : below(low), exact(a.high, b.high) ? high : above(high)};
+}
+inline Interval operator-(const Interval& a, const Interval& b) { return a + -b; }
+
+// Where an end is infinite: times 0 it is 0.
+Interval product_beyond_numbers(const Interval& a, const Interval& b);
+
+// A product of two that do not change their sign does not either, and one with 0 is 0.
+inline Interval operator*(const Interval& a, const Interval& b) {
+  if (!((a.high - a.low) + (b.high - b.low) < std::numeric_limits<double>::infinity()))
+    return product_beyond_numbers(a, b);
+  if ((a.low == 0 && a.high == 0) || (b.low == 0 && b.high == 0)) return Interval(0);
+  const double ends[] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+  const double low = below(std::min(std::min(ends[0], ends[1]), std::min(ends[2], ends[3])));
+  const double high = above(std::max(std::max(ends[0], ends[1]), std::max(ends[2], ends[3])));
+  const bool alike = (a.low >= 0 && b.low >= 0) || (a.high <= 0 && b.high <= 0);
+  const bool opposed = (a.low >= 0 && b.high <= 0) || (a.high <= 0 && b.low >= 0);
+  return {alike ? std::max(low, 0.0) : low, opposed ? std::min(high, 0.0) : high};
+}
+
 // All numbers where the divisor holds 0.
 Interval operator/(const Interval& a, const Interval& b);
 
-Interval square(const Interval& a);
+inline Interval abs(const Interval& a) {
+  if (a.low >= 0) return a;
+  if (a.high <= 0) return -a;
+  return {0, std::max(-a.low, a.high)};
+}
+inline Interval square(const Interval& a) {
+  const Interval size = abs(a);
+  return {std::max(below(size.low * size.low), 0.0), size.high == 0 ? 0 : above(size.high * size.high)};
+}
+// part/whole, by the reciprocal of the whole, where |part| ≤ whole.
 Interval fraction(const Interval& part, const Interval& reciprocal);
 // Of what of it is not negative; [0, 0] where nothing is.
 Interval sqrt(const Interval& a);
-Interval abs(const Interval& a);
-Interval min(const Interval& a, const Interval& b);
-Interval max(const Interval& a, const Interval& b);
+inline Interval min(const Interval& a, const Interval& b) { return {std::min(a.low, b.low), std::min(a.high, b.high)}; }
+inline Interval max(const Interval& a, const Interval& b) { return {std::max(a.low, b.low), std::max(a.high, b.high)}; }
 // Arguments up to 1000 rad; [−1, 1] beyond.
 Interval sin(const Interval& a);
 Interval cos(const Interval& a);
@@ -42,7 +83,9 @@ Interval atan(const Interval& a);
 Interval acos(const Interval& a);
 
 // The smallest interval that holds both.
-Interval hull(const Interval& a, const Interval& b);
+inline Interval hull(const Interval& a, const Interval& b) {
+  return {std::min(a.low, b.low), std::max(a.high, b.high)};
+}
 // By an amount at either end.
 Interval widened(const Interval& a, double amount);
 

@@ -75,20 +75,18 @@ std::optional<Pair<double>> joints_at(const Arm& arm, const Pair<double>& tip) {
   return joints;
 }
 
-std::optional<EnclosedJoints> enclosed_joints(const Arm& arm, const Box& tip) {
-  const Pair<double> middle = middle_of(tip);
-  if (arm.kind == Kinematics::cartesian) return EnclosedJoints{variables(tip), constant<Interval>(middle)};
-  if (!is_within(arm, tip) || !joints_at(arm, middle)) return std::nullopt;
-  EnclosedJoints joints{joints_of(arm, variables(tip), middle), joints_of(arm, constant<Interval>(middle), middle)};
-  for (const std::size_t j : {0u, 1u})
-    joints.over[j].value = centred(joints.over[j], joints.in_middle[j], apart_in(tip));
-  return joints;
+std::optional<Pair<Sloped>> enclosed_joints(const Arm& arm, const Pair<Sloped>& tip) {
+  if (arm.kind == Kinematics::cartesian) return tip;
+  const Box box{tip[0].value, tip[1].value};
+  const Pair<double> middle = middle_of(box);
+  if (!is_within(arm, box) || !joints_at(arm, middle)) return std::nullopt;
+  return joints_of(arm, tip, middle);
 }
 
 std::optional<Box> joints_over(const Arm& arm, const Box& tip) {
-  const std::optional<EnclosedJoints> joints = enclosed_joints(arm, tip);
+  const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, variables(tip));
   if (!joints) return std::nullopt;
-  return Box{joints->over[0].value, joints->over[1].value};
+  return Box{(*joints)[0].value, (*joints)[1].value};
 }
 
 }  // namespace dashpot::compiler::axes

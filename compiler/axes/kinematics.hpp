@@ -61,6 +61,14 @@ FiveBar<S> five_bar(const Arm& arm, const Pair<S>& q) {
       {left, right}, {first, up - half}, {left[0] + first[0] - S(arm.base / 2), left[1] + first[1]}, inverse / height};
 }
 
+// The same where the tip is known beside the joints that put it there: enclosures of it then need no root.
+template <typename S>
+FiveBar<S> five_bar(const Arm& arm, const Pair<S>& q, const Pair<S>& tip) {
+  const Pair<S> left = link(arm.proximal, q[0]), right = link(arm.proximal, q[1]), half{S(arm.base / 2), S(0)};
+  const Pair<S> first = tip + half - left, second = tip - half - right;
+  return {{left, right}, {first, second}, tip, S(1) / dot(turned(first), second)};
+}
+
 // d_i·tip′ = d_i·E_i′ for the elbows E_i: of the two rows d_i the inverse is turned.
 template <typename S>
 Pair<S> solve_distal(const FiveBar<S>& bar, const S& first, const S& second) {

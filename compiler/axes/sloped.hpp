@@ -1,10 +1,11 @@
-// Enclosures that shrink with the square of a box: a value with its derivatives by what it depends on, each enclosed,
-// and so
+// Enclosures that shrink with the square of a box: a value with its derivatives, each enclosed over the box, and its
+// value in the middle,
 //
-//     f(x) ∈ f(middle) + Σ_j ∂f/∂x_j(box) (x_j − middle_j)
+//     f(x) ∈ f(middle) + Σ_j ∂f/∂t_j(box) t_j,        x_j = middle_j + radius_j t_j,        |t_j| ≤ 1
 //
-// beside the enclosure of f itself (Moore, Kearfott & Cloud 2009, 6.4). For what is written once for every scalar. The
-// first two x_j are the coordinates of a box, the others how far joints go from there.
+// which every operation intersects with the enclosure of f itself (Moore, Kearfott & Cloud 2009, 6.4). For what is
+// written once for every scalar. The first two t_j are of the coordinates of a box, the others of how far joints go
+// from there.
 #pragma once
 
 #include <limits>
@@ -18,16 +19,34 @@ using Box = Pair<Interval>;  // of tip positions [m], or of joint positions [rad
 
 inline Pair<double> middle_of(const Box& box) { return {box[0].middle(), box[1].middle()}; }
 
-using Slopes = std::array<Interval, 4>;  // one for each x_j, or x_j − middle_j
+using Slopes = std::array<Interval, 4>;  // ∂/∂t_j
 
 struct Sloped {
-  Interval value;
+  Interval value, middle;
   Slopes slope{};
 
-  explicit Sloped(double constant) : value(constant) {}
-  explicit Sloped(const Interval& constant) : value(constant) {}
-  Sloped(const Interval& value_over, const Slopes& slope_over) : value(value_over), slope(slope_over) {}
+  explicit Sloped(double constant) : value(constant), middle(constant) {}
+  explicit Sloped(const Interval& constant) : value(constant), middle(constant) {}
+  Sloped(const Interval& value_over, const Interval& in_middle, const Slopes& slope_over)
+      : value(value_over), middle(in_middle), slope(slope_over) {
+    double most = 0;
+    for (const Interval& one : slope) most = above(most + abs(one).high);
+    const Interval near = middle + Interval(-most, most);
+    if (near.low > value.low) value.low = near.low;
+    if (near.high < value.high) value.high = near.high;
+  }
 };
+
+// The j-th coordinate of a box.
+inline Sloped variable(const Interval& over, std::size_t j) {
+  const Interval middle(over.middle()), apart = over - middle;
+  Sloped result(over, middle, {});
+  result.value = over;
+  result.slope[j] = Interval(std::max(-apart.low, apart.high));
+  return result;
+}
+
+inline Pair<Sloped> variables(const Box& box) { return {variable(box[0], 0), variable(box[1], 1)}; }
 
 // first·a + second·b of the derivatives of two.
 inline Slopes combined(const Interval& first, const Slopes& a, const Interval& second, const Slopes& b) {
@@ -36,39 +55,58 @@ inline Slopes combined(const Interval& first, const Slopes& a, const Interval& s
   return result;
 }
 
-// Of a function whose derivative is enclosed too.
-inline Sloped chained(const Interval& value, const Interval& derivative, const Sloped& a) {
-  return {value, combined(derivative, a.slope, Interval(0), a.slope)};
+inline Slopes scaled(const Interval& by, const Slopes& a) {
+  Slopes result;
+  for (std::size_t j = 0; j < result.size(); ++j) result[j] = by * a[j];
+  return result;
 }
 
-inline Sloped operator-(const Sloped& a) { return chained(-a.value, Interval(-1), a); }
+// A function with its enclosure of an interval, of which the derivative is enclosed over a.value.
+template <typename Function>
+Sloped chained(const Function& f, const Interval& derivative, const Sloped& a) {
+  return {f(a.value), f(a.middle), scaled(derivative, a.slope)};
+}
+
+inline Sloped operator-(const Sloped& a) {
+  Sloped result = a;
+  result.value = -a.value, result.middle = -a.middle;
+  for (Interval& one : result.slope) one = -one;
+  return result;
+}
 inline Sloped operator+(const Sloped& a, const Sloped& b) {
-  return {a.value + b.value, combined(Interval(1), a.slope, Interval(1), b.slope)};
+  Slopes sum;
+  for (std::size_t j = 0; j < sum.size(); ++j) sum[j] = a.slope[j] + b.slope[j];
+  return {a.value + b.value, a.middle + b.middle, sum};
 }
-inline Sloped operator-(const Sloped& a, const Sloped& b) {
-  return {a.value - b.value, combined(Interval(1), a.slope, Interval(-1), b.slope)};
-}
+inline Sloped operator-(const Sloped& a, const Sloped& b) { return a + -b; }
 inline Sloped operator*(const Sloped& a, const Sloped& b) {
-  return {a.value * b.value, combined(b.value, a.slope, a.value, b.slope)};
+  return {a.value * b.value, a.middle * b.middle, combined(b.value, a.slope, a.value, b.slope)};
 }
 inline Sloped operator/(const Sloped& a, const Sloped& b) {
   const Interval quotient = a.value / b.value, inverse = Interval(1) / b.value;
-  return {quotient, combined(inverse, a.slope, -(inverse * quotient), b.slope)};
+  return {quotient, a.middle / b.middle, combined(inverse, a.slope, -(inverse * quotient), b.slope)};
 }
-inline Sloped square(const Sloped& a) { return chained(square(a.value), Interval(2) * a.value, a); }
+inline Sloped square(const Sloped& a) {
+  return chained([](const Interval& x) { return square(x); }, Interval(2) * a.value, a);
+}
 inline Sloped fraction(const Sloped& part, const Sloped& reciprocal) {
-  return {fraction(part.value, reciprocal.value), (part * reciprocal).slope};
+  return {fraction(part.value, reciprocal.value), fraction(part.middle, reciprocal.middle), (part * reciprocal).slope};
 }
-inline Sloped atan(const Sloped& a) { return chained(atan(a.value), Interval(1) / (Interval(1) + square(a.value)), a); }
+inline Sloped atan(const Sloped& a) {
+  return chained([](const Interval& x) { return atan(x); }, Interval(1) / (Interval(1) + square(a.value)), a);
+}
 inline Sloped acos(const Sloped& a) {
-  return chained(acos(a.value), Interval(-1) / sqrt(Interval(1) - square(a.value)), a);
+  return chained([](const Interval& x) { return acos(x); }, Interval(-1) / sqrt(Interval(1) - square(a.value)), a);
 }
 inline Sloped sqrt(const Sloped& a) {
-  const Interval root = sqrt(a.value);
-  return chained(root, Interval(0.5) / root, a);
+  return chained([](const Interval& x) { return sqrt(x); }, Interval(0.5) / sqrt(a.value), a);
 }
-inline Sloped sin(const Sloped& a) { return chained(sin(a.value), cos(a.value), a); }
-inline Sloped cos(const Sloped& a) { return chained(cos(a.value), -sin(a.value), a); }
+inline Sloped sin(const Sloped& a) {
+  return chained([](const Interval& x) { return sin(x); }, cos(a.value), a);
+}
+inline Sloped cos(const Sloped& a) {
+  return chained([](const Interval& x) { return cos(x); }, -sin(a.value), a);
+}
 
 // Where it is open which of both it is, the derivative is that of either.
 inline Sloped max(const Sloped& a, const Sloped& b) {
@@ -76,37 +114,9 @@ inline Sloped max(const Sloped& a, const Sloped& b) {
   if (b.value.low >= a.value.high) return b;
   Slopes either;
   for (std::size_t j = 0; j < either.size(); ++j) either[j] = hull(a.slope[j], b.slope[j]);
-  return {max(a.value, b.value), either};
+  return {max(a.value, b.value), max(a.middle, b.middle), either};
 }
 inline Sloped min(const Sloped& a, const Sloped& b) { return -max(-a, -b); }
 inline Sloped abs(const Sloped& a) { return max(a, -a); }
-
-// From the function's values with slopes and from its value in the middle, `apart` from there by at most so much.
-inline Interval centred(const Sloped& over, const Interval& in_middle, const Slopes& apart) {
-  Interval near = in_middle;
-  for (std::size_t j = 0; j < apart.size(); ++j) near = near + over.slope[j] * apart[j];
-  return {std::max(over.value.low, near.low), std::min(over.value.high, near.high)};
-}
-
-inline Symmetric<Interval> centred(const Symmetric<Sloped>& over, const Symmetric<Interval>& in_middle,
-                                   const Slopes& apart) {
-  return {centred(over.xx, in_middle.xx, apart), centred(over.xy, in_middle.xy, apart),
-          centred(over.yy, in_middle.yy, apart)};
-}
-
-inline Pair<Sloped> variables(const Box& box) {
-  return {Sloped(box[0], {Interval(1)}), Sloped(box[1], {Interval(0), Interval(1)})};
-}
-
-inline Slopes apart_in(const Box& box) {
-  const Pair<double> middle = middle_of(box);
-  return {box[0] - Interval(middle[0]), box[1] - Interval(middle[1])};
-}
-
-// Of a function that takes joints of either scalar to a matrix of it.
-template <typename Function>
-Symmetric<Interval> enclosed(const Box& box, const Function& f) {
-  return centred(f(variables(box)), f(constant<Interval>(middle_of(box))), apart_in(box));
-}
 
 }  // namespace dashpot::compiler::axes

@@ -21,12 +21,8 @@ std::optional<Pair<double>> joints_at(const Arm& arm, const Pair<double>& tip);
 // where the box surrounds a motor axis.
 std::optional<Box> joints_over(const Arm& arm, const Box& tip);
 
-// The same with the joints' derivatives by the tip's coordinates, and the joints of the box's middle.
-struct EnclosedJoints {
-  Pair<Sloped> over;
-  Box in_middle;
-};
-std::optional<EnclosedJoints> enclosed_joints(const Arm& arm, const Box& tip);
+// The same with the joints' derivatives.
+std::optional<Pair<Sloped>> enclosed_joints(const Arm& arm, const Pair<Sloped>& tip);
 
 // A tip position in a workspace near which the arm is singular: links that are too short or too long to reach it, or
 // two of them in line, so that a motion of the tip or a force at it is beyond all bounds.

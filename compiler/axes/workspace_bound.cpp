@@ -33,9 +33,44 @@ Interval weighed(const Symmetric<Interval>& n, const Pair<double>& weight) {
   return Interval(0.5) * (a + c) + sqrt(square(Interval(0.5) * (a - c)) + square(coupling) / (first * second));
 }
 
+// The same over a box: x is convex in a matrix, and so largest where every t_j is at an end if entries go straight with
+// all of them; what slopes are wide by is in the entries there. Or of the entries as they are.
+struct Largest {
+  double x;
+  Pair<double> at{0, 0};  // the first two t_j at that end
+};
+
+Largest weighed(const Symmetric<Sloped>& n, const Pair<double>& weight) {
+  const auto is_level = [&](std::size_t j) {
+    const auto level = [&](const Sloped& s) { return s.slope[j].low == 0 && s.slope[j].high == 0; };
+    return level(n.xx) && level(n.xy) && level(n.yy);
+  };
+  std::vector<std::pair<Symmetric<Interval>, Pair<double>>> ends{{{n.xx.middle, n.xy.middle, n.yy.middle}, {0, 0}}};
+  for (std::size_t j = 0; j < std::tuple_size_v<Slopes>; ++j) {
+    if (is_level(j)) continue;
+    const Symmetric<Interval> way{n.xx.slope[j], n.xy.slope[j], n.yy.slope[j]};
+    const std::size_t so_far = ends.size();
+    for (std::size_t i = 0; i < so_far; ++i) {
+      auto [less, at] = ends[i];
+      if (j < 2) at[j] = -1;
+      ends.emplace_back(less - way, at);
+      ends[i].first = less + way;
+      if (j < 2) ends[i].second[j] = 1;
+    }
+  }
+  Largest most{-infinity};
+  for (const auto& [end, at] : ends) {
+    const double x = weighed(end, weight).high;
+    if (!(x <= most.x)) most = {x, at};
+  }
+  const double as_they_are = weighed(Symmetric<Interval>{n.xx.value, n.xy.value, n.yy.value}, weight).high;
+  if (!(most.x <= as_they_are)) most.x = as_they_are;
+  return most;
+}
+
 // ‖H‖ against W: the larger of weighed(H) and weighed(−H).
-double size_of(const Symmetric<Interval>& h, const Pair<double>& weight) {
-  return std::max(weighed(h, weight).high, weighed(Interval(-1) * h, weight).high);
+double size_of(const Symmetric<Sloped>& h, const Pair<double>& weight) {
+  return std::max(weighed(h, weight).x, weighed(Sloped(-1) * h, weight).x);
 }
 
 }  // namespace
@@ -95,87 +130,105 @@ std::optional<Symmetric<S>> steepest(const PortMap& map, const Pose<S>& at) {
   return std::nullopt;
 }
 
-// Of one port: matrices of which each is no less than S g gᵀ + ½ M H, and what delay needs of it.
-template <typename S>
-struct PortTerms {
-  std::vector<Symmetric<S>> enough;
-  Symmetric<S> hessian;
+// How the tip moves where joints are.
+struct Place {
+  Pose<Sloped> pose;
+  Pair<Symmetric<Sloped>> bends;
 };
 
-template <typename S>
-PortTerms<S> terms(const PortLoad& load, const ForceForm& form, int delay, bool lessened, const Arm& arm,
-                   const Pair<S>& joints) {
-  const Pose<S> at = pose(arm, joints);
-  const Pair<Symmetric<S>> bends = curvature(arm, joints);
-  const Depth<S> there = depth(load.map, at.tip);
-  const S held(load.held * (1 + 2 * delay)), half = S(0.5) * form.at(there.value);
-  const Symmetric<S> carried = there.gradient[0] * bends[0] + there.gradient[1] * bends[1];
-  const Symmetric<S> all = carried + at_joints(at, bend(load.map, at.tip));
-  const Symmetric<S> squared = held * outer(at_joints(at, there.gradient));
-  PortTerms<S> result{{squared + half * all}, all};
-  if (lessened) result.enough.push_back(squared + half * carried);
-  if (const auto steep = steepest(load.map, at)) {
-    result.enough.push_back(held * *steep + half * all);
-    if (lessened) result.enough.push_back(held * *steep + half * carried);
-  }
+// Joints when a force is commanded, and all that they reach while it is held.
+struct Region {
+  Pair<Sloped> from;
+  Place reached;
+};
+
+Place place_of(const Arm& arm, const Pair<Sloped>& joints, const Pair<Sloped>& tip) {
+  if (arm.kind != Kinematics::five_bar) return {pose(arm, joints), curvature(arm, joints)};
+  const FiveBar<Sloped> bar = five_bar(arm, joints, tip);
+  return {pose_of(bar), five_bar_curvature(bar)};
+}
+
+Pair<Sloped> moved(const Pair<Sloped>& from, const Pair<double>& by) {
+  Pair<Sloped> result = from;
+  for (const std::size_t j : {0u, 1u})
+    if (by[j] > 0) result[j] = result[j] + variable(Interval(-by[j], by[j]), 2 + j);
   return result;
 }
 
-// Joints of a part of a workspace and all that they reach from there.
-struct Region {
-  EnclosedJoints joints;
-  Slopes apart;
+// How far the tip goes at most.
+Pair<double> reach_of_tip(const Arm& arm, const Pair<Sloped>& joints, const Pair<double>& reach) {
+  const Pair<Sloped> reached = moved(joints, reach);
+  const Pose<Interval> moves = pose(arm, Box{reached[0].value, reached[1].value});
+  const auto along = [&](std::size_t i) {
+    return (abs(moves.column[0][i]) * Interval(reach[0]) + abs(moves.column[1][i]) * Interval(reach[1])).high;
+  };
+  return {along(0), along(1)};
+}
 
-  Box box() const { return {joints.over[0].value, joints.over[1].value}; }
-};
+std::optional<Region> region_over(const Arm& arm, const Box& tip, const Pair<double>& reach) {
+  const Pair<Sloped> at = variables(tip);
+  const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, at);
+  if (!joints) return std::nullopt;
+  if (reach == Pair<double>{0, 0}) return Region{*joints, place_of(arm, *joints, at)};
+  const Pair<Sloped> there = moved(at, reach_of_tip(arm, *joints, reach));
+  const std::optional<Pair<Sloped>> reached = enclosed_joints(arm, there);
+  if (!reached) return std::nullopt;
+  return Region{*joints, place_of(arm, *reached, there)};
+}
 
-Region reached_from(const EnclosedJoints& from, const Slopes& apart, const Pair<double>& reach) {
-  Region region{from, apart};
-  for (const std::size_t j : {0u, 1u}) {
-    const Interval way(-reach[j], reach[j]);
-    region.joints.over[j].value = from.over[j].value + way;
-    region.joints.over[j].slope[2 + j] = Interval(1);
-    region.apart[2 + j] = way;
-  }
-  return region;
+Region region_over_joints(const Arm& arm, const Box& box, const Pair<double>& reach) {
+  const Pair<Sloped> joints = variables(box), reached = moved(joints, reach);
+  return {joints, {pose(arm, reached), curvature(arm, reached)}};
 }
 
 class PortNeed {
  public:
   PortNeed(const PortLoad& load, const Interval& range) : load_(load), range_(range) {}
 
-  // For both ends of M what is needed, as it stands or the tightest of what is enough, over a box of joints, with n |M|
-  // ‖H‖ W. One where both are the same.
-  std::vector<Symmetric<Interval>> over(const Arm& arm, const Region& region, int delay, const Pair<double>& weight,
-                                        bool as_it_stands) const {
-    const Interval depth = axes::depth(load_.map, pose(arm, region.box()).tip).value;
-    if (load_.unilateral && depth.high <= 0) return {};
-    const Interval force = motor_force(load_, depth, range_);
+  // For both ends of M what is needed over joints as it stands, and the tightest of what is enough; with n |M| ‖H‖ W.
+  struct Ends {
+    std::vector<Symmetric<Sloped>> as_it_stands, tightest;
+  };
+
+  Ends over(const Place& there, int delay, const Pair<double>& weight) const {
+    const Depth<Sloped> depth = axes::depth(load_.map, there.pose.tip);
+    if (load_.unilateral && depth.value.value.high <= 0) return {};
+    const Interval force = motor_force(load_, depth.value.value, range_);
+    const Symmetric<Sloped> carried = depth.gradient[0] * there.bends[0] + depth.gradient[1] * there.bends[1];
+    const Symmetric<Sloped> own = at_joints(there.pose, bend(load_.map, there.pose.tip));
+    const Symmetric<Sloped> hessian = carried + own;
+    const Sloped held(load_.held * (1 + 2 * delay));
+    const Symmetric<Sloped> squared = held * outer(at_joints(there.pose, depth.gradient));
+    const std::optional<Symmetric<Sloped>> steep = steepest(load_.map, there.pose);
     const bool lessened = is_lessened_by_bend(load_.map, force);
-    std::vector<Symmetric<Interval>> ends;
-    for (const ForceForm& form : force_ends(load_, depth, range_)) {
-      const PortTerms<Sloped> sloped = terms(load_, form, delay, lessened, arm, region.joints.over);
-      const PortTerms<Interval> middle = terms(load_, form, delay, lessened, arm, region.joints.in_middle);
-      ends.push_back(as_it_stands ? centred(sloped.enough[0], middle.enough[0], region.apart)
-                                  : tightest(sloped, middle, region.apart, weight));
-      if (delay == 0) continue;
-      const double size = size_of(centred(sloped.hessian, middle.hessian, region.apart), weight);
-      const Interval late = Interval(delay) * Interval(abs(force).high) * Interval(size);
-      ends.back() =
-          ends.back() + Symmetric<Interval>{late * Interval(weight[0]), Interval(0), late * Interval(weight[1])};
+    const double late = delay == 0 ? 0 : delay * abs(force).high * size_of(hessian, weight) * (1 + 1e-12);
+    const Symmetric<Sloped> lateness{Sloped(late * weight[0]), Sloped(0), Sloped(late * weight[1])};
+    Ends ends;
+    for (const ForceForm& form : force_ends(load_, depth.value.value, range_)) {
+      const Sloped half = Sloped(0.5) * form.at(depth.value);
+      const Symmetric<Sloped> all = half * hessian + lateness;
+      ends.as_it_stands.push_back(squared + all);
+      std::vector<Symmetric<Sloped>> enough{ends.as_it_stands.back()};
+      if (steep) enough.push_back(held * *steep + all);
+      if (lessened) {
+        const Symmetric<Sloped> less = half * carried + lateness;
+        enough.push_back(squared + less);
+        if (steep) enough.push_back(held * *steep + less);
+      }
+      ends.tightest.push_back(least_of(enough, weight));
     }
     return ends;
   }
 
  private:
-  static Symmetric<Interval> tightest(const PortTerms<Sloped>& sloped, const PortTerms<Interval>& middle,
-                                      const Slopes& apart, const Pair<double>& weight) {
-    Symmetric<Interval> best = centred(sloped.enough[0], middle.enough[0], apart);
-    for (std::size_t i = 1; i < sloped.enough.size(); ++i) {
-      const Symmetric<Interval> other = centred(sloped.enough[i], middle.enough[i], apart);
-      if (!(weighed(best, weight).high <= weighed(other, weight).high)) best = other;
+  static Symmetric<Sloped> least_of(const std::vector<Symmetric<Sloped>>& enough, const Pair<double>& weight) {
+    std::size_t best = 0;
+    double least = infinity;
+    for (std::size_t i = 0; i < enough.size(); ++i) {
+      const double x = weighed(enough[i], weight).x;
+      if (x < least) best = i, least = x;
     }
-    return best;
+    return enough[best];
   }
 
   const PortLoad& load_;
@@ -183,13 +236,12 @@ class PortNeed {
 };
 
 // Every sum of one of either.
-std::vector<Symmetric<Interval>> with_each(const std::vector<Symmetric<Interval>>& sums,
-                                           const std::vector<Symmetric<Interval>>& ends) {
+std::vector<Symmetric<Sloped>> with_each(const std::vector<Symmetric<Sloped>>& sums,
+                                         const std::vector<Symmetric<Sloped>>& ends) {
   if (ends.empty()) return sums;
-  std::vector<Symmetric<Interval>> result;
-  for (const Symmetric<Interval>& sum : sums) {
-    for (const Symmetric<Interval>& end : ends) result.push_back(sum + end);
-  }
+  std::vector<Symmetric<Sloped>> result;
+  for (const Symmetric<Sloped>& sum : sums)
+    for (const Symmetric<Sloped>& end : ends) result.push_back(sum + end);
   return result;
 }
 
@@ -201,14 +253,15 @@ class Search {
     for (const PortLoad& load : loads) ports_.emplace_back(load, range_of(load.map, workspace));
   }
 
-  template <typename ToJoints>
-  NeededDamping run(const Box& whole, const ToJoints& joints_of, double tolerance, int most) {
+  // `region_of` takes a part to its region, or to nothing where it has to be halved before that is known.
+  template <typename ToRegion>
+  NeededDamping run(const Box& whole, const ToRegion& region_of, double tolerance, int most) {
     Parts open;
-    open.push(measured(whole, joints_of));
+    open.push(measured(whole, region_of));
     for (int boxes = 1; boxes < most && !is_close(open.top().need, tolerance); boxes += 2) {
       const Part worst = open.top();
       open.pop();
-      for (const Box& half : halves(worst.box, whole)) open.push(measured(half, joints_of));
+      for (const Box& half : halves(worst.box, whole)) open.push(measured(half, region_of));
     }
     return {open.top().need, attained_, at_, is_close(open.top().need, tolerance)};
   }
@@ -216,34 +269,43 @@ class Search {
  private:
   bool is_close(double need, double tolerance) const { return need - attained_ <= tolerance * scale_; }
 
-  template <typename ToJoints>
-  Part measured(const Box& box, const ToJoints& joints_of) {
-    const std::optional<EnclosedJoints> joints = joints_of(box);
-    if (!joints) return {box, infinity};
-    const Box middle = joints->in_middle;
-    const double limit = need_over({{Sloped(middle[0]), Sloped(middle[1])}, middle}, {}, true);
-    if (limit > attained_) attained_ = limit, at_ = middle_of(middle);
-    return {box, std::max(need_over(*joints, apart_in(box), false), limit)};
+  // What a part asks for is looked for where it is largest if entries go straight.
+  template <typename ToRegion>
+  Part measured(const Box& box, const ToRegion& region_of) {
+    const std::optional<Region> region = region_of(box);
+    if (!region) return {box, infinity};
+    const Largest part = need_over(*region, nullptr);
+    if (!(part.x > attained_)) return {box, attained_};
+    Pair<double> at = middle_of(box);
+    for (const std::size_t j : {0u, 1u})
+      if (part.at[j] != 0) at[j] = part.at[j] > 0 ? box[j].high : box[j].low;
+    const std::optional<Region> there = region_of(constant<Interval>(at));
+    if (!there) return {box, part.x};
+    const double limit = need_over(*there, &scale_).x;
+    if (limit > attained_) attained_ = limit, at_ = {there->from[0].middle.middle(), there->from[1].middle.middle()};
+    return {box, std::max(part.x, limit)};
   }
 
-  double need_over(const EnclosedJoints& joints, const Slopes& apart, bool at_a_point) {
-    const Region region = reached_from(joints, apart, loop_.reach);
-    const Box from{joints.over[0].value, joints.over[1].value};
-    // Port by port the tightest may not be so in the sum.
-    return std::min(largest(region, from, true, at_a_point), largest(region, from, false, false));
-  }
-
-  double largest(const Region& region, const Box& from, bool as_it_stands, bool sets_scale) {
-    std::vector<Symmetric<Interval>> sums{{Interval(0), Interval(0), Interval(0)}};
+  // Of every sum of ends, as it stands or the tightest of each port: which of both is less is another in every part.
+  Largest need_over(const Region& region, double* scale) const {
+    std::vector<Symmetric<Sloped>> stands{{Sloped(0), Sloped(0), Sloped(0)}}, tightest = stands;
     for (const PortNeed& port : ports_) {
-      sums = with_each(sums, port.over(arm_, region, loop_.delay, weight_, as_it_stands));
+      const PortNeed::Ends ends = port.over(region.reached, loop_.delay, weight_);
+      stands = with_each(stands, ends.as_it_stands);
+      tightest = with_each(tightest, ends.tightest);
     }
-    double most = -infinity;
-    for (const Symmetric<Interval>& sum : sums) {
-      const Symmetric<Interval> wanted = Interval(loop_.longest_period) * sum;
-      if (sets_scale) scale_ = std::max(scale_, weighed(wanted, weight_).high);
-      const double need = weighed(given_ ? wanted - given_(from) : wanted, weight_).high;
-      most = need < infinity ? std::max(most, need) : infinity;  // where an enclosure has no numbers, too
+    const Symmetric<Sloped> given = given_ ? given_(region.from) : Symmetric<Sloped>{Sloped(0), Sloped(0), Sloped(0)};
+    const Largest one = largest(stands, given, scale), other = largest(tightest, given, nullptr);
+    return other.x < one.x ? other : one;
+  }
+
+  Largest largest(const std::vector<Symmetric<Sloped>>& sums, const Symmetric<Sloped>& given, double* scale) const {
+    Largest most{-infinity};
+    for (const Symmetric<Sloped>& sum : sums) {
+      const Symmetric<Sloped> wanted = Sloped(loop_.longest_period) * sum;
+      if (scale != nullptr) *scale = std::max(*scale, weighed(wanted, weight_).x);
+      const Largest need = weighed(wanted - given, weight_);
+      if (!(need.x <= most.x)) most = need.x < infinity ? need : Largest{infinity};  // where it has no numbers, too
     }
     return most;
   }
@@ -287,17 +349,15 @@ Interval range_of(const PortMap& map, const Box& workspace) {
 NeededDamping needed_damping(const Arm& arm, const Box& workspace, const std::vector<PortLoad>& loads,
                              const SampledLoop& loop, const Pair<double>& weight, const GivenDamping& given,
                              double tolerance, int boxes) {
-  const auto joints_of = [&](const Box& tip) { return enclosed_joints(arm, tip); };
-  return Search(arm, loads, workspace, loop, weight, given).run(workspace, joints_of, tolerance, boxes);
+  const auto region_of = [&](const Box& tip) { return region_over(arm, tip, loop.reach); };
+  return Search(arm, loads, workspace, loop, weight, given).run(workspace, region_of, tolerance, boxes);
 }
 
 NeededDamping needed_over_joints(const Arm& arm, const Box& joints, const std::vector<PortLoad>& loads,
                                  const Box& workspace, const SampledLoop& loop, const Pair<double>& weight,
                                  const GivenDamping& given, double tolerance, int boxes) {
-  const auto joints_of = [](const Box& box) {
-    return std::optional(EnclosedJoints{variables(box), constant<Interval>(middle_of(box))});
-  };
-  return Search(arm, loads, workspace, loop, weight, given).run(joints, joints_of, tolerance, boxes);
+  const auto region_of = [&](const Box& box) { return std::optional(region_over_joints(arm, box, loop.reach)); };
+  return Search(arm, loads, workspace, loop, weight, given).run(joints, region_of, tolerance, boxes);
 }
 
 }  // namespace dashpot::compiler::axes

@@ -35,8 +35,8 @@ struct SampledLoop {
   Pair<double> reach{0, 0};      // how far joints go while a force is held and, with delay, until it is [rad]
 };
 
-// (1 − ε) D + D_device at every joint position of a box [N·m·s/rad].
-using GivenDamping = std::function<Symmetric<Interval>(const Box& joints)>;
+// (1 − ε) D + D_device over joint positions [N·m·s/rad].
+using GivenDamping = std::function<Symmetric<Sloped>(const Pair<Sloped>& joints)>;
 
 struct NeededDamping {
   double proved;        // x that suffices everywhere

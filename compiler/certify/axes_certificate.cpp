@@ -11,12 +11,11 @@
 namespace dashpot::compiler {
 namespace {
 
-using axes::Interval;
 using axes::Pair;
+using axes::Sloped;
 using axes::Symmetric;
 
-constexpr int places_a_side = 40;        // of the workspace, where shares are told
-constexpr int parts_of_workspace = 500;  // that are looked at, so that nobody waits
+constexpr int places_a_side = 40;  // of the workspace, where shares are told
 
 bool compensates(const UpdateLaw& law) {
   return std::any_of(law.coefficients.begin(), law.coefficients.end(), [](const Coefficient& c) {
@@ -79,19 +78,19 @@ axes::TipDamping wanted_at_tip(const AxesNetwork& network, const std::vector<Cer
   };
 }
 
-// What of the ports' damping the two brakes make at least over a box of joints, each along its own direction: of ports
-// without a contact, which damp everywhere.
-axes::Pair<double> least_dampings(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
-                                  const AxesDevice& device, const axes::Box& joints) {
-  const axes::Pose<Interval> pose = axes::pose(device.arm, joints);
+// What of the ports' damping the two brakes make over joint positions, each along its own direction: of ports without a
+// contact, which damp everywhere.
+Pair<Sloped> dampings_over(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                           const AxesDevice& device, const Pair<Sloped>& joints) {
+  const axes::Pose<Sloped> pose = axes::pose(device.arm, joints);
   const double mixed = (network.viscous[0][1] + network.viscous[1][0]) / 2;
-  Symmetric<Interval> at_tip{Interval(network.viscous[0][0]), Interval(mixed), Interval(network.viscous[1][1])};
+  Symmetric<Sloped> at_tip{Sloped(network.viscous[0][0]), Sloped(mixed), Sloped(network.viscous[1][1])};
   for (const CertifiedPort& port : ports)
     if (!port.port->network.contact)
-      at_tip = at_tip + Interval(port.law->damping) * axes::outer(axes::depth(port.port->map, pose.tip).gradient);
-  const Symmetric<Interval> along =
+      at_tip = at_tip + Sloped(port.law->damping) * axes::outer(axes::depth(port.port->map, pose.tip).gradient);
+  const Symmetric<Sloped> along =
       axes::along_brakes(axes::dual(device.brakes[0].along, device.brakes[1].along), axes::at_joints(pose, at_tip));
-  return {std::max(0.0, along.xx.low), std::max(0.0, along.yy.low)};
+  return {max(Sloped(0), along.xx), max(Sloped(0), along.yy)};
 }
 
 // What is there: the joints' own damping, and of the ports' damping what two brakes make of it by `diagonal`, if they
@@ -104,16 +103,18 @@ axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<Certif
     return brake.brake.coil_lag > 0 || brake.brake.slew > 0;
   });
   const bool is_told = rule == axes::BrakeRule::diagonal && device.brakes.size() == 2 && !is_late;
-  return [&network, &ports, &device, own, is_told](const axes::Box& joints) {
-    Symmetric<double> sum = own;
-    const Pair<double> least = is_told ? least_dampings(network, ports, device, joints) : Pair<double>{0, 0};
-    for (std::size_t k = 0; is_told && k < 2; ++k) {
+  return [&network, &ports, &device, own, is_told](const Pair<Sloped>& joints) {
+    Symmetric<Sloped> sum{Sloped(own.xx), Sloped(own.xy), Sloped(own.yy)};
+    if (!is_told) return sum;
+    const Pair<Sloped> dampings = dampings_over(network, ports, device, joints);
+    for (std::size_t k = 0; k < 2; ++k) {
       const AlongBrake& brake = device.brakes[k];
-      const double damping =
-          brake.brake.kind == brake_kind::none ? least[k] : std::min(least[k], brake.brake.max_damping);
-      sum = sum + assured_share(brake, device) * damping * (1 - 1e-12) * axes::outer(brake.along);
+      const Sloped damping =
+          brake.brake.kind == brake_kind::none ? dampings[k] : min(dampings[k], Sloped(brake.brake.max_damping));
+      sum = sum + Sloped(assured_share(brake, device) * (1 - 1e-12)) * damping *
+                      axes::outer(axes::constant<Sloped>(brake.along));
     }
-    return Symmetric<Interval>{Interval(sum.xx), Interval(sum.xy), Interval(sum.yy)};
+    return sum;
   };
 }
 
@@ -217,11 +218,9 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   for (const CertifiedPort& port : ports) loads.push_back(load_of(port, device.loop().sample_period));
   const axes::SampledLoop loop = loop_of(device);
   const auto needed_beside = [&](const axes::GivenDamping& given) {
-    return axes::needed_damping(device.arm, device.workspace, loads, loop, c.weight, given, axes::bound_tolerance,
-                                parts_of_workspace);
+    return axes::needed_damping(device.arm, device.workspace, loads, loop, c.weight, given);
   };
-  const axes::GivenDamping none = [](const axes::Box&) { return Symmetric<Interval>{}; };
-  const axes::NeededDamping whole = needed_beside(none), rest = needed_beside(given_by(network, ports, device, rule));
+  const axes::NeededDamping whole = needed_beside({}), rest = needed_beside(given_by(network, ports, device, rule));
   c.is_proved = std::isfinite(whole.proved);
   c.needed = whole.proved, c.missing = std::max(0.0, rest.proved);
   c.worst = axes::pose(device.arm, rest.joints).tip;

@@ -9,13 +9,12 @@
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
 //   100.6) mm, in motions alike in all directions
 // passivity: not certified, since the motors' amplifiers lag, which no bound of two axes covers yet: the forces
-//   that are held from one sample to the next need 0.0947836 N·s/m times the square of each joint's link,
-//   0.0771469 beyond the device's own damping, most at (2.5, 71.56) mm
+//   that are held from one sample to the next need 0.0147901 N·s/m times the square of each joint's link, 0 beyond
+//   the device's own damping, most at (0.9375, 70) mm
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
-//   added to the brakes' commands for it: 0.000324124, 0.000324124 N m s/rad, all that they can give
 // device: pantograph_2dof
-// cost of output(): 81 additions, 105 multiplications, 22 selections, 0 guards against subnormal numbers
+// cost of output(): 79 additions, 105 multiplications, 22 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words_of_ports: a port is a network of one axis behind a map w of the tool's position, which says how far the
 //   tool has gone into what the network resists; B* is the damping that all ports ask for, over the joints.
@@ -40,7 +39,7 @@ class kelvin_field {
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
   // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
-  static constexpr scalar added_damping[brakes] = {0.00032412449834195957, 0.00032412449834195957};
+  static constexpr scalar added_damping[brakes] = {0.0, 0.0};
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {
@@ -204,7 +203,7 @@ class kelvin_field {
     const scalar wanted_11 = across_damping * (x_by_q1 * x_by_q1) + across_damping * (y_by_q1 * y_by_q1);
     const scalar part_21 = most_damping_1 - wanted_11 > 0 ? wanted_11 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_21 + added_damping_1;
+    const scalar damping_1 = part_21;
     const scalar part_22 = part_17 * (part_7 * part_20 + part_4 * part_19);
     // −∂x/∂q2
     const scalar x_by_q2 = part_16 * part_22;
@@ -213,7 +212,7 @@ class kelvin_field {
     // B* of joint 2
     const scalar wanted_22 = across_damping * (x_by_q2 * x_by_q2) + across_damping * (y_by_q2 * y_by_q2);
     const scalar part_23 = most_damping_1 - wanted_22 > 0 ? wanted_22 : most_damping_1;
-    const scalar damping_2 = added_damping_1 + part_23;
+    const scalar damping_2 = part_23;
     // B* between the joints
     const scalar wanted_12 = across_damping * (y_by_q1 * y_by_q2) - across_damping * (x_by_q1 * x_by_q2);
     // τ = Σ g M + (B* − D) v
@@ -324,7 +323,7 @@ class kelvin_field {
     const scalar wanted_11 = across_damping * (x_by_q1 * x_by_q1) + across_damping * (y_by_q1 * y_by_q1);
     const scalar part_21 = most_damping_1 - wanted_11 > 0 ? wanted_11 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_21 + added_damping_1;
+    const scalar damping_1 = part_21;
     const scalar part_22 = part_17 * (part_7 * part_20 + part_4 * part_19);
     // −∂x/∂q2
     const scalar x_by_q2 = part_16 * part_22;
@@ -333,7 +332,7 @@ class kelvin_field {
     // B* of joint 2
     const scalar wanted_22 = across_damping * (x_by_q2 * x_by_q2) + across_damping * (y_by_q2 * y_by_q2);
     const scalar part_23 = most_damping_1 - wanted_22 > 0 ? wanted_22 : most_damping_1;
-    const scalar damping_2 = added_damping_1 + part_23;
+    const scalar damping_2 = part_23;
     // B* between the joints
     const scalar wanted_12 = across_damping * (y_by_q1 * y_by_q2) - across_damping * (x_by_q1 * x_by_q2);
     // τ = Σ g M + (B* − D) v
@@ -403,9 +402,8 @@ class kelvin_field {
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
   static constexpr scalar half_base = 0.0125;  // half of that [m]
   static constexpr scalar out_offset = 0.1;  // of the plane from the origin [m]
-  static constexpr scalar most_damping_1 = 0.01367587550165804;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar most_damping_1 = 0.014;  // that the brake gives, less what is added [N·m·s/rad]
   static constexpr scalar across_damping = 2.0;  // b of the port [N·s/m]
-  static constexpr scalar added_damping_1 = 0.00032412449834195957;  // for passivity alone [N·m·s/rad]
 
   scalar across_last_position_ = 0;  // u of the sample before [m]
   scalar across_sampled_position_ = 0;  // port displacement u, at this sample [m]

@@ -109,9 +109,9 @@ TEST(WorkspaceBound, HertzContact) {
   EXPECT_NEAR(needed(plane, {touched(map, k)}, alike, prompt, cube), 0.3, 0.006);
 }
 
-// No position of a workspace asks for more than is proved, and what is proved is within 15 % of what one asks for, the
-// search stopped at 10 %; of five-bars 40 and 30 %: every
-// arm and every kind of map, forces bounded by the workspace alone.
+// No position of a workspace asks for more than is proved, and what is proved is within 1 % of what one asks for; 1,000
+// of them come to within 3 %. Every arm and every kind of map, forces bounded by the workspace alone. Where a band has
+// its axis in the workspace the direction of its force turns at once: there five-bars stop at 15 %.
 TEST(WorkspaceBound, EnclosesWhatPositionsAskFor) {
   PortLoad relaxing = spring(line({0, 90e-3}, {1, 0.3}, 20e-3), 300);
   relaxing.unilateral = true, relaxing.relaxing = 200, relaxing.held = 320, relaxing.yields = 0.5;
@@ -127,15 +127,62 @@ TEST(WorkspaceBound, EnclosesWhatPositionsAskFor) {
     const double proximal = arm.proximal * arm.proximal, distal = arm.distal * arm.distal;
     const Pair<double> weight = arm.kind == Kinematics::cartesian ? alike : Pair<double>{proximal + distal, distal};
     for (const std::vector<PortLoad>& loads : cases) {
-      const bool is_five_bar = arm.kind == Kinematics::five_bar;  // whose enclosures shrink slowly
-      const NeededDamping found = needed_damping(arm, small, loads, prompt, weight, {}, is_five_bar ? 0.3 : 0.1);
+      const bool is_slow = arm.kind == Kinematics::five_bar && &loads == &cases.back();
+      const double tolerance = is_slow ? 0.15 : bound_tolerance;
+      const NeededDamping found = needed_damping(arm, small, loads, prompt, weight, {}, tolerance);
       EXPECT_TRUE(found.close) << int(arm.kind) << " " << &loads - &cases[0];
       double most = need_at(arm, found.joints, loads, small, weight);
-      for (int i = 0; i < 100; ++i) {
+      for (int i = 0; i < 1000; ++i) {
         most = std::max(most, need_at(arm, *joints_at(arm, random_tip(random, small)), loads, small, weight));
       }
       EXPECT_LE(most, found.proved * (1 + 1e-12));
-      EXPECT_GE(most, found.proved / (is_five_bar ? 1.4 : 1.15)) << int(arm.kind) << " " << &loads - &cases[0];
+      EXPECT_GE(most, found.proved * (1 - tolerance - 0.02)) << int(arm.kind) << " " << &loads - &cases[0];
+    }
+  }
+}
+
+// An arm that no enclosure of joints and tip can do without: a pantograph's, over all of a workspace of 80 × 40 mm.
+TEST(WorkspaceBound, FiveBarsAreEnclosedToOnePerCent) {
+  const std::vector<PortLoad> loads{spring(along({1, 0}), 100), spring(wall({0, 0.1}, {0, -1}), 100)};
+  for (const double reach : {0.0, 4.5e-3}) {
+    const SampledLoop loop{1e-4, 0, {reach, reach}};
+    const NeededDamping found =
+        needed_damping(five_bar_arm, inner_desk, loads, loop, {63e-3 * 63e-3, 63e-3 * 63e-3}, {});
+    EXPECT_TRUE(found.close);
+    EXPECT_LT(found.proved, 1.0102 * found.attained);
+  }
+}
+
+// What joints and tip are at points of a box is within their values over it, and no farther from what is in its middle
+// than slopes are.
+TEST(Sloped, EnclosesPositionsAndCurvatures) {
+  Random random(41);
+  for (const Arm& arm : every_arm) {
+    for (int i = 0; i < 200; ++i) {
+      const Box part = random_part(random, 0.1);
+      const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, variables(part));
+      if (!joints) continue;
+      const Pose<Sloped> over = pose(arm, *joints);
+      const Pair<Symmetric<Sloped>> bends = curvature(arm, *joints);
+      for (int k = 0; k < 5; ++k) {
+        const Pair<double> tip = random_tip(random, part), at = *joints_at(arm, tip);
+        const auto holds = [&](const Sloped& enclosure, double value) {
+          Interval straight = enclosure.middle;
+          for (const std::size_t j : {0u, 1u})
+            straight = straight + enclosure.slope[j] * Interval((tip[j] - part[j].middle()) / (0.5 * part[j].width()));
+          const double slack = 1e-11 * (1 + std::abs(value));  // of joints and poses in doubles
+          return widened(enclosure.value, slack).holds(value) && widened(straight, slack).holds(value);
+        };
+        const Pose<double> there = pose(arm, at);
+        const Pair<Symmetric<double>> bent = curvature(arm, at);
+        for (const std::size_t j : {0u, 1u}) {
+          EXPECT_TRUE(holds((*joints)[j], at[j]));
+          EXPECT_TRUE(holds(over.tip[j], tip[j]));
+          EXPECT_TRUE(holds(over.column[j][0], there.column[j][0]) && holds(over.column[j][1], there.column[j][1]));
+          EXPECT_TRUE(holds(bends[j].xx, bent[j].xx) && holds(bends[j].xy, bent[j].xy) &&
+                      holds(bends[j].yy, bent[j].yy));
+        }
+      }
     }
   }
 }
@@ -147,20 +194,20 @@ TEST(WorkspaceBound, GivenDampingIsTakenOff) {
   const std::vector<Brake> brakes{{{1, 0}}, {{0, 1}}};
   // Brakes for an isotropic field of b, of which the least is to be 2.5 % short.
   const auto with = [&](double b) {
-    return [&brakes, b](const Box& joints) {
-      const Symmetric<Interval> target =
-          at_joints(pose(serial_arm, joints), Symmetric<Interval>{Interval(b), Interval(0), Interval(b)});
-      return Interval(0.975) * made_by(brakes, diagonal(brakes, target));
+    return [&brakes, b](const Pair<Sloped>& joints) {
+      const Symmetric<Sloped> target =
+          at_joints(pose(serial_arm, joints), Symmetric<Sloped>{Sloped(b), Sloped(0), Sloped(b)});
+      return Sloped(0.975) * made_by(brakes, diagonal(brakes, target));
     };
   };
   const Pair<double> weight{serial_arm.proximal * serial_arm.proximal, serial_arm.distal * serial_arm.distal};
-  const double alone = needed_damping(serial_arm, small, loads, prompt, weight, {}, 0.05).proved;
-  const double less = needed_damping(serial_arm, small, loads, prompt, weight, with(0.02), 0.05).proved;
+  const double alone = needed_damping(serial_arm, small, loads, prompt, weight, {}).proved;
+  const double less = needed_damping(serial_arm, small, loads, prompt, weight, with(0.02)).proved;
   EXPECT_LT(less, alone - 0.015);
   EXPECT_GT(less, 0);
-  EXPECT_LT(needed_damping(serial_arm, small, loads, prompt, weight, with(2), 0.5).proved, 0);
-  const GivenDamping constant = [&](const Box&) {
-    return Symmetric<Interval>{Interval(0.3), Interval(0), Interval(0.3)};
+  EXPECT_LT(needed_damping(serial_arm, small, loads, prompt, weight, with(2)).proved, 0);
+  const GivenDamping constant = [&](const Pair<Sloped>&) {
+    return Symmetric<Sloped>{Sloped(0.3), Sloped(0), Sloped(0.3)};
   };
   EXPECT_NEAR(needed_damping(plane, inner_desk, loads, prompt, alike, constant).proved, 0.25 - 0.3, 0.0025);
 }

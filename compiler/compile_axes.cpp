@@ -74,10 +74,20 @@ bool compile_ports(AxesCompilation& c, const Choices& choices, Diagnostics& diag
   return true;
 }
 
+// The loop that a port's slips are in: what an estimate and a lag do to it is asked of the whole device.
+SampledLoop loop_of_ports(const AxesCompilation& c) {
+  SampledLoop loop;
+  loop.sample_period = 1 / c.rate;
+  return loop;
+}
+
 std::vector<CertifiedPort> certified_ports(const AxesCompilation& c) {
   std::vector<CertifiedPort> ports;
-  for (std::size_t i = 0; i < c.ports.size(); ++i)
-    ports.push_back({&c.network.ports[i], &c.ports[i].form, &c.port_laws[i], &c.ports[i].certificate});
+  for (std::size_t i = 0; i < c.ports.size(); ++i) {
+    const Compilation& port = c.ports[i];
+    ports.push_back({&c.network.ports[i], &port.form, &c.port_laws[i], &port.certificate,
+                     slip_motor(port.network, port.form, port.decomposition, c.choices_of_ports, loop_of_ports(c))});
+  }
   return ports;
 }
 
@@ -130,8 +140,8 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   c.device = device ? *device : ideal_axes_device(1 / c.rate);
   c.rule = *rule;
   if (device && !are_smooth(c.network, device->workspace, diagnostics)) return std::nullopt;
-  const Choices choices = choices_of_ports(asked, c.rate);
-  if (!compile_ports(c, choices, diagnostics)) return std::nullopt;
+  c.choices_of_ports = choices_of_ports(asked, c.rate);
+  if (!compile_ports(c, c.choices_of_ports, diagnostics)) return std::nullopt;
   c.certificate = certify_axes(c.network, certified_ports(c), c.device, c.rule);
   c.law = law_of_all(c);
   Network whole;

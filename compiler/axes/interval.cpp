@@ -7,7 +7,6 @@
 namespace dashpot::compiler::axes {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double pi = std::numbers::pi;
 constexpr int library_steps = 4;
 
@@ -35,6 +34,7 @@ Interval wave(const Interval& a, double at_low, double at_high, double top, doub
 }  // namespace
 
 Interval product_beyond_numbers(const Interval& a, const Interval& b) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   Interval all(infinity, -infinity);
   for (const double x : {a.low, a.high}) {
     for (const double y : {b.low, b.high}) {
@@ -46,7 +46,7 @@ Interval product_beyond_numbers(const Interval& a, const Interval& b) {
 }
 
 Interval operator/(const Interval& a, const Interval& b) {
-  if (b.holds(0)) return {-infinity, infinity};
+  if (b.holds(0)) return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   return a * Interval{below(1 / b.high), above(1 / b.low)};
 }
 

@@ -1,3 +1,4 @@
+#include "axes/curvature.hpp"
 #include "axes/workspace.hpp"
 
 namespace dashpot::compiler::axes {
@@ -87,6 +88,12 @@ std::optional<Box> joints_over(const Arm& arm, const Box& tip) {
   const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, variables(tip));
   if (!joints) return std::nullopt;
   return Box{(*joints)[0].value, (*joints)[1].value};
+}
+
+TipMotion tip_motion(const Arm& arm, const Pair<Sloped>& joints, const Pair<Sloped>& tip) {
+  if (arm.kind != Kinematics::five_bar) return {pose(arm, joints), curvature(arm, joints)};
+  const FiveBar<Sloped> bar = five_bar(arm, joints, tip);
+  return {pose_of(bar), five_bar_curvature(bar)};
 }
 
 }  // namespace dashpot::compiler::axes

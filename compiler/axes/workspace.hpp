@@ -24,6 +24,13 @@ std::optional<Box> joints_over(const Arm& arm, const Box& tip);
 // The same with the joints' derivatives.
 std::optional<Pair<Sloped>> enclosed_joints(const Arm& arm, const Pair<Sloped>& tip);
 
+// How the tip moves where joints put it there.
+struct TipMotion {
+  Pose<Sloped> pose;
+  Pair<Symmetric<Sloped>> bends;  // ∂²tip/∂q²
+};
+TipMotion tip_motion(const Arm& arm, const Pair<Sloped>& joints, const Pair<Sloped>& tip);
+
 // A tip position in a workspace near which the arm is singular: links that are too short or too long to reach it, or
 // two of them in line, so that a motion of the tip or a force at it is beyond all bounds.
 struct Singularity {

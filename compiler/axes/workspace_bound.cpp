@@ -1,79 +1,13 @@
 #include "axes/workspace_bound.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
-#include <queue>
 
+#include "axes/best_first.hpp"
 #include "axes/curvature.hpp"
+#include "axes/weighed.hpp"
 
 namespace dashpot::compiler::axes {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// A part of a workspace or of joint ranges, and what it needs; more where it has to be halved before that is known.
-struct Part {
-  Box box;
-  double need;
-
-  bool operator<(const Part& other) const { return need < other.need; }
-};
-
-using Parts = std::priority_queue<Part>;
-
-// The largest x over the members N of an interval matrix with x W ≥ N: at a corner, where the diagonal is largest and
-// the coupling farthest from 0,
-//
-//     x = ½(a + c) + √(¼(a − c)² + b²),     a = N11/W1, c = N22/W2, b² = N12²/(W1 W2)
-Interval weighed(const Symmetric<Interval>& n, const Pair<double>& weight) {
-  const Interval first(weight[0]), second(weight[1]);
-  const Interval a = Interval(n.xx.high) / first, c = Interval(n.yy.high) / second;
-  const Interval coupling = Interval(abs(n.xy).high);
-  return Interval(0.5) * (a + c) + sqrt(square(Interval(0.5) * (a - c)) + square(coupling) / (first * second));
-}
-
-// The same over a box: x is convex in a matrix, and so largest where every t_j is at an end if entries go straight with
-// all of them; what slopes are wide by is in the entries there. Or of the entries as they are.
-struct Largest {
-  double x;
-  Pair<double> at{0, 0};  // the first two t_j at that end
-};
-
-Largest weighed(const Symmetric<Sloped>& n, const Pair<double>& weight) {
-  const auto is_level = [&](std::size_t j) {
-    const auto level = [&](const Sloped& s) { return s.slope[j].low == 0 && s.slope[j].high == 0; };
-    return level(n.xx) && level(n.xy) && level(n.yy);
-  };
-  std::vector<std::pair<Symmetric<Interval>, Pair<double>>> ends{{{n.xx.middle, n.xy.middle, n.yy.middle}, {0, 0}}};
-  for (std::size_t j = 0; j < std::tuple_size_v<Slopes>; ++j) {
-    if (is_level(j)) continue;
-    const Symmetric<Interval> way{n.xx.slope[j], n.xy.slope[j], n.yy.slope[j]};
-    const std::size_t so_far = ends.size();
-    for (std::size_t i = 0; i < so_far; ++i) {
-      auto [less, at] = ends[i];
-      if (j < 2) at[j] = -1;
-      ends.emplace_back(less - way, at);
-      ends[i].first = less + way;
-      if (j < 2) ends[i].second[j] = 1;
-    }
-  }
-  Largest most{-infinity};
-  for (const auto& [end, at] : ends) {
-    const double x = weighed(end, weight).high;
-    if (!(x <= most.x)) most = {x, at};
-  }
-  const double as_they_are = weighed(Symmetric<Interval>{n.xx.value, n.xy.value, n.yy.value}, weight).high;
-  if (!(most.x <= as_they_are)) most.x = as_they_are;
-  return most;
-}
-
-// ‖H‖ against W: the larger of weighed(H) and weighed(−H).
-double size_of(const Symmetric<Sloped>& h, const Pair<double>& weight) {
-  return std::max(weighed(h, weight).x, weighed(Sloped(-1) * h, weight).x);
-}
-
-}  // namespace
 
 Interval motor_force(const PortLoad& load, const Interval& depth, const Interval& over_workspace) {
   const Interval more = Interval(-load.estimated, load.estimated) + Interval(-load.yields, load.yields);
@@ -130,23 +64,11 @@ std::optional<Symmetric<S>> steepest(const PortMap& map, const Pose<S>& at) {
   return std::nullopt;
 }
 
-// How the tip moves where joints are.
-struct Place {
-  Pose<Sloped> pose;
-  Pair<Symmetric<Sloped>> bends;
-};
-
 // Joints when a force is commanded, and all that they reach while it is held.
 struct Region {
   Pair<Sloped> from;
-  Place reached;
+  TipMotion reached;
 };
-
-Place place_of(const Arm& arm, const Pair<Sloped>& joints, const Pair<Sloped>& tip) {
-  if (arm.kind != Kinematics::five_bar) return {pose(arm, joints), curvature(arm, joints)};
-  const FiveBar<Sloped> bar = five_bar(arm, joints, tip);
-  return {pose_of(bar), five_bar_curvature(bar)};
-}
 
 Pair<Sloped> moved(const Pair<Sloped>& from, const Pair<double>& by) {
   Pair<Sloped> result = from;
@@ -169,11 +91,11 @@ std::optional<Region> region_over(const Arm& arm, const Box& tip, const Pair<dou
   const Pair<Sloped> at = variables(tip);
   const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, at);
   if (!joints) return std::nullopt;
-  if (reach == Pair<double>{0, 0}) return Region{*joints, place_of(arm, *joints, at)};
+  if (reach == Pair<double>{0, 0}) return Region{*joints, tip_motion(arm, *joints, at)};
   const Pair<Sloped> there = moved(at, reach_of_tip(arm, *joints, reach));
   const std::optional<Pair<Sloped>> reached = enclosed_joints(arm, there);
   if (!reached) return std::nullopt;
-  return Region{*joints, place_of(arm, *reached, there)};
+  return Region{*joints, tip_motion(arm, *reached, there)};
 }
 
 Region region_over_joints(const Arm& arm, const Box& box, const Pair<double>& reach) {
@@ -190,7 +112,7 @@ class PortNeed {
     std::vector<Symmetric<Sloped>> as_it_stands, tightest;
   };
 
-  Ends over(const Place& there, int delay, const Pair<double>& weight) const {
+  Ends over(const TipMotion& there, int delay, const Pair<double>& weight) const {
     const Depth<Sloped> depth = axes::depth(load_.map, there.pose.tip);
     if (load_.unilateral && depth.value.value.high <= 0) return {};
     const Interval force = motor_force(load_, depth.value.value, range_);
@@ -256,14 +178,10 @@ class Search {
   // `region_of` takes a part to its region, or to nothing where it has to be halved before that is known.
   template <typename ToRegion>
   NeededDamping run(const Box& whole, const ToRegion& region_of, double tolerance, int most) {
-    Parts open;
-    open.push(measured(whole, region_of));
-    for (int boxes = 1; boxes < most && !is_close(open.top().need, tolerance); boxes += 2) {
-      const Part worst = open.top();
-      open.pop();
-      for (const Box& half : halves(worst.box, whole)) open.push(measured(half, region_of));
-    }
-    return {open.top().need, attained_, at_, is_close(open.top().need, tolerance)};
+    const auto is_enough = [&](double need) { return is_close(need, tolerance); };
+    const double need = best_first(
+        whole, most, [&](const Box& box) { return measured(box, region_of); }, is_enough);
+    return {need, attained_, at_, is_enough(need)};
   }
 
  private:
@@ -271,19 +189,16 @@ class Search {
 
   // What a part asks for is looked for where it is largest if entries go straight.
   template <typename ToRegion>
-  Part measured(const Box& box, const ToRegion& region_of) {
+  double measured(const Box& box, const ToRegion& region_of) {
     const std::optional<Region> region = region_of(box);
-    if (!region) return {box, infinity};
+    if (!region) return infinity;
     const Largest part = need_over(*region, nullptr);
-    if (!(part.x > attained_)) return {box, attained_};
-    Pair<double> at = middle_of(box);
-    for (const std::size_t j : {0u, 1u})
-      if (part.at[j] != 0) at[j] = part.at[j] > 0 ? box[j].high : box[j].low;
-    const std::optional<Region> there = region_of(constant<Interval>(at));
-    if (!there) return {box, part.x};
+    if (!(part.x > attained_)) return attained_;
+    const std::optional<Region> there = region_of(constant<Interval>(place_in(box, part)));
+    if (!there) return part.x;
     const double limit = need_over(*there, &scale_).x;
     if (limit > attained_) attained_ = limit, at_ = {there->from[0].middle.middle(), there->from[1].middle.middle()};
-    return {box, std::max(part.x, limit)};
+    return std::max(part.x, limit);
   }
 
   // Of every sum of ends, as it stands or the tightest of each port: which of both is less is another in every part.
@@ -325,18 +240,12 @@ double most_of(const PortMap& map, const Box& workspace, double sign, double tol
     const Interval depth = axes::depth(map, box).value;
     return sign > 0 ? depth.high : -depth.low;
   };
-  Parts open;
-  open.push({workspace, most(workspace)});
   double attained = -infinity;
-  for (int boxes = 1; boxes < most_boxes && open.top().need - attained > tolerance; boxes += 2) {
-    const Part best = open.top();
-    open.pop();
-    for (const Box& half : halves(best.box, workspace)) {
-      attained = std::max(attained, sign * depth(map, middle_of(half)).value);
-      open.push({half, most(half)});
-    }
-  }
-  return open.top().need;
+  const auto measured = [&](const Box& box) {
+    attained = std::max(attained, sign * depth(map, middle_of(box)).value);
+    return most(box);
+  };
+  return best_first(workspace, most_boxes, measured, [&](double need) { return need - attained <= tolerance; });
 }
 
 }  // namespace

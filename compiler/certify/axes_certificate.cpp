@@ -6,6 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "axes/motor_norms.hpp"
+#include "certify/estimator_factors.hpp"
+#include "certify/motor_limits.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler {
@@ -31,10 +34,14 @@ double sum_of_yields(const Network& network) {
   return sum;
 }
 
+// Of the port's own estimate, g·v̂: by it a contact that damps lets go [N·s/m].
+double follows(const CertifiedPort& port) { return port.slips ? port.slips->compensation : 0; }
+
 axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
   axes::PortLoad load;
   load.map = port.port->map;
-  load.held = port.certificate->bound.needed / sample_period;
+  // On an ideal device an estimate counts with a gain of 1.
+  load.held = std::max(port.certificate->bound.needed - follows(port), 0.0) / sample_period * (1 + 1e-12);
   load.grounded = to_double(port.form->linear.static_stiffness);
   for (const Mode& mode : port.form->linear.modes) load.relaxing += to_double(mode.stiffness);
   load.yields = sum_of_yields(port.port->network);
@@ -93,24 +100,30 @@ Pair<Sloped> dampings_over(const AxesNetwork& network, const std::vector<Certifi
   return {max(Sloped(0), along.xx), max(Sloped(0), along.yy)};
 }
 
-// What is there: the joints' own damping, and of the ports' damping what two brakes make of it by `diagonal`, if they
-// follow their commands at once.
-axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
-                            const AxesDevice& device, axes::BrakeRule rule) {
-  Symmetric<double> own{device.mechanics.damping[0], 0, device.mechanics.damping[1]};
-  for (const AlongBrake& brake : device.brakes) own = own + brake.brake.residual_damping * axes::outer(brake.along);
+// Whether it is told what brakes make of the ports' damping: two by `diagonal`, if they follow their commands at once.
+bool is_brakes_part_known(const AxesDevice& device, axes::BrakeRule rule) {
   const bool is_late = std::any_of(device.brakes.begin(), device.brakes.end(), [](const AlongBrake& brake) {
     return brake.brake.coil_lag > 0 || brake.brake.slew > 0;
   });
-  const bool is_told = rule == axes::BrakeRule::diagonal && device.brakes.size() == 2 && !is_late;
-  return [&network, &ports, &device, own, is_told](const Pair<Sloped>& joints) {
+  return rule == axes::BrakeRule::diagonal && device.brakes.size() == 2 && !is_late;
+}
+
+// What is there: the joints' own damping, and of the ports' damping what brakes are known to make of it with what they
+// have left beside `added`.
+axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                            const AxesDevice& device, axes::BrakeRule rule, const std::vector<double>& added) {
+  Symmetric<double> own{device.mechanics.damping[0], 0, device.mechanics.damping[1]};
+  for (const AlongBrake& brake : device.brakes) own = own + brake.brake.residual_damping * axes::outer(brake.along);
+  const bool is_told = is_brakes_part_known(device, rule);
+  return [&network, &ports, &device, own, is_told, added](const Pair<Sloped>& joints) {
     Symmetric<Sloped> sum{Sloped(own.xx), Sloped(own.xy), Sloped(own.yy)};
     if (!is_told) return sum;
     const Pair<Sloped> dampings = dampings_over(network, ports, device, joints);
     for (std::size_t k = 0; k < 2; ++k) {
       const AlongBrake& brake = device.brakes[k];
-      const Sloped damping =
-          brake.brake.kind == brake_kind::none ? dampings[k] : min(dampings[k], Sloped(brake.brake.max_damping));
+      const Sloped damping = brake.brake.kind == brake_kind::none
+                                 ? dampings[k]
+                                 : min(dampings[k], Sloped(std::max(brake.brake.max_damping - added[k], 0.0)));
       sum = sum + Sloped(assured_share(brake, device) * (1 - 1e-12)) * damping *
                       axes::outer(axes::constant<Sloped>(brake.along));
     }
@@ -151,19 +164,106 @@ std::string unproved(const std::vector<CertifiedPort>& ports, const AxesDevice& 
   return "";
 }
 
-std::string what_is_uncovered(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
-                              const AxesDevice& device) {
-  for (const device_description& joint : device.joints) {
-    if (joint.motor.amplifier_lag > 0) return "the motors' amplifiers lag, which no bound of two axes covers yet";
-    if (joint.motor.slew > 0) return "the motors' slew is limited, which no bound of two axes covers yet";
-  }
-  const bool damps = network.has_field() || std::any_of(ports.begin(), ports.end(), [](const CertifiedPort& port) {
-                       return port.law->largest_damping > 0;
-                     });
-  return damps ? "what the brakes leave of the ports' damping the motors make from estimates, which no bound of two "
-                 "axes covers yet between samples"
-               : "";
+bool damps(const CertifiedPort& port) { return std::max(port.law->damping, port.law->largest_damping) > 0; }
+
+// Whether the port's damping takes values between none and all, so that the ends of R do not tell what it is in
+// between.
+bool varies(const CertifiedPort& port) { return port.law->brake_changes() && port.form->has_slips(); }
+
+bool are_late(const AxesDevice& device) {
+  return device.loop().delay_samples > 0 ||
+         std::any_of(device.joints.begin(), device.joints.end(),
+                     [](const device_description& joint) { return joint.motor.amplifier_lag > 0; });
 }
+
+std::string what_is_uncovered(const std::vector<CertifiedPort>& ports, const AxesDevice& device,
+                              const std::optional<double>& estimate_gain) {
+  for (const device_description& joint : device.joints)
+    if (joint.motor.slew > 0) return "the motors' slew is limited, which no bound of two axes covers yet";
+  for (const CertifiedPort& port : ports) {
+    const std::string of_port = fmt::format("port '{}': ", port.port->name);
+    if (varies(port)) return of_port + "its damping changes with its slips, which no bound of two axes covers yet";
+    if (!port.slips || !are_late(device)) continue;
+    if (port.slips->lets_go_by_estimate)
+      return of_port + "the contact lets go by a velocity estimate, and the loop is late";
+    if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and the loop is late";
+  }
+  return estimate_gain ? "" : "nothing is known of the gain of the velocity estimator, which the motors follow";
+}
+
+// The loop of a joint, as one axis has it.
+SampledLoop loop_of_joint(const device_description& joint) {
+  SampledLoop loop;
+  loop.has_device = true;
+  loop.sample_period = joint.loop.sample_period;
+  loop.jitter = joint.loop.jitter;
+  loop.amplifier_lag = joint.motor.amplifier_lag;
+  loop.velocity = joint.velocity;
+  loop.joint_encoder_step = joint.encoder.step;
+  return loop;
+}
+
+// γ of ‖v̂‖ ≤ γ ‖Δq/h‖, of both joints; 0 where the motors follow no estimate. Empty where it is not known.
+std::optional<double> gain_of_estimates(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                                        const AxesDevice& device) {
+  if (!network.has_field() && std::none_of(ports.begin(), ports.end(), damps)) return 0;
+  double most = 0;
+  for (const device_description& joint : device.joints) {
+    const std::optional<double> gain = estimate_gain(loop_of_joint(joint));
+    if (!gain) return std::nullopt;
+    most = std::max(most, *gain);
+  }
+  return most;
+}
+
+// What does not depend on how much is added to the brakes' commands.
+struct Sizes {
+  double springs = 0;    // Σ S ‖g gᵀ‖ + ½ |M| ‖H‖ [N/m]
+  double estimates = 0;  // Σ κ ‖g gᵀ‖ of contacts that let go by an estimate κ g·v̂ [N·s/m]
+};
+
+Sizes sizes_of(const std::vector<CertifiedPort>& ports, const std::vector<axes::PortLoad>& loads,
+               const AxesDevice& device, const Pair<double>& weight, bool has_lag) {
+  Sizes sizes;
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    if (!has_lag && follows(ports[i]) == 0) continue;
+    const double gradient = axes::largest_gradient(device.arm, device.workspace, loads[i].map, weight);
+    sizes.estimates += follows(ports[i]) * gradient;
+    if (has_lag)
+      sizes.springs +=
+          loads[i].held * gradient + axes::largest_turning(device.arm, device.workspace, loads[i], weight) / 2;
+  }
+  return sizes;
+}
+
+// What the motors make of the damping of ports and field with so much of the brakes used up.
+double remainder_beside(const std::vector<double>& added, const AxesNetwork& network,
+                        const std::vector<CertifiedPort>& ports, const AxesDevice& device, axes::BrakeRule rule,
+                        const Pair<double>& weight) {
+  std::vector<axes::PortDamping> dampings;
+  for (const CertifiedPort& port : ports)
+    if (damps(port))
+      dampings.push_back({port.port->map, std::max(port.law->damping, port.law->largest_damping),
+                          port.port->network.contact.has_value()});
+  std::vector<axes::Brake> brakes = brakes_of(device);
+  for (std::size_t k = 0; k < brakes.size(); ++k)
+    if (brakes[k].most < axes::unlimited) brakes[k].most = std::max(brakes[k].most - added[k], 0.0);
+  const double mixed = (network.viscous[0][1] + network.viscous[1][0]) / 2;
+  return axes::largest_remainder(device.arm, device.workspace, dampings,
+                                 {network.viscous[0][0], mixed, network.viscous[1][1]}, brakes, rule, weight);
+}
+
+// Whether the brakes can give an addition at all.
+bool is_within_reach(const std::vector<double>& added, const AxesDevice& device) {
+  for (std::size_t k = 0; k < device.brakes.size(); ++k) {
+    const brake_description& brake = device.brakes[k].brake;
+    if (brake.kind != brake_kind::none && added[k] > std::max(0.0, brake.max_damping - brake.residual_damping))
+      return false;
+  }
+  return true;
+}
+
+constexpr int most_rounds = 12;
 
 }  // namespace
 
@@ -220,24 +320,41 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   const auto needed_beside = [&](const axes::GivenDamping& given) {
     return axes::needed_damping(device.arm, device.workspace, loads, loop, c.weight, given);
   };
-  const axes::NeededDamping whole = needed_beside({}), rest = needed_beside(given_by(network, ports, device, rule));
+  const axes::NeededDamping whole = needed_beside({});
+  axes::NeededDamping rest = needed_beside(given_by(network, ports, device, rule, c.added));
   c.is_proved = std::isfinite(whole.proved);
-  c.needed = whole.proved, c.missing = std::max(0.0, rest.proved);
-  c.worst = axes::pose(device.arm, rest.joints).tip;
   if (!c.is_proved) {
     c.reason = "the workspace bounds no force of a port";
     return c;
   }
-  if (c.missing > 0) c.added = addition(device, c.weight, c.missing);
-  c.takes_lateness = !c.share || c.share->delay_proof > 1 - 1e-9;
-  c.uncovered = what_is_uncovered(network, ports, device);
-  c.certified = c.takes_lateness && c.uncovered.empty();
+  const std::optional<double> gain = gain_of_estimates(network, ports, device);
+  double lag = 0;
+  for (const device_description& joint : device.joints) lag = std::max(lag, time_of_lag(loop_of_joint(joint)));
+  const Sizes sizes = sizes_of(ports, loads, device, c.weight, lag > 0);
+  c.for_lag = lag * sizes.springs;
+  const double for_each = gain.value_or(1) * loop.longest_period / device.loop().sample_period * (1 + 1e-12);
+  // What is added leaves the brakes less of the ports' damping, and the motors more: found in a few rounds, or not.
+  bool is_settled = false;
+  for (int round = 0; round < most_rounds && !is_settled; ++round) {
+    const double remainder = for_each > 0 ? remainder_beside(c.added, network, ports, device, rule, c.weight) : 0;
+    c.for_estimates = for_each * (remainder + sizes.estimates);
+    c.needed = whole.proved + c.for_estimates + c.for_lag;
+    c.missing = std::max(0.0, rest.proved + c.for_estimates + c.for_lag);
+    const std::vector<double> wanted = c.missing > 0 ? addition(device, c.weight, c.missing) : c.added;
+    is_settled = std::equal(wanted.begin(), wanted.end(), c.added.begin(), std::less_equal<>());
+    if (is_settled) break;
+    c.added = wanted;
+    if (!is_within_reach(c.added, device)) break;
+    // A little more than is asked for, so that rounds end.
+    for (double& damping : c.added) damping *= 1 + 1e-3;
+  }
+  c.worst = axes::pose(device.arm, rest.joints).tip;
+  c.uncovered = what_is_uncovered(ports, device, gain);
+  c.certified = is_settled && c.uncovered.empty() && std::isfinite(c.missing) && is_within_reach(c.added, device);
   for (std::size_t k = 0; k < device.brakes.size(); ++k) {
     const brake_description& brake = device.brakes[k].brake;
-    const double most = std::max(0.0, brake.max_damping - brake.residual_damping);
-    if (brake.kind == brake_kind::none) continue;
-    c.certified = c.certified && c.added[k] <= most;
-    c.added[k] = std::min(c.added[k], most);
+    if (brake.kind != brake_kind::none)
+      c.added[k] = std::min(c.added[k], std::max(0.0, brake.max_damping - brake.residual_damping));
   }
   return c;
 }
@@ -245,10 +362,6 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
 std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return c.reason;
   if (!c.uncovered.empty()) return c.uncovered;
-  if (!c.takes_lateness)
-    return "the brakes make less than half of the ports' damping somewhere in the workspace, and the motors' part "
-           "follows "
-           "late estimates";
   return fmt::format("{:.4g} N s/m{} is missing, more than its brakes can give", c.missing,
                      device.arm.kind == axes::Kinematics::cartesian ? "" : " times the square of each joint's link");
 }
@@ -257,12 +370,17 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "passivity: {}: the forces that are held from one sample to the next need {:.6g} N·s/m{}, {:.6g} "
+      "passivity: {}: what the motors hold from one sample to the next needs {:.6g} N·s/m{}, {:.6g} "
       "beyond the device's own damping, most at ({:.4g}, {:.4g}) mm",
       c.certified ? "certified for any motion in the workspace, while the motors make their torques"
                   : "not certified, since " + why_not_certified(c, device),
       c.needed, device.arm.kind == axes::Kinematics::cartesian ? "" : " times the square of each joint's link",
       c.missing, 1e3 * c.worst[0], 1e3 * c.worst[1]));
+  if (c.for_estimates > 0)
+    lines.push_back(fmt::format("  of which {:.6g} are for what the motors make of estimated velocities, however late",
+                                c.for_estimates));
+  if (c.for_lag > 0)
+    lines.push_back(fmt::format("  of which {:.6g} are for the lag of the motors' amplifiers", c.for_lag));
   const std::string unit = port_units(device.joint_motion()).damping;
   std::string added;
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);

@@ -10,6 +10,7 @@
 #include "axes/brakes.hpp"
 #include "axes/workspace_bound.hpp"
 #include "certify/certificate.hpp"
+#include "certify/slip_motor.hpp"
 #include "linear/normal_form.hpp"
 #include "network/axes_device.hpp"
 #include "network/axes_network.hpp"
@@ -22,20 +23,20 @@ struct CertifiedPort {
   const NormalForm* form;
   const UpdateLaw* law;            // of one axis
   const Certificate* certificate;  // of that law on an ideal device of the same rate
+  std::optional<SlipMotor> slips;  // of slips or a contact, on that device
 };
 
 struct AxesCertificate {
   bool is_proved = false;  // false: for `reason`
   std::string reason;
-  double needed = 0;                // x W that the held forces need, W = diag(weight) [N·s/m]
+  double needed = 0;                // x W that the motors' torques need, W = diag(weight) [N·s/m]
+  double for_estimates = 0;         // of that, what follows estimates [N·s/m]
+  double for_lag = 0;               // of that, what the motors' amplifiers are behind with [N·s/m]
   double missing = 0;               // x that has to be added to what is there already; not below it [N·s/m]
   axes::Pair<double> weight{1, 1};  // square of each joint's link [m²]; [1] of joints that slide
   axes::Pair<double> worst{0, 0};   // tip where most is missing [m]
   std::vector<double> added;        // to each brake's command [N·m·s/rad] or [N·s/m]
-  // Whether what the motors make of the ports' damping, from estimates, is passive whatever lateness the estimates of
-  // both joints share, everywhere in the workspace.
-  bool takes_lateness = true;
-  std::string uncovered;  // what of this network on this device no bound covers yet; empty: nothing
+  std::string uncovered;            // what of this network on this device no bound covers yet; empty: nothing
   bool certified = false;
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
 

@@ -109,6 +109,8 @@ std::string explain_json(const AxesCompilation& c) {
       {"candidates", candidates},
       {"chosen", name_of(c.rule)},
       {"needed_damping", is_proved ? Json(certificate.needed) : Json(nullptr)},
+      {"damping_for_estimates", is_proved ? Json(certificate.for_estimates) : Json(nullptr)},
+      {"damping_for_lag", is_proved ? Json(certificate.for_lag) : Json(nullptr)},
       {"missing_damping", is_proved ? Json(certificate.missing) : Json(nullptr)},
       {"worst_at", is_proved ? Json(certificate.worst) : Json(nullptr)},
       {"added_damping", certificate.added},

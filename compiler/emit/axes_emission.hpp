@@ -14,6 +14,7 @@ struct AxesCompilation {
   AxesNetwork network;
   std::vector<Compilation> ports;  // each on an ideal device of one axis
   std::vector<UpdateLaw> port_laws;
+  Choices choices_of_ports;
   bool has_device = false;
   AxesDevice device;  // ideal where none is named
   axes::BrakeRule rule = axes::BrakeRule::diagonal;

@@ -1,27 +1,30 @@
 // Isotropic Kelvin field: the tool is drawn to the origin and damped, alike in all directions
 //
 // source: Gosline & Hayward 2009, Fig. 2c, in two directions; the values are chosen here
-// port across: behind the map 'along'; b = 2 N·s/m by the rule 'paper'
-// port out: behind the map 'wall'; b = 2 N·s/m by the rule 'paper'
+// port across: behind the map 'along'; b = 1 N·s/m by the rule 'paper'
+// port out: behind the map 'wall'; b = 1 N·s/m by the rule 'paper'
 // kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16
 // scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
 // brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
 //   100.6) mm, in motions alike in all directions
-// passivity: not certified, since the motors' amplifiers lag, which no bound of two axes covers yet: the forces
-//   that are held from one sample to the next need 0.0147901 N·s/m times the square of each joint's link, 0 beyond
-//   the device's own damping, most at (0.9375, 70) mm
+// passivity: certified for any motion in the workspace, while the motors make their torques: what the motors hold
+//   from one sample to the next needs 1.07845 N·s/m times the square of each joint's link, 1.06082 beyond the
+//   device's own damping, most at (0.9375, 70) mm
+//   of which 0.869354 are for what the motors make of estimated velocities, however late
+//   of which 0.194309 are for the lag of the motors' amplifiers
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
+//   added to the brakes' commands for it: 0.00446137, 0.00446137 N m s/rad
 // device: pantograph_2dof
-// cost of output(): 79 additions, 105 multiplications, 22 selections, 0 guards against subnormal numbers
+// cost of output(): 81 additions, 99 multiplications, 22 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words_of_ports: a port is a network of one axis behind a map w of the tool's position, which says how far the
 //   tool has gone into what the network resists; B* is the damping that all ports ask for, over the joints.
 //   Passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
-// 4a6086f33a595e56feabc004a736576e4833505fa05803abac8bbb2b858a027b. It belongs to whoever had it
+// 891796bb1804f2b9e2fd5639d51c9ddbcd99cc9834cf0fe75acc324a0ae3ae4c. It belongs to whoever had it
 // written. Compile it with -ffp-contract=off where results are compared bit for bit.
 #pragma once
 
@@ -39,7 +42,7 @@ class kelvin_field {
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
   // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
-  static constexpr scalar added_damping[brakes] = {0.0, 0.0};
+  static constexpr scalar added_damping[brakes] = {0.004461367062702254, 0.004461367062702254};
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {
@@ -200,21 +203,21 @@ class kelvin_field {
     // ∂y/∂q1
     const scalar y_by_q1 = part_18 * part_20;
     // B* of joint 1
-    const scalar wanted_11 = across_damping * (x_by_q1 * x_by_q1) + across_damping * (y_by_q1 * y_by_q1);
+    const scalar wanted_11 = x_by_q1 * x_by_q1 + y_by_q1 * y_by_q1;
     const scalar part_21 = most_damping_1 - wanted_11 > 0 ? wanted_11 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_21;
+    const scalar damping_1 = part_21 + added_damping_1;
     const scalar part_22 = part_17 * (part_7 * part_20 + part_4 * part_19);
     // −∂x/∂q2
     const scalar x_by_q2 = part_16 * part_22;
     // ∂y/∂q2
     const scalar y_by_q2 = part_13 * part_22;
     // B* of joint 2
-    const scalar wanted_22 = across_damping * (x_by_q2 * x_by_q2) + across_damping * (y_by_q2 * y_by_q2);
+    const scalar wanted_22 = x_by_q2 * x_by_q2 + y_by_q2 * y_by_q2;
     const scalar part_23 = most_damping_1 - wanted_22 > 0 ? wanted_22 : most_damping_1;
-    const scalar damping_2 = part_23;
+    const scalar damping_2 = added_damping_1 + part_23;
     // B* between the joints
-    const scalar wanted_12 = across_damping * (y_by_q1 * y_by_q2) - across_damping * (x_by_q1 * x_by_q2);
+    const scalar wanted_12 = y_by_q1 * y_by_q2 - x_by_q1 * x_by_q2;
     // τ = Σ g M + (B* − D) v
     const scalar torque_1 = x_by_q1 * across_force + y_by_q1 * out_force + ((wanted_11 - part_21) * v1 +
         wanted_12 * v2);
@@ -320,21 +323,21 @@ class kelvin_field {
     // ∂y/∂q1
     const scalar y_by_q1 = part_18 * part_20;
     // B* of joint 1
-    const scalar wanted_11 = across_damping * (x_by_q1 * x_by_q1) + across_damping * (y_by_q1 * y_by_q1);
+    const scalar wanted_11 = x_by_q1 * x_by_q1 + y_by_q1 * y_by_q1;
     const scalar part_21 = most_damping_1 - wanted_11 > 0 ? wanted_11 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_21;
+    const scalar damping_1 = part_21 + added_damping_1;
     const scalar part_22 = part_17 * (part_7 * part_20 + part_4 * part_19);
     // −∂x/∂q2
     const scalar x_by_q2 = part_16 * part_22;
     // ∂y/∂q2
     const scalar y_by_q2 = part_13 * part_22;
     // B* of joint 2
-    const scalar wanted_22 = across_damping * (x_by_q2 * x_by_q2) + across_damping * (y_by_q2 * y_by_q2);
+    const scalar wanted_22 = x_by_q2 * x_by_q2 + y_by_q2 * y_by_q2;
     const scalar part_23 = most_damping_1 - wanted_22 > 0 ? wanted_22 : most_damping_1;
-    const scalar damping_2 = part_23;
+    const scalar damping_2 = added_damping_1 + part_23;
     // B* between the joints
-    const scalar wanted_12 = across_damping * (y_by_q1 * y_by_q2) - across_damping * (x_by_q1 * x_by_q2);
+    const scalar wanted_12 = y_by_q1 * y_by_q2 - x_by_q1 * x_by_q2;
     // τ = Σ g M + (B* − D) v
     const scalar torque_1 = x_by_q1 * across_force + y_by_q1 * out_force + ((wanted_11 - part_21) * v1 +
         wanted_12 * v2);
@@ -402,8 +405,8 @@ class kelvin_field {
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
   static constexpr scalar half_base = 0.0125;  // half of that [m]
   static constexpr scalar out_offset = 0.1;  // of the plane from the origin [m]
-  static constexpr scalar most_damping_1 = 0.014;  // that the brake gives, less what is added [N·m·s/rad]
-  static constexpr scalar across_damping = 2.0;  // b of the port [N·s/m]
+  static constexpr scalar most_damping_1 = 0.009538632937297746;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.004461367062702254;  // for passivity alone [N·m·s/rad]
 
   scalar across_last_position_ = 0;  // u of the sample before [m]
   scalar across_sampled_position_ = 0;  // port displacement u, at this sample [m]

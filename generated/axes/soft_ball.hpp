@@ -8,12 +8,14 @@
 // brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
 // share: of the ports' damping the brakes make 109 % in the median over the workspace, 71.1 % at least, at (-1,
 //   119.4) mm, in motions alike in all directions
-// passivity: not certified, since the motors' amplifiers lag, which no bound of two axes covers yet: the forces
-//   that are held from one sample to the next need 1.765 N·s/m times the square of each joint's link, 1.74736
-//   beyond the device's own damping, most at (-22.97, 120) mm
+// passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the loop is late:
+//   what the motors hold from one sample to the next needs 11.2533 N·s/m times the square of each joint's link,
+//   11.2356 beyond the device's own damping, most at (-22.97, 120) mm
+//   of which 1.87381 are for what the motors make of estimated velocities, however late
+//   of which 8.48392 are for the lag of the motors' amplifiers
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
-//   added to the brakes' commands for it: 0.00734137, 0.00734137 N m s/rad, all that they can give
+//   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give
 // device: pantograph_2dof
 // cost of output(): 96 additions, 121 multiplications, 49 selections, 1 guards against subnormal numbers
 // cost of update(): 1 additions, 2 multiplications, 0 selections, 1 guards against subnormal numbers
@@ -40,7 +42,7 @@ class soft_ball {
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
   // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
-  static constexpr scalar added_damping[brakes] = {0.007341370433455288, 0.007341370433455288};
+  static constexpr scalar added_damping[brakes] = {0.013980000000000001, 0.013980000000000001};
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {
@@ -477,9 +479,9 @@ class soft_ball {
   static constexpr scalar half_base = 0.0125;  // half of that [m]
   static constexpr scalar ball_centre_y = 0.14;  // of the circle [m]
   static constexpr scalar blunting_squared = 1.e-18;  // keeps the distance from zero [m²]
-  static constexpr scalar most_damping_1 = 0.006658629566544712;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar most_damping_1 = 1.9999999999999185e-05;  // that the brake gives, less what is added [N·m·s/rad]
   static constexpr scalar nothing = 0.0;  // 0 [1]
-  static constexpr scalar added_damping_1 = 0.007341370433455288;  // for passivity alone [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.013980000000000001;  // for passivity alone [N·m·s/rad]
 
   scalar ball_surface_ = 0;  // s, how far the surface is pushed in [m]
   scalar ball_spring_3_damper_4_force_ = 0;  // force of the mode, decayed to the next sample [N]

@@ -7,12 +7,14 @@
 // brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 98.4 % at least, at (-1,
 //   106.9) mm, in motions alike in all directions
-// passivity: not certified, since the motors' amplifiers lag, which no bound of two axes covers yet: the forces
-//   that are held from one sample to the next need 2.42922 N·s/m times the square of each joint's link, 2.41159
-//   beyond the device's own damping, most at (-0.3125, 109.6) mm
+// passivity: not certified, since port 'wall': the contact lets go by a velocity estimate, and the loop is late:
+//   what the motors hold from one sample to the next needs 22.7965 N·s/m times the square of each joint's link,
+//   22.7789 beyond the device's own damping, most at (-0.3125, 109.6) mm
+//   of which 5.0518 are for what the motors make of estimated velocities, however late
+//   of which 16.5211 are for the lag of the motors' amplifiers
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
-//   added to the brakes' commands for it: 0.010132, 0.010132 N m s/rad, all that they can give
+//   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give
 // device: pantograph_2dof
 // cost of output(): 89 additions, 114 multiplications, 29 selections, 1 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
@@ -39,7 +41,7 @@ class viscous_wall {
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
   // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
-  static constexpr scalar added_damping[brakes] = {0.010132031445903699, 0.010132031445903699};
+  static constexpr scalar added_damping[brakes] = {0.013980000000000001, 0.013980000000000001};
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {
@@ -437,10 +439,10 @@ class viscous_wall {
   static constexpr scalar distal_link_squared = 0.005625;  // square of that [m²]
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
   static constexpr scalar wall_offset = 0.11;  // of the plane from the origin [m]
-  static constexpr scalar most_damping_1 = 0.0038679685540963012;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar most_damping_1 = 1.9999999999999185e-05;  // that the brake gives, less what is added [N·m·s/rad]
   static constexpr scalar number_1 = 1.5;  // of the geometry []
   static constexpr scalar nothing = 0.0;  // 0 [1]
-  static constexpr scalar added_damping_1 = 0.010132031445903699;  // for passivity alone [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.013980000000000001;  // for passivity alone [N·m·s/rad]
 
   scalar wall_surface_ = 0;  // s, how far the surface is pushed in [m]
   scalar wall_sampled_brake_ = 0;  // b, at this sample [N·s/m]

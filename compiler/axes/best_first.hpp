@@ -1,0 +1,29 @@
+// Branch and bound over a box: parts are halved, the one with the largest bound first.
+#pragma once
+
+#include <queue>
+
+#include "axes/workspace.hpp"
+
+namespace dashpot::compiler::axes {
+
+// In: a bound of what is looked for over a part, and whether a bound is close enough to what has been attained. Out:
+// one of the whole, close enough or after that many parts.
+template <typename Measure, typename IsClose>
+double best_first(const Box& whole, int most_parts, const Measure& measured, const IsClose& is_close) {
+  struct Part {
+    Box box;
+    double bound;
+    bool operator<(const Part& other) const { return bound < other.bound; }
+  };
+  std::priority_queue<Part> open;
+  open.push({whole, measured(whole)});
+  for (int parts = 1; parts < most_parts && !is_close(open.top().bound); parts += 2) {
+    const Part worst = open.top();
+    open.pop();
+    for (const Box& half : halves(worst.box, whole)) open.push({half, measured(half)});
+  }
+  return open.top().bound;
+}
+
+}  // namespace dashpot::compiler::axes

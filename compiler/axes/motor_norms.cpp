@@ -1,0 +1,83 @@
+#include "axes/motor_norms.hpp"
+
+#include <algorithm>
+
+#include "axes/best_first.hpp"
+#include "axes/curvature.hpp"
+#include "axes/weighed.hpp"
+
+namespace dashpot::compiler::axes {
+namespace {
+
+Largest larger(const Largest& one, const Largest& other) { return one.x < other.x || other.x != other.x ? other : one; }
+
+// `matrices_at` takes a motion of the tip to matrices of which the largest counts; +λ and −λ of each.
+template <typename Matrices>
+double largest_size(const Arm& arm, const Box& workspace, const Pair<double>& weight, const Matrices& matrices_at) {
+  double attained = 0;
+  const auto size_over = [&](const Box& tip) {
+    const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, variables(tip));
+    if (!joints) return Largest{infinity};
+    Largest most{0};
+    for (const Symmetric<Sloped>& one : matrices_at(tip_motion(arm, *joints, variables(tip))))
+      most = larger(larger(most, weighed(one, weight)), weighed(Sloped(-1) * one, weight));
+    return most.x < infinity ? most : Largest{infinity};  // where it has no numbers, too
+  };
+  const auto measured = [&](const Box& tip) {
+    const Largest most = size_over(tip);
+    if (!(most.x > attained) || most.x == infinity) return most.x;
+    const double there = size_over(constant<Interval>(place_in(tip, most))).x;
+    if (there < infinity) attained = std::max(attained, there);
+    return std::max(most.x, attained);
+  };
+  return best_first(workspace, most_boxes, measured,
+                    [&](double bound) { return bound - attained <= bound_tolerance * attained; });
+}
+
+// Every sum of which some ports are left out.
+std::vector<Symmetric<Sloped>> wanted_by(const std::vector<PortDamping>& ports, const Symmetric<double>& field,
+                                         const Pose<Sloped>& pose) {
+  std::vector<Symmetric<Sloped>> sums{
+      at_joints(pose, Symmetric<Sloped>{Sloped(field.xx), Sloped(field.xy), Sloped(field.yy)})};
+  for (const PortDamping& port : ports) {
+    const Symmetric<Sloped> on = Sloped(port.damping) * outer(at_joints(pose, depth(port.map, pose.tip).gradient));
+    const std::size_t so_far = sums.size();
+    for (std::size_t i = 0; i < so_far; ++i) {
+      if (port.is_off) sums.push_back(sums[i]);
+      sums[i] = sums[i] + on;
+    }
+  }
+  return sums;
+}
+
+}  // namespace
+
+double largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                         const Symmetric<double>& field, const std::vector<Brake>& brakes, BrakeRule rule,
+                         const Pair<double>& weight) {
+  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+    std::vector<Symmetric<Sloped>> remainders;
+    for (const Symmetric<Sloped>& wanted : wanted_by(ports, field, there.pose))
+      remainders.push_back(rule == BrakeRule::diagonal ? wanted - made_by(brakes, diagonal(brakes, wanted)) : wanted);
+    return remainders;
+  });
+}
+
+double largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight) {
+  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+    return std::vector{outer(at_joints(there.pose, depth(map, there.pose.tip).gradient))};
+  });
+}
+
+double largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight) {
+  const Interval range = range_of(load.map, workspace);
+  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+    const Depth<Sloped> depth = axes::depth(load.map, there.pose.tip);
+    const double force = abs(motor_force(load, depth.value.value, range)).high;
+    if (force == 0) return std::vector<Symmetric<Sloped>>{};
+    return std::vector{Sloped(force) *
+                       at_joints(there.pose, there.bends, depth.gradient, bend(load.map, there.pose.tip))};
+  });
+}
+
+}  // namespace dashpot::compiler::axes

@@ -1,0 +1,32 @@
+// How large over a workspace is what the motors make, against W = diag(weight): sizes ‖N‖ = max |λ| of N v = λ W v of
+// matrices over the joints, by enclosures with outward rounding. For what a certificate bounds without asking where the
+// joints were before (theory, section 12).
+#pragma once
+
+#include <vector>
+
+#include "axes/brakes.hpp"
+#include "axes/workspace_bound.hpp"
+
+namespace dashpot::compiler::axes {
+
+// Of a port that damps.
+struct PortDamping {
+  PortMap map;
+  double damping = 0;   // b [N·s/m]
+  bool is_off = false;  // at times: behind a contact
+};
+
+// ‖R‖, R = B* − D of what ports and field want and what the brakes make of it by a rule, whichever ports are off [N·s/m
+// for a weight in m²]. By `non_injecting` 0 ≤ R ≤ B*, and ‖B*‖ is taken.
+double largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                         const Symmetric<double>& field, const std::vector<Brake>& brakes, BrakeRule rule,
+                         const Pair<double>& weight);
+
+// ‖g gᵀ‖ of a port's gradient g.
+double largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight);
+
+// |M| ‖H‖ of a port's force and its map's Hessian H: what a motion of the joints turns the torque by.
+double largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight);
+
+}  // namespace dashpot::compiler::axes

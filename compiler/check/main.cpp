@@ -1,5 +1,5 @@
-// dashpot-check HEADER CERTIFICATE: 0 if what the certificate states is proved, 1 if it is not true of this header or
-// cannot be proved with what is there, 2 for a wrong command line, 3 if nothing is known of such a law here.
+// dashpot-check HEADER CERTIFICATE: 0 if what the certificate states is proved and the law is certified, 4 if it is
+// proved and the law lacks damping, 1 if it is not proved, 2 for a wrong command line, 3 for a law that is not known.
 #include <fstream>
 #include <iostream>
 

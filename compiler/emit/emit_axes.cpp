@@ -100,6 +100,7 @@ void describe(const AxesCompilation& c, Fields& fields) {
   fields["device_digest"] = c.device.digest;
   fields["estimators"] = list_of(estimators);
   fields["loop_delay"] = std::to_string(c.device.loop().delay_samples);
+  fields["is_certified"] = c.certificate.certified ? "true" : "false";
 }
 
 CodeModel header_model(const AxesCompilation& c) {

@@ -29,9 +29,13 @@ class Box : private BoxNumbers {
     const Rational behind_slips = largest_behind_slips(), made_up = make_up(brakes, behind_slips);
     if (made_up > 0 && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
     if (brakes.empty())
-      return nothing_for("the brake follows the viscosity of a mesh, which is not bounded over the box");
+      return nothing_for(
+          "the brake follows the damping of elements that lie neither beside each other nor in series, and nothing "
+          "bounds that over the ranges of the parameters; of a brake that keeps its damping, as with --decomposition "
+          "0, it is known what it needs");
     const Affine asked = needed();
-    Rational worst = 0, least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0;
+    std::optional<Rational> worst;  // below 0 where more is there than is needed
+    Rational least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0;
     for (const Affine& brake : brakes) {
       least_brake = std::min(least_brake, std::max(Rational(0), least(brake)));
       largest_brake = std::max(largest_brake, most(brake));
@@ -40,13 +44,13 @@ class Box : private BoxNumbers {
         if (!is_rounding && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
         Affine lacking = plus(asked, brake, -loop_.share);
         if (loop_.gain) lacking = plus(lacking, gain, loop_.hold * Rational(*loop_.gain));
-        worst = std::max(
-            worst, Rational(most(lacking) +
-                            (made_up > 0 ? Rational(loop_.hold * Rational(*loop_.gain) * made_up) : Rational(0))));
+        const Rational here =
+            most(lacking) + (made_up > 0 ? Rational(loop_.hold * Rational(*loop_.gain) * made_up) : Rational(0));
+        worst = worst ? std::max(*worst, here) : here;
       }
     }
     largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.head.max_damping));
-    return {ceiling(worst), -ceiling(-least_brake), ceiling(largest_brake), "", quantisation_gain(brakes, made_up)};
+    return {ceiling(*worst), -ceiling(-least_brake), ceiling(largest_brake), "", quantisation_gain(brakes, made_up)};
   }
 
  private:

@@ -216,7 +216,7 @@ PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   bound.proof = loop.amplifier_lag > 0 ? Proof::sampled : Proof::hold;
   if (loop.amplifier_lag > 0) bound.reason = "the amplifier lags";
   bound.constant_period_only = loop.amplifier_lag > 0;
-  bound.needed = ceiling(assured_share(loop) * Rational(box.least_brake) + Rational(box.lacking));
+  bound.needed = std::max(0.0, ceiling(assured_share(loop) * Rational(box.least_brake) + Rational(box.lacking)));
   bound.any_value = true;
   return bound;
 }

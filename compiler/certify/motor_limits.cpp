@@ -201,6 +201,16 @@ std::string why_not_covered(const MotorLimits& limits, const std::string& unit) 
                      *limits.available);
 }
 
+namespace {
+
+std::string why_not_bounded(const SampledLoop& loop) {
+  if (!(loop.travel > 0)) return "the device file states no \"range\" of its encoder";
+  return "none is known of what follows the velocity's estimate, which 'velocity-free' does not, of dampers behind "
+         "slips, and of parameters that change";
+}
+
+}  // namespace
+
 std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& loop, const PortUnits& units) {
   std::vector<std::string> lines;
   if (!loop.has_device) return lines;
@@ -209,6 +219,7 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
                                                          *limits.largest_force, units.force)
                                            : std::string("has no proved bound on the force it asks for");
   if (loop.max_force > 0) asked += fmt::format(", the motor gives {:.6g} {}", loop.max_force, units.force);
+  if (!limits.largest_force) asked += "; " + why_not_bounded(loop);
   if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: the law " + asked);
   if (limits.slew_needed || loop.motor_slew > 0)
     lines.push_back("slew: " +

@@ -2,7 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "commands/commands.hpp"
 #include "commands/eddy_brake.hpp"
@@ -79,12 +81,36 @@ std::optional<FilledBrake> fill_in(const Device& device, const BladeWords& blade
   return is_within_numbers(filled, rotary, diagnostics) ? std::optional(filled) : std::nullopt;
 }
 
-std::string filled_text(const SourceFile& file, const FilledBrake& brake, bool rotary) {
+// A constant of the brake before would make another current of the new largest damping.
+void leave_out_constant(nlohmann::ordered_json& json) {
+  json["brake"].erase("damping_per_current_squared");
+  if (!json.contains("assumed")) return;
+  nlohmann::ordered_json& assumed = json["assumed"];
+  assumed.erase(std::remove(assumed.begin(), assumed.end(), "brake.damping_per_current_squared"), assumed.end());
+}
+
+// What the file said of where its numbers are from was said of another brake.
+void add_to_source(nlohmann::ordered_json& json, const BladeWords& blade, bool without_constant) {
+  const nlohmann::ordered_json& before = json["brake"]["max_damping"];
+  std::string made = fmt::format(
+      "brake.max_damping by 'dashpot device' from a blade of {}, poles of {} by {} and a field of {}, in place of {}",
+      blade.thickness, blade.pole_length, blade.pole_width, blade.field,
+      before.is_string() ? before.get<std::string>() : before.dump());
+  if (without_constant) made += "; damping_per_current_squared, which was of that brake, is left out";
+  const std::string source = json.value("source", "");
+  json["source"] = source.empty() ? made : source + "; " + made;
+}
+
+std::string filled_text(const SourceFile& file, const FilledBrake& brake, const BladeWords& blade, bool rotary) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(file.text());
+  const bool without_constant =
+      !brake.damping_per_current_squared && json["brake"].contains("damping_per_current_squared");
+  add_to_source(json, blade, without_constant);
   json["brake"]["max_damping"] = fmt::format("{:.6g} {}", brake.damping, damping_unit(rotary));
   if (brake.damping_per_current_squared)
     json["brake"]["damping_per_current_squared"] =
         fmt::format("{:.6g} {}", *brake.damping_per_current_squared, current_unit(rotary));
+  if (without_constant) leave_out_constant(json);
   return json.dump(2) + "\n";
 }
 
@@ -109,7 +135,8 @@ ExitStatus run_device(const Options& options, SourceFiles& files, Diagnostics& d
   files.keep(words.take_sources());
   if (!brake) return ExitStatus::input_refused;
   const SourceFile* file = files.open(*options.device, diagnostics);
-  const std::string text = filled_text(*file, *brake, device.device->description.motion == motion::rotation);
+  const std::string text =
+      filled_text(*file, *brake, options.blade, device.device->description.motion == motion::rotation);
   // All other commands have to take it.
   if (!read_device(files.keep(*options.device + " with this blade", text), diagnostics))
     return ExitStatus::input_refused;

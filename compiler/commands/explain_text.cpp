@@ -213,6 +213,8 @@ std::string legend_of_lines(const std::string& text) {
       {"static curve", "the force at rest, or at once, over the displacement, which the file asks for"},
       {"quasi-linear law",
        "QLV: f = ∫ G(t − s) df_e(s), passive along one line, whose damping goes with the curve's slope"},
+      {"valid", "where the file says that its numbers were measured"},
+      {"generalised Kelvin form", "the same network as elements in series, as creep is written"},
       {"static stiffness", "of the spring that is left when everything has relaxed"},
       {"feedthrough damping", "of the damper that is felt at once, however fast the motion"},
       {"mode", "a spring and a damper in series that relax together, and the elements that make them"},
@@ -222,7 +224,8 @@ std::string legend_of_lines(const std::string& text) {
       {"contact", "where the tissue begins, and what is commanded in front of it"},
       {"passivity",
        "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
-       "the device has for certain"},
+       "the device has for certain. Where 'what is rendered is D + …' follows: D is the network's own answer to a "
+       "motion, and s the rate of change, so that so much damping is felt beside the network"},
       {"energy", "what the law itself can give back, and what rounding may add to it"},
       {"largest force", "what the law may ask of the motor, and what the motor can make"},
       {"over 'valid'", "the network's own force in such a motion, with its parameters as they are in the file"},
@@ -231,7 +234,9 @@ std::string legend_of_lines(const std::string& text) {
       {"sudden loss", "of what force the motor may lag behind without giving energy"},
       {"at the limit", "what happens where the motor cannot follow, and whether energy comes of it"},
       {"quantisation", "what the encoder's steps do: friction has to take what they give"},
-      {"cost", "of one sample: additions, multiplications, comparisons, and the numbers that are kept"}};
+      {"cost",
+       "of one sample, beside each other: additions, multiplications, guards against subnormal numbers, and the "
+       "numbers that are kept"}};
   std::string all;
   for (const auto& [label, meaning] : lines) {
     const bool begins = text.starts_with(label) || text.find(std::string("\n") + label) != std::string::npos;
@@ -246,6 +251,7 @@ std::string legend_of_slips(const std::string& text) {
     const char *table, *name, *meaning;
   };
   const Column columns[] = {
+      {"behind ", "behind …:", "of these slips: the law that was chosen, and why; below it how many regimes they have"},
       {"  stuck", "stuck", "the regime: the slips that hold in it; the others slide"},
       {"  stuck", "b", "the damping that the brake is told to make in this regime"},
       {"  stuck", "its observer's", "what the rule in the last column asks of the brake, before limits lower it"},
@@ -260,7 +266,7 @@ std::string legend_of_slips(const std::string& text) {
       {"  law ", "motor noise", "the rms force of the motor that comes from the encoder's steps alone"}};
   std::string all;
   for (const Column& column : columns)
-    if (text.find(std::string("\n") + column.table) != std::string::npos)
+    if (("\n" + text).find(std::string("\n") + column.table) != std::string::npos)
       all += fmt::format("{:<22}{}\n", column.name, column.meaning);
   return all;
 }

@@ -235,7 +235,11 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
                                    [&](const Candidate& candidate) { return name && candidate.name == *name; });
   result.chosen = name ? static_cast<std::size_t>(chosen - result.candidates.begin()) : result.candidates.size() - 1;
   if (result.chosen == result.candidates.size()) {
-    diagnostics.report<DiagnosticCode::unknown_decomposition>(network.name_span, *name);
+    const bool needs_slips = *name == "steady" || *name == "ramped" || *name == "gated";
+    if (needs_slips)
+      diagnostics.report<DiagnosticCode::no_such_slip_law>(network.name_span, *name, network.name,
+                                                           "it is a law for slips, and this network has none");
+    else diagnostics.report<DiagnosticCode::unknown_decomposition>(network.name_span, *name);
     return std::nullopt;
   }
   result.encoder_step = port->encoder_step();

@@ -150,6 +150,25 @@ bool has_what_was_asked_for(const Network& network, const SlipDecomposition& sli
   return false;
 }
 
+// Of the names that stand for a law behind slips those remain that some part can have: the others would be refused.
+void list_what_can_be_asked_for(Decomposition& result) {
+  const auto has = [&](const std::string& name) {
+    for (const ComponentSplit* split : result.slips.all())
+      for (const SlipLawOffer& offer : split->offers)
+        if (name_of(offer.law) == name && offer.refusal.empty()) return true;
+    return false;
+  };
+  const std::string chosen = result.choice().name;
+  std::erase_if(result.candidates, [&](const Candidate& candidate) {
+    const bool is_slip_law = candidate.name == name_of(SlipLaw::steady) || candidate.name == name_of(SlipLaw::ramped) ||
+                             candidate.name == name_of(SlipLaw::gated);
+    return is_slip_law && candidate.name != chosen && !has(candidate.name);
+  });
+  const auto place = std::find_if(result.candidates.begin(), result.candidates.end(),
+                                  [&](const Candidate& candidate) { return candidate.name == chosen; });
+  result.chosen = static_cast<std::size_t>(place - result.candidates.begin());
+}
+
 }  // namespace
 
 ExtremeRuns extreme_runs(const std::vector<SlipRunError>& runs) {
@@ -170,7 +189,9 @@ std::optional<Decomposition> decompose(const Network& network, const NormalForm&
   result->slips = decompose_slips(network, form, result->choice(), {law, 1, port->largest_estimator_gain()}, *port);
   for (ComponentSplit& split : result->slips.components) say_asked_for(split);
   for (ComponentSplit& split : result->slips.networks) say_asked_for(split);
-  return has_what_was_asked_for(network, result->slips, law, diagnostics) ? std::move(result) : std::nullopt;
+  if (!has_what_was_asked_for(network, result->slips, law, diagnostics)) return std::nullopt;
+  list_what_can_be_asked_for(*result);
+  return result;
 }
 
 }  // namespace dashpot::compiler

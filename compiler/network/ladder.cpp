@@ -201,7 +201,9 @@ class LadderReader {
       diagnostics_.report<DiagnosticCode::prony_weight_negative>(leaf_.prony->terms[index].weight->span,
                                                                  negative->weight);
     } else {
-      diagnostics_.report<DiagnosticCode::prony_sum_above_one>(leaf_.prony->terms_span, series.sum_of_weights());
+      // Without the last bits of the addition, as long as it is above 1 then.
+      const double sum = series.sum_of_weights(), rounded = std::round(1e12 * sum) / 1e12;
+      diagnostics_.report<DiagnosticCode::prony_sum_above_one>(leaf_.prony->terms_span, rounded > 1 ? rounded : sum);
     }
     const PassiveFit fit = nearest_passive(series);
     diagnostics_.note<DiagnosticCode::prony_nearest_passive>(

@@ -34,10 +34,14 @@ std::string per_radian(const ValueDecl& decl, const NameScope& scope) {
 
 void report_wrong_unit(const ValueDecl& decl, const Dimension& found, const Expectation& expected,
                        const NameScope& scope, Diagnostics& diagnostics) {
-  diagnostics.report<DiagnosticCode::wrong_unit>(decl.span, excerpt(decl.text), describe(found), expected.taker,
-                                                 describe(expected.dimension));
+  // A percentage is of something, and no unit behind it would say of what.
+  const bool is_share = decl.text.ends_with('%');
+  const bool is_time_by_share = is_share && expected.dimension == dimensions::time;
+  diagnostics.report<DiagnosticCode::wrong_unit>(
+      decl.span, excerpt(decl.text), describe(found), expected.taker,
+      describe(expected.dimension) + (is_time_by_share ? " such as '50 us'" : ""));
   const bool rotates = expected.port_motion == motion::rotation;
-  if (found == dimensions::number && is_quantity(decl))
+  if (found == dimensions::number && is_quantity(decl) && !is_share)
     diagnostics.note<DiagnosticCode::write_instead>({}, excerpt(decl.text) + " " + unit_of(expected.dimension));
   else if (expected.dimension.radian < 0 && product(found, power(dimensions::angle, -1)) == expected.dimension)
     diagnostics.note<DiagnosticCode::write_instead>({}, per_radian(decl, scope));

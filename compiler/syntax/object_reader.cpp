@@ -55,7 +55,8 @@ bool ObjectReader::flag(std::string_view key) const {
 const JsonValue* ObjectReader::object(std::string_view key) const {
   const JsonMember* member = find(key);
   if (member == nullptr || member->value.kind == Kind::object) return member == nullptr ? nullptr : &member->value;
-  report_wrong_type(key, member->value, "an object", diagnostics_);
+  report_wrong_type(key, member->value, key == "contact" ? "an object such as { \"at\": \"2 mm\" }" : "an object",
+                    diagnostics_);
   return nullptr;
 }
 

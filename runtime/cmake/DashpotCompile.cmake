@@ -26,7 +26,8 @@
 # WITH_TEST also makes TARGET_test, GoogleTest cases of the law against closed forms or, with TARGET c99, a program in C,
 # and registers them with CTest.
 #
-# CERTIFICATE names a file to write, for `dashpot verify`; UNCERTIFIED also makes a law that lacks damping on its device.
+# CERTIFICATE names a file to write, for `dashpot verify`, which reads C++ alone: not with TARGET c99. UNCERTIFIED also
+# makes a law that lacks damping on its device.
 #
 # Relative paths start from the current source folder, that of CERTIFICATE from the current binary folder. One folder of
 # output for each target: two targets may hold laws of one network, but one program can link only one of them, because both

@@ -378,7 +378,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   for (const OtherChoices& other : others)
     if (const auto again = improvement.by(other.choices, *c.device))
       return error.tell_choice(*again, other.options, diagnostics);
-  if (c.law.tunable) return;
+  if (c.law.tunable && &error == &where_slips_give_way) return;  // each trial of theirs takes long
   std::optional<MendedDevice> best;
   double least = std::numeric_limits<double>::infinity();
   for (const MendedDevice& other : mended(*c.device)) {
@@ -411,9 +411,8 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
 
 void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   if (!c.device) return;
-  const auto exceeds = [&](double error) { return error > choices.tolerance * (1 + 1e-9); };
   const SlipDecomposition& slips = c.decomposition.slips;
-  if (exceeds(slips.error)) {
+  if (slips.error > choices.tolerance * (1 + 1e-9)) {
     diagnostics.report<DiagnosticCode::felt_error_behind_slips>(c.network.name_span, in_percent(slips.error),
                                                                 in_percent(choices.tolerance));
     const auto [mildest, worst] = extreme_runs(slips.runs);
@@ -423,7 +422,7 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }
   const Candidate& choice = c.decomposition.choice();
-  if (!exceeds(choice.largest_error)) return;
+  if (!(noticeably * choice.largest_error > choices.tolerance)) return;
   diagnostics.report<DiagnosticCode::felt_error>(c.network.name_span, choice.name, in_percent(choice.largest_error),
                                                  c.device->name, in_percent(choices.tolerance));
   tell_what_errs_less(c, choices, in_the_band, diagnostics);

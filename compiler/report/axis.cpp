@@ -56,7 +56,7 @@ void label_at_least_two(Axis& axis) {
   const auto has_label = [](const Tick& tick) { return !tick.label.empty(); };
   if (std::count_if(axis.ticks.begin(), axis.ticks.end(), has_label) >= 2) return;
   if (axis.ticks.size() < 2) {
-    axis.ticks = linear_axis(axis.shown, 2).ticks;
+    axis.ticks = linear_axis(axis.shown, 4).ticks;
     std::erase_if(axis.ticks,
                   [&](const Tick& tick) { return tick.value < axis.shown.low || tick.value > axis.shown.high; });
   }

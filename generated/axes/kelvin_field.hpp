@@ -51,6 +51,7 @@ class kelvin_field {
     static constexpr const char* device_digest = "4bd41ae1d50003e1a5b6e464a22f324bda211b6ab99fd1fb7fa6d0c449d6c039";
     static constexpr const char* estimator[axes] = {"butterworth", "butterworth"};
     static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = true;
   };
 
   struct parameters {};

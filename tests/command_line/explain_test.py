@@ -194,7 +194,20 @@ class Json(CommandTest):
         found = self.explained(FIG_5, "--device", PANTOGRAPH, "--state-input", "velocity", *options.split())
         (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
         self.assertEqual(f"{100 * chosen['largest_error']:.3g}", error)
-        self.assertNotIn("[felt-error]", self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stderr)
+
+    def test_a_default_that_is_not_the_tissue_is_told(self):
+        """Fails if the error of the default goes unsaid, or if a device without what is told to cost most errs by anything else."""
+        said = self.dashpot("explain", FIG_5, "--device", PANTOGRAPH).stderr
+        error = float(re.search(r"with 'faithful' what is felt errs by up to (\S+) % in the band", said).group(1))
+        told = re.search(r"the amplifier's lag costs most: without it it would err by up to (\S+) %", said).group(1)
+        self.assertLess(float(told), 0.9 * error)
+        device = json.loads(PANTOGRAPH.read_text())
+        del device["assumed"], device["motor"]["amplifier_lag"]
+        prompt = self.write("prompt.json", json.dumps(device))
+        found = self.explained(FIG_5, "--device", prompt)
+        (chosen,) = (c for c in found["candidates"] if c["name"] == found["chosen"])
+        self.assertEqual(f"{100 * chosen['largest_error']:.3g}", told)
+        self.assertNotIn("[felt-error]", self.dashpot("explain", FIG_5, "--device", prompt).stderr)
 
     def skin_on_paddle(self, **motor):
         """A network all behind one slip, and a paddle whose brake gives a thirtieth of its damping."""

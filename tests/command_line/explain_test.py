@@ -47,6 +47,8 @@ class Changes(CommandTest):
         told = json.loads(self.dashpot("explain", "tuned.json", "--name", "a b", "--diagnostics", "json", status=1).stderr)
         self.assertEqual((told[0]["file"], told[0]["line"]), ("tuned.json", None))
         self.assertTrue(told[0]["message"].startswith('--name "a b": network name'), told)
+        self.refused("explain", "tuned.json", "--set", "B=2 N/m", code="parameter-of-wrong-unit")
+        self.refused("explain", "tuned.json", "--set", "K1=-2", code="negative-stiffness")
 
     def test_a_table_is_no_network(self):
         """Fails if a table is refused as malformed JSON, or standard input without the name that it is read by."""
@@ -54,8 +56,6 @@ class Changes(CommandTest):
         told = self.refused("explain", "motion.csv", code="table-instead-of-network").stderr
         self.assertIn("'simulate --input'", told)
         self.assertIn("'/dev/stdin'", self.refused("explain", "-", code="cannot-read-file").stderr)
-        self.refused("explain", "tuned.json", "--set", "B=2 N/m", code="parameter-of-wrong-unit")
-        self.refused("explain", "tuned.json", "--set", "K1=-2", code="negative-stiffness")
 
     def test_name(self):
         """Fails if --name is not that of the file and the class, if what is emitted so is not certified under it, or if two networks get one."""

@@ -394,7 +394,7 @@ class Pages(unittest.TestCase):
                 done = subprocess.run([DASHPOT, "simulate", str(FIG_5), "--input", str(motion)], capture_output=True, text=True, timeout=60)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(columns(self.handed_out(), "double"), columns(done.stdout, "double"))
-        bad = {"time,position [N]\n0,0\n": "no column 'position'", "time,position [deg]\n0,0\n0.001,1\n": "the motion is in radians",
+        bad = {"time,position [N]\n0,0\n": "column 'position [N]' in 'N'", "time,position [deg]\n0,0\n0.001,1\n": "the motion is in radians",
                "time,position,position [mm]\n0,0,0\n": "there twice", "t;x\n0;0\n0,001;1;2\n": "row 3 has 3 fields",
                "time [ms],position\n0,0\n1,0\n2,0\n4,0\n": "a uniform period", "time,position\n0,0\n0.001,1e999\n": "a finite number",
                "time,position\n0,0\n0.001,\n": "position is ''", "time,position [Tm]\n0,1e308\n0.001,0\n": "too large",

@@ -339,13 +339,13 @@ const FeltError where_slips_give_way{
       diagnostics.note<DiagnosticCode::errs_less_in_runs>({}, options, in_percent(better.decomposition.slips.error));
     }};
 
-const FeltError in_the_band{
-    [](const Compilation& c) { return std::optional(c.decomposition.choice().largest_error); },
-    [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
-      const Candidate& choice = better.decomposition.choice();
-      diagnostics.note<DiagnosticCode::errs_less>({}, options, in_percent(choice.largest_error), choice.damping,
-                                                  port_units(better.network.port_motion).damping);
-    }};
+const FeltError in_the_band{[](const Compilation& c) { return std::optional(c.decomposition.choice().largest_error); },
+                            [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
+                              const Candidate& choice = better.decomposition.choice();
+                              diagnostics.note<DiagnosticCode::errs_less>(
+                                  {}, options, in_percent(choice.largest_error), choice.damping,
+                                  port_units(better.network.port_motion).damping);
+                            }};
 
 // Of the network compiled for this device or another: the error, if it is noticeably less than that of `c`.
 class Improvement {
@@ -393,8 +393,8 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   for (int doubling = 1; doubling <= 4; ++doubling) {
     faster.description.loop.sample_period /= 2;
     if (const auto again = improvement.by(choices, faster))
-      return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>(
-          {}, 1 / faster.description.loop.sample_period, in_percent(*error.of(*again)));
+      return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,
+                                                                         in_percent(*error.of(*again)));
   }
   const PortUnits units = port_units(c.network.port_motion);
   for (int doubling = 1; doubling <= 4; ++doubling) {
@@ -421,6 +421,7 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
     tell_what_errs_less(c, choices, where_slips_give_way, diagnostics);
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }
+  if (!c.certificate.certified) return;  // what it lacks is told instead
   const Candidate& choice = c.decomposition.choice();
   if (!(noticeably * choice.largest_error > choices.tolerance)) return;
   diagnostics.report<DiagnosticCode::felt_error>(c.network.name_span, choice.name, in_percent(choice.largest_error),

@@ -27,11 +27,11 @@ BEYOND_THE_SCHEMAS = {
     "axes_field_gives_power", "axes_field_turns", "axes_map_radius_of_zero", "axes_port_twice", "axes_tunable",
     "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel", "devices/axes_motion_of_serial",
     # names
-    "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
+    "ends_are_called_tip_and_gnd", "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
     # JSON that Python reads all the same
     "key_given_three_times", "key_given_twice", "levels_too_many", "number_too_large",
     # parameters
-    "parameter_negative", "parameter_of_two_meanings", "parameter_of_wrong_unit", "parameter_unknown",
+    "expression_of_an_element", "unit_run_together_with_its_exponent", "parameter_negative", "parameter_of_two_meanings", "parameter_of_wrong_unit", "parameter_unknown",
     "parameter_unused", "tunable_contact", "tunable_out_of_range", "tunable_range_negative",
     "tunable_range_of_another_unit", "tunable_range_reversed",
     # expressions, springpots and Prony series: what they mean

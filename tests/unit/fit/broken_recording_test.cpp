@@ -109,7 +109,7 @@ std::vector<BrokenRecording> broken_recordings() {
       {"a unit of something else", start, "recording-wrong-unit", 0, "such as 'N'", "force=force:mm"},
       {"a unit unknown", start, "recording-no-such-column", 0, "known here: time", "position=position [mm]:ell"},
       {"a header of forces in seconds", "time [s],position [mm],force [s]\n0,0,0\n1,1,1\n2,2,2\n",
-       "recording-column-missing", 0, "its columns are 'time [s]', 'position [mm]', 'force [s]'"},
+       "recording-wrong-unit", 0, "its columns are 'time [s]', 'position [mm]', 'force [s]'"},
       {"a motion and its speed", "time [s],x [mm],v [m/s]\n0,0,0\n1,1,1\n2,2,2\n", "recording-column-missing", 0,
        "which is time, position or strain, force or stress"},
       {"a motion without a force", "t,x_mm\n0,0\n1,1\n2,2\n", "recording-unit-missing", 0, "it has 2 columns"},

@@ -256,14 +256,22 @@ struct made_for_three_brakes : law {
   }
 };
 
+struct not_certified : law {
+  struct certified_for : law::certified_for {
+    static constexpr bool is_certified = false;
+  };
+};
+
 TEST(ArmLoop, LeavesADeviceAloneThatTheLawIsNotMadeFor) {
   const auto verdict = [](
                            const arm_description& arm, const change& also = [](arm_servo_options&) {}) {
     return run(arm, ellipse(), 0.001, also).summary.verdict;
   };
-  EXPECT_EQ(verdict(pantograph()),
-            law::certified_for::device != nullptr ? admission::admitted_uncertified : admission::admitted);
-  EXPECT_EQ(verdict(pantograph(), [](arm_servo_options& o) { o.require_certified = true; }), admission::not_certified);
+  const change asks_for_certified = [](arm_servo_options& o) { o.require_certified = true; };
+  EXPECT_EQ(verdict(pantograph(), asks_for_certified), admission::admitted);
+  not_certified lacking;
+  EXPECT_EQ(run(lacking, pantograph(), ellipse(), 0.001).summary.verdict, admission::admitted_uncertified);
+  EXPECT_EQ(run(lacking, pantograph(), ellipse(), 0.001, asks_for_certified).summary.verdict, admission::not_certified);
   EXPECT_EQ(verdict(pantograph(), [](arm_servo_options& o) { o.identity.digest = "another"; }),
             admission::other_digest);
   EXPECT_EQ(verdict(pantograph(), [](arm_servo_options& o) { o.identity.name = "another"; }), admission::other_device);

@@ -274,7 +274,9 @@ class AxesTest(CommandTest):
         done = self.dashpot(*run, "-o", "run.csv")
         for words in ("2000 served", "faults    none", "range     the tip from ", "device left safe", "log: run.csv"):
             self.assertIn(words, done.stdout)
-        self.assertIn("[nothing-proved]", done.stderr)
+        self.assertNotIn("[nothing-proved]", done.stderr)
+        uncertified = self.dashpot("run", BALL, "--device", PANTOGRAPH, "--fast", "--for", "0.01")
+        self.assertIn("[nothing-proved]", uncertified.stderr)
         lines = (self.folder / "run.csv").read_text().splitlines()
         names = [name.split(" ")[0] for name in lines[0].split(",")]
         table = [dict(zip(names, line.split(","))) for line in lines[1:]]

@@ -220,8 +220,8 @@ class Table(SimulateTest):
         slow = self.simulated("kelvin.json", table([(n, 0, 60) for n in range(3)], "time [ms],position [mm],velocity [mm/min]"))
         self.assertEqual(slow[0]["velocity"], 60 * (1 / 60000))
         self.refuses(table([(0, "1e308")], "time,position [Tm]"), "number-too-large")
-        self.refuses(table([(0, 0)], "time,position [N]"), "csv-missing-column")
-        self.refuses(table([(0, 0)], "time [mm],position"), "csv-missing-column")
+        self.refuses(table([(0, 0)], "time,position [N]"), "recording-wrong-unit")
+        self.refuses(table([(0, 0)], "time [mm],position"), "recording-wrong-unit")
         told = self.refuses(table([(0, 0), (0.001, 1)], "time,position [deg]"), "csv-other-motion").stderr
         self.assertTrue(told.startswith("motion.csv:1:6: error: the motion is in radians; the network's tool moves in metres"), told)
 

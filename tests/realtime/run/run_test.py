@@ -338,7 +338,16 @@ class Blade(unittest.TestCase):
         self.assertTrue(math.isclose(float(number), damping / 4, rel_tol=1e-5))
         for key in ("max_damping", "damping_per_current_squared"):
             before["brake"][key] = filled["brake"][key]
+        self.assertTrue(filled["source"].startswith(before.pop("source") + "; brake.max_damping by 'dashpot device' from a blade of 1.59 mm"))
+        del filled["source"]
         self.assertEqual(filled, before)
+
+    def test_what_was_said_of_the_brake_before(self):
+        """Fails if a constant of another brake, by which the new one would take another current, is left beside its damping."""
+        filled = json.loads(self.fill().stdout)
+        self.assertNotIn("damping_per_current_squared", filled["brake"])
+        self.assertNotIn("brake.damping_per_current_squared", filled["assumed"])
+        self.assertIn("is left out", filled["source"])
 
     def test_correction_and_radius_can_be_given(self):
         """Fails if what the user states is overruled."""

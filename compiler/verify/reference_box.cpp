@@ -33,6 +33,7 @@ class Box {
     const Reference behind_slips = largest_behind_slips(), made_up = make_up(brakes, behind_slips);
     if (brakes.empty() || (made_up > 0 && !loop_.gain)) return std::nullopt;
     const ReferenceSum asked = needed();
+    std::optional<Reference> worst;  // below 0 where more is there than is needed
     ReferenceBox box{0, std::max(Reference(0), least(brakes.front())), 0, gain_of_step(brakes, made_up)};
     for (const ReferenceSum& brake : brakes) {
       box.least_brake = std::min(box.least_brake, std::max(Reference(0), least(brake)));
@@ -42,10 +43,12 @@ class Box {
         ReferenceSum lacking = added(asked, brake, -loop_.share);
         if (loop_.gain) lacking = added(lacking, gain, loop_.hold * *loop_.gain);
         const Reference extra = made_up > 0 ? Reference(loop_.hold * *loop_.gain * made_up) : Reference(0);
-        box.lacking = std::max(box.lacking, Reference(most(lacking) + extra));
+        const Reference here = most(lacking) + extra;
+        worst = worst ? std::max(*worst, here) : here;
       }
     }
     box.largest_brake = std::min(Reference(box.largest_brake + behind_slips), Reference(tables_.head.max_damping));
+    box.lacking = *worst;
     return box;
   }
 

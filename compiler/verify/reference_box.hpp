@@ -2,6 +2,7 @@
 // network's own parts and in 100 digits.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "discretise/tunable_network.hpp"
@@ -12,6 +13,11 @@ namespace dashpot::compiler {
 struct ReferenceBox {
   Reference lacking;  // what is needed less the assured share of b, at most [N·s/m]
   Reference least_brake, largest_brake;
+
+  // In all, where `share` of the brake's command is assured.
+  Reference needed(const Reference& share) const {
+    return std::max(Reference(0), Reference(share * least_brake + lacking));
+  }
   std::optional<ReferenceGain> gain;  // K, that no slip gives way within a step not looked at [N/m]
 };
 

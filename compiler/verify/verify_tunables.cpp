@@ -65,7 +65,7 @@ void TunableVerification::compare_with_pool(const HeaderConstant& constant, cons
 // What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has.
 bool TunableVerification::covers(double stated, const ReferenceBox& box, const Reference& share) const {
   const bool is_double = header_.scalar == ScalarType::float64;
-  const Reference found = share * box.least_brake + box.lacking, size = found + box.largest_brake;
+  const Reference found = box.needed(share), size = share * box.least_brake + box.largest_brake;
   const Reference rounding = is_double ? 0x1p-49 : 0x1p-20, margin = is_double ? Reference("1e-12") : Reference("1e-4");
   return Reference(stated) >= found - rounding * size &&
          Reference(stated) <= found + margin * size + Reference("1e-60");
@@ -87,8 +87,7 @@ void TunableVerification::recompute_bounds() {
   if (is_proved && !box)
     diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed box", "proof");
   if (is_proved && box && !covers(certificate_.needed_damping, *box, share))
-    expect_bound("needed damping", certificate_.needed_damping,
-                 (share * box->least_brake + box->lacking).convert_to<double>(), diagnostics_);
+    expect_bound("needed damping", certificate_.needed_damping, box->needed(share).convert_to<double>(), diagnostics_);
   compare_with_recompiled(certificate_, compiled_, box ? box->gain : std::nullopt, header_.scalar, diagnostics_);
 }
 

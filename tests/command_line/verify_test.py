@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from dashpot_command import DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, network
+from dashpot_command import DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, codes, network
 
 SEED = 20090911
 BOARD = SOURCE / "runtime/devices/board_mps2.json"
@@ -588,7 +588,7 @@ class Certified(CommandTest):
                 virtual = self.dashpot(*run, "--decomposition", "virtual", status=None)
                 if virtual.returncode == 0:
                     compiled += 1
-                    self.assertEqual(self.dashpot(*run).stderr, "")
+                    self.assertLessEqual(set(codes(self.dashpot(*run).stderr)), {"felt-error"})
         self.assertGreater(compiled, 10)
 
     def test_what_a_device_file_would_have_to_say(self):
@@ -616,7 +616,7 @@ class Certified(CommandTest):
         self.assertIn(f'"damping": "{damping}" in "mechanics"', told)
         self.assertNotIn("with no", told)
         tip["mechanics"]["damping"] = damping
-        self.assertEqual(compiled(tip, wall), "")
+        self.assertEqual(codes(compiled(tip, wall)), ["felt-error"])
         tip["motor"]["amplifier_lag"] = "0.2 ms"
         self.assertIn("note: the same device would do without a loop delay and an amplifier lag", compiled(tip, wall))
 

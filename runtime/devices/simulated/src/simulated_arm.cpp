@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -13,7 +12,6 @@ namespace dashpot {
 using simulated::arm_scenario;
 using simulated::planar_hand;
 using simulated::sample_fault;
-using simulated::sample_fault_kind;
 
 namespace simulated {
 namespace {
@@ -66,9 +64,7 @@ const char* simulated_arm::refusal(const arm_description& arm, const arm_scenari
   if (!is_passive(scene.user)) return "the hand is not passive";
   const arm_point tip = pose_of(arm.geometry, scene.initial_position, scene.initial_velocity).tip;
   if (!all_finite(tip.position[0], tip.position[1])) return "the arm does not reach where it starts";
-  for (const sample_fault& fault : scene.faults)
-    if (fault.kind == sample_fault_kind::late && !(fault.size >= 0)) return "a late sample cannot come early";
-  return nullptr;
+  return has_early_sample(scene.faults) ? "a late sample cannot come early" : nullptr;
 }
 
 simulated_arm::simulated_arm(const arm_description& arm, arm_scenario scene)
@@ -82,31 +78,22 @@ device_status simulated_arm::read(arm_sample& sample) noexcept {
   if (started_) go_on();
   started_ = true;
   take_sample();
-  return deliver(fault_at(index_), sample);
+  const sample_fault* fault = fault_at(scene_.faults, clock_.index());
+  return deliver(fault, newest_, delivered_, sample, [&](arm_sample& spoilt) {
+    simulated::spoil(*fault, sensors_[0], spoilt.position[0], spoilt.counts[0]);
+  });
 }
 
 void simulated_arm::go_on() noexcept {
-  const double lateness_before = jitter_of(index_);
-  ++index_;
-  const sample_fault* fault = fault_at(index_);
-  const double delay = fault && fault->kind == sample_fault_kind::late ? fault->size : 0;
-  postponed_ += delay;
-  const double period = description_.loop().sample_period, lateness = jitter_of(index_);
+  const simulated::sample_clock::step step = clock_.advance(description_.loop(), scene_.seed, scene_.faults);
   for (unsigned j = 0; j < arm_axes; ++j) {
     const double noise = description_.joints[j].motor.noise;
     if (noise > 0)
-      plant_.disturb(j, noise * draw_normal(scene_.seed, simulated::draw_stream::motor_noise, arm_axes * index_ + j));
+      plant_.disturb(
+          j, noise * draw_normal(scene_.seed, simulated::draw_stream::motor_noise, arm_axes * clock_.index() + j));
   }
-  plant_.advance(period + (lateness - lateness_before) + delay,
-                 static_cast<double>(index_) * period + postponed_ + lateness, line_.back().command, sensors_);
+  plant_.advance(step.duration, step.end, line_.back().command, sensors_);
   for (std::size_t slot = line_.size() - 1; slot > 0; --slot) line_[slot] = line_[slot - 1];
-}
-
-// The first sample marks the start of time and is never late.
-double simulated_arm::jitter_of(std::uint64_t index) const noexcept {
-  const double jitter = description_.loop().jitter;
-  if (!(jitter > 0) || index == 0) return 0;
-  return jitter * draw_uniform(scene_.seed, simulated::draw_stream::jitter, index);
 }
 
 void simulated_arm::take_sample() noexcept {
@@ -118,11 +105,11 @@ void simulated_arm::take_sample() noexcept {
     newest_.velocity[j] = sensors_[j].sensed_velocity();
     if (sensor.estimator == estimator_kind::sensor && sensor.noise > 0)
       newest_.velocity[j] +=
-          sensor.noise * draw_normal(scene_.seed, simulated::draw_stream::sensor_noise, arm_axes * index_ + j);
+          sensor.noise * draw_normal(scene_.seed, simulated::draw_stream::sensor_noise, arm_axes * clock_.index() + j);
     newest_.timestamp_ns = simulated::nanoseconds(shaft.time);
     newest_.edge_time_ns[j] = simulated::nanoseconds(sensors_[j].newest_edge());
   }
-  newest_.sequence = static_cast<std::uint32_t>(index_);
+  newest_.sequence = static_cast<std::uint32_t>(clock_.index());
   newest_.report = report();
 }
 
@@ -141,33 +128,6 @@ arm_report simulated_arm::report() const noexcept {
     told.applied.brake_damping[i] = std::clamp(newest.command.brake_damping[i], 0.0, most);
   }
   return told;
-}
-
-const sample_fault* simulated_arm::fault_at(std::uint64_t index) const noexcept {
-  for (const sample_fault& fault : scene_.faults)
-    if (index >= fault.first && index - fault.first < fault.count) return &fault;
-  return nullptr;
-}
-
-device_status simulated_arm::deliver(const sample_fault* fault, arm_sample& sample) noexcept {
-  arm_sample answer = newest_;
-  if (fault) {
-    switch (fault->kind) {
-      case sample_fault_kind::lost: return device_status::no_data;
-      case sample_fault_kind::corrupted: return device_status::corrupted;
-      case sample_fault_kind::disconnected: return device_status::disconnected;
-      case sample_fault_kind::device_error: return device_status::fault;
-      case sample_fault_kind::repeated: sample = delivered_; return device_status::stale;
-      case sample_fault_kind::late: break;
-      case sample_fault_kind::not_a_number: answer.position[0] = std::numeric_limits<double>::quiet_NaN(); break;
-      case sample_fault_kind::jump:
-        answer.position[0] += sensors_[0].quantised(fault->size);
-        answer.counts[0] += sensors_[0].counts(fault->size);
-        break;
-    }
-  }
-  sample = delivered_ = answer;
-  return device_status::ok;
 }
 
 device_status simulated_arm::write(const arm_actuation& demand) noexcept {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -11,7 +10,6 @@
 namespace dashpot {
 
 using simulated::sample_fault;
-using simulated::sample_fault_kind;
 using simulated::scenario;
 
 namespace {
@@ -59,10 +57,7 @@ const char* simulated_device::refusal(const device_description& device, const sc
   if (scene.high && scene.initial_position > scene.high->position) return "the tool starts above the upper end-stop";
   if (!simulated::is_passive(scene.user)) return "the hand is not passive";
   if (const char* reason = refusal_of_mode(device.mechanics, scene)) return reason;
-  for (const sample_fault& fault : scene.faults) {
-    if (fault.kind == sample_fault_kind::late && !(fault.size >= 0)) return "a late sample cannot come early";
-  }
-  return nullptr;
+  return has_early_sample(scene.faults) ? "a late sample cannot come early" : nullptr;
 }
 
 simulated_device::simulated_device(const device_description& device, scenario scene)
@@ -76,34 +71,22 @@ device_status simulated_device::read(device_sample& sample) noexcept {
   if (started_) go_on();
   started_ = true;
   take_sample();
-  return deliver(fault_at(index_), sample);
+  const sample_fault* fault = fault_at(scene_.faults, clock_.index());
+  return deliver(fault, newest_, delivered_, sample,
+                 [&](device_sample& spoilt) { simulated::spoil(*fault, sensors_, spoilt.position, spoilt.counts); });
 }
 
 void simulated_device::go_on() noexcept {
-  const double lateness_before = jitter_of(index_);
-  ++index_;
-  const sample_fault* fault = fault_at(index_);
-  const double delay = fault && fault->kind == sample_fault_kind::late ? fault->size : 0;
-  postponed_ += delay;
-  const double period = description_.loop.sample_period;
-  const double lateness = jitter_of(index_);
-  const double duration = period + (lateness - lateness_before) + delay,
-               end = static_cast<double>(index_) * period + postponed_ + lateness;
+  const simulated::sample_clock::step step = clock_.advance(description_.loop, scene_.seed, scene_.faults);
   std::visit(
       [&](auto& plant) {
         if (description_.motor.noise > 0)
           plant.disturb(description_.motor.noise *
-                        draw_normal(scene_.seed, simulated::draw_stream::motor_noise, index_));
-        plant.advance(duration, end, line_.back().command, sensors_);
+                        draw_normal(scene_.seed, simulated::draw_stream::motor_noise, clock_.index()));
+        plant.advance(step.duration, step.end, line_.back().command, sensors_);
       },
       plant_);
   for (std::size_t slot = line_.size() - 1; slot > 0; --slot) line_[slot] = line_[slot - 1];
-}
-
-// The first sample marks the start of time and is never late.
-double simulated_device::jitter_of(std::uint64_t index) const noexcept {
-  if (!(description_.loop.jitter > 0) || index == 0) return 0;
-  return description_.loop.jitter * draw_uniform(scene_.seed, simulated::draw_stream::jitter, index);
 }
 
 void simulated_device::take_sample() noexcept {
@@ -113,11 +96,11 @@ void simulated_device::take_sample() noexcept {
   newest_.velocity = sensors_.sensed_velocity();
   if (description_.velocity.estimator == estimator_kind::sensor && description_.velocity.noise > 0) {
     newest_.velocity +=
-        description_.velocity.noise * draw_normal(scene_.seed, simulated::draw_stream::sensor_noise, index_);
+        description_.velocity.noise * draw_normal(scene_.seed, simulated::draw_stream::sensor_noise, clock_.index());
   }
   newest_.timestamp_ns = simulated::nanoseconds(shaft.time);
   newest_.edge_time_ns = simulated::nanoseconds(sensors_.newest_edge());
-  newest_.sequence = static_cast<std::uint32_t>(index_);
+  newest_.sequence = static_cast<std::uint32_t>(clock_.index());
   newest_.report = report();
 }
 
@@ -131,35 +114,6 @@ device_report simulated_device::report() const noexcept {
           written_ - newest.number,
           {torque > 0 ? std::clamp(wanted, -torque, torque) : wanted,
            std::clamp(newest.command.brake_damping, 0.0, damping)}};
-}
-
-const sample_fault* simulated_device::fault_at(std::uint64_t index) const noexcept {
-  for (const sample_fault& fault : scene_.faults) {
-    if (index >= fault.first && index - fault.first < fault.count) return &fault;
-  }
-  return nullptr;
-}
-
-device_status simulated_device::deliver(const sample_fault* fault, device_sample& sample) noexcept {
-  device_sample answer = newest_;
-  if (fault) {
-    switch (fault->kind) {
-      case sample_fault_kind::lost: return device_status::no_data;
-      case sample_fault_kind::corrupted: return device_status::corrupted;
-      case sample_fault_kind::disconnected: return device_status::disconnected;
-      case sample_fault_kind::device_error: return device_status::fault;
-      case sample_fault_kind::repeated: sample = delivered_; return device_status::stale;
-      case sample_fault_kind::late: break;
-      case sample_fault_kind::not_a_number: answer.position = std::numeric_limits<double>::quiet_NaN(); break;
-      case sample_fault_kind::jump: {
-        answer.position += sensors_.quantised(fault->size);
-        answer.counts += sensors_.counts(fault->size);
-        break;
-      }
-    }
-  }
-  sample = delivered_ = answer;
-  return device_status::ok;
 }
 
 device_status simulated_device::write(const actuation& demand) noexcept {

@@ -8,6 +8,7 @@
 #include <dashpot/arm_device.hpp>
 #include <dashpot/simulated/arm_plant.hpp>
 #include <dashpot/simulated/arm_scenario.hpp>
+#include <dashpot/simulated/sample_clock.hpp>
 #include <dashpot/simulated/shaft_sensors.hpp>
 
 namespace dashpot {
@@ -40,9 +41,6 @@ class simulated_arm {
   void go_on() noexcept;
   void take_sample() noexcept;
   arm_report report() const noexcept;
-  double jitter_of(std::uint64_t index) const noexcept;  // [s]
-  const simulated::sample_fault* fault_at(std::uint64_t index) const noexcept;
-  device_status deliver(const simulated::sample_fault* fault, arm_sample& sample) noexcept;
 
   arm_description description_;
   simulated::arm_scenario scene_;
@@ -51,10 +49,9 @@ class simulated_arm {
   std::vector<numbered> line_;  // [0]: written last; back(): in effect
   unsigned written_ = 0;        // commands, wrapping around
   bool started_ = false;
-  std::uint64_t index_ = 0;  // of the newest sample
-  double postponed_ = 0;     // by late samples until now [s]
-  arm_sample newest_;        // as a sound device would deliver it
-  arm_sample delivered_;     // the newest that was delivered
+  simulated::sample_clock clock_;
+  arm_sample newest_;     // as a sound device would deliver it
+  arm_sample delivered_;  // the newest that was delivered
 };
 
 }  // namespace dashpot

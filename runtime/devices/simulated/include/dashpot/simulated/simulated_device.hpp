@@ -16,6 +16,7 @@
 #include <dashpot/simulated/energy_ledger.hpp>
 #include <dashpot/simulated/plant.hpp>
 #include <dashpot/simulated/scenario.hpp>
+#include <dashpot/simulated/sample_clock.hpp>
 #include <dashpot/simulated/shaft_sensors.hpp>
 
 namespace dashpot {
@@ -54,9 +55,6 @@ class simulated_device {
   simulated::shaft_motion shaft() const noexcept {
     return std::visit([](const auto& plant) { return plant.shaft(); }, plant_);
   }
-  double jitter_of(std::uint64_t index) const noexcept;  // [s]
-  const simulated::sample_fault* fault_at(std::uint64_t index) const noexcept;
-  device_status deliver(const simulated::sample_fault* fault, device_sample& sample) noexcept;
 
   device_description description_;
   simulated::scenario scene_;
@@ -71,8 +69,7 @@ class simulated_device {
   std::vector<numbered> line_;  // [0]: written last; back(): in effect
   unsigned written_ = 0;        // commands, wrapping around
   bool started_ = false;
-  std::uint64_t index_ = 0;  // of the newest sample
-  double postponed_ = 0;     // by late samples until now [s]
+  simulated::sample_clock clock_;
   device_sample newest_;     // as a sound device would deliver it
   device_sample delivered_;  // the newest that was delivered
 };

@@ -1,32 +1,8 @@
 #include "commands/arm_library.hpp"
 
-#include <dlfcn.h>
-
-#include "commands/system_compiler.hpp"
 #include "emit/template_text.hpp"
 
 namespace dashpot::compiler {
-namespace {
-
-const arm_model_table* open_arm_library(const std::filesystem::path& library, Diagnostics& diagnostics) {
-  void* handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  using Entry = const arm_model_table* (*)();
-  const auto entry = handle == nullptr ? nullptr : reinterpret_cast<Entry>(::dlsym(handle, "dashpot_arm_model"));
-  const arm_model_table* table = entry == nullptr ? nullptr : entry();
-  if (table != nullptr && table->version == arm_model_table_version) return table;
-  const char* reason = ::dlerror();
-  diagnostics.report<DiagnosticCode::cannot_load_model>({}, std::string(reason ? reason : "made for another version"));
-  return nullptr;
-}
-
-}  // namespace
-
-LoadedArmModel::LoadedArmModel(const arm_model_table& table)
-    : table_(&table), storage_(new unsigned char[table.size + table.alignment]), object_(storage_.get()) {
-  std::size_t space = table.size + table.alignment;
-  std::align(table.alignment, table.size, object_, space);
-  table_->construct(object_);
-}
 
 std::optional<LoadedArmModel> load_arm_model(const AxesCompilation& compilation, const EmissionOptions& options,
                                              Diagnostics& diagnostics) {
@@ -39,14 +15,8 @@ std::optional<LoadedArmModel> load_arm_model(const AxesCompilation& compilation,
   std::optional<std::string> entry = fill(*shape, model, diagnostics);
   if (!entry) return std::nullopt;
   files->push_back({name + "_library.cpp", std::move(*entry)});
-  const TemporaryFolder folder;
-  const std::string library = "model.so";
-  if (!has_sources(folder, *files, diagnostics) ||
-      !makes_library({environment_or("CXX", "c++"), "-std=c++17", "-O2", "-ffp-contract=off", "-shared", "-fPIC",
-                      "-I" + runtime_headers()},
-                     folder, name + "_library.cpp", library, diagnostics))
-    return std::nullopt;
-  const arm_model_table* table = open_arm_library(folder.path() / library, diagnostics);
+  const auto* table = table_of_library<arm_model_table>(*files, files->back().name, "dashpot_arm_model",
+                                                        arm_model_table_version, diagnostics);
   return table == nullptr ? std::nullopt : std::optional<LoadedArmModel>(std::in_place, *table);
 }
 

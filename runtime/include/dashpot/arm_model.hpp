@@ -32,12 +32,7 @@ using few_brakes = std::enable_if_t<(M::brakes >= 0 && M::brakes <= static_cast<
 template <class M>
 using arm_facts = std::enable_if_t<noexcept(arm_model_facts(std::declval<const M&>().facts()))>;
 template <class M>
-using arm_certified_for =
-    std::enable_if_t<std::is_convertible_v<decltype(M::certified_for::any_device), bool> &&
-                     std::is_convertible_v<decltype(M::certified_for::device), const char*> &&
-                     std::is_convertible_v<decltype(M::certified_for::device_digest), const char*> &&
-                     std::is_convertible_v<decltype(M::certified_for::estimator[1]), const char*> &&
-                     std::is_convertible_v<decltype(M::certified_for::loop_delay), unsigned>>;
+using arm_certified_for = certified_with<M, decltype(M::certified_for::estimator[1])>;
 template <class M>
 using arm_joints = const typename M::scalar (&)[arm_axes];
 template <class M>
@@ -81,19 +76,8 @@ arm_model_facts arm_facts_of([[maybe_unused]] const Model& model) noexcept {
   if constexpr (is_detected<model_claim::arm_facts, Model>) {
     return model.facts();
   } else {
-    using certified = typename Model::certified_for;
     arm_model_facts facts;
-    bool is_certified = false;
-    if constexpr (is_detected<model_claim::is_certified, Model>) is_certified = certified::is_certified;
-    for (unsigned j = 0; j < arm_axes; ++j)
-      facts.joints[j] = {static_cast<double>(Model::sample_period),
-                         Model::port_motion,
-                         certified::any_device,
-                         certified::device,
-                         certified::device_digest,
-                         certified::estimator[j],
-                         certified::loop_delay,
-                         is_certified};
+    for (unsigned j = 0; j < arm_axes; ++j) facts.joints[j] = stated_facts<Model>(Model::certified_for::estimator[j]);
     facts.brakes = static_cast<unsigned>(Model::brakes);
     return facts;
   }

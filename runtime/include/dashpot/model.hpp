@@ -50,12 +50,14 @@ template <class M>
 using sample_period = std::enable_if_t<(M::sample_period > 0)>;
 template <class M>
 using port_motion = std::enable_if_t<M::port_motion == motion::translation || M::port_motion == motion::rotation>;
+template <class M, class Estimator>
+using certified_with = std::enable_if_t<std::is_convertible_v<decltype(M::certified_for::any_device), bool> &&
+                                        std::is_convertible_v<decltype(M::certified_for::device), const char*> &&
+                                        std::is_convertible_v<decltype(M::certified_for::device_digest), const char*> &&
+                                        std::is_convertible_v<Estimator, const char*> &&
+                                        std::is_convertible_v<decltype(M::certified_for::loop_delay), unsigned>>;
 template <class M>
-using certified_for = std::enable_if_t<std::is_convertible_v<decltype(M::certified_for::any_device), bool> &&
-                                       std::is_convertible_v<decltype(M::certified_for::device), const char*> &&
-                                       std::is_convertible_v<decltype(M::certified_for::device_digest), const char*> &&
-                                       std::is_convertible_v<decltype(M::certified_for::estimator), const char*> &&
-                                       std::is_convertible_v<decltype(M::certified_for::loop_delay), unsigned>>;
+using certified_for = certified_with<M, decltype(M::certified_for::estimator)>;
 template <class M>
 using is_certified = std::enable_if_t<std::is_convertible_v<decltype(M::certified_for::is_certified), bool>>;
 template <class M>
@@ -103,24 +105,27 @@ double kept_share_of([[maybe_unused]] const Model& model) noexcept {
   else return 1;
 }
 
+// What a class says by its static members, with that estimator.
+template <class Model>
+model_facts stated_facts(const char* estimator) noexcept {
+  using certified = typename Model::certified_for;
+  bool is_certified = false;
+  if constexpr (is_detected<model_claim::is_certified, Model>) is_certified = certified::is_certified;
+  return {static_cast<double>(Model::sample_period),
+          Model::port_motion,
+          certified::any_device,
+          certified::device,
+          certified::device_digest,
+          estimator,
+          certified::loop_delay,
+          is_certified};
+}
+
 // What `model` was made for, from its own facts() where it has one, else from its static members.
 template <class Model>
 model_facts facts_of([[maybe_unused]] const Model& model) noexcept {
-  if constexpr (is_detected<model_claim::facts, Model>) {
-    return model.facts();
-  } else {
-    using certified = typename Model::certified_for;
-    bool is_certified = false;
-    if constexpr (is_detected<model_claim::is_certified, Model>) is_certified = certified::is_certified;
-    return {static_cast<double>(Model::sample_period),
-            Model::port_motion,
-            certified::any_device,
-            certified::device,
-            certified::device_digest,
-            certified::estimator,
-            certified::loop_delay,
-            is_certified};
-  }
+  if constexpr (is_detected<model_claim::facts, Model>) return model.facts();
+  else return stated_facts<Model>(Model::certified_for::estimator);
 }
 
 }  // namespace dashpot

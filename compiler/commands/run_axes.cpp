@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/simulated/simulated_arm.hpp>
 
 #include "commands/arm_library.hpp"
@@ -30,7 +30,7 @@ simulated::tip_path path_in(const axes::Box& workspace) {
     centre[i] = (low + high) / 2;
     amplitude[i] =
         low < high ? std::min(most_tip_amplitude, share_of_workspace * (high - low) / 2) : most_tip_amplitude;
-    rate[i] = 2 * 3.14159265358979323846 * tip_frequency[i];
+    rate[i] = 2 * std::numbers::pi * tip_frequency[i];
   }
   return [=](double time) -> simulated::tip_motion {
     simulated::tip_motion at;
@@ -114,10 +114,7 @@ ExitStatus run_axes(const Options& options, const simulated::hand& user, const S
   loop.identity = {compilation->device.name.c_str(), compilation->device.digest.c_str()};
   loop.duration = options.duration.value_or(0);
   loop.outputs.observe = [&live](const arm_telemetry_record& record) { live.show(largest_of(record)); };
-  const auto estimator_of = [&arm](unsigned j) {
-    return any_estimator<double>(arm.joints[j].velocity, arm.loop().sample_period, arm.joints[j].encoder.step);
-  };
-  any_estimator<double> estimators[arm_axes] = {estimator_of(0), estimator_of(1)};
+  any_estimator<double> estimators[arm_axes] = {estimator_of(arm.joints[0]), estimator_of(arm.joints[1])};
   simulated_arm simulation(arm, scene);
   const std::string log = options.output.value_or(compilation->network.name + "_run.csv");
   const auto summary = options.fast ? run_on(simulation, *model, estimators, loop, simulated_clock{}, log, diagnostics)

@@ -9,11 +9,17 @@
 #include <optional>
 #include <string>
 
+#include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/servo/servo_loop.hpp>
 
 #include "commands/commands.hpp"
 
 namespace dashpot::compiler {
+
+// That of a device, or of a joint.
+inline any_estimator<double> estimator_of(const device_description& device) {
+  return {device.velocity, device.loop.sample_period, device.encoder.step};
+}
 
 // The log is opened when the device is there, so that a former one survives a failure before.
 template <class Port, class Model, class Estimator, class LoopOptions, class Clock>

@@ -51,10 +51,6 @@ servo_options loop_options(const Options& options, const Compilation& compilatio
   return loop;
 }
 
-any_estimator<double> estimator_of(const device_description& device) {
-  return {device.velocity, device.loop.sample_period, device.encoder.step};
-}
-
 std::optional<servo_summary> run_on_board(const Options& options, const Compilation& compilation, LoadedModel& model,
                                           const servo_options& loop, Diagnostics& diagnostics) {
   std::string error;

@@ -328,6 +328,7 @@ std::vector<MendedDevice> mended(const Device& device) {
 struct FeltError {
   std::optional<double> (*of)(const Compilation&);  // [1]; empty where it has not been looked at
   void (*tell_choice)(const Compilation& better, const std::string& options, Diagnostics&);
+  bool tries_devices_for_tunables;  // not where each trial takes long
 };
 
 const FeltError where_slips_give_way{
@@ -337,7 +338,8 @@ const FeltError where_slips_give_way{
     },
     [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
       diagnostics.note<DiagnosticCode::errs_less_in_runs>({}, options, in_percent(better.decomposition.slips.error));
-    }};
+    },
+    false};
 
 const FeltError in_the_band{[](const Compilation& c) { return std::optional(c.decomposition.choice().largest_error); },
                             [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
@@ -345,7 +347,8 @@ const FeltError in_the_band{[](const Compilation& c) { return std::optional(c.de
                               diagnostics.note<DiagnosticCode::errs_less>(
                                   {}, options, in_percent(choice.largest_error), choice.damping,
                                   port_units(better.network.port_motion).damping);
-                            }};
+                            },
+                            true};
 
 // Of the network compiled for this device or another: the error, if it is noticeably less than that of `c`.
 class Improvement {
@@ -378,7 +381,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   for (const OtherChoices& other : others)
     if (const auto again = improvement.by(other.choices, *c.device))
       return error.tell_choice(*again, other.options, diagnostics);
-  if (c.law.tunable && &error == &where_slips_give_way) return;  // each trial of theirs takes long
+  if (c.law.tunable && !error.tries_devices_for_tunables) return;
   std::optional<MendedDevice> best;
   double least = std::numeric_limits<double>::infinity();
   for (const MendedDevice& other : mended(*c.device)) {

@@ -129,11 +129,8 @@ class CsvTable {
   }
 
  private:
-  // What a spreadsheet calls Unicode text is UTF-16, with a zero beside every letter.
   bool is_text() {
-    const std::string_view text = file_.text();
-    const bool is_utf16 = text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
-    if (!is_utf16 && text.substr(0, 4096).find('\0') == std::string_view::npos) return true;
+    if (fitting::is_text(file_.text())) return true;
     diagnostics_.report<DiagnosticCode::recording_not_text>({}, file_.path());
     return false;
   }

@@ -98,6 +98,11 @@ const RoleRule& rule_of(Role role) {
   return *std::find_if(rules().begin(), rules().end(), [&](const RoleRule& rule) { return rule.role == role; });
 }
 
+// A name as letters_of() leaves it.
+bool is_name_of(const RoleRule& rule, const std::string& letters) {
+  return std::find(rule.names.begin(), rule.names.end(), letters) != rule.names.end();
+}
+
 bool takes(const RoleRule& rule, const Dimension& dimension) {
   return std::find(rule.dimensions.begin(), rule.dimensions.end(), dimension) != rule.dimensions.end();
 }
@@ -116,21 +121,21 @@ std::optional<ReadUnit> unit_in(std::string_view field) {
   return ReadUnit{read.dimension, round_decimal("1", read).value};
 }
 
-// "Load (N)", "time [s]", "force_N", "t/s": a name, and what is its unit.
-struct Title {
-  std::string name;
-  std::optional<std::string> unit;
-};
-
-Title title_of(std::string_view text) {
+// "position [in]" in two, whether the unit is known or not.
+std::optional<TitleParts> split_at_bracket(std::string_view title) {
   for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']'), std::pair('{', '}')}) {
-    const std::size_t begin = text.rfind(open);
-    if (begin == std::string_view::npos || begin == 0 || !text.ends_with(close)) continue;
-    const std::string unit(text.substr(begin + 1, text.size() - begin - 2));
-    std::string_view name = text.substr(0, begin);
+    const std::size_t begin = title.rfind(open);
+    if (begin == std::string_view::npos || begin == 0 || !title.ends_with(close) || begin + 2 >= title.size()) continue;
+    std::string_view name = title.substr(0, begin);
     while (name.ends_with(' ')) name.remove_suffix(1);
-    if (unit_in(unit)) return {std::string(name), unit};
+    return TitleParts{std::string(name), std::string(title.substr(begin + 1, title.size() - begin - 2))};
   }
+  return std::nullopt;
+}
+
+// "Load (N)", "time [s]", "force_N", "t/s": a name, and what is its unit.
+TitleParts title_of(std::string_view text) {
+  if (const auto parts = split_at_bracket(text); parts && unit_in(*parts->unit)) return *parts;
   for (const char sign : {'_', '/', ' '}) {
     const std::size_t at = text.rfind(sign);
     if (at == std::string_view::npos || at == 0) continue;
@@ -335,9 +340,7 @@ class Chooser {
     std::vector<std::size_t> found;
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const bool is_taken = std::any_of(chosen_.begin(), chosen_.end(), [&](auto& c) { return c.index == i; });
-      const std::string letters = letters_of(columns_[i].name);
-      const bool is_named = std::find(rule.names.begin(), rule.names.end(), letters) != rule.names.end();
-      if (is_taken || !is_named) continue;
+      if (is_taken || !is_name_of(rule, letters_of(columns_[i].name))) continue;
       if (!columns_[i].unit) {
         found.push_back(i);
         continue;
@@ -602,30 +605,22 @@ std::optional<ColumnUnit> unit_named(std::string_view unit) {
 
 TitleParts parts_of(const TableColumn& column) {
   if (column.unit) return {column.name, column.unit};
-  const std::string& title = column.title;
-  for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']'), std::pair('{', '}')}) {
-    const std::size_t begin = title.rfind(open);
-    if (begin == std::string::npos || begin == 0 || !title.ends_with(close) || begin + 2 >= title.size()) continue;
-    std::string name = title.substr(0, begin);
-    while (name.ends_with(' ')) name.pop_back();
-    return {name, title.substr(begin + 1, title.size() - begin - 2)};
-  }
-  return {title, std::nullopt};
+  return split_at_bracket(column.title).value_or(TitleParts{column.title, std::nullopt});
 }
 
 std::optional<MisfitUnit> misfit_unit(const std::vector<TableColumn>& columns, Role role) {
   const RoleRule& rule = rule_of(role);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const TitleParts parts = parts_of(columns[i]);
-    const bool is_named = std::find(rule.names.begin(), rule.names.end(), letters_of(parts.name)) != rule.names.end();
-    if (is_named && parts.unit && !(columns[i].unit && unit_of_column(columns[i], role)))
+    if (is_name_of(rule, letters_of(parts.name)) && parts.unit &&
+        !(columns[i].unit && unit_of_column(columns[i], role)))
       return MisfitUnit{i, *parts.unit};
   }
   return std::nullopt;
 }
 
 TableColumn table_column(std::string_view text) {
-  const Title title = title_of(text);
+  const TitleParts title = title_of(text);
   return {std::string(text), title.name, title.unit};
 }
 
@@ -642,8 +637,7 @@ std::vector<std::size_t> columns_for(const std::vector<TableColumn>& columns, Ro
   std::vector<std::size_t> by_word, by_name;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::string letters = letters_of(columns[i].name);
-    const bool is_named = std::find(rule.names.begin(), rule.names.end(), letters) != rule.names.end();
-    if (!is_named || !unit_of_column(columns[i], role)) continue;
+    if (!is_name_of(rule, letters) || !unit_of_column(columns[i], role)) continue;
     by_name.push_back(i);
     if (letters == rule.word) by_word.push_back(i);
   }

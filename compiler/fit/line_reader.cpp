@@ -36,8 +36,7 @@ bool LineReader::open(Diagnostics& diagnostics) {
     size_ = error ? 0 : static_cast<std::size_t>(size);
     if (!fill(diagnostics)) return !has_failed_;
   }
-  const bool is_utf16 = buffer_.starts_with("\xFF\xFE") || buffer_.starts_with("\xFE\xFF");
-  if (is_utf16 || std::string_view(buffer_).substr(0, 4096).find('\0') != std::string_view::npos) {
+  if (!is_text(buffer_)) {
     diagnostics.report<DiagnosticCode::recording_not_text>({}, path_);
     has_failed_ = true;
     return false;

@@ -122,6 +122,11 @@ std::vector<std::string> names_in(std::string_view line, const Dialect& dialect)
   return names;
 }
 
+bool is_text(std::string_view beginning) {
+  const bool is_utf16 = beginning.starts_with("\xFF\xFE") || beginning.starts_with("\xFE\xFF");
+  return !is_utf16 && beginning.substr(0, 4096).find('\0') == std::string_view::npos;
+}
+
 std::string_view unit_text(std::string_view field) {
   std::string_view text = trimmed(field);
   for (const auto& [open, close] : {std::pair('(', ')'), std::pair('[', ']')})

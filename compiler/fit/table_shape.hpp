@@ -37,6 +37,10 @@ std::vector<std::string_view> fields_of(std::string_view line, const Dialect& di
 // Of a header's line, without the sign of a comment in front.
 std::vector<std::string> names_in(std::string_view line, const Dialect& dialect);
 
+// Whether a table that begins so is text: what a spreadsheet calls Unicode text is UTF-16, with a zero beside every
+// letter.
+bool is_text(std::string_view beginning);
+
 // What a table writes for a unit, as units are spelt elsewhere: "(mm)" and "[mm]" below a name are "mm", "sec" is "s".
 std::string_view unit_text(std::string_view field);
 

@@ -5,6 +5,7 @@
 
 #include "support/random.hpp"
 #include "support/random_network.hpp"
+#include "support/repetitions.hpp"
 #include "support/shell_command.hpp"
 #include "support/written_network.hpp"
 
@@ -12,8 +13,6 @@ namespace dashpot::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t random_networks = 12;
 
 struct Machine {
   const char* compiler;
@@ -34,7 +33,7 @@ std::vector<std::string> networks(const fs::path& folder) {
   for (const char* name : {"second_order_maxwell", "generalised_kelvin_four", "visco_elasto_plastic",
                            "visco_elasto_plastic_organ", "maxwell_slip_ten", "virtual_wall"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
-  for (std::uint64_t seed = 1; seed <= random_networks; ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(4, 12); ++seed) {
     NetworkRecipe recipe;
     recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;
     recipe.most_slips = seed % 2 == 0 ? 1 : 0;

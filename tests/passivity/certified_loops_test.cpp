@@ -7,7 +7,7 @@
 namespace dashpot::testing {
 namespace {
 
-int certified_devices() { return static_cast<int>(repetitions(100, 2000)); }
+int certified_devices() { return static_cast<int>(repetitions(50, 2000)); }
 
 // A certified law would give out more energy than it took up: with ideal sensors the energy that motor, brake and
 // mechanics have taken up together is never below zero, the brake at either end of its tolerance, with jitter where the

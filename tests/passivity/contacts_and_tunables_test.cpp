@@ -9,7 +9,7 @@ namespace {
 
 using namespace dashpot::compiler;
 
-int certified_surfaces() { return static_cast<int>(repetitions(50, 1000)); }
+int certified_surfaces() { return static_cast<int>(repetitions(25, 1000)); }
 
 // A tool that touches and lets go, on a device with no more damping than the certificate asks for, would give out
 // energy in some passive hand.

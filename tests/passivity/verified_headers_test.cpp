@@ -80,7 +80,7 @@ TEST(VerifiedHeaders, OfLawsThatWereRefused) {
 
 // The same of networks that nobody chose.
 TEST(VerifiedHeaders, OfRandomNetworksWithSlips) {
-  const std::uint64_t cases = repetitions(40, 2700);
+  const std::uint64_t cases = repetitions(16, 2700);
   const std::string devices[] = {"", text_of("runtime/devices/board_mps2.json"),
                                  text_of("runtime/devices/pantograph_brake_2009.json")};
   const char* laws[] = {"faithful", "paper", "velocity-free", "gated", "steady", "ramped", "virtual"};

@@ -220,8 +220,10 @@ class Pages(unittest.TestCase):
         known = {"press", "sine", "triangle", "steps", "upload", "download", "depth", "duration", "pad", "pareto-x", "pareto-y",
                  "change-at", "defaults", "SUMMARY", "download-felt"} | {f"tunable-{name}" for name, *_ in self.tunables()}
         self.assertEqual(set(found) - known, set())
-    def assert_simulates(self, network, *choices, rate=1000, scalar="double"):
-        for with_velocity in [False, True]:
+
+    def assert_simulates(self, network, *choices, rate=1000, scalar="double", motions=(False, True)):
+        """Of motions without velocity, and with."""
+        for with_velocity in motions:
             motion = self.upload(wiggle(rate, with_velocity))
             self.wait_for("700 samples")
             done = subprocess.run([DASHPOT, "simulate", str(network), *map(str, choices), "--input", str(motion)], capture_output=True,
@@ -230,8 +232,8 @@ class Pages(unittest.TestCase):
 
     def test_every_network(self):
         """Fails if a page of a network in networks/ is too large, says anything on the console, asks for anything beyond
-        itself, has a control that does nothing, or computes another bit than `dashpot simulate`. All controls are used on one
-        network for each set of parts that a page can have; with --long, on all."""
+        itself, has a control that does nothing, or computes another bit than `dashpot simulate`. All controls are used, and motions
+        with and without velocity, on one network for each set of parts that a page can have; with --long, on all."""
         clicked = NETWORKS if IS_LONG else one_a_feature(NETWORKS)
         self.assertEqual(set(map(features, clicked)), set(map(features, NETWORKS)))
         for network in NETWORKS:
@@ -239,7 +241,7 @@ class Pages(unittest.TestCase):
                 self.open(network)
                 if network in clicked:
                     self.click_through()
-                self.assert_simulates(network)
+                self.assert_simulates(network, motions=(False, True) if network in clicked else (True,))
                 self.assert_quiet()
 
     def click_through_felt_error(self):

@@ -5,7 +5,10 @@
 
 namespace dashpot::testing {
 
-// `usual`, or `thorough` where the environment variable DASHPOT_LONG is 1. No test reads that variable itself.
+// Whether the environment variable DASHPOT_LONG is 1.
+bool is_thorough();
+
+// `usual`, or `thorough` in a thorough run. No test reads that variable itself.
 std::size_t repetitions(std::size_t usual, std::size_t thorough);
 
 }  // namespace dashpot::testing

@@ -160,7 +160,7 @@ void expect_supremum_of(const MotorConstants& motor, const SampledLoop& loop, in
 }
 
 TEST(Supremum, IsMetByRandomMotorsToTheEndsOfTheirRanges) {
-  const std::uint64_t cases = repetitions(60, 3000);
+  const std::uint64_t cases = repetitions(40, 3000);
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 7000);
@@ -216,7 +216,7 @@ double extracted_share(const MotorConstants& motor, const SampledLoop& loop, dou
 // it; or with 0.95 of what is proved there would be no motion that gets energy out of the loop: of a sinusoid in its
 // steady state (1/0.95 − 1) of what the damping takes up, and of no motion more.
 TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) {
-  const std::uint64_t cases = repetitions(40, 5000);
+  const std::uint64_t cases = repetitions(25, 5000);
   std::uint64_t proved = 0, nearly = 0, needed = 0, extracted = 0;
   for (std::uint64_t seed = 1; seed <= cases; ++seed) {
     SCOPED_TRACE(seed);

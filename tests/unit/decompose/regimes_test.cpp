@@ -136,7 +136,7 @@ TEST(Regimes, follow_the_rules_of_rigid_and_constant_parts) {
   testing::NetworkRecipe recipe;
   recipe.most_nodes = 9;
   recipe.most_slips = 6;
-  EXPECT_EQ(testing::first_failure(1, testing::repetitions(300, 10000), recipe, departure_from_the_rules), "");
+  EXPECT_EQ(testing::first_failure(1, testing::repetitions(150, 10000), recipe, departure_from_the_rules), "");
 }
 
 }  // namespace

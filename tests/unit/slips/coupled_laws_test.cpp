@@ -111,7 +111,7 @@ TEST(CoupledLaws, GatedTakesTheDamperOfTheWeakestInAChain) {
 // The motor alone would give more than it took, under whatever brake and coil.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology),
+    EXPECT_EQ(first_failure(1, repetitions(80, 20000), coupled_recipe(topology),
                             [](const auto& network) { return gain_of_gated(network, false); }),
               "");
 }
@@ -119,7 +119,7 @@ TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergy) {
 // The same behind a contact.
 TEST(CoupledLaws, TheMotorOfTheGatedLawMakesNoEnergyBehindAContact) {
   for (const Topology topology : {Topology::tree, Topology::graph})
-    EXPECT_EQ(first_failure(1, repetitions(200, 20000), coupled_recipe(topology),
+    EXPECT_EQ(first_failure(1, repetitions(80, 20000), coupled_recipe(topology),
                             [](const auto& network) { return gain_of_gated(network, true); }),
               "");
 }

@@ -68,7 +68,7 @@ double given_out(const UpdateLaw& update_law, const std::vector<double>& values,
 // Somewhere in its box a certified law would give out energy.
 TEST(Box, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0, with_meshes = 0, with_slips = 0, outside_trees = 0, raised = 0;
-  for (std::uint64_t seed = 1; certified < int(repetitions(60, 2000)); ++seed) {
+  for (std::uint64_t seed = 1; certified < int(repetitions(30, 2000)); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const Kind kind = kinds[seed % 5];

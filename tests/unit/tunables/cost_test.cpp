@@ -110,7 +110,7 @@ TEST(TunableCost, is_never_more_than_said_and_not_much_less) {
   for (const Kind kind : {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::slips, Kind::touched,
                           Kind::touched_slips, Kind::slips_in_graph, Kind::touched_slips_in_graph}) {
     Share most;
-    for (std::uint64_t seed = 1; seed <= repetitions(60, 1000); ++seed) {
+    for (std::uint64_t seed = 1; seed <= repetitions(30, 1000); ++seed) {
       const Share share = share_of(seed, kind);
       ASSERT_LE(share.set, 1) << "seed " << seed;
       ASSERT_LE(share.calls, 1) << "seed " << seed;

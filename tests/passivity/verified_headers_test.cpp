@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "check/check.hpp"
 #include "commands/verify_texts.hpp"
 #include "compile.hpp"
 #include "emit/emission.hpp"
@@ -26,7 +27,15 @@ std::string text_of(const std::string& path) {
   return text.str();
 }
 
-// What `verify` says against them; empty where it says nothing, or where nothing was written.
+// Of linear laws with a statement that it can check.
+bool dashpot_check_knows(const Compilation& compiled) {
+  const PassivityBound& bound = compiled.certificate.bound;
+  return !bound.any_regime && !bound.any_value && compiled.certificate.loop.motor_slew == 0 &&
+         (bound.storage || bound.proof == Proof::hold);
+}
+
+// What `verify` says against them, or dashpot-check, which knows of linear laws alone; empty where they say nothing, or
+// where nothing was written.
 std::string faults(const std::string& network_text, const std::optional<std::string>& device_text,
                    const Choices& choices, int& written) {
   const SourceFile network("network.json", network_text);
@@ -43,6 +52,8 @@ std::string faults(const std::string& network_text, const std::optional<std::str
   const SourceFile certificate("certificate.json",
                                certificate_text(*compiled, choices, network_text, device_text, header)),
       file("header.hpp", header);
+  const auto [status, words] = dashpot_check::verdict(header, std::string(certificate.text()));
+  if (status != (dashpot_check_knows(*compiled) ? 0 : 3)) return words;
   Diagnostics found;
   if (verify_texts(certificate, file, true, files, found)) return "";
   return render_text(found);

@@ -9,7 +9,6 @@
 #include <vector>
 
 namespace dashpot_check {
-
 using Integer = boost::multiprecision::cpp_int;
 using Rational = boost::multiprecision::cpp_rational;
 using Form = std::map<std::string, Rational>;  // a sum: coefficients by quantity, the constant under the empty name
@@ -55,17 +54,13 @@ struct Hold {
 };
 std::vector<Hold> holds(const Device& device);
 
-// Whether P proves that `damping` b [N·s/m] is enough for any motion and all holds up to the longest. With
+// Whether P proves that `damping` b [N·s/m] is enough for any motion and all holds T up to the longest. With
 // V = ½ k0 u² + xᵀPx, V⁺ − V ≤ (k0 u + Cx) w + b w²/T for all x and w when k0 ≥ 0, P ⪰ 0 and
-//     M = [ P − AᵀPA,  ½C − AᵀPB;  ·,  b/T − ½k0 − BᵀPB ] ⪰ 0.
-// A lag τ adds e, the force that is lacking, e⁺ = q e + …, and the independent input ρ = ∫ (e^{−s/τ} − p) u̇ ds: work
-// (Cx + pe) w + eρ, dissipation b (w²/T + ρ²/(κT)), q = e^{−T/τ}, p = (1 − q) τ/T, κ = p ((1 + q)/2 − p). M is concave
-// in q, and where B has a part that 1/T multiplies in 1/T too, affine in p, and falls with κ. Of a window that adapts,
-// one P has to serve every length that a sample may take.
+//     M = [ P − AᵀPA,  ½C − AᵀPB;  ·,  b/T − ½k0 − BᵀPB ] ⪰ 0,
+// which an amplifier's lag gives a row more (theory, section 6b). Of a window that adapts, one P has to serve every
+// length that a sample may take.
 bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping);
 
-// 0: the certificate's statement is proved; 1: it is not true, or not proved by this; 3: nothing is known here. In
-// words.
+// In words. 0: proved, and the law is certified; 4: proved, and damping is lacking; 1: not proved; 3: nothing is known.
 std::pair<int, std::string> verdict(const std::string& header, const std::string& certificate);
-
 }  // namespace dashpot_check

@@ -1,5 +1,4 @@
-// dashpot-check HEADER CERTIFICATE: 0 if what the certificate states is proved and the law is certified, 4 if it is
-// proved and the law lacks damping, 1 if it is not proved, 2 for a wrong command line, 3 for a law that is not known.
+// dashpot-check HEADER CERTIFICATE ends with what verdict() returns, and with 2 for a wrong command line.
 #include <fstream>
 #include <iostream>
 

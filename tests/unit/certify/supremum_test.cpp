@@ -175,8 +175,9 @@ using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 // Of the energy that `damping` takes up, the share that a motion gets out beyond it: from rest, w_k = cos(kθ) over as
 // many holds as it takes, 2ⁿ of them; within a hold the tool moves evenly, but with an amplifier's lag as the force
-// that it lacks, e, makes worst, ρ = −e κT/2b (check.hpp). What is left in the static spring at the end counts as lost.
-// The energy is a quadratic form in the law's states and the motion's two, which 2ⁿ holds carry as n squarings.
+// that it lacks, e, makes worst, ρ = −e κT/2b (theory, section 6b). What is left in the static spring at the end counts
+// as lost. The energy is a quadratic form in the law's states and the motion's two, which 2ⁿ holds carry as n
+// squarings.
 double extracted_share(const MotorConstants& motor, const SampledLoop& loop, double damping, const Digits& angle) {
   const dashpot_check::LoopForm form = dashpot_check::loop_form(checked_program(motor), checked_device(loop));
   const auto exact = [](const dashpot_check::Rational& value) {

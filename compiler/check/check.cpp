@@ -9,7 +9,6 @@
 
 namespace dashpot_check {
 namespace {
-
 Form operator+(Form sum, const Form& other) {
   for (const auto& [name, value] : other)
     if ((sum[name] += value) == 0) sum.erase(name);
@@ -26,9 +25,9 @@ Form substituted(const Form& form, const Forms& values) {
   return result;
 }
 Rational of(const Form& form, const std::string& name) { return form.count(name) ? form.at(name) : Rational(0); }
-
 // What a header is made of, once it reads as below.
-const std::regex declaration(R"((static constexpr )?(?:scalar|unsigned) (\w+)(?:\[(\d+)\])? = \{?)");
+const std::regex declaration(
+    R"((?:scalar|(static constexpr )(?:scalar|unsigned(?= loop_delay = \d+;))) (\w+)(?:\[(\d+)\])? = \{?)");
 const std::regex assignment(R"((const (?:scalar|vector) )?(\w+(?:\[\d+\])?) = |return \{damping, )");
 const std::regex loop(R"(for \(int i = 0; i < (\d+); i \+= (\d+)\) )"
                       R"(for \(int j = i; j < i \+ \2; j \+= vector::width\) \{ ([^{}]*)\} )");
@@ -36,22 +35,22 @@ const std::regex name(R"([A-Za-z_]\w*(\[\d+\])?)");
 const std::regex number(R"(-?(?:0|[1-9]\d*)(?:(\.\d*(?:e[-+]?\d+)?|e[-+]?\d+)(f?))?)");
 // What computes nothing, nothing of a sample, or nothing while samples arrive and no state is small.
 const std::regex frame(
-    R"( ?#pragma once (?:#include <dashpot/\w+\.hpp> )+namespace dashpot::generated \{ class \w+ \{ public: |private: )"
-    R"(|using scalar = (?:double|float); |struct certified_for \{ |struct parameters \{\}; |int \w+_turn_ = 0; |\}; |)"
-    R"(\} |static constexpr (?:bool|motion|const char\*) \w+ = [^;{}]*; |using vector = [^;]*; |if \(!sampled_\) )"
-    R"(return; |if \(!all_finite\([^;{}]*\)\) (?:return \{damping, 0\}; |\{ (?:sampled_ = false; )?return \{damping, )"
-    R"(0\}; \} )|(?:bool )?sampled_ = (?:true|false); |void reset\(scalar position = 0\) \{ )"
-    R"((?:static_cast<void>\(position\); |last_position_ = all_finite\(position, position, position\) \? position : )"
-    R"(0; )(?:\w+_ = (?:0|false); |clear\(\w+_\); )*\} |unsigned set\(const parameters&\) \{ return 0; \} |scalar )"
-    R"(\w+\(\) const \{ (?:[^{}]|\{[^{}]*\})*\} |template <int size> static void clear\(volatile scalar )"
-    R"(\(&states\)\[size\]\) \{ for \(int i = 0; i < size; \+\+i\) states\[i\] = 0; \} |for \(int j = 0, first = )"
-    R"((\w+_)turn_; j < (\d+); j \+= vector::width\) vector::put\(\1, first \+ j, \(vector::at\(\1, first \+ j\)\)\); )"
-    R"(\1turn_ \+= \2; \1turn_ = \1turn_ < \d+ \? \1turn_ : 0; )");
-
+    R"( ?#pragma once (?:#include <dashpot/\w+\.hpp> )+namespace dashpot::generated \{ class \w+ \{ public: |private: |)"
+    R"(using scalar = (?:double|float); |static constexpr motion port_motion = motion::\w+; |struct certified_for \{ )"
+    R"(static constexpr bool any_device = \w+; (?:static constexpr const char\* (?:device|device_digest|estimator) = ; )*|)"
+    R"(static constexpr bool is_certified = \w+; \}; |struct parameters \{\}; |int \w+_turn_ = 0; |bool sampled_ = false; |)"
+    R"(\}; |\} |using vector = vector<scalar, vector_width<scalar, \d+>, \d+>; |if \(!all_finite\([\w, ]*\)\) )"
+    R"((?:return \{damping, 0\}; |\{ (?:sampled_ = false; )?return \{damping, 0\}; \} )|void reset\(scalar position = 0\) )"
+    R"(\{ (?:static_cast<void>\(position\); |last_position_ = all_finite\(position, position, position\) \? position : 0; ))"
+    R"((?:\w+_ = (?:0|false); |clear\(\w+_\); )*\} |unsigned set\(const parameters&\) \{ return 0; \} |)"
+    R"(scalar \w+\(\) const \{ (?:[^{}]|\{[^{}]*\})*\} |template <int size> static void clear\(volatile scalar )"
+    R"(\(&states\)\[size\]\) \{ for \(int i = 0; i < size; \+\+i\) states\[i\] = 0; \} |)"
+    R"(for \(int j = 0, first = (\w+_)turn_; j < (\d+); j \+= vector::width\) vector::put\(\1, first \+ j, )"
+    R"(\(vector::at\(\1, first \+ j\)\)\); \1turn_ \+= \2; \1turn_ = \1turn_ < \d+ \? \1turn_ : 0; )");
 // How a header reads: without remarks, with one space between words, and with the expressions that are left while the
 // motor is within its limit and nothing is flushed to zero.
 const std::pair<const char*, const char*> readings[] = {
-    {R"(//[^\n]*|DASHPOT_UNROLL| noexcept|alignas\(\d+\)|dashpot::(?!generated))", ""},
+    {R"#("[^"\\\n]*"|//[^\n]*|\bDASHPOT_UNROLL\b| noexcept|alignas\(\d+\)|dashpot::(?!generated))#", ""},
     {R"(\s+)", " "},
     {R"(partial_sums<[^;]*> lane; )", "sampled_lane = 0; "},
     {R"(lane\.add\(j - i, )", "sampled_lane = (sampled_lane + "},
@@ -64,32 +63,30 @@ const std::pair<const char*, const char*> readings[] = {
     {R"(rest_shift_ > 0 \? \(position > 0 \? \(rest_shift_ - position > 0 \? position : rest_shift_\) : no_shift\) : )"
      R"(\(position > 0 \? no_shift : \(rest_shift_ - position > 0 \? rest_shift_ : position\)\))",
      "rest_shift_ + no_shift"}};
-
 struct Header : Program {
   explicit Header(std::string text) {
-    if (std::regex_search(text, std::regex(R"(\\\s|\?\?/|\r|/\*|(^|\n)[^\n/]*"[^\n]*//)")))
-      throw Unknown("a remark is not of one line");
+    if (std::regex_search(text, std::regex(R"(\\\s|\?\?/|\r|/\*)"))) throw Unknown("a remark is not of one line");
     for (const auto& [known, reading] : readings) text = std::regex_replace(text, std::regex(known), reading);
     is_float_ = text.find("using scalar = float; ") != text.npos;
     const std::size_t own = text.find("private: ");  // numbers and states, which are needed first
     text = text.substr(own) + text.substr(0, own);
     left_ = text.c_str();
-    next = {{"", {{"", 1}}}, {"sampled_lane", {}}};  // with what is returned, and with sums over loops
-    const std::string inputs = "(scalar position, scalar velocity) { ";
-    while (!take("command<scalar> output" + inputs)) read_part();
-    const Forms at_rest = next;
+    next = {{"", {{"", 1}}}, {"sampled_", {}}, {"sampled_lane", {}}};  // what is returned; sums over loops
+    constants = {{"position", 0}, {"velocity", 0}, {"true", 1}, {"sampled_", 0}, {"sampled_lane", 0}};  // taken names
+    while (!take("command<scalar> output(scalar position, scalar velocity) { ")) read_part();
+    Forms at_rest = next;
     while (!take("void update() { ")) read_part();
-    while (!take("command<scalar> step" + inputs)) read_part();
+    while (!take("command<scalar> step(scalar position, scalar velocity) { ")) read_part();
     Forms apart = next;
     if (!take("const command<scalar> now = output(position, velocity); update(); return now; } ")) next = at_rest;
     while (*left_) read_part();
-    for (Forms* states : {&next, &apart})
-      std::erase_if(*states, [](const auto& of) { return of.first.starts_with("sampled_"); });
-    if (apart != next) throw Unknown("step() is not output() and update()");
+    for (Forms* of : {&next, &apart, &at_rest})
+      std::erase_if(*of, [](const auto& state) { return state.first.starts_with("sampled_"); });
+    if (apart != next || next.size() != at_rest.size()) throw Unknown("step() is not output() and update()");
     force = next.extract("").mapped();
   }
   void read_part() {
-    if (take(frame)) return;
+    if (take(frame) || (next["sampled_"] == Form{{"", 1}} && take("if (!sampled_) return; "))) return;
     if (take(loop)) {
       std::string all;
       for (int j = 0, step = std::stoi(found_[2]); j % step != 0 || j < std::stoi(found_[1]); ++j)
@@ -111,9 +108,8 @@ struct Header : Program {
       expect(size.empty() ? "; " : "}; ");
     } else if (take(assignment) && !(found_[1].matched && constants.contains(found_[2]))) {
       Form& to = found_[1].matched ? others_[found_[2]] : next.at(found_[2]);
-      const char* const end = found_[2].matched ? "; " : "}; ";
-      to = sum();
-      expect(end);
+      const char* const end = found_[2].matched ? "; " : "}; } ";
+      to = sum(), expect(end);
     } else refuse();
   }
   Form sum() {
@@ -147,19 +143,17 @@ struct Header : Program {
   }
   void expect(const std::string& text) { take(text) || (refuse(), false); }
   [[noreturn]] void refuse() const { throw Unknown("this is not known: " + std::string(left_).substr(0, 60)); }
-
   const char* left_;   // what has not been read
   std::cmatch found_;  // by a pattern, with its parts
   bool is_float_;
-  Forms others_ = {{"position", {{"position", 1}}}, {"velocity", {{"velocity", 1}}}};
+  Forms others_ = {
+      {"position", {{"position", 1}}}, {"velocity", {{"velocity", 1}}}, {"true", {{"", 1}}}, {"false", {}}};
 };
-
 std::string displacement(unsigned age) { return "q" + std::to_string(age); }
 Form add(LoopForm& loop, const std::string& state, const Form& next) {
   loop.states.push_back(state), loop.next[state] = next;
   return {{state, 1}};
 }
-
 // The velocity estimate in terms of the states after the sample; adds those that it has of its own. Its coefficients
 // are those of the certificate, which must be what the description says, to the rounding of doubles.
 Form estimate(const Device& device, LoopForm& loop) {
@@ -174,7 +168,7 @@ Form estimate(const Device& device, LoopForm& loop) {
   const long double T = device.sample_period;
   const Form arriving = loop.next.at(displacement(device.delay_samples));
   if (kind == "butterworth") {  // sections of two trapezoidal integrators
-    const long double turn = std::numbers::pi_v<long double>, warped = std::tan(turn * (device.cutoff * T));
+    const long double turn = std::acos(-1.0L), warped = std::tan(turn * (device.cutoff * T));
     Form value = coefficient(1 / T) * arriving;
     const Rational g = coefficient(warped);
     for (unsigned i = 0, order = device.order < 4 ? 2 : 4; i < order / 2; ++i) {
@@ -200,11 +194,11 @@ Form estimate(const Device& device, LoopForm& loop) {
     for (unsigned age = 0; age <= device.delay_samples; ++age) oldest = add(loop, "pace" + std::to_string(age), oldest);
     return oldest;
   }
-  const bool is_one = kind == "difference of two samples";
-  if (!adapts && !slope && !is_one && kind != "backward_difference")
+  if (!adapts && !slope && kind != "difference of two samples" && kind != "backward_difference")
     throw Unknown("nothing is known of the estimator " + kind);
   if (adapts && device.amplifier_lag) throw Unknown("the window adapts, and the force that lacks is of two windows");
-  const unsigned longest = is_one ? 1 : std::max(device.window, 1u), n = adapts ? device.chosen : longest;
+  const unsigned longest = kind == "difference of two samples" ? 1 : std::max(device.window, 1u);
+  const unsigned n = adapts ? device.chosen : longest;
   const Rational rate = coefficient((slope ? 6.0L / (n * (n + 1.0L) * (n + 2.0L)) : 1.0L / n) / T);
   Form sum;
   for (unsigned j = 0, age = device.delay_samples; j < longest; ++j, ++age) {
@@ -213,7 +207,6 @@ Form estimate(const Device& device, LoopForm& loop) {
   }
   return sum;
 }
-
 // value · 2^digits, rounded down
 Integer whole(const Rational& value, unsigned digits) {
   const Integer scaled = numerator(value) << digits, left = scaled % denominator(value);
@@ -292,9 +285,7 @@ Rational hold_stiffness(const LoopForm& loop, const Device& device) {
   }
   return (sum + abs(left)) * (1 + 2 * device.delay_samples);
 }
-
 }  // namespace
-
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Device, sample_period, jitter, amplifier_lag, cutoff, acceleration,
                                    joint_encoder_step, delay_samples, window, order, best_fit, estimator,
                                    estimator_coefficients)
@@ -310,18 +301,16 @@ LoopForm loop_form(Program program, const Device& device) {
   Form position = {{"u", 1}}, drive = add(loop, displacement(0), {{"w", 1}});  // as the law sees them
   for (unsigned age = 1; age <= device.delay_samples; ++age)
     position = position - drive, drive = add(loop, displacement(age), drive);
-  const Form seen = {{"position", 1}};
   Form sum, all;  // of the states but for a last position, and of what they become
   for (const auto& [state, form] : next)
-    if (!state.empty() && form != seen) sum[state] = 1, all = std::move(all) + form;
+    if (!state.empty() && form != Form{{"position", 1}}) sum[state] = 1, all = std::move(all) + form;
   Forms values = {{"position", position}};
   if (std::ranges::any_of(next, [](const auto& of) { return of.second.contains("velocity"); }))
     values["velocity"] = estimate(device, loop);
   for (const std::string& state : program.states) {
     if (!next.contains(state)) continue;
-    if (next[state] == seen) values[state] = position - drive;
-    else if (!all.count(state) && all == Rational(2) * next[state])
-      values[state] = sum - Form{{state, 1}};  // of the rest
+    if (next[state] == Form{{"position", 1}}) values[state] = position - drive;
+    else if (!all.count(state) && all == Rational(2) * next[state]) values[state] = sum - Form{{state, 1}};
     else values[state] = add(loop, state, next[state]);
   }
   for (auto& [state, form] : loop.next)
@@ -374,37 +363,33 @@ bool proves(const Program& program, Device device, const Storage& storage, const
 
 std::pair<int, std::string> verdict(const std::string& header, const std::string& certificate) try {
   const nlohmann::json all = nlohmann::json::parse(certificate), &passivity = all.at("passivity"),
-                       &stated = all.at("loop"), &storage = all.at("storage");
+                       &storage = all.at("storage"), &minimum = passivity.at("minimum_damping");
   if (passivity.at("any_regime").get<bool>() || passivity.at("any_value").get<bool>())
     throw Unknown("the law has slips, a contact or values that change, and only linear laws are known here");
-  const auto number = [](const nlohmann::json& of, const char* name) { return Rational(of.at(name).get<double>()); };
   const Program program = Header(header);
-  Device device = stated;
-  const Rational needed = number(passivity, "needed_damping"), said = program.constants.at("sample_period");
+  Device device = all.at("loop");
+  const auto number = [&](const char* at) { return Rational(all.at(nlohmann::json::json_pointer(at)).get<double>()); };
   const bool is_punctual = passivity.at("constant_period_only"), is_certified = passivity.at("certified");
   if (is_punctual) device.jitter = 0;
-  const Rational longest = Rational(device.sample_period) + device.jitter;
+  const Rational longest = Rational(device.sample_period) + device.jitter, needed = number("/passivity/needed_damping");
   // Of what the brake gives, the share that is left at the largest speed, v / v_critical.
-  const Rational critical = number(stated, "critical_speed"), slow = critical * critical;
-  const Rational fastest = number(stated, "largest_speed"), both = slow + fastest * fastest;
-  const Rational share = critical == 0 ? Rational(1) : Rational(fastest == 0 ? Rational(0) : Rational(slow / both));
-  const Rational told = share * (1 - number(stated, "brake_tolerance"));
-  const Rational assured = told * program.constants.at("damping") + share * number(stated, "residual_damping") +
-                           number(stated, "device_damping");
-  const Rational spare = assured - needed;
-  const auto& minimum = passivity.at("minimum_damping");
+  const Rational slow = number("/loop/critical_speed") * number("/loop/critical_speed");
+  const Rational fast = number("/loop/largest_speed") * number("/loop/largest_speed");
+  const Rational share = slow == 0 ? Rational(1) : fast == 0 ? Rational(0) : Rational(slow / (slow + fast));
+  const Rational told = share * (1 - number("/loop/brake_tolerance")), given = told * program.constants.at("damping");
+  const Rational assured = given + share * number("/loop/residual_damping") + number("/loop/device_damping");
+  const Rational spare = assured - needed, said = program.constants.at("sample_period");
   const bool by_hold = passivity.at("proof") == "hold";
-  const char* const refuted =
-      said != device.sample_period && said != float(device.sample_period) ? "the sample periods differ"
-      : program.constants.at("loop_delay") != device.delay_samples        ? "the delays differ"
-      : by_hold && needed < hold_stiffness(loop_form(program, device), device) * longest
-          ? "the hold certificate asks for more damping"
-      : !by_hold && (storage.is_null() || !proves(program, device, storage.at("matrix"), needed))
-          ? "no storage function proves the damping that is stated"
-      : spare < 0 && is_certified ? "the brake does not surely give the damping that is needed"
-      : assured * (1 + Rational(1e-12)) < number(passivity, "assured_damping")        ? "less is assured"
-      : !minimum.is_null() && spare + told * number(passivity, "minimum_damping") < 0 ? "more would have to be added"
-                                                                                      : nullptr;
+  const char* refuted = nullptr;
+  if (said != device.sample_period && said != float(device.sample_period)) refuted = "the sample periods differ";
+  else if (program.constants.at("loop_delay") != device.delay_samples) refuted = "the delays differ";
+  else if (by_hold && needed < hold_stiffness(loop_form(program, device), device) * longest)
+    refuted = "the hold certificate asks for more damping";
+  else if (!by_hold && (storage.is_null() || !proves(program, device, storage.at("matrix"), needed)))
+    refuted = "no storage function proves the damping that is stated";
+  else if (spare < 0 && is_certified) refuted = "the brake does not surely give the damping that is needed";
+  else if (assured * (1 + Rational(1e-12)) < number("/passivity/assured_damping")) refuted = "less is assured";
+  else if (!minimum.is_null() && spare + told * minimum.get<double>() < 0) refuted = "more would have to be added";
   if (refuted) return {1, std::string("not proved: ") + refuted + "\n"};
   std::ostringstream words;
   words.precision(17);
@@ -429,5 +414,4 @@ not proved here: that the constants are those of the network, the remarks and th
 } catch (const std::exception& unknown) {
   return {3, std::string("not proved here: ") + unknown.what() + "\n"};
 }
-
 }  // namespace dashpot_check

@@ -48,7 +48,19 @@ CODE = [("position_change = position - last_position_", "position_change = posit
         ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 050.0;"),
         ("scalar static_stiffness = 5.0;", "scalar static_stiffness = 5.0f;"),
         ("B2_K2_decay, B2_K2_force_,", "B1_K1_decay, B2_K2_force_,"),
-        ('device = "ideal";', 'device = "//"; static inline int more = 0;')]
+        ('device = "ideal";', 'device = "//"; static inline int more = 0;'),
+        ('device = "ideal";', 'device = R"(\n//)"; static inline int more = 0;\n"";'),
+        # What hides an argument, lasts for one call alone, drops a fraction, or returns, stops or assigns where a guard would stand.
+        ("  scalar last_position_ = 0;", "  scalar last_position_ = 0;\n  scalar velocity = 0;"),
+        ("    const scalar position_change =", "    scalar more = 0;\n    const scalar position_change ="),
+        ("    const scalar position_change =", "    static constexpr bool velocity_gain = true;\n    const scalar position_change ="),
+        ("    const scalar position_change =", "    using scalar = int;\n    const scalar position_change ="),
+        ("    const scalar position_change =", "    using vector = int;\n    const scalar position_change ="),
+        ("static constexpr scalar velocity_gain", "static constexpr unsigned velocity_gain"),
+        ("  scalar last_position_ = 0;", "  unsigned last_position_ = 0;"),
+        ("    return {damping, force};", "    return {damping, force + force};\n    return {damping, force};"),
+        ("    sampled_ = true;\n", ""), ("    if (!sampled_) return;\n    sampled_ = false;", "    sampled_ = false;\n    if (!sampled_) return;"),
+        ("all_finite(force)", "all_finite(force) || (true)"), ("all_finite(force)", "all_finite(relaxed_force_ = 7)")]
 # A name that means another thing in a loop than after it, where `kept` is what it says before.
 SHADOWED = [("    const vector sampled_position_change =", "    const scalar kept = KEPT;\n    const vector sampled_position_change ="),
             ("        vector::put(mode_force_, j, vector::at(mode_gain", "        const vector kept = 1;\n        vector::put(mode_force_, j, vector::at(mode_gain"),

@@ -226,7 +226,7 @@ std::pair<Rational, Rational> enclosed_decay(const Rational& time, const Rationa
 // The inequality's matrix for one hold, over the states, w and ρ, on and below the diagonal: whole, because scaled by
 // 2^digits for each of three factors, but for b/T and b/(κT), which are rounded down.
 Matrix matrix_of(LoopForm loop, const Matrix& P, unsigned digits, const Rational& damping, const Hold& hold) {
-  const std::size_t n = P.size(), lags = hold.spread != 0;
+  const std::size_t n = P.size(), lags = hold.spread != 0 && !loop.next.at("lacking").empty();  // else it is none
   if (lags) loop.next["lacking"]["lacking"] += hold.decay, loop.next[""]["lacking"] += hold.share;
   std::map<std::string, std::size_t> place = {{"w", n}, {"pace", n}, {"", n}};
   for (const std::string& state : loop.states) place.emplace(state, place.size() - 3);

@@ -49,7 +49,7 @@ class Box : private BoxNumbers {
         worst = worst ? std::max(*worst, here) : here;
       }
     }
-    largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.head.max_damping));
+    largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.brake.max_damping));
     return {ceiling(*worst), -ceiling(-least_brake), ceiling(largest_brake), "", quantisation_gain(brakes, made_up)};
   }
 
@@ -57,27 +57,33 @@ class Box : private BoxNumbers {
   static BoxMotor nothing_for(std::string reason) { return {0, 0, 0, std::move(reason)}; }
 
   template <class Visit>
-  void each_part(const tunable_block& block, Visit visit) const {
+  void each_part(const tunable_block<double>& block, Visit visit) const {
     for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
       visit(tables_.parts[static_cast<std::size_t>(i)]);
   }
 
-  BoxCut cut_of(const tunable_part<double>& part) const {
+  BoxCut cut_of(const tunable_part& part) const {
     switch (part.kind) {
       case tunable_kind::damper: return {{}, number(part.damping)};
       case tunable_kind::spring: return {plus({}, stiffness(part.spring), half_), {}};
-      case tunable_kind::relaxation:
-        return {plus({}, stiffness(part.spring), tables_.head.is_exact ? Rational(largest_relaxation_hold) : half_),
-                {}};
-      case tunable_kind::fixed_relaxation:
-        return {plus({}, stiffness(part.spring), Rational(relaxation_hold(part.share, part.loss))), {}};
+      case tunable_kind::relaxation: return {plus({}, stiffness(part.spring), hold_of(part)), {}};
       case tunable_kind::mesh: break;
     }
     return cut_at_port(part);
   }
 
+  const std::optional<FixedRelaxation>& fixed(const tunable_part& part) const {
+    return tables_.fixed[static_cast<std::size_t>(part.spring)];
+  }
+
+  // ψ of a relaxation, that of the worst where it can be tuned.
+  Rational hold_of(const tunable_part& part) const {
+    if (fixed(part)) return Rational(relaxation_hold(fixed(part)->share, fixed(part)->loss));
+    return tables_.is_exact ? Rational(largest_relaxation_hold) : half_;
+  }
+
   // The mesh's own edges at the port's side.
-  BoxCut cut_at_port(const tunable_part<double>& part) const {
+  BoxCut cut_at_port(const tunable_part& part) const {
     BoxCut cut;
     for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
       const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(i)];
@@ -88,9 +94,9 @@ class Box : private BoxNumbers {
     return cut;
   }
 
-  BoxCut cut_of(const tunable_block& block) const {
+  BoxCut cut_of(const tunable_block<double>& block) const {
     BoxCut cut;
-    each_part(block, [&](const tunable_part<double>& part) { cut = plus(cut, cut_of(part)); });
+    each_part(block, [&](const tunable_part& part) { cut = plus(cut, cut_of(part)); });
     return cut;
   }
 
@@ -102,7 +108,7 @@ class Box : private BoxNumbers {
   // No softer than the law makes blocks behind slips.
   BoxCut bounded_cut(int block) const {
     BoxCut cut = cut_of(tables_.blocks[static_cast<std::size_t>(block)]);
-    cut.stiffness.base += Rational(tables_.head.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) / period_);
+    cut.stiffness.base += Rational(tables_.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) / period_);
     return cut;
   }
 
@@ -162,7 +168,7 @@ class Box : private BoxNumbers {
   // none of its nodes is between.
   Affine needed() const {
     BoxCut cut;
-    each_part(tables_.blocks.front(), [&](const tunable_part<double>& part) {
+    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
       if (part.kind != tunable_kind::damper) cut = plus(cut, cut_of(part));
     });
     for (const tunable_coupling& coupling : tables_.couplings) cut = plus(cut, least_cut(coupling, 0).value());
@@ -175,14 +181,14 @@ class Box : private BoxNumbers {
   // b∞: the dampers between tool and ground. A mesh's is between nothing and its dampers at the port.
   Affine feedthrough() const {
     Affine sum;
-    each_part(tables_.blocks.front(), [&](const tunable_part<double>& part) {
+    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
       if (part.kind == tunable_kind::damper) sum = plus(sum, number(part.damping));
     });
     return sum;
   }
   Affine of_meshes() const {
     Affine sum;
-    each_part(tables_.blocks.front(), [&](const tunable_part<double>& part) {
+    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
       if (part.kind == tunable_kind::mesh) sum = plus(sum, cut_at_port(part).damping);
     });
     return sum;
@@ -190,9 +196,8 @@ class Box : private BoxNumbers {
   // Z(0) of what is no mesh.
   Affine zero_frequency() const {
     Affine sum = feedthrough();
-    each_part(tables_.blocks.front(), [&](const tunable_part<double>& part) {
-      if (part.kind == tunable_kind::relaxation || part.kind == tunable_kind::fixed_relaxation)
-        sum = plus(sum, number(part.damping));
+    each_part(tables_.blocks.front(), [&](const tunable_part& part) {
+      if (part.kind == tunable_kind::relaxation) sum = plus(sum, number(part.damping));
     });
     return sum;
   }
@@ -200,7 +205,7 @@ class Box : private BoxNumbers {
   bool has_meshes() const {
     bool found = false;
     each_part(tables_.blocks.front(),
-              [&](const tunable_part<double>& part) { found = found || part.kind == tunable_kind::mesh; });
+              [&](const tunable_part& part) { found = found || part.kind == tunable_kind::mesh; });
     return found;
   }
 
@@ -208,7 +213,7 @@ class Box : private BoxNumbers {
   Rational largest_behind_slips() const {
     Rational sum = 0;
     for (std::size_t i = 1; tables_.head.slip_rule.takes_part && i < tables_.blocks.size(); ++i)
-      each_part(tables_.blocks[i], [&](const tunable_part<double>& part) { sum += most(cut_of(part).damping); });
+      each_part(tables_.blocks[i], [&](const tunable_part& part) { sum += most(cut_of(part).damping); });
     return sum;
   }
 
@@ -216,25 +221,24 @@ class Box : private BoxNumbers {
   Rational make_up(const std::vector<Affine>& brakes, const Rational& behind_slips) const {
     Rational largest = 0;
     for (const Affine& brake : brakes) largest = std::max(largest, most(brake));
-    const tunable_slip_rule<double>& rule = tables_.head.slip_rule;
-    return rule.coil_share < 1 ? std::min(behind_slips, Rational(Rational(rule.assured_share) * largest)) : Rational(0);
+    return std::min(behind_slips, Rational(Rational(tables_.brake.assured_share) * largest));
   }
 
   // The rule's functions, and the brake's reach. Empty where the rule looks into a mesh.
   std::vector<Affine> brake_choices() const {
-    const tunable_tables<double>& head = tables_.head;
+    const TunableBrake& rule = tables_.brake;
     std::vector<Affine> choices;
-    const Affine constant{Rational(head.damping), {}};
-    switch (head.rule) {
-      case brake_rule::constant: choices = {constant}; break;
-      case brake_rule::observed: choices = {number(head.observed)}; break;
-      case brake_rule::feedthrough: choices = {feedthrough()}; break;
-      case brake_rule::zero_frequency: choices = {zero_frequency()}; break;
-      case brake_rule::half_zero_frequency: choices = {plus({}, zero_frequency(), half_), feedthrough()}; break;
-      case brake_rule::within_viscosity: choices = {constant, zero_frequency()}; break;
+    const Affine constant{Rational(rule.damping), {}};
+    switch (rule.follows) {
+      case BrakeFollows::constant: choices = {constant}; break;
+      case BrakeFollows::observed: choices = {number(rule.observed)}; break;
+      case BrakeFollows::feedthrough: choices = {feedthrough()}; break;
+      case BrakeFollows::zero_frequency: choices = {zero_frequency()}; break;
+      case BrakeFollows::half_zero_frequency: choices = {plus({}, zero_frequency(), half_), feedthrough()}; break;
+      case BrakeFollows::within_viscosity: choices = {constant, zero_frequency()}; break;
     }
-    const Rational reach(head.max_damping);
-    const bool looks_into_mesh = head.rule != brake_rule::constant && head.rule != brake_rule::observed;
+    const Rational reach(rule.max_damping);
+    const bool looks_into_mesh = rule.follows != BrakeFollows::constant && rule.follows != BrakeFollows::observed;
     if (looks_into_mesh && has_meshes()) return {};
     if (std::any_of(choices.begin(), choices.end(), [&](const Affine& b) { return most(b) > reach; })) {
       std::erase_if(choices, [&](const Affine& b) { return least(b) >= reach; });
@@ -245,13 +249,14 @@ class Box : private BoxNumbers {
 
   // Σ|h_j| of a block: k, 2 c ≤ 2 k of a relaxation, and of a mesh no more than twice what its edges at the port answer
   // within a sample, as its inner nodes held fast would.
-  Affine gain_of(const tunable_block& block, bool with_dampers) const {
+  Affine gain_of(const tunable_block<double>& block, bool with_dampers) const {
     Affine sum;
-    each_part(block, [&](const tunable_part<double>& part) {
+    each_part(block, [&](const tunable_part& part) {
       switch (part.kind) {
         case tunable_kind::spring: sum = plus(sum, stiffness(part.spring)); break;
-        case tunable_kind::relaxation: sum = plus(sum, stiffness(part.spring), 2); break;
-        case tunable_kind::fixed_relaxation: sum = plus(sum, stiffness(part.spring), 2 * Rational(part.share)); break;
+        case tunable_kind::relaxation:
+          sum = plus(sum, stiffness(part.spring), fixed(part) ? 2 * Rational(fixed(part)->share) : Rational(2));
+          break;
         case tunable_kind::damper: sum = with_dampers ? plus(sum, number(part.damping), 2 / period_) : sum; break;
         case tunable_kind::mesh: {
           const BoxCut cut = cut_at_port(part);
@@ -272,7 +277,7 @@ class Box : private BoxNumbers {
     const slip_node<double>& node = node_of(coupling, index);
     if (node.kind == slip_part::block) return std::nullopt;
     if (node.kind == slip_part::slip) {
-      const tunable_yield& yield = tables_.yields[static_cast<std::size_t>(coupling.first_slip + node.place)];
+      const tunable_yield<double>& yield = tables_.yields[static_cast<std::size_t>(coupling.first_slip + node.place)];
       std::optional<Rational> least_cut;
       for (int i = yield.first_cut; i < yield.first_cut + yield.cut_count; ++i) {
         const Rational cut = least(number(tables_.cuts[static_cast<std::size_t>(i)]));
@@ -304,8 +309,8 @@ class Box : private BoxNumbers {
         ++blocks;
       }
     if (blocks != 1) return std::nullopt;
-    const tunable_block& only = tables_.blocks[static_cast<std::size_t>(block)];
-    const Rational largest = most(gain_of(only, true)) * (1 + 2 * Rational(tables_.head.least_share)),
+    const tunable_block<double>& only = tables_.blocks[static_cast<std::size_t>(block)];
+    const Rational largest = most(gain_of(only, true)) * (1 + 2 * Rational(tables_.least_share)),
                    of_step = largest * Rational(loop_.encoder_step) / 2;
     bool carried_by_slip = false, holds = true;
     for (int i = root.first_child; i < root.first_child + root.child_count; ++i) {

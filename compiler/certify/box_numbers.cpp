@@ -12,11 +12,9 @@ Affine plus(Affine first, const Affine& second, const Rational& weight) {
 }
 
 Affine BoxNumbers::number(int index) const {
-  const tunable_number<double>& n = tables_.numbers[static_cast<std::size_t>(index)];
+  const TunableNumber& n = tables_.numbers[static_cast<std::size_t>(index)];
   Affine value{Rational(n.base), std::vector<Rational>(tables_.tunables.size())};
-  for (std::size_t i = static_cast<std::size_t>(n.first); i < static_cast<std::size_t>(n.first + n.count); ++i)
-    value.factors[static_cast<std::size_t>(tables_.terms[i])] +=
-        tables_.shares.empty() ? Rational(1) : Rational(tables_.shares[i]);
+  for (const TunableTerm& term : n.terms) value.factors[term.tunable] += Rational(term.share);
   return value;
 }
 

@@ -253,10 +253,16 @@ double add_missing(UpdateLaw& law, const PassivityBound& bound, const SampledLoo
   return added;
 }
 
+void set_brake_reach(UpdateLaw& law, double damping) {
+  law.tunable->brake.max_damping = damping;
+  for (Coefficient& c : law.coefficients)
+    if (c.role == ConstantRole::brake_reach) c.values.front() = damping;
+}
+
 // With tunables. What is added to b leaves b less of the brake's reach, and the motor more: found in a few rounds, or
 // not.
 void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
-  const double reach = law.tunable->head.max_damping;
+  const double reach = law.tunable->brake.max_damping;
   BoxMotor box = box_of(law, loop);
   result.bound = box_bound(box, loop);
   const auto missing = [&] {
@@ -268,9 +274,10 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
     added = sum_above(missing(), 32 * unit_roundoff(law.scalar) * (box.largest_brake + missing()), law.scalar);
     const bool is_beyond = round == 20 || !(added < loop.max_damping);
     if (is_beyond) added = 0;
-    law.tunable->head.max_damping =
-        is_beyond ? reach
-                  : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar));
+    set_brake_reach(
+        law, is_beyond
+                 ? reach
+                 : std::min(reach, nearest((loop.max_damping - added) * (1 - unit_roundoff(law.scalar)), law.scalar)));
     box = box_of(law, loop);
     result.bound = box_bound(box, loop);
     if (is_beyond) break;

@@ -477,6 +477,7 @@ Amount Magnitudes::of(ExpressionId id, std::size_t place) {
       return law_.sheds() && is_read_of(e.operands[0], law_.force) && is_read_of(e.operands[1], law_.wanted)
                  ? kept_share()
                  : sized(infinity);
+    case Operation::mean_decay: return sized(1);
     case Operation::square_root: return sized(infinity);  // of motion maps, which are bounded otherwise
     case Operation::flush: return part(0);
     case Operation::clamp: return clamped(part(0), size(1));

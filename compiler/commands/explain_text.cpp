@@ -162,14 +162,14 @@ std::string tunable_text(const UpdateLaw& law) {
   for (const Tunable& t : tables.tunables)
     text += fmt::format("tunable               {} {} {}, {} to {}\n", t.name, t.range.value, t.unit, t.range.min,
                         t.range.max);
-  text += fmt::format("damping follows       {}\n", tables.brake);
+  text += fmt::format("damping follows       {}\n", tables.brake.text);
   for (const std::string& element : tables.mesh_elements) elements += (elements.empty() ? "" : ", ") + element;
   if (!elements.empty()) text += fmt::format("backward Euler        {}\n", elements);
   return text +
          fmt::format(
              "cost at most          output {}, update {}, set {} additions, multiplications and divisions, {} states\n",
              operations_of(cost_of(law, law.output)), operations_of(cost_of(law, law.update)),
-             operations_of_set(tables), tables.springs.size());
+             operations_of(cost_of(law, law.tune)) + operations_of_energy(tables), tables.springs.size());
 }
 
 // What follows a label begins in the same column on every line.

@@ -45,29 +45,29 @@ std::string names_of(const std::vector<std::size_t>& elements, const Network& ne
 BrakeRule observed_rule(const Network& network, const Candidate& choice, double reference_frequency,
                         ObserverRule observer) {
   const std::optional<Tree> tree = series_parallel_tree(network);
-  if (!tree) return {brake_rule::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
+  if (!tree) return {BrakeFollows::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
   std::vector<std::size_t> dampers =
       dampers_at_tool(observe(*tree, network, observer, reference_frequency).realisation);
   if (std::abs(sum_of(dampers, network) - choice.wanted_damping) > 1e-12 * choice.wanted_damping)
-    return {brake_rule::within_viscosity,
+    return {BrakeFollows::within_viscosity,
             choice.wanted_damping,
             {},
             {},
             "its value at the defaults, never above the network's viscosity at low frequency"};
   add_direct_dampers(network, dampers);
   const std::string text = names_of(dampers, network);
-  return {brake_rule::observed, 0, std::move(dampers), {}, text};
+  return {BrakeFollows::observed, 0, std::move(dampers), {}, text};
 }
 
 // The damping that was found at the default values is held, but never above the network's viscosity if it is not there.
 BrakeRule faithful_rule(const Decomposition& decomposition) {
   const Candidate& choice = decomposition.choice();
-  if (choice.velocity_gain == 0) return {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
+  if (choice.velocity_gain == 0) return {BrakeFollows::feedthrough, 0, {}, {}, "the feedthrough damping"};
   const auto viscous = std::find_if(decomposition.candidates.begin(), decomposition.candidates.end(),
                                     [](const Candidate& candidate) { return candidate.name == "zero-frequency"; });
   const bool is_within = choice.damping <= viscous->wanted_damping;
   return {
-      is_within ? brake_rule::within_viscosity : brake_rule::constant,
+      is_within ? BrakeFollows::within_viscosity : BrakeFollows::constant,
       choice.damping,
       {},
       {},
@@ -77,16 +77,16 @@ BrakeRule faithful_rule(const Decomposition& decomposition) {
 BrakeRule uncapped_rule(const Network& network, const Decomposition& decomposition, double reference_frequency) {
   const Candidate& choice = decomposition.choice();
   if (choice.name == "faithful" && choice.faithful) return faithful_rule(decomposition);
-  if (choice.name == "velocity-free") return {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
+  if (choice.name == "velocity-free") return {BrakeFollows::feedthrough, 0, {}, {}, "the feedthrough damping"};
   if (choice.name == "zero-frequency")
-    return {brake_rule::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
+    return {BrakeFollows::zero_frequency, 0, {}, {}, "the network's viscosity at low frequency"};
   if (choice.name == "quietest-passive")
-    return {brake_rule::half_zero_frequency, 0, {}, {}, "half the network's viscosity at low frequency"};
+    return {BrakeFollows::half_zero_frequency, 0, {}, {}, "half the network's viscosity at low frequency"};
   if (choice.name == "paper" || choice.name == "faithful")
     return observed_rule(network, choice, reference_frequency, ObserverRule::most_dissipative);
   if (choice.name == "largest-observer")
     return observed_rule(network, choice, reference_frequency, ObserverRule::largest);
-  return {brake_rule::constant, choice.wanted_damping, {}, {}, "no parameter"};
+  return {BrakeFollows::constant, choice.wanted_damping, {}, {}, "no parameter"};
 }
 
 }  // namespace
@@ -94,8 +94,8 @@ BrakeRule uncapped_rule(const Network& network, const Decomposition& decompositi
 BrakeRule brake_rule_of(const Network& network, const Decomposition& decomposition, const PortDevice& device) {
   BrakeRule rule = uncapped_rule(network, decomposition, device.reference_frequency());
   // Where a surface can be left, more would have to be compensated in the samples of a touch.
-  if (network.contact && rule.rule != brake_rule::constant)
-    rule = {brake_rule::feedthrough, 0, {}, {}, "the feedthrough damping"};
+  if (network.contact && rule.follows != BrakeFollows::constant)
+    rule = {BrakeFollows::feedthrough, 0, {}, {}, "the feedthrough damping"};
   rule.max_damping = device.max_damping();
   return rule;
 }

@@ -1,21 +1,21 @@
 // What the brake's damping follows while the parameters of a network change.
 #pragma once
 
-#include <dashpot/tunable/tables.hpp>
-
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "decompose/decomposition.hpp"
 #include "decompose/port_device.hpp"
+#include "law/tunable_tables.hpp"
 
 namespace dashpot::compiler {
 
 struct BrakeRule {
-  brake_rule rule;
-  double damping;                     // of a rule that has a constant [N·s/m]
-  std::vector<std::size_t> observed;  // dampers whose sum b is, of brake_rule::observed; indices into Network::elements
+  BrakeFollows follows;
+  double damping;  // of a rule that has a constant [N·s/m]
+  std::vector<std::size_t>
+      observed;  // dampers whose sum b is, of BrakeFollows::observed; indices into Network::elements
   std::optional<double> max_damping;  // what the brake can give [N·s/m]
   std::string text;                   // one clause for people
 };

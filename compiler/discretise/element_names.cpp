@@ -16,9 +16,8 @@ bool is_called(const Named& named, const std::string& name) {
 }
 
 // Tables and states of a law with tunables.
-constexpr std::string_view tunable_members[] = {"tunables",  "terms", "shares", "numbers", "springs",
-                                                "parts",     "edges", "blocks", "cuts",    "yields",
-                                                "couplings", "nodes", "tables", "law_"};
+constexpr std::string_view tunable_members[] = {"tunables",  "springs", "parts",  "edges", "blocks", "cuts",   "yields",
+                                                "couplings", "nodes",   "graphs", "links", "ties",   "tables", "law_"};
 
 // States end in an underscore in the emitted class.
 bool is_member(const UpdateLaw& law, const std::string& name) {
@@ -28,7 +27,7 @@ bool is_member(const UpdateLaw& law, const std::string& name) {
   if (law.joints && (name == "axes" || name == "brakes" || name == "commands")) return true;
   if (name == "threshold" || name == "total" || name == "sampled_") return true;
   const std::string state = name.back() == '_' ? name.substr(0, name.size() - 1) : "";
-  const auto names_state = [&](const Variable& v) { return v.role == Role::state && is_called(v, state); };
+  const auto names_state = [&](const Variable& v) { return v.is_kept() && is_called(v, state); };
   const auto names_constant = [&](const Coefficient& c) { return is_called(c, name); };
   return std::any_of(law.variables.begin(), law.variables.end(), names_state) ||
          std::any_of(law.coefficients.begin(), law.coefficients.end(), names_constant);

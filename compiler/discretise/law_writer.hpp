@@ -54,6 +54,8 @@ class LawWriter {
   ExpressionId subtract(ExpressionId left, ExpressionId right) { return node(Operation::subtract, {left, right}); }
   ExpressionId divide(ExpressionId left, ExpressionId right) { return node(Operation::divide, {left, right}); }
   ExpressionId square_root(ExpressionId value) { return node(Operation::square_root, {value}); }
+  // (1 − e^(−x))/x
+  ExpressionId mean_decay(ExpressionId x) { return node(Operation::mean_decay, {x}); }
   ExpressionId multiply(ExpressionId left, ExpressionId right) { return node(Operation::multiply, {left, right}); }
   ExpressionId flush(ExpressionId value) { return node(Operation::flush, {value}); }
   ExpressionId clamp(ExpressionId value, ExpressionId limit) { return node(Operation::clamp, {value, limit}); }

@@ -91,13 +91,13 @@ Sides sides_of(const Network& network, const Part& part) {
 TunableBlocks::TunableBlocks(const Network& network, const Choices& choices, const Real& sample_period,
                              TunableTables& tables)
     : whole_(network), choices_(choices), sample_period_(sample_period), tables_(tables) {
-  int next = 0;
+  std::size_t next = 0;
   for (const Parameter& parameter : network.parameters)
-    tunable_of_parameter_.push_back(parameter.tunable ? next++ : no_index);
+    tunable_of_parameter_.push_back(parameter.tunable ? next++ : next);
 }
 
 void TunableBlocks::add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose) {
-  tables_.blocks.push_back({static_cast<int>(tables_.parts.size()), 0});
+  tables_.blocks.push_back({static_cast<int>(tables_.parts.size()), 0, 0});
   std::vector<std::size_t> fixed_elements, direct;
   std::vector<Part> others;
   for (Part& part : independent_parts(network, elements, tool, ground)) {
@@ -115,26 +115,25 @@ void TunableBlocks::add(const Network& network, const std::vector<std::size_t>& 
   tables_.blocks.back().part_count = static_cast<int>(tables_.parts.size()) - tables_.blocks.back().first_part;
 }
 
-int TunableBlocks::number(const Network& network, const std::vector<std::size_t>& elements, const Real& base) {
+int TunableBlocks::number(const Network& network, const std::vector<std::size_t>& elements, const Real& base,
+                          std::vector<std::size_t> named) {
   Real sum = base;
-  const int first = static_cast<int>(tables_.terms.size());
-  for (std::size_t i : elements)
-    if (is_tunable(network, i)) add_term(network.elements[i]);
-    else sum += value_of(network.elements[i].law);
-  tables_.numbers.push_back({rounded(sum, choices_.scalar), first, static_cast<int>(tables_.terms.size()) - first});
+  std::vector<TunableTerm> terms;
+  for (std::size_t i : elements) {
+    const Element& element = network.elements[i];
+    if (!is_tunable(network, i)) sum += value_of(element.law);
+    else terms.push_back({tunable_of_parameter_[*element.parameter], rounded(Real(element.share), choices_.scalar)});
+  }
+  named.insert(named.begin(), elements.begin(), elements.end());
+  const Element& one = whole_.elements[named.empty() ? 0 : named.front()];
+  tables_.numbers.push_back({rounded(sum, choices_.scalar), std::move(terms),
+                             named.empty() ? "none" : name_of(named, whole_), unit_of(one.law, whole_.port_motion)});
   return static_cast<int>(tables_.numbers.size()) - 1;
 }
 
-// Where every share is 1 there is no list of them.
-void TunableBlocks::add_term(const Element& element) {
-  if (element.share != 1) tables_.shares.resize(tables_.terms.size(), 1);
-  tables_.terms.push_back(tunable_of_parameter_[*element.parameter]);
-  if (element.share != 1 || !tables_.shares.empty())
-    tables_.shares.push_back(rounded(Real(element.share), choices_.scalar));
-}
-
-int TunableBlocks::add_spring(int stiffness, std::string name) {
+int TunableBlocks::add_spring(int stiffness, std::string name, std::optional<FixedRelaxation> fixed) {
   tables_.springs.push_back(stiffness);
+  tables_.fixed.push_back(fixed);
   tables_.spring_names.push_back(std::move(name));
   return static_cast<int>(tables_.springs.size()) - 1;
 }
@@ -147,22 +146,33 @@ void TunableBlocks::add_direct(const Network& network, const std::vector<std::si
   if (!springs.empty() || fixed.static_stiffness > 0) {
     std::vector<std::size_t> named = springs;
     named.insert(named.end(), fixed.static_elements.begin(), fixed.static_elements.end());
-    const int spring = add_spring(number(network, springs, fixed.static_stiffness), name_of(named, whole_));
-    tables_.parts.push_back({tunable_kind::spring, spring, no_index, 0, 0, 0, 0, is_loose, 0, 0});
+    const int spring =
+        add_spring(number(network, springs, fixed.static_stiffness, fixed.static_elements), name_of(named, whole_));
+    tables_.parts.push_back({tunable_kind::spring, spring, no_index, no_index, no_index, 0, 0, 0, 0, is_loose});
     if (tables_.blocks.size() == 1) tables_.head.static_spring = spring;
   }
   if (!dampers.empty() || fixed.feedthrough_damping > 0)
-    tables_.parts.push_back(
-        {tunable_kind::damper, no_index, number(network, dampers, fixed.feedthrough_damping), 0, 0, 0, 0, false, 0, 0});
+    tables_.parts.push_back({tunable_kind::damper, no_index,
+                             number(network, dampers, fixed.feedthrough_damping, fixed.feedthrough_elements), no_index,
+                             no_index, 0, 0, 0, 0, false});
 }
 
 void TunableBlocks::add_fixed(const Network& network, const LinearForm& fixed) {
   for (const Mode& mode : fixed.modes) {
     const ModeCoefficients c = mode_coefficients(mode, choices_.scheme, StateInput::position, sample_period_);
-    const int spring = add_spring(number(network, {}, mode.stiffness), name_of(mode.elements, whole_));
-    tables_.parts.push_back({tunable_kind::fixed_relaxation, spring, number(network, {}, mode.damping()), 0, 0, 0, 0,
-                             false, rounded(c.position_gain / mode.stiffness, choices_.scalar),
-                             rounded(c.loss, choices_.scalar)});
+    const FixedRelaxation kept = {rounded(c.position_gain / mode.stiffness, choices_.scalar),
+                                  rounded(c.loss, choices_.scalar)};
+    const int stiffness = number(network, {}, mode.stiffness, mode.elements);
+    const int damping = number(network, {}, mode.damping(), mode.elements);
+    const auto describe = [&](int index, const char* what, const Law& law) {
+      TunableNumber& described = tables_.numbers[static_cast<std::size_t>(index)];
+      described.name = joined(described.name, what);
+      described.unit = unit_of(law, whole_.port_motion);
+    };
+    describe(stiffness, "stiffness", Spring{});
+    describe(damping, "damping", Damper{});
+    const int spring = add_spring(stiffness, name_of(mode.elements, whole_), kept);
+    tables_.parts.push_back({tunable_kind::relaxation, spring, damping, no_index, no_index, 0, 0, 0, 0, false});
   }
 }
 
@@ -176,7 +186,7 @@ bool TunableBlocks::add_relaxation(const Network& network, const Part& part) {
   const int stiffness = number(network, spring_first ? sides.springs_at_port : sides.springs_at_held);
   const int spring = add_spring(stiffness, name_of(part.elements, whole_));
   const int damping = number(network, spring_first ? sides.dampers_at_held : sides.dampers_at_port);
-  tables_.parts.push_back({tunable_kind::relaxation, spring, damping, 0, 0, 0, 0, false, 0, 0});
+  tables_.parts.push_back({tunable_kind::relaxation, spring, damping, no_index, no_index, 0, 0, 0, 0, false});
   return true;
 }
 
@@ -200,8 +210,8 @@ void TunableBlocks::add_mesh(const Network& network, const Part& part) {
     tables_.edges.push_back({between.first.first, between.first.second, spring, is_elastic ? no_index : value});
   }
   const int nodes = static_cast<int>(part.internal.size());
-  tables_.parts.push_back({tunable_kind::mesh, no_index, no_index, tables_.mesh_nodes, nodes, first_edge,
-                           static_cast<int>(tables_.edges.size()) - first_edge, false, 0, 0});
+  tables_.parts.push_back({tunable_kind::mesh, no_index, no_index, no_index, no_index, tables_.mesh_nodes, nodes,
+                           first_edge, static_cast<int>(tables_.edges.size()) - first_edge, false});
   tables_.mesh_nodes += nodes;
 }
 

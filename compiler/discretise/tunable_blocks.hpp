@@ -17,13 +17,12 @@ class TunableBlocks {
   // The next block: `elements` of `network`, which joins tool and ground by them. `is_loose`: in series with a slip.
   void add(const Network& network, const std::vector<std::size_t>& elements, bool is_loose);
 
-  // base + Σ of the values of elements of one kind.
-  int number(const Network& network, const std::vector<std::size_t>& elements, const Real& base = 0);
+  // base + Σ of the values of elements of one kind. `named`: all whose values are in it, where `base` has some more.
+  int number(const Network& network, const std::vector<std::size_t>& elements, const Real& base = 0,
+             std::vector<std::size_t> named = {});
 
  private:
-  int constant(const Real& value) { return number({}, {}, value); }
-  void add_term(const Element& element);
-  int add_spring(int stiffness, std::string name);
+  int add_spring(int stiffness, std::string name, std::optional<FixedRelaxation> fixed = {});
   void add_direct(const Network& network, const std::vector<std::size_t>& elements, const LinearForm& fixed,
                   bool is_loose);
   void add_fixed(const Network& network, const LinearForm& fixed);
@@ -34,7 +33,7 @@ class TunableBlocks {
   Choices choices_;
   Real sample_period_;
   TunableTables& tables_;
-  std::vector<int> tunable_of_parameter_;
+  std::vector<std::size_t> tunable_of_parameter_;  // of one that is no tunable, the next
 };
 
 // The branches of `tree` that hold `elements`, laid out between tool and ground on nodes of their own.

@@ -1,5 +1,8 @@
 #include "discretise/tunable_network.hpp"
 
+#include <dashpot/exponential.hpp>
+#include <dashpot/tunable/mesh.hpp>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -77,8 +80,9 @@ class TablesBuilder {
     if (const std::optional<Tree> tree = form->has_slips() ? series_parallel_tree(structure_) : std::nullopt)
       add_tree(*tree, *form);
     else add_parts(*form);
-    tables_.head.observed = blocks_.number(network_, brake_.observed);
     count();
+    find_least();
+    tables_.brake.observed = blocks_.number(network_, brake_.observed);
     return true;
   }
 
@@ -90,27 +94,29 @@ class TablesBuilder {
   void write_head() {
     const bool is_double = choices_.scalar == ScalarType::float64;
     tunable_tables<double>& head = tables_.head;
-    head.period = to_scalar(period_);
     head.rate = to_scalar(1 / period_);
-    head.is_exact = choices_.scheme == Scheme::exact;
+    tables_.is_exact = choices_.scheme == Scheme::exact;
     head.retention = to_scalar(exp(-period_ / Real(offset_time)));
     head.threshold = flush_threshold(choices_.scalar);
-    head.least_share = is_double ? 0x1p-24 : 0x1p-10;
-    head.rule = brake_.rule;
-    head.damping = to_scalar(Real(brake_.damping));
-    head.max_damping = brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest_finite(choices_.scalar);
+    tables_.least_share = is_double ? 0x1p-24 : 0x1p-10;
+    tables_.brake = {brake_.follows,
+                     to_scalar(Real(brake_.damping)),
+                     0,
+                     brake_.max_damping ? to_scalar(Real(*brake_.max_damping)) : largest_finite(choices_.scalar),
+                     0,
+                     brake_.text};
+    if (decomposition_.slips.coil_share < 1)
+      tables_.brake.assured_share = to_scalar(Real(decomposition_.slips.assured_share));
     head.static_spring = no_index;
     head.contact = {network_.contact.has_value(), network_.contact ? to_scalar(Real(network_.contact->at)) : 0,
                     to_scalar(Real(decomposition_.encoder_step))};
     head.slip_rule = slip_rule();
-    tables_.brake = brake_.text;
   }
 
   tunable_slip_rule<double> slip_rule() const {
     const SlipDecomposition& slips = decomposition_.slips;
-    const bool takes_part = brake_.rule != brake_rule::constant && slip_elements(structure_) > 0;
-    return {takes_part, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share)),
-            to_scalar(Real(slips.assured_share))};
+    const bool takes_part = brake_.follows != BrakeFollows::constant && slip_elements(structure_) > 0;
+    return {takes_part, to_scalar(Real(slips.hysteresis)), to_scalar(Real(slips.coil_share))};
   }
 
   void add_tunable(const Parameter& parameter) {
@@ -120,7 +126,8 @@ class TablesBuilder {
     tables_.tunables.push_back(
         {parameter.name,
          unit,
-         {to_scalar(Real(parameter.value)), to_scalar(Real(parameter.min)), to_scalar(Real(parameter.max))}});
+         {to_scalar(Real(parameter.value)), to_scalar(Real(parameter.min)), to_scalar(Real(parameter.max))},
+         {}});
   }
 
   void add_tree(const Tree& tree, const NormalForm& form) {
@@ -179,7 +186,7 @@ class TablesBuilder {
       const int first = static_cast<int>(tables_.cuts.size());
       for (const std::vector<std::size_t>& cut : cuts_through(tree, slip->elements))
         tables_.cuts.push_back(blocks_.number(network_, cut));
-      tables_.yields.push_back({first, static_cast<int>(tables_.cuts.size()) - first});
+      tables_.yields.push_back({first, static_cast<int>(tables_.cuts.size()) - first, 0});
       tables_.links.push_back({0, 0});
     }
   }
@@ -202,7 +209,7 @@ class TablesBuilder {
     }
     for (const GraphLink& link : graph.links) {
       tables_.links.push_back({place.at(link.a), place.at(link.b)});
-      tables_.yields.push_back({static_cast<int>(tables_.cuts.size()), 1});
+      tables_.yields.push_back({static_cast<int>(tables_.cuts.size()), 1, 0});
       tables_.cuts.push_back(blocks_.number(network_, link.slips));
     }
     tables_.graphs.back().tie_count = static_cast<int>(tables_.ties.size()) - tables_.graphs.back().first_tie;
@@ -212,13 +219,61 @@ class TablesBuilder {
 
   void count() {
     tunable_tables<double>& head = tables_.head;
-    head.tunable_count = static_cast<int>(tables_.tunables.size());
     head.spring_count = static_cast<int>(tables_.springs.size());
     head.part_count = static_cast<int>(tables_.parts.size());
     head.block_count = static_cast<int>(tables_.blocks.size());
     head.slip_count = static_cast<int>(tables_.yields.size());
     head.coupling_count = static_cast<int>(tables_.couplings.size());
     head.graph_count = static_cast<int>(tables_.graphs.size());
+  }
+
+  // With every parameter at its largest: curves of slips through parts that give way without end would lose their
+  // digits.
+  void find_least() {
+    if (tables_.yields.empty()) return;
+    for (tunable_yield<double>& yield : tables_.yields) {
+      double weakest = largest(tables_.cuts[static_cast<std::size_t>(yield.first_cut)]);
+      for (int i = yield.first_cut + 1; i < yield.first_cut + yield.cut_count; ++i)
+        weakest = std::min(weakest, largest(tables_.cuts[static_cast<std::size_t>(i)]));
+      yield.least = to_scalar(Real(tables_.least_share * weakest));
+    }
+    for (tunable_block<double>& block : tables_.blocks) {
+      double stiffness = 0;
+      for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
+        stiffness += largest_stiffness(tables_.parts[static_cast<std::size_t>(i)]);
+      block.least_stiffness = to_scalar(Real(tables_.least_share * stiffness));
+    }
+  }
+
+  double largest(int index) const {
+    const TunableNumber& number = tables_.numbers[static_cast<std::size_t>(index)];
+    double sum = number.base;
+    for (const TunableTerm& term : number.terms) sum += term.share * tables_.tunables[term.tunable].range.max;
+    return sum;
+  }
+  double largest_spring(int spring) const { return largest(tables_.springs[static_cast<std::size_t>(spring)]); }
+
+  // Over a sample [N/m].
+  double largest_stiffness(const tunable_part& part) const {
+    switch (part.kind) {
+      case tunable_kind::spring: return largest_spring(part.spring);
+      case tunable_kind::damper: return largest(part.damping) * tables_.head.rate;
+      case tunable_kind::relaxation: {
+        const double stiffness = largest_spring(part.spring), damping = largest(part.damping);
+        if (const auto& fixed = tables_.fixed[static_cast<std::size_t>(part.spring)]) return stiffness * fixed->share;
+        const double x = damping > 0 ? stiffness / (damping * tables_.head.rate) : largest_ratio;
+        return stiffness * (tables_.is_exact ? mean_decay(x) : 1 / (1 + x));
+      }
+      case tunable_kind::mesh: break;
+    }
+    tunable_mesh<double, most_tunable_nodes> mesh;
+    if (part.node_count > most_tunable_nodes) return 0;  // refused
+    for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
+      const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(i)];
+      mesh.join(0, edge,
+                edge.spring != no_index ? largest_spring(edge.spring) : largest(edge.damping) * tables_.head.rate);
+    }
+    return mesh.eliminate(0, part.node_count);
   }
 
   const Network& network_;

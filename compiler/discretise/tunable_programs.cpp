@@ -1,27 +1,41 @@
 #include "discretise/tunable_programs.hpp"
 
 #include <map>
+#include <string_view>
+#include <tuple>
 
 #include "discretise/contact_surface.hpp"
 #include "discretise/law_writer.hpp"
+#include "discretise/rounding.hpp"
 #include "law/check_law.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
+// What no parameter and no element is called in the emitted class: names of the law's own, and of its tables.
+constexpr std::string_view names_taken =
+    "position force stored held_force step_stiffness springs_stiffness mesh_stiffness mesh_feedthrough mesh_viscosity "
+    "feedthrough_damping viscosity half_viscosity wanted_brake steady_brake velocity_gain brake_left assured_damping "
+    "make_up surface_stiffness recovery_compliance feedthrough_stiffness last_position last_brake resting_brake "
+    "surface brake max_damping period rate one zero minus_one half no_damping largest_ratio chosen_damping "
+    "assured_share law restrict tunables springs parts edges blocks cuts yields couplings nodes graphs links ties "
+    "tables threshold scalar damping steady_damping added_damping sample_period parameters values clamped wanted self "
+    "none surface_at encoder_step gap approach depth surface_change surface_now surface_recovery surface_back "
+    "released pull opposing pushed_force position_change slips_force slips_feedthrough slips_brake slips_wanted "
+    "slips_gain share sampled shifted ";
+
 class ProgramsBuilder {
  public:
   ProgramsBuilder(UpdateLaw law, motion port_motion)
-      : law_(std::move(law)), writer_(law_, port_motion), head_(law_.tunable->head) {}
+      : law_(std::move(law)), writer_(law_, port_motion), tables_(*law_.tunable), head_(tables_.head) {}
 
   UpdateLaw build() {
     declare();
+    write_coefficients();
+    write_brake_rule();
     head_.contact.is_there ? write_contact_output() : write_output();
     write_update();
-    call(law_.rest, resting_, {TunableCall::reset, {law_.rest_position}}, "");
-    for (std::vector<Statement>* program : {&law_.rest, &law_.tune})
-      call(*program, held_, {TunableCall::port, {}, TunableResult::held, {tuned_.begin(), tuned_.end()}}, "");
-    if (!head_.contact.is_there) writer_.assign(law_.rest, law_.last_brake, writer_.read(resting_), "");
+    write_rest();
     call(law_.energy, law_.stored, {TunableCall::stored_energy},
          "V + T: in the springs, and what changes of parameters have set free");
     check_law(law_, "discretise");
@@ -30,33 +44,244 @@ class ProgramsBuilder {
 
  private:
   void declare() {
+    for (std::size_t at = 0; at < names_taken.size(); at = names_taken.find(' ', at) + 1)
+      writer_.unique(std::string(names_taken.substr(at, names_taken.find(' ', at) - at)));
     law_.position = writer_.scalar("position", writer_.length(), "port displacement u", Role::input);
     law_.velocity = writer_.scalar("velocity", writer_.velocity(), "estimate of u̇", Role::input);
     law_.force = writer_.scalar("force", writer_.force(), "motor's part m", Role::local);
     law_.stored = writer_.scalar("stored", "J", "energy in the springs", Role::local);
     held_ = state("held_force", writer_.force(), "π, what springs hold");
-    resting_ = state("resting_brake", writer_.damping(), "b of a tool in touch and at rest");
+    for (Tunable& t : tables_.tunables) {
+      t.value = writer_.scalar(writer_.unique(t.name), t.unit, "parameter", Role::tuned);
+      law_.variables[t.value].rest_value = t.range.value;
+    }
   }
 
-  // What of the port the output reads, each once.
-  ExpressionId tuned(TunableResult result, const char* name, const std::string& unit, const char* meaning) {
-    auto found = tuned_.find(result);
-    if (found == tuned_.end()) found = tuned_.emplace(result, state(name, unit, meaning)).first;
-    return writer_.read(found->second);
+  // Every number, φ and α of every relaxation, and what follows from them for springs, meshes and slips.
+  void write_coefficients() {
+    std::vector<ExpressionId> given;
+    for (int i = 0; i < tables_.brake.observed; ++i) given.push_back(number(i));
+    for (tunable_part& part : tables_.parts)
+      if (part.kind == tunable_kind::relaxation) write_relaxation(part, given);
+    const bool has_meshes = has(tunable_kind::mesh);
+    step_stiffness_ = tuned(has_meshes ? "springs_stiffness" : "step_stiffness", writer_.stiffness(),
+                            "what springs answer in a sample");
+    call(law_.tune, step_stiffness_, {TunableCall::set, given}, "");
+    call(law_.tune, held_, {TunableCall::held}, "");
+    for_each_part([&](const tunable_part& part) {
+      if (part.kind == tunable_kind::damper) feedthrough_ = writer_.plus(feedthrough_, number(part.damping));
+    });
+    viscosity_ = feedthrough_;
+    if (has_meshes) write_meshes(given);
+    if (feedthrough_ == nothing) feedthrough_ = none();
+    if (!follows_viscosity()) return;
+    for_each_part([&](const tunable_part& part) {
+      if (part.kind == tunable_kind::relaxation) viscosity_ = writer_.plus(viscosity_, number(part.damping));
+    });
+    viscosity_ = viscosity_ == nothing
+                     ? none()
+                     : named("viscosity", writer_.damping(), "of the network at low frequency", viscosity_, "Z(0)");
   }
-  ExpressionId stiffness() {
-    return tuned(TunableResult::stiffness, "step_stiffness", writer_.stiffness(), "what springs answer in a sample");
+
+  // z ← z + φ δ − α z with x = T k/b, α = x φ. Exact φ = (1 − e^(−x))/x; backward Euler φ = 1/(1 + x).
+  void write_relaxation(tunable_part& part, std::vector<ExpressionId>& given) {
+    const auto spring = static_cast<std::size_t>(part.spring);
+    const std::string& name = tables_.spring_names[spring];
+    part.share = static_cast<int>(given.size());
+    part.loss = part.share + 1;
+    const char* const kept_means = "φ, of a displacement within a sample, what its spring has at the end";
+    const char* const loss_means = "α, what is lost in a sample";
+    if (const std::optional<FixedRelaxation>& fixed = tables_.fixed[spring]) {
+      given.push_back(writer_.constant(writer_.unique(joined(name, "kept")), "1", kept_means, fixed->share,
+                                       ConstantRole::relaxation_share));
+      given.push_back(
+          writer_.constant(writer_.unique(joined(name, "loss")), "1", loss_means, fixed->loss, ConstantRole::loss));
+      return;
+    }
+    const auto tuned_one = [&](const char* what, const char* meaning, ExpressionId value, const char* purpose) {
+      return named(writer_.unique(joined(name, what)), "1", meaning, value, purpose);
+    };
+    const ExpressionId k = number(tables_.springs[spring]), b = number(part.damping);
+    ExpressionId ratio = writer_.clamp(writer_.divide(writer_.multiply(k, period()), b), largest());
+    if (!(least(part.damping) > 0)) ratio = writer_.where(b, ratio, writer_.where(k, largest(), zero()));
+    const ExpressionId x = tuned_one("ratio", "a sample over the relaxation time", ratio, "x = T k/b");
+    const ExpressionId kept = tuned_one(
+        "kept", kept_means, tables_.is_exact ? writer_.mean_decay(x) : writer_.divide(one(), writer_.add(one(), x)),
+        tables_.is_exact ? "φ = (1 − e^(−x))/x" : "φ = 1/(1 + x)");
+    given.push_back(kept);
+    given.push_back(tuned_one("loss", loss_means, writer_.multiply(x, kept), "α = x φ"));
   }
-  ExpressionId damping() {
-    return tuned(TunableResult::damping, "steady_brake", writer_.damping(), "b of what no slip changes");
+
+  void write_meshes(const std::vector<ExpressionId>& given) {
+    const VariableId stiffness = tuned("mesh_stiffness", writer_.stiffness(), "what meshes answer in a sample"),
+                     through = tuned("mesh_feedthrough", writer_.damping(), "b∞ of the meshes");
+    call(law_.tune, stiffness,
+         {TunableCall::meshes, {}, TunableResult::stiffness, {{TunableResult::feedthrough, through}}}, "");
+    const VariableId both = tuned("step_stiffness", writer_.stiffness(), "what all answer in a sample");
+    writer_.assign(law_.tune, both, writer_.add(writer_.read(step_stiffness_), writer_.read(stiffness)), "");
+    step_stiffness_ = both;
+    feedthrough_ = writer_.plus(feedthrough_, writer_.read(through));
+    if (!follows_viscosity()) return;
+    const VariableId viscosity = tuned("mesh_viscosity", writer_.damping(), "of the meshes at low frequency");
+    call(law_.tune, viscosity, {TunableCall::viscosity, given}, "");
+    viscosity_ = writer_.plus(viscosity_, writer_.read(viscosity));
   }
-  ExpressionId gain() { return tuned(TunableResult::gain, "velocity_gain", writer_.damping(), "b∞ − b"); }
+
+  // b of what no slip changes, and the motor's b∞ − b.
+  void write_brake_rule() {
+    feedthrough_ = named("feedthrough_damping", writer_.damping(), "b∞ of what no slip changes", feedthrough_, "b∞");
+    ExpressionId brake = followed();
+    // What is told of the brake later, by a certificate, is told by a constant.
+    if (tables_.brake.max_damping < largest_finite(law_.scalar))
+      brake = least_of(named("wanted_brake", writer_.damping(), "b, were there no limit", brake, ""), reach());
+    // Where a surface can be left the motor compensates nothing.
+    if (head_.contact.is_there) brake = least_of(brake, feedthrough_);
+    steady_brake_ = tuned("steady_brake", writer_.damping(), "b of what no slip changes");
+    writer_.assign(law_.tune, steady_brake_, brake, "b follows " + tables_.brake.text);
+    velocity_gain_ = tuned("velocity_gain", writer_.damping(), "b∞ − b");
+    writer_.assign(law_.tune, velocity_gain_, writer_.subtract(feedthrough_, writer_.read(steady_brake_)), "b∞ − b");
+    if (!head_.slip_rule.takes_part) return;
+    left_ = tuned("brake_left", writer_.damping(), "what the brake has left for slips");
+    writer_.assign(law_.tune, left_, writer_.subtract(reach(), writer_.read(steady_brake_)), "");
+    if (tables_.brake.assured_share > 0 && !head_.contact.is_there) write_make_up();
+  }
+
+  ExpressionId followed() {
+    const TunableBrake& rule = tables_.brake;
+    const ExpressionId constant =
+        rule.follows == BrakeFollows::constant || rule.follows == BrakeFollows::within_viscosity
+            ? writer_.constant("chosen_damping", writer_.damping(), "b at the defaults", rule.damping)
+            : nothing;
+    switch (rule.follows) {
+      case BrakeFollows::constant: return constant;
+      case BrakeFollows::observed: return number(rule.observed);
+      case BrakeFollows::zero_frequency: return viscosity_;
+      case BrakeFollows::half_zero_frequency: {
+        const ExpressionId half =
+            named("half_viscosity", writer_.damping(), "½ Z(0)",
+                  writer_.multiply(writer_.constant("half", "1", "a half", Real(0.5)), viscosity_), "");
+        return writer_.where(writer_.subtract(half, feedthrough_), half, feedthrough_);
+      }
+      case BrakeFollows::feedthrough: return feedthrough_;
+      case BrakeFollows::within_viscosity: return least_of(constant, viscosity_);
+    }
+    return constant;
+  }
+
+  // Of a coil on its way the motor makes up no more than is assured of b.
+  void write_make_up() {
+    const ExpressionId gain = writer_.read(velocity_gain_);
+    const ExpressionId size = writer_.where(gain, gain, writer_.subtract(none(), gain));
+    const ExpressionId share =
+        writer_.constant("assured_share", "1", "of b, what the motor may make up", tables_.brake.assured_share);
+    const ExpressionId assured =
+        named("assured_damping", writer_.damping(), "what of b is assured beside the estimate's part",
+              writer_.subtract(writer_.multiply(share, writer_.read(steady_brake_)), size), "");
+    make_up_ = named("make_up", writer_.damping(), "what the motor makes up for a coil on its way, at most",
+                     writer_.where(assured, assured, none()), "");
+  }
+
+  bool follows_viscosity() const {
+    const BrakeFollows follows = tables_.brake.follows;
+    return follows == BrakeFollows::zero_frequency || follows == BrakeFollows::half_zero_frequency ||
+           follows == BrakeFollows::within_viscosity;
+  }
+
+  template <class Visit>
+  void for_each_part(Visit visit) const {  // of what joins tool and ground without a slip
+    const tunable_block<double>& block = tables_.blocks.front();
+    for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
+      visit(tables_.parts[static_cast<std::size_t>(i)]);
+  }
+  bool has(tunable_kind kind) const {
+    bool found = false;
+    for_each_part([&](const tunable_part& part) { found |= part.kind == kind; });
+    return found;
+  }
+
+  // A number of the tables: a constant, a parameter, or a sum.
+  ExpressionId number(int index) {
+    auto [known, is_new] = numbers_.emplace(index, nothing);
+    if (is_new) known->second = new_number(tables_.numbers[static_cast<std::size_t>(index)]);
+    return known->second;
+  }
+  ExpressionId new_number(const TunableNumber& n) {
+    ExpressionId sum = nothing;
+    for (const TunableTerm& term : n.terms) {
+      const Tunable& t = tables_.tunables[term.tunable];
+      ExpressionId part = writer_.read(t.value);
+      if (term.share != 1)
+        part = writer_.multiply(constant_of(joined(n.name, "share"), "1", "of " + t.name, term.share), part);
+      sum = writer_.plus(sum, part);
+    }
+    if (n.terms.size() == 1 && n.base == 0)
+      return is_plain(sum) ? sum : named(writer_.unique(n.name), n.unit, "by its share", sum, "");
+    if (!n.terms.empty() && n.base == 0)
+      return named(writer_.unique(joined(n.name, "sum")), n.unit, "of these together", sum, "");
+    const bool is_sum = !n.terms.empty();
+    const ExpressionId base =
+        constant_of(n.name, n.unit, is_sum ? "of what does not change" : "as in the network", n.base);
+    return is_sum
+               ? named(writer_.unique(joined(n.name, "sum")), n.unit, "of these together", writer_.add(base, sum), "")
+               : base;
+  }
+
+  // Of that name, or with a number behind it; the same again for the same value.
+  ExpressionId constant_of(const std::string& name, const std::string& unit, const std::string& meaning, double value) {
+    auto [known, is_new] = constants_.emplace(std::tuple(name, unit, value), nothing);
+    if (is_new)
+      known->second = writer_.constant(writer_.unique(name), unit, meaning, value, ConstantRole::element_value);
+    return known->second;
+  }
+
+  double least(int index) const {
+    const TunableNumber& n = tables_.numbers[static_cast<std::size_t>(index)];
+    double sum = n.base;
+    for (const TunableTerm& term : n.terms) sum += tables_.tunables[term.tunable].range.min;
+    return sum;
+  }
+
+  ExpressionId least_of(ExpressionId one, ExpressionId other) {
+    return writer_.where(writer_.subtract(one, other), other, one);
+  }
+  ExpressionId reach() {
+    return writer_.constant("max_damping", writer_.damping(), "what the brake can give", tables_.brake.max_damping,
+                            ConstantRole::brake_reach);
+  }
+  ExpressionId period() {
+    return writer_.constant("period", "s", "T", law_.sample_period, ConstantRole::element_value);
+  }
+  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate); }
+  ExpressionId one() { return writer_.constant("one", "1", "one", 1); }
+  ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }
+  ExpressionId none() { return writer_.constant("no_damping", writer_.damping(), "none", 0, ConstantRole::zero); }
+  ExpressionId largest() {
+    return writer_.constant("largest_ratio", "1", "beyond, nothing is left after a sample", largest_ratio);
+  }
+
+  VariableId tuned(const std::string& name, const std::string& unit, const std::string& meaning) {
+    return writer_.scalar(name, unit, meaning, Role::tuned);
+  }
+  bool is_plain(ExpressionId value) const { return facts_of(law_.expressions[value].operation).operands == 0; }
+  // What is a variable or a constant already keeps its name.
+  ExpressionId named(const std::string& name, const std::string& unit, const std::string& meaning, ExpressionId value,
+                     const std::string& purpose) {
+    if (is_plain(value)) return value;
+    const VariableId variable = tuned(name, unit, meaning);
+    writer_.assign(law_.tune, variable, value, purpose);
+    return writer_.read(variable);
+  }
+  ExpressionId stiffness() { return writer_.read(step_stiffness_); }
+  ExpressionId damping() { return writer_.read(steady_brake_); }
+  ExpressionId gain() { return writer_.read(velocity_gain_); }
+
+  // −1/g of a surface that nothing touches
   ExpressionId recovery() {
-    return tuned(TunableResult::recovery, "recovery_compliance", writer_.compliance(),
-                 "−1/g of a surface that nothing touches");
-  }
-  ExpressionId feedthrough() {
-    return tuned(TunableResult::feedthrough, "feedthrough_stiffness", writer_.stiffness(), "b∞/h");
+    const ExpressionId all = named("surface_stiffness", writer_.stiffness(), "g, what the surface answers in a sample",
+                                   writer_.add(stiffness(), writer_.multiply(feedthrough_, rate())), "g");
+    const ExpressionId minus_one = writer_.constant("minus_one", "1", "minus one", -1);
+    return named("recovery_compliance", writer_.compliance(), "−1/g of a surface that nothing touches",
+                 writer_.where(all, writer_.divide(minus_one, all), zero()), "−1/g");
   }
 
   VariableId state(const char* name, const std::string& unit, const char* meaning) {
@@ -81,7 +306,7 @@ class ProgramsBuilder {
     ExpressionId sum = writer_.add(product(stiffness(), change_), writer_.read(held_));
     if (head_.slip_count > 0) {
       const VariableId slips = local("slips_force", writer_.force(), "σ, of all slips");
-      call(law_.output, slips, {TunableCall::slip, {change_}}, "σ of all slips");
+      call(law_.output, slips, {TunableCall::slip, {writer_.read(change_)}}, "σ of all slips");
       sum = writer_.add(sum, writer_.read(slips));
     }
     ExpressionId brake = damping(), driven = gain();
@@ -98,16 +323,24 @@ class ProgramsBuilder {
     if (!head_.slip_rule.takes_part) return force;
     const VariableId now = local("slips_feedthrough", writer_.stiffness(), "b∞/h behind slips, left to the brake"),
                      damping = local("slips_brake", writer_.damping(), "b of what is behind slips");
-    CallTunable step = {
-        TunableCall::slip_brake, {law_.position}, TunableResult::now, {{TunableResult::damping, damping}}};
+    CallTunable step = {TunableCall::slip_brake,
+                        {writer_.read(law_.position), writer_.read(left_)},
+                        TunableResult::now,
+                        {{TunableResult::damping, damping}}};
     brake = writer_.add(brake, writer_.read(damping));
-    if (gain != nullptr) {
-      const VariableId make_up =
-          local("slips_gain", writer_.damping(), "what the motor makes up for a coil on its way");
-      step.found.push_back({TunableResult::make_up, make_up});
-      *gain = writer_.add(*gain, writer_.read(make_up));
-    }
+    const bool makes_up = gain != nullptr && make_up_ != nothing;
+    const VariableId wanted =
+        makes_up ? local("slips_wanted", writer_.damping(), "b of what is behind slips, where the coil is going")
+                 : no_variable;
+    if (makes_up) step.found.push_back({TunableResult::wanted, wanted});
     call(law_.output, now, std::move(step), "b of the slips' regime");
+    if (makes_up) {
+      const VariableId slips_gain =
+          local("slips_gain", writer_.damping(), "what the motor makes up for a coil on its way");
+      writer_.assign(law_.output, slips_gain,
+                     writer_.clamp(writer_.subtract(writer_.read(wanted), writer_.read(damping)), make_up_), "");
+      *gain = writer_.add(*gain, writer_.read(slips_gain));
+    }
     return writer_.subtract(force, product(writer_.read(now), change_));
   }
 
@@ -124,9 +357,14 @@ class ProgramsBuilder {
     } else {
       const VariableId pushed = local("pushed_force", writer_.force(), "of all slips and what is beside them");
       call(law_.output, pushed,
-           {TunableCall::push, {surface.approach()}, TunableResult::force, {{TunableResult::change, change_}}},
+           {TunableCall::push,
+            {writer_.read(surface.approach())},
+            TunableResult::force,
+            {{TunableResult::change, change_}}},
            "f of all slips, and Δs");
-      sum = writer_.subtract(writer_.read(pushed), product(feedthrough(), change_));
+      const ExpressionId through =
+          named("feedthrough_stiffness", writer_.stiffness(), "b∞/T", writer_.multiply(feedthrough_, rate()), "b∞/T");
+      sum = writer_.subtract(writer_.read(pushed), product(through, change_));
     }
     surface.write_surface();
     ExpressionId brake = damping();
@@ -139,21 +377,35 @@ class ProgramsBuilder {
     place_ = surface.now();
     if (head_.static_spring == no_index && head_.slip_count > 0) return;
     place_ = local("surface_back", writer_.length(), "s, where what was shed has followed the tool");
-    call(law_.output, place_, {TunableCall::follow, {surface.now(), surface.depth()}},
+    call(law_.output, place_, {TunableCall::follow, {writer_.read(surface.now()), writer_.read(surface.depth())}},
          "a dent comes back with the tool");
   }
 
   void write_update() {
     const VariableId placed = writer_.kept(place_);
-    call(law_.update, held_, {TunableCall::update, {writer_.kept(change_), placed}}, "");
+    call(law_.update, held_, {TunableCall::update, {writer_.read(writer_.kept(change_)), writer_.read(placed)}}, "");
     writer_.assign(law_.update, law_.rest_position, writer_.read(placed), head_.contact.is_there ? "s₋ = s" : "u₋ = u");
+  }
+
+  void write_rest() {
+    call(law_.rest, held_, {TunableCall::reset, {writer_.read(law_.rest_position)}}, "");
+    ExpressionId resting = damping();
+    if (head_.slip_rule.takes_part) {
+      const VariableId slips = state("resting_brake", writer_.damping(), "b of what is behind slips that hold");
+      call(law_.rest, slips, {TunableCall::resting_brake, {writer_.read(left_)}}, "");
+      resting = writer_.add(resting, writer_.read(slips));
+    }
+    if (!head_.contact.is_there) writer_.assign(law_.rest, law_.last_brake, resting, "");
   }
 
   UpdateLaw law_;
   LawWriter writer_;
+  TunableTables& tables_;
   const tunable_tables<double>& head_;
-  std::map<TunableResult, VariableId> tuned_;
-  VariableId held_, resting_, change_, place_;
+  std::map<int, ExpressionId> numbers_;
+  std::map<std::tuple<std::string, std::string, double>, ExpressionId> constants_;
+  VariableId held_, change_, place_, step_stiffness_, steady_brake_, velocity_gain_, left_;
+  ExpressionId feedthrough_ = nothing, viscosity_ = nothing, make_up_ = nothing;
 };
 
 }  // namespace

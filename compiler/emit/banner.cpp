@@ -86,7 +86,7 @@ void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, st
   facts.push_back("tunable: " + names);
   facts.push_back(
       "  set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay");
-  facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake));
+  facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
   facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions",
@@ -95,7 +95,9 @@ void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, st
       fmt::format("cost of update(): at most {} additions and multiplications; {} numbers are kept between samples",
                   operations_of(cost_of(law, law.update)), tables.springs.size()));
   facts.push_back(
-      fmt::format("cost of set(): at most {} additions, multiplications and divisions", operations_of_set(tables)));
+      fmt::format("cost of set(): at most {} additions, multiplications and divisions for the constants, {} for the "
+                  "springs' energy",
+                  operations_of(cost_of(law, law.tune)), operations_of_energy(tables)));
 }
 
 void describe_cost(const Compilation& c, std::vector<std::string>& facts) {

@@ -40,12 +40,12 @@ class C99Printer {
     append_all(program.states, tunables.states);
     program.functions = tunables.functions;
     program.bounds = bounds();
-    program.begin = tunables.begin;
+    program.begin = begin(tunables);
     program.begin.push_back(fmt::format("{}_reset(self, 0);", name_));
     program.reset = reset();
     program.output = output();
     program.update = update();
-    program.tune = lines_of(law_.tune);
+    program.tune = with_constants({&law_.tune}, lines_of(law_.tune));
     program.energy = with_constants({&law_.energy}, lines_of(law_.energy));
     if (!reads_states(law_.energy)) program.energy.insert(program.energy.begin(), "(void)self;");
     if (law_.sheds()) program.kept_share = "self->" + law_.variables[law_.share].name;
@@ -53,6 +53,16 @@ class C99Printer {
   }
 
  private:
+  // The parameters as in the file, and what follows from them.
+  Lines begin(const C99Tunables& tunables) {
+    Lines lines = tunables.begin;
+    for (const Tunable& parameter : law_.parameters())
+      lines.push_back(
+          fmt::format("{} = {};", name(parameter.value, 0), number(law_.variables[parameter.value].rest_value)));
+    append_all(lines, with_constants({&law_.tune}, lines_of(law_.tune)));
+    return lines;
+  }
+
   // The statements of `output` alone read inputs; what is not finite is answered with the last safe command.
   Lines output() {
     Lines lines = lines_of(law_.output);
@@ -101,7 +111,7 @@ class C99Printer {
     std::set<CoefficientId> constants;
     for (const Program* program : read)
       for (const Statement& statement : *program)
-        each_expression(law_, statement.value, [&](const Expression& e) {
+        each_expression(law_, statement, [&](const Expression& e) {
           if (facts_of(e.operation).refers_to == Referent::coefficient) constants.insert(e.coefficient);
           guards |= facts_of(e.operation).guards > 0;
         });
@@ -265,11 +275,17 @@ class C99Printer {
       assign(network.sign[i], fmt::format("({}){}_sign[{}]", scalar(), own, i), lines);
   }
 
-  void print_call(const Statement& statement, const CallTunable& call, Lines& lines) const {
-    std::string given;
-    for (VariableId id : call.given) given += ", " + name(id, 0);
+  // Numbers of the law are given as an array.
+  void print_call(const Statement& statement, const CallTunable& call, Lines& lines) {
     const std::string_view callee = name_of(call.call);
-    const std::string value = fmt::format("{}_tunable_{}(self{})", name_, callee, given);
+    std::string given;
+    for (ExpressionId id : call.given) given += (given.empty() ? "" : ", ") + expression(id);
+    if (takes_numbers(call.call)) {
+      append(lines, fmt::format("const {} {}_numbers[{}] = {{{}}};", scalar(), callee, call.given.size(), given));
+      given = fmt::format("{}_numbers", callee);
+    }
+    const std::string value =
+        fmt::format("{}_tunable_{}(&self->law{}{})", name_, callee, given.empty() ? "" : ", ", given);
     if (call.result == TunableResult::value) return assign(statement.target, value, lines);
     lines.push_back(fmt::format("const {0}_{1} {1} = {2};", name_, callee, value));
     assign(statement.target, fmt::format("{}.{}", callee, name_of(call.result)), lines);
@@ -352,6 +368,7 @@ class C99Printer {
     Spelling spelling;
     spelling.language = Language::c99;
     spelling.suffix = suffix_;
+    spelling.law = name_;
     spelling.variable = [this](VariableId variable) { return name(variable, place_); };
     spelling.coefficient = [this](CoefficientId constant) { return name(law_.coefficients[constant], place_); };
     // A sum is one operand: inside a longer expression its terms keep together.
@@ -370,7 +387,7 @@ class C99Printer {
 
   std::string name(VariableId id, std::size_t place) const {
     const Variable& variable = law_.variables[id];
-    const std::string owner = variable.role == Role::state ? "self->" : "";
+    const std::string owner = variable.is_kept() ? "self->" : "";
     if (law_.is_rolled(variable.size)) return owner + variable.name + (in_loop_.count(id) != 0 ? "" : "[j]");
     if (variable.element_names.empty()) return owner + variable.name;
     return owner + variable.element_names[variable.size == 1 ? 0 : place];
@@ -388,7 +405,7 @@ class C99Printer {
   Lines states() const {
     Lines lines;
     for (const Variable& variable : law_.variables) {
-      if (variable.role != Role::state) continue;
+      if (!variable.is_kept()) continue;
       const std::string remark = fmt::format("{} [{}]", variable.meaning, variable.unit);
       if (law_.is_rolled(variable.size)) {
         lines.push_back(fmt::format("{} {}[{}];  // {}", scalar(), variable.name, variable.size, remark));

@@ -10,16 +10,12 @@
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_slips.hpp"
 #include "emit/cpp_tunable.hpp"
+#include "law/walk.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 using Lines = std::vector<std::string>;
-
-bool takes_zero_frequency(brake_rule rule) {
-  return rule == brake_rule::zero_frequency || rule == brake_rule::half_zero_frequency ||
-         rule == brake_rule::within_viscosity;
-}
 
 void append_all(Lines& lines, const Lines& more) { lines.insert(lines.end(), more.begin(), more.end()); }
 
@@ -37,9 +33,10 @@ class TablesPrinter {
     append_all(tunables.before, sizes());
     append_all(tunables.before, c99_part("tunable_types.h", words));
     append_all(tunables.before, tables());
-    tunables.states = c99_part("tunable_states.h", words);
+    append_all(tunables.before, c99_part("tunable_states.h", words));
+    tunables.states = {fmt::format("{}_tunables law;  // springs, slips and tank", name_)};
     tunables.functions = c99_part("tunable.h", words);
-    tunables.begin = {fmt::format("{}_tunable_begin(self);", name_)};
+    tunables.begin = {fmt::format("{}_tunable_begin(&self->law);", name_)};
     return tunables;
   }
 
@@ -49,26 +46,28 @@ class TablesPrinter {
 
   bool has(tunable_kind kind) const {
     return std::any_of(tables_.parts.begin(), tables_.parts.end(),
-                       [kind](const tunable_part<double>& part) { return part.kind == kind; });
+                       [kind](const tunable_part& part) { return part.kind == kind; });
   }
 
   C99Words wording() const {
     const bool mesh = has(tunable_kind::mesh), graph = !tables_.graphs.empty(), tree = !tables_.couplings.empty();
     const bool brake = head_.slip_rule.takes_part, contact = head_.contact.is_there;
     const bool is_static = head_.static_spring != no_index, slips = !tables_.yields.empty();
-    const bool relaxes = has(tunable_kind::relaxation), zero_frequency = takes_zero_frequency(head_.rule);
+    const auto calls = [this](TunableCall wanted) {
+      return std::any_of(law_.tune.begin(), law_.tune.end(), [wanted](const Statement& statement) {
+        const auto* call = std::get_if<CallTunable>(&statement.step);
+        return call != nullptr && call->call == wanted;
+      });
+    };
     C99Words words;
     words.name = name_;
     words.scalar = law_.scalar;
     words.has = {{"ROOTS", true},
-                 {"DECAYS", relaxes && head_.is_exact},
-                 {"RELAXES", relaxes},
-                 {"EXACT", head_.is_exact},
-                 {"SHARES", !tables_.shares.empty()},
+                 {"DECAYS", uses(law_, Operation::mean_decay)},
+                 {"RELAXES", has(tunable_kind::relaxation)},
                  {"MESH", mesh},
                  {"MESHES", mesh || (graph && brake)},
-                 {"VISCOSITY", mesh && zero_frequency},
-                 {"ZERO_FREQUENCY", zero_frequency},
+                 {"VISCOSITY", calls(TunableCall::viscosity)},
                  {"STATIC", is_static},
                  {"SLIPS", slips},
                  {"TREE", tree},
@@ -79,23 +78,7 @@ class TablesPrinter {
                  {"CONTACT", contact},
                  {"LIMITS", law_.sheds()},
                  {"RETURNS", contact && (is_static || !slips)}};
-    words.text = {{"BRAKE_RULE", brake_rule_text()},
-                  {"LEFT_IN_RELAXATION", head_.is_exact ? fmt::format("{}_mean_decay(x)", name_) : "1 / (1 + x)"}};
     return words;
-  }
-
-  std::string brake_rule_text() const {
-    const std::string constant = name_ + "_wanted_damping";
-    switch (head_.rule) {
-      case brake_rule::constant: return constant;
-      case brake_rule::observed: return fmt::format("{}_number(self, {})", name_, head_.observed);
-      case brake_rule::zero_frequency: return "zero_frequency";
-      case brake_rule::half_zero_frequency:
-        return "((zero_frequency / 2) > self->feedthrough) ? (zero_frequency / 2) : self->feedthrough";
-      case brake_rule::feedthrough: return "self->feedthrough";
-      case brake_rule::within_viscosity: return fmt::format("(zero_frequency < {0}) ? zero_frequency : {0}", constant);
-    }
-    return constant;
   }
 
   // Room for at least one of each, since C has no empty arrays.
@@ -104,7 +87,6 @@ class TablesPrinter {
     for (const slip_node<double>& node : tables_.nodes) slips = std::max(slips, node.slips);
     const auto room = [](auto count) { return std::max(int(count), 1); };
     const std::vector<std::pair<const char*, int>> all = {
-        {"parameters_room", room(tables_.tunables.size())},
         {"spring_count", head_.spring_count},
         {"springs", room(tables_.springs.size())},
         {"part_count", head_.part_count},
@@ -134,22 +116,17 @@ class TablesPrinter {
       return fmt::format("{{{}, {}, {}}},  // {} [{}]", number(t.range.value), number(t.range.min), number(t.range.max),
                          t.name, t.unit);
     });
-    row(lines, "terms", tables_.terms);
-    if (!tables_.shares.empty()) scalars(lines, "shares", tables_.shares);
-    list(lines, "sum", "numbers", tables_.numbers, [this](const tunable_number<double>& n) {
-      return fmt::format("{{{}, {}, {}}},", number(n.base), n.first, n.count);
-    });
     row(lines, "spring_numbers", tables_.springs);
-    list(lines, "part", "parts", tables_.parts, [this](const tunable_part<double>& p) {
+    list(lines, "part", "parts", tables_.parts, [this](const tunable_part& p) {
       return fmt::format("{{{}_{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},", name_, name_of(p.kind), p.spring, p.damping,
-                         p.first_node, p.node_count, p.first_edge, p.edge_count, int(p.is_loose), number(p.share),
-                         number(p.loss));
+                         p.share, p.loss, p.first_node, p.node_count, p.first_edge, p.edge_count, int(p.is_loose));
     });
     if (has(tunable_kind::mesh))
       list(lines, "edge", "edges", tables_.edges,
            [](const tunable_edge& e) { return fmt::format("{{{}, {}, {}, {}}},", e.from, e.to, e.spring, e.damping); });
-    list(lines, "block_parts", "block_table", tables_.blocks,
-         [](const tunable_block& b) { return fmt::format("{{{}, {}}},", b.first_part, b.part_count); });
+    list(lines, "block_parts", "block_table", tables_.blocks, [this](const tunable_block<double>& b) {
+      return fmt::format("{{{}, {}, {}}},", b.first_part, b.part_count, number(b.least_stiffness));
+    });
     append_slips(lines);
     lines.push_back("");
     return lines;
@@ -157,18 +134,13 @@ class TablesPrinter {
 
   void append_constants(Lines& lines) const {
     const std::vector<std::tuple<const char*, double, const char*>> all = {
-        {"period", head_.period, "h [s]"},
         {"rate", head_.rate, "1/h [Hz]"},
         {"retention", head_.retention, "what an offset keeps in a sample where the tank pays [1]"},
         {"threshold", head_.threshold, "magnitudes of states below are zero"},
-        {"least_share", head_.least_share, "of its greatest value, that a part behind a slip keeps [1]"},
-        {"wanted_damping", head_.damping, "b, or the most of it [N·s/m]"},
-        {"max_damping", head_.max_damping, "what the brake can give [N·s/m]"},
         {"surface_at", head_.contact.at, "where the surface lies unloaded [m]"},
         {"encoder_step", head_.contact.encoder_step, "how far the gap may open before the command lets go [m]"},
         {"hysteresis", head_.slip_rule.hysteresis, "before a slide has ended for the command [m]"},
         {"coil_share", head_.slip_rule.coil_share, "of what is missing from √b, in a sample [1]"},
-        {"assured_share", head_.slip_rule.assured_share, "of b, that the motor may make up by an estimate [1]"},
         {"motor_limit", head_.motor_limit, "of its force; 0: none [N]"},
         {"motor_step", head_.motor_step, "of its change in a period; 0: none [N]"}};
     for (const auto& [what, value, meaning] : all)
@@ -179,8 +151,9 @@ class TablesPrinter {
     const auto ends = [](const tunable_ends& e) { return fmt::format("{{{}, {}}},", e.from, e.to); };
     if (tables_.yields.empty()) return;
     row(lines, "cuts", tables_.cuts);
-    list(lines, "yield", "yields", tables_.yields,
-         [](const tunable_yield& y) { return fmt::format("{{{}, {}}},", y.first_cut, y.cut_count); });
+    list(lines, "yield", "yields", tables_.yields, [this](const tunable_yield<double>& y) {
+      return fmt::format("{{{}, {}, {}}},", y.first_cut, y.cut_count, number(y.least));
+    });
     if (!tables_.couplings.empty()) {
       list(lines, "coupling", "couplings", tables_.couplings, [](const tunable_coupling& c) {
         return fmt::format("{{{}, {}, {}, {}, {}}},", c.first_node, c.node_count, c.first_block, c.first_slip,
@@ -215,12 +188,6 @@ class TablesPrinter {
     for (int entry : entries) text += (text.empty() ? "" : ", ") + std::to_string(entry);
     append(lines, fmt::format("static const int {}_{}[{}] = {{{}}};", name_, what,
                               std::max<std::size_t>(entries.size(), 1), entries.empty() ? "0" : text));
-  }
-
-  void scalars(Lines& lines, const char* what, const std::vector<double>& entries) const {
-    std::string text;
-    for (double entry : entries) text += (text.empty() ? "" : ", ") + number(entry);
-    append(lines, fmt::format("static const {} {}_{}[{}] = {{{}}};", scalar(), name_, what, entries.size(), text));
   }
 
   const UpdateLaw& law_;

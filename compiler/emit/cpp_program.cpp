@@ -50,6 +50,7 @@ class CppPrinter {
     if (timing_ == Timing::constant) headers.push_back("dashpot/branch_free.hpp");
     headers.push_back("dashpot/command.hpp");
     if (!law_.networks.empty()) headers.push_back("dashpot/slip_network.hpp");
+    if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
     if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
     if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
     if (law_.tunable) headers.push_back("dashpot/tunable_law.hpp");
@@ -275,16 +276,30 @@ class CppPrinter {
     for (const GuardInTurn& guard : law_.guards)
       lines.push_back(fmt::format("int {}_ = 0;  // first place of {}_ that is guarded next", guard.name,
                                   law_.variables[guard.state].name));
-    append_state_of_tunables(law_, lines);
-    for (const Statement& statement : law_.rest) {
-      const Variable& state = law_.variables[statement.target];
-      if (const auto* call = std::get_if<CallTunable>(&statement.step))
-        append_initial_states(law_, statement, *call, lines);
-      else
-        lines.push_back(
-            fmt::format("scalar {}  // {} [{}]", statements_.lines_of({statement}).back(), state.meaning, state.unit));
-    }
+    if (law_.tunable) append_tuned(lines);
     return lines;
+  }
+
+  // What set() would find for the values to begin with, and then what reset() would.
+  void append_tuned(std::vector<std::string>& lines) {
+    for (const Tunable& parameter : law_.parameters()) {
+      const Variable& variable = law_.variables[parameter.value];
+      lines.push_back(fmt::format("scalar {} = {};  // {} [{}]", CppStatements::scalar_name(variable),
+                                  literal(variable.rest_value), variable.meaning, variable.unit));
+    }
+    append_state_of_tunables(law_, lines);
+    for (const std::vector<Statement>* program : {&law_.tune, &law_.rest})
+      for (const Statement& statement : *program) {
+        if (program == &law_.tune && is_of_rest(statement.target)) continue;
+        const Variable& variable = law_.variables[statement.target];
+        if (const auto* call = std::get_if<CallTunable>(&statement.step))
+          append_initial_values(law_, statement, *call, statements_, lines);
+        else
+          append(lines,
+                 fmt::format("scalar {} = {};", CppStatements::scalar_name(variable),
+                             statements_.expression(statement.value, 0)),
+                 fmt::format("{} [{}]", variable.meaning, variable.unit));
+      }
   }
 
   std::vector<std::string> functions() const {

@@ -225,17 +225,17 @@ std::string CppStatements::sum_text(const Variable& vector) {
 
 std::string CppStatements::scalar_name(const Variable& variable) {
   const std::string& name = variable.element_names.empty() ? variable.name : variable.element_names.front();
-  return variable.role == Role::state ? name + "_" : name;
+  return variable.is_kept() ? name + "_" : name;
 }
 
 std::string CppStatements::array_name(const Variable& variable) const {
-  return variable.role == Role::state ? variable.name + "_" : variable.name;
+  return variable.is_kept() ? variable.name + "_" : variable.name;
 }
 
 std::string CppStatements::vector_name(const Variable& variable, std::size_t place) const {
   if (is_rolled(variable))
     return is_array(variable) ? fmt::format("vector::at({}, j)", array_name(variable)) : variable.name;
-  return variable.role == Role::state ? variable.element_names[place] + "_" : variable.element_names[place];
+  return variable.is_kept() ? variable.element_names[place] + "_" : variable.element_names[place];
 }
 
 }  // namespace dashpot::compiler

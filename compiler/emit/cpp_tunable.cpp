@@ -5,23 +5,12 @@
 #include <algorithm>
 #include <array>
 
+#include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
 #include "emit/cpp_slips.hpp"
 
 namespace dashpot::compiler {
 namespace {
-
-const char* name_of(brake_rule rule) {
-  switch (rule) {
-    case brake_rule::constant: return "constant";
-    case brake_rule::observed: return "observed";
-    case brake_rule::zero_frequency: return "zero_frequency";
-    case brake_rule::half_zero_frequency: return "half_zero_frequency";
-    case brake_rule::feedthrough: return "feedthrough";
-    case brake_rule::within_viscosity: return "within_viscosity";
-  }
-  return "";
-}
 
 class TablesPrinter {
  public:
@@ -33,28 +22,27 @@ class TablesPrinter {
       return fmt::format("{{{}, {}, {}}},  // {} [{}]", number(t.range.value), number(t.range.min), number(t.range.max),
                          t.name, t.unit);
     });
-    row(lines, "terms", tables_.terms);
-    list(lines, "scalar", "shares", tables_.shares, [this](double share, std::size_t) { return number(share) + ","; });
-    list(lines, "dashpot::tunable_number<scalar>", "numbers", tables_.numbers,
-         [this](const tunable_number<double>& n, std::size_t) {
-           return fmt::format("{{{}, {}, {}}},", number(n.base), n.first, n.count);
-         });
     list(lines, "int", "springs", tables_.springs,
          [this](int n, std::size_t i) { return fmt::format("{},  // {}", n, tables_.spring_names[i]); });
-    list(lines, "dashpot::tunable_part<scalar>", "parts", tables_.parts,
-         [this](const tunable_part<double>& p, std::size_t) {
-           return fmt::format("{{dashpot::tunable_kind::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},",
-                              compiler::name_of(p.kind), p.spring, p.damping, p.first_node, p.node_count, p.first_edge,
-                              p.edge_count, p.is_loose, number(p.share), number(p.loss));
-         });
+    list(lines, "dashpot::tunable_part", "parts", tables_.parts, [this](const tunable_part& p, std::size_t) {
+      const std::string remark =
+          p.spring == no_index ? "" : "  // " + tables_.spring_names[static_cast<std::size_t>(p.spring)];
+      return fmt::format("{{dashpot::tunable_kind::{}, {}, {}, {}, {}, {}, {}, {}, {}, {}}},{}",
+                         compiler::name_of(p.kind), p.spring, p.damping, p.share, p.loss, p.first_node, p.node_count,
+                         p.first_edge, p.edge_count, p.is_loose, remark);
+    });
     list(lines, "dashpot::tunable_edge", "edges", tables_.edges, [](const tunable_edge& e, std::size_t) {
       return fmt::format("{{{}, {}, {}, {}}},", e.from, e.to, e.spring, e.damping);
     });
-    list(lines, "dashpot::tunable_block", "blocks", tables_.blocks,
-         [](const tunable_block& b, std::size_t) { return fmt::format("{{{}, {}}},", b.first_part, b.part_count); });
+    list(lines, "dashpot::tunable_block<scalar>", "blocks", tables_.blocks,
+         [this](const tunable_block<double>& b, std::size_t) {
+           return fmt::format("{{{}, {}, {}}},", b.first_part, b.part_count, number(b.least_stiffness));
+         });
     row(lines, "cuts", tables_.cuts);
-    list(lines, "dashpot::tunable_yield", "yields", tables_.yields,
-         [](const tunable_yield& y, std::size_t) { return fmt::format("{{{}, {}}},", y.first_cut, y.cut_count); });
+    list(lines, "dashpot::tunable_yield<scalar>", "yields", tables_.yields,
+         [this](const tunable_yield<double>& y, std::size_t) {
+           return fmt::format("{{{}, {}, {}}},", y.first_cut, y.cut_count, number(y.least));
+         });
     list(lines, "dashpot::tunable_coupling", "couplings", tables_.couplings,
          [](const tunable_coupling& c, std::size_t) {
            return fmt::format("{{{}, {}, {}, {}, {}}},", c.first_node, c.node_count, c.first_block, c.first_slip,
@@ -90,23 +78,19 @@ class TablesPrinter {
   void append_head(std::vector<std::string>& lines) const {
     const tunable_tables<double>& h = tables_.head;
     lines.push_back("static constexpr dashpot::tunable_tables<scalar> tables = {");
-    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", number(h.period), number(h.rate), h.is_exact,
-                                number(h.retention), number(h.threshold), number(h.least_share)));
-    lines.push_back(fmt::format("    dashpot::brake_rule::{}, {}, {}, {}, {},", name_of(h.rule), number(h.damping),
-                                h.observed, number(h.max_damping), h.static_spring));
-    lines.push_back(fmt::format("    {{{}, {}, {}}}, {{{}, {}, {}, {}}},", h.contact.is_there, number(h.contact.at),
+    lines.push_back(
+        fmt::format("    {}, {}, {}, {},", number(h.rate), number(h.retention), number(h.threshold), h.static_spring));
+    lines.push_back(fmt::format("    {{{}, {}, {}}}, {{{}, {}, {}}},", h.contact.is_there, number(h.contact.at),
                                 number(h.contact.encoder_step), h.slip_rule.takes_part, number(h.slip_rule.hysteresis),
-                                number(h.slip_rule.coil_share), number(h.slip_rule.assured_share)));
-    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {}, {},", h.tunable_count, h.spring_count, h.part_count,
-                                h.block_count, h.slip_count, h.coupling_count, h.graph_count));
-    lines.push_back(fmt::format("    tunables, {}, numbers, {}, {}, {}, blocks, {}, {}, {}, {}, {},",
-                                name_or_none("terms", tables_.terms), name_or_none("springs", tables_.springs),
+                                number(h.slip_rule.coil_share)));
+    lines.push_back(fmt::format("    {}, {}, {}, {}, {}, {},", h.spring_count, h.part_count, h.block_count,
+                                h.slip_count, h.coupling_count, h.graph_count));
+    lines.push_back(fmt::format("    {}, {}, {}, blocks, {}, {}, {}, {}, {},", name_or_none("springs", tables_.springs),
                                 name_or_none("parts", tables_.parts), name_or_none("edges", tables_.edges),
                                 name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
                                 name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes),
                                 tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties"));
-    lines.push_back(fmt::format("    {}, {}, {}}};", name_or_none("shares", tables_.shares), number(h.motor_limit),
-                                number(h.motor_step)));
+    lines.push_back(fmt::format("    {}, {}}};", number(h.motor_limit), number(h.motor_step)));
   }
 
   template <class Entry>
@@ -147,7 +131,6 @@ const char* name_of(tunable_kind kind) {
     case tunable_kind::spring: return "spring";
     case tunable_kind::damper: return "damper";
     case tunable_kind::relaxation: return "relaxation";
-    case tunable_kind::fixed_relaxation: return "fixed_relaxation";
     case tunable_kind::mesh: return "mesh";
   }
   return "";
@@ -168,17 +151,14 @@ std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::str
   if (!law.tunable)
     return {"// No parameter of this network can be set while it runs.",
             "unsigned set(const parameters&) noexcept { return 0; }"};
-  std::string wanted;
-  for (const Tunable& t : law.parameters()) wanted += (wanted.empty() ? "wanted." : ", wanted.") + t.name;
   std::vector<std::string> lines = {
-      "// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its "
-      "bound "
-      "now, or it was",
-      "// no number and is as it was.",
-      "unsigned set(const parameters& wanted) noexcept {",
-      "  update();",
-      fmt::format("  const scalar values[] = {{{}}};", wanted),
-      "  const unsigned clamped = law_.set(tables, values);"};
+      "// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its",
+      "// bound now, or it was no number and is as it was.", "unsigned set(const parameters& wanted) noexcept {",
+      "  update();", "  unsigned clamped = 0;"};
+  const std::vector<Tunable> parameters = law.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    lines.push_back(fmt::format("  clamped |= dashpot::take_value(tunables[{0}], wanted.{1}, {2}) << {0};", i,
+                                parameters[i].name, CppStatements::scalar_name(law.variables[parameters[i].value])));
   for (const std::string& line : tune) lines.push_back("  " + line);
   for (const char* line : {"  return clamped;", "}"}) lines.push_back(line);
   return lines;
@@ -190,38 +170,44 @@ void append_tables_of_tunables(const UpdateLaw& law, std::vector<std::string>& l
 }
 
 void append_state_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines) {
-  if (!law.tunable) return;
   const TunableTables& t = *law.tunable;
   const auto room = [](auto count) { return std::max(static_cast<std::size_t>(count), std::size_t(1)); };
-  lines.push_back(fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}, {}> law_{{tables}};",
-                              t.tunables.size(), room(t.springs.size()), room(t.mesh_nodes), t.blocks.size(),
-                              room(t.nodes.size()), t.yields.size(), room(t.corners), t.ends));
+  lines.push_back(fmt::format("dashpot::tunable_law<scalar, {}, {}, {}, {}, {}, {}, {}> law_;", room(t.springs.size()),
+                              room(t.mesh_nodes), t.blocks.size(), room(t.nodes.size()), t.yields.size(),
+                              room(t.corners), t.ends));
 }
 
-std::string call_text(const UpdateLaw& law, const CallTunable& call) {
+namespace {
+
+// Of numbers of the law a list, of others each.
+std::string call_text(const CallTunable& call, CppStatements& statements) {
   std::string given;
-  for (VariableId id : call.given) given += ", " + CppStatements::scalar_name(law.variables[id]);
-  return fmt::format("law_.{}(tables{})", compiler::name_of(call.call), given);
+  for (const ExpressionId id : call.given) given += (given.empty() ? "" : ", ") + statements.expression(id, 0);
+  if (takes_numbers(call.call)) given = "{" + given + "}";
+  return fmt::format("law_.{}(tables{}{})", compiler::name_of(call.call), given.empty() ? "" : ", ", given);
 }
 
-void append_call(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
-                 const CppStatements& statements, std::vector<std::string>& lines) {
+}  // namespace
+
+void append_call(const UpdateLaw& law, const Statement& statement, const CallTunable& call, CppStatements& statements,
+                 std::vector<std::string>& lines) {
   const std::string target = statements.assignment(law.variables[statement.target], 0);
-  if (call.result == TunableResult::value) return lines.push_back(target + call_text(law, call) + ";");
-  lines.push_back(fmt::format("const auto& {} = {};", compiler::name_of(call.call), call_text(law, call)));
+  if (call.result == TunableResult::value) return append(lines, target + call_text(call, statements) + ";");
+  lines.push_back(fmt::format("const auto& {} = {};", compiler::name_of(call.call), call_text(call, statements)));
   each_result(statement, call, [&](VariableId id, TunableResult result) {
     lines.push_back(fmt::format("{}{}.{};", statements.assignment(law.variables[id], 0), compiler::name_of(call.call),
                                 compiler::name_of(result)));
   });
 }
 
-void append_initial_states(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
-                           std::vector<std::string>& lines) {
+void append_initial_values(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
+                           CppStatements& statements, std::vector<std::string>& lines) {
   each_result(statement, call, [&](VariableId id, TunableResult result) {
-    const Variable& state = law.variables[id];
+    const Variable& variable = law.variables[id];
     const std::string member = result == TunableResult::value ? "" : fmt::format(".{}", compiler::name_of(result));
-    lines.push_back(fmt::format("scalar {} = {}{};  // {} [{}]", CppStatements::scalar_name(state),
-                                call_text(law, call), member, state.meaning, state.unit));
+    append(lines,
+           fmt::format("scalar {} = {}{};", CppStatements::scalar_name(variable), call_text(call, statements), member),
+           fmt::format("{} [{}]", variable.meaning, variable.unit));
   });
 }
 

@@ -18,12 +18,13 @@ std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::str
 
 // Nothing of a law without tunables.
 void append_tables_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines);
+// Of one with tunables.
 void append_state_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines);
 
-void append_call(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
-                 const CppStatements& statements, std::vector<std::string>& lines);
-// Declares the states that a call of `rest` assigns, as a new object has them.
-void append_initial_states(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
-                           std::vector<std::string>& lines);
+void append_call(const UpdateLaw& law, const Statement& statement, const CallTunable& call, CppStatements& statements,
+                 std::vector<std::string>& lines);
+// Declares what a call of `tune` or `rest` assigns, as a new object has it.
+void append_initial_values(const UpdateLaw& law, const Statement& statement, const CallTunable& call,
+                           CppStatements& statements, std::vector<std::string>& lines);
 
 }  // namespace dashpot::compiler

@@ -82,11 +82,22 @@ Lines set_of_struct(const UpdateLaw& law, const std::string& name) {
           ""};
 }
 
+Lines value_lines(const UpdateLaw& law) {
+  if (!law.tunable) return {"(void)self;", "(void)i;", "return 0;"};
+  Lines lines;
+  for (const Tunable& parameter : law.parameters())
+    lines.push_back(fmt::format("if (i == {}) return self->{};", lines.size(), law.variables[parameter.value].name));
+  lines.push_back("return 0;");
+  return lines;
+}
+
 Lines set_lines(const UpdateLaw& law, const std::string& name, const Lines& tune) {
   if (!law.tunable) return {"(void)self;", "(void)wanted;", "return 0u;"};
-  Lines lines = {"int is_new = 0;", fmt::format("{}_update(self);", name),
-                 fmt::format("const unsigned clamped = {}_take_values(self, wanted, &is_new);", name),
-                 fmt::format("if (is_new != 0) {}_change_over(self);", name)};
+  Lines lines = {fmt::format("{}_update(self);", name), "unsigned clamped = 0u;"};
+  const std::vector<Tunable> parameters = law.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    lines.push_back(fmt::format("clamped |= {0}_take_value(&{0}_ranges[{1}], wanted[{1}], &self->{2}) << {1};", name, i,
+                                law.variables[parameters[i].value].name));
   lines.insert(lines.end(), tune.begin(), tune.end());
   lines.push_back("return clamped;");
   return lines;
@@ -129,9 +140,7 @@ CodeModel c_header_model(const Compilation& c) {
   model.lists["begin"] = as_list(program.begin);
   model.lists["parameters"] = as_list(parameter_lines(c.law, name));
   model.lists["parameter_struct"] = as_list(parameter_struct(c.law, name));
-  model.lists["value"] = as_list(
-      c.law.tunable ? Lines{fmt::format("return ((i >= 0) && (i < {}_parameters_room)) ? self->value[i] : 0;", name)}
-                    : Lines{"(void)self;", "(void)i;", "return 0;"});
+  model.lists["value"] = as_list(value_lines(c.law));
   model.lists["box"] = as_list(box_lines(c, range, program.bounds));
   model.lists["set"] = as_list(set_lines(c.law, name, program.tune));
   model.lists["set_of_struct"] = as_list(set_of_struct(c.law, name));

@@ -114,7 +114,7 @@ class Check {
   void check_sizes(const Statement& statement) const {
     const Variable& target = law_.variables[statement.target];
     const auto fits = [&](std::size_t size) { return size == 1 || size == target.size; };
-    each_expression(law_, statement.value, [&](const Expression& e) {
+    each_expression(law_, statement, [&](const Expression& e) {
       if (e.operation == Operation::read)
         require(fits(law_.variables[e.variable].size),
                 fmt::format("'{}' does not fit into '{}'", law_.variables[e.variable].name, target.name));
@@ -136,7 +136,8 @@ class Check {
   void check_assigned(const char* phase, VariableId id, std::set<VariableId>& locals, Rights rights) const {
     require(law_.variables.has(id), fmt::format("{} assigns no variable", phase));
     const Variable& variable = law_.variables[id];
-    require((variable.role == Role::state && rights.states) || (variable.role == Role::local && rights.locals),
+    require((variable.role == Role::state && rights.states) || (variable.role == Role::local && rights.locals) ||
+                (variable.role == Role::tuned && phase == std::string_view("tune")),
             fmt::format("{} assigns '{}'", phase, variable.name));
     if (variable.role == Role::local)
       require(locals.insert(id).second, fmt::format("{} assigns '{}' twice", phase, variable.name));

@@ -1,6 +1,7 @@
 #include "law/evaluate.hpp"
 
 #include <dashpot/elementary.hpp>
+#include <dashpot/exponential.hpp>
 
 namespace dashpot::compiler {
 
@@ -9,11 +10,13 @@ Evaluation<Scalar>::Evaluation(const UpdateLaw& law) : law_(law) {
   if (law.tunable) tunable_ = std::make_unique<TunableRun<Scalar>>(*law.tunable);
   for (const Variable& variable : law.variables)
     variables_.emplace_back(variable.size, static_cast<Scalar>(variable.rest_value));
+  for (const Tunable& parameter : law.parameters()) at(parameter.value)[0] = static_cast<Scalar>(parameter.range.value);
   for (const Coefficient& coefficient : law.coefficients)
     coefficients_.emplace_back(coefficient.values.begin(), coefficient.values.end());
   turns_.assign(law.guards.size(), 0);
   for (const Coupling& coupling : law.couplings) solvers_.push_back(solver_of(coupling));
   for (const SlipNetwork& network : law.networks) network_solvers_.push_back(solver_of(network));
+  run(law.tune);
   run(law.rest);
 }
 
@@ -54,6 +57,7 @@ typename Evaluation<Scalar>::NetworkSolver Evaluation<Scalar>::solver_of(const S
 template <class Scalar>
 void Evaluation<Scalar>::reset(Scalar position) {
   for (const Variable& variable : law_.variables) {
+    if (variable.role == Role::tuned) continue;
     std::vector<Scalar>& places = at(law_.variables.id_of(variable));
     std::fill(places.begin(), places.end(), static_cast<Scalar>(variable.rest_value));
   }
@@ -99,7 +103,10 @@ Scalar Evaluation<Scalar>::kept_share() const {
 template <class Scalar>
 unsigned Evaluation<Scalar>::set(const std::vector<Scalar>& values) {
   update();
-  const unsigned clamped = tunable_ ? tunable_->set(values.data()) : 0;
+  const std::vector<Tunable> parameters = law_.parameters();
+  unsigned clamped = 0;
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    clamped |= take_value(converted<Scalar>(parameters[i].range), values[i], at(parameters[i].value)[0]) << i;
   run(law_.tune);
   return clamped;
 }
@@ -189,7 +196,7 @@ void Evaluation<Scalar>::take(const SolveNetwork& step, const Statement& stateme
 template <class Scalar>
 void Evaluation<Scalar>::take(const CallTunable& step, const Statement& statement) {
   std::vector<Scalar> given;
-  for (VariableId variable : step.given) given.push_back(at(variable)[0]);
+  for (const ExpressionId expression : step.given) given.push_back(value(expression, 0));
   const TunableAnswer<Scalar> answer = tunable_->call(step.call, given);
   at(statement.target)[0] = answer.of(step.result);
   for (const auto& [result, variable] : step.found) at(variable)[0] = answer.of(result);
@@ -242,6 +249,7 @@ Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
     case Operation::multiply: return operand(0) * operand(1);
     case Operation::divide: return operand(0) / operand(1);
     case Operation::square_root: return square_root(operand(0));
+    case Operation::mean_decay: return mean_decay(operand(0));
     case Operation::flush: return flushed(operand(0));
     case Operation::clamp: return clamp_to(operand(1), operand(0));
     case Operation::where: return operand(0) > 0 ? operand(1) : operand(2);

@@ -9,7 +9,8 @@ class Printer {
  public:
   Printer(const UpdateLaw& law, const Spelling& spelling) : law_(law), spelling_(spelling) {}
 
-  // A form with what stands in its braces: {name}, {f}, {0}, or {0:1} for an operand that is to hold as tightly as 1.
+  // A form with what stands in its braces: {name}, {f}, {law}, {0}, or {0:1} for an operand that is to hold as tightly
+  // as 1.
   std::string text(ExpressionId id) const {
     const Expression& e = law_.expressions[id];
     std::string result;
@@ -21,7 +22,10 @@ class Printer {
       }
       const std::size_t end = form.find('}', at);
       const std::string_view what = form.substr(at + 1, end - at - 1);
-      result += what == "name" ? name(e) : what == "f" ? spelling_.suffix : operand(e, what);
+      result += what == "name"  ? name(e)
+                : what == "f"   ? spelling_.suffix
+                : what == "law" ? spelling_.law
+                                : operand(e, what);
       at = end;
     }
     return result;

@@ -12,6 +12,7 @@ namespace dashpot::compiler {
 struct Spelling {
   Language language = Language::text;
   std::string suffix = "";  // of functions, where a language has one for each type
+  std::string law = "";     // before functions that each law has of its own
   std::function<std::string(VariableId variable)> variable;
   std::function<std::string(CoefficientId coefficient)> coefficient;  // a table where it is picked from
   std::function<std::string(VariableId vector)> sum;

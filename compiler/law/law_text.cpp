@@ -7,9 +7,9 @@
 namespace dashpot::compiler {
 namespace {
 
-std::string call_text(const UpdateLaw& law, const CallTunable& call) {
+std::string call_text(const UpdateLaw& law, const CallTunable& call, const Spelling& spelling) {
   std::string given, found;
-  for (VariableId id : call.given) given += (given.empty() ? "" : ", ") + law.variables[id].name;
+  for (ExpressionId id : call.given) given += (given.empty() ? "" : ", ") + expression_text(law, id, spelling);
   for (const auto& [result, id] : call.found) found += ", " + law.variables[id].name;
   return fmt::format("{}({}){}{}", name_of(call.call), given, found.empty() ? "" : " with ",
                      found.substr(found.empty() ? 0 : 2));
@@ -20,7 +20,7 @@ std::string value_text(const UpdateLaw& law, const Statement& statement) {
   spelling.variable = [&](VariableId id) { return law.variables[id].name; };
   spelling.coefficient = [&](CoefficientId id) { return law.coefficients[id].name; };
   spelling.sum = [&](VariableId id) { return "sum(" + law.variables[id].name + ")"; };
-  if (const auto* call = std::get_if<CallTunable>(&statement.step)) return call_text(law, *call);
+  if (const auto* call = std::get_if<CallTunable>(&statement.step)) return call_text(law, *call, spelling);
   const std::string value = expression_text(law, statement.value, spelling);
   if (const auto* network = std::get_if<SolveNetwork>(&statement.step))
     return fmt::format("{}({})", law.networks[network->network].name, value);
@@ -84,27 +84,14 @@ std::string program_text(const UpdateLaw& law, const char* title, const std::vec
   return text;
 }
 
-std::string number_text(const TunableTables& tables, int index) {
-  const tunable_number<double>& number = tables.numbers[static_cast<std::size_t>(index)];
-  std::string text = fmt::format("{}", number.base);
-  for (int i = number.first; i < number.first + number.count; ++i) {
-    if (!tables.shares.empty()) text += fmt::format(" + {} *", tables.shares[static_cast<std::size_t>(i)]);
-    text += (tables.shares.empty() ? " + " : " ") +
-            tables.tunables[static_cast<std::size_t>(tables.terms[static_cast<std::size_t>(i)])].name;
-  }
-  return text;
-}
-
 std::string tunable_text(const TunableTables& tables) {
-  std::string text = fmt::format("damping follows {}\n", tables.brake);
+  std::string text = fmt::format("damping follows {}\n", tables.brake.text);
   for (const Tunable& t : tables.tunables)
     text += fmt::format("tunable {} [{}] {}, {} to {}\n", t.name, t.unit, t.range.value, t.range.min, t.range.max);
-  for (std::size_t i = 0; i < tables.springs.size(); ++i)
-    text += fmt::format("spring {} {}\n", tables.spring_names[i], number_text(tables, tables.springs[i]));
-  for (const tunable_part<double>& part : tables.parts) {
+  for (const tunable_part& part : tables.parts) {
     if (part.spring != no_index)
       text += fmt::format("part with spring {}\n", tables.spring_names[static_cast<std::size_t>(part.spring)]);
-    if (part.damping != no_index) text += fmt::format("part with damping {}\n", number_text(tables, part.damping));
+    if (part.kind == tunable_kind::damper) text += "part with a damper\n";
     if (part.kind == tunable_kind::mesh)
       text += fmt::format("part of {} nodes and {} edges\n", part.node_count, part.edge_count);
   }
@@ -133,7 +120,8 @@ std::string to_text(const UpdateLaw& law, const Network& network) {
     text += fmt::format("  {} places of {} a sample, in turn, are zero below {}\n", guard.places,
                         law.variables[guard.state].name, law.flush_threshold);
   return text + program_text(law, "output", law.output) + program_text(law, "keep", law.keep) +
-         program_text(law, "update", law.update) + program_text(law, "energy", law.energy);
+         program_text(law, "update", law.update) + program_text(law, "energy", law.energy) +
+         (law.tunable ? program_text(law, "tune", law.tune) : "");
 }
 
 }  // namespace dashpot::compiler

@@ -24,10 +24,7 @@ bool is_representable(const UpdateLaw& law, const Network& network, Diagnostics&
   require({law.damping}, "damping", network.port_motion == motion::rotation ? "N·m·s/rad" : "N·s/m");
   for (const Coefficient& coefficient : law.coefficients)
     require(coefficient.values, coefficient.name, coefficient.unit);
-  if (!law.tunable) return all;
-  for (const Tunable& t : law.tunable->tunables) require({t.range.value, t.range.min, t.range.max}, t.name, t.unit);
-  for (std::size_t i = 0; i < law.tunable->numbers.size(); ++i)
-    require({law.tunable->numbers[i].base}, "numbers[" + std::to_string(i) + "]", "SI");
+  for (const Tunable& t : law.parameters()) require({t.range.value, t.range.min, t.range.max}, t.name, t.unit);
   return all;
 }
 

@@ -8,7 +8,7 @@ namespace dashpot::compiler {
 namespace {
 
 // What one call takes at most, counted in the headers of the runtime.
-constexpr std::size_t square_root_operations = 110, mean_decay_operations = 56;
+constexpr std::size_t square_root_operations = 110;
 
 std::size_t size_of(int count) { return static_cast<std::size_t>(count); }
 
@@ -30,16 +30,21 @@ std::size_t first_order_elimination(std::size_t nodes) {
 
 std::size_t held(const TunableTables& tables) {
   std::size_t operations = 0;
-  for (const tunable_part<double>& part : tables.parts) {
+  for (const tunable_part& part : tables.parts) {
     const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
-    operations += part.kind == tunable_kind::mesh ? 5 * edges + 2 * pairs(nodes) + 2 * nodes + 2 : 6;
+    switch (part.kind) {
+      case tunable_kind::spring: operations += 3; break;
+      case tunable_kind::damper: operations += 1; break;
+      case tunable_kind::relaxation: operations += 6; break;
+      case tunable_kind::mesh: operations += 5 * edges + 2 * pairs(nodes) + 2 * nodes + 2; break;
+    }
   }
   return operations;
 }
 
 std::size_t advance(const TunableTables& tables) {
   std::size_t operations = 0;
-  for (const tunable_part<double>& part : tables.parts) {
+  for (const tunable_part& part : tables.parts) {
     const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
     operations += part.kind == tunable_kind::mesh ? 2 * edges + 2 * pairs(nodes) + 3 * nodes : 4;
   }
@@ -56,17 +61,23 @@ std::size_t slips(const TunableTables& tables) {
   return operations;
 }
 
+// g and b∞ of every block, and the curves of slips.
 std::size_t tuning(const TunableTables& tables) {
-  std::size_t operations = 14 + 4 * tables.nodes.size();
-  // A number is asked for up to six times: by the brake, by three eliminations, by the viscosity, by the step.
-  const std::size_t per_term = tables.shares.empty() ? 6 : 12;
-  for (const tunable_number<double>& number : tables.numbers) operations += per_term * size_of(number.count);
-  for (const tunable_part<double>& part : tables.parts) {
+  std::size_t operations = 4 * tables.nodes.size();
+  for (const tunable_part& part : tables.parts) {
     const std::size_t nodes = size_of(part.node_count), edges = size_of(part.edge_count);
-    operations += 14;
-    if (part.kind == tunable_kind::relaxation) operations += 2 * (6 + mean_decay_operations);
+    operations += part.kind == tunable_kind::relaxation ? 4 : 3;
+    if (part.kind == tunable_kind::mesh) operations += 3 + 4 * edges + 2 * elimination(nodes);
+  }
+  return operations;
+}
+
+std::size_t viscosity(const TunableTables& tables) {
+  std::size_t operations = 0;
+  for (int i = 0; i < tables.blocks.front().part_count; ++i) {
+    const tunable_part& part = tables.parts[size_of(tables.blocks.front().first_part + i)];
     if (part.kind == tunable_kind::mesh)
-      operations += 20 * edges + 5 * elimination(nodes) + first_order_elimination(nodes);
+      operations += 1 + 2 * size_of(part.edge_count) + first_order_elimination(size_of(part.node_count));
   }
   return operations;
 }
@@ -75,7 +86,7 @@ std::size_t tuning(const TunableTables& tables) {
 std::size_t slip_brake(const TunableTables& tables) {
   if (!tables.head.slip_rule.takes_part) return 0;
   std::size_t operations =
-      18 + 4 * tables.yields.size() + (tables.head.slip_rule.coil_share < 1 ? square_root_operations + 4 : 0);
+      16 + 4 * tables.yields.size() + (tables.head.slip_rule.coil_share < 1 ? square_root_operations + 4 : 0);
   for (const tunable_coupling& coupling : tables.couplings)
     operations +=
         2 * (1 + size_of(slip_regime_operations(tables.nodes.data() + coupling.first_node, coupling.node_count)));
@@ -107,16 +118,20 @@ std::size_t operations_of(const TunableTables& tables, TunableCall call) {
     case TunableCall::limit: return 7;
     case TunableCall::follow: return 2;
     case TunableCall::update: return advance(tables) + held(tables) + springs(tables);
+    case TunableCall::set: return tuning(tables) + held(tables);
+    case TunableCall::viscosity: return viscosity(tables);
+    case TunableCall::meshes:
+    case TunableCall::held:
     case TunableCall::reset:
-    case TunableCall::port:
-    case TunableCall::stored_energy: return 0;  // not in the loop
+    case TunableCall::resting_brake:
+    case TunableCall::stored_energy: return 0;  // not in the loop, or nothing to work out
   }
   return 0;
 }
 
-std::size_t operations_of_set(const TunableTables& tables) {
+std::size_t operations_of_energy(const TunableTables& tables) {
   const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
-  return tuning(tables) + tables.springs.size() * per_spring + square_root_operations + 16 + held(tables);
+  return tables.springs.size() * per_spring + square_root_operations + 16;
 }
 
 }  // namespace dashpot::compiler

@@ -13,8 +13,12 @@ std::string_view name_of(ModeForm form) {
 
 std::string_view name_of(TunableCall call) {
   switch (call) {
+    case TunableCall::set: return "set";
+    case TunableCall::meshes: return "meshes";
+    case TunableCall::viscosity: return "viscosity";
+    case TunableCall::held: return "held";
     case TunableCall::reset: return "reset";
-    case TunableCall::port: return "port";
+    case TunableCall::resting_brake: return "resting_brake";
     case TunableCall::slip: return "slip";
     case TunableCall::push: return "push";
     case TunableCall::slip_brake: return "slip_brake";
@@ -29,16 +33,13 @@ std::string_view name_of(TunableCall call) {
 std::string_view name_of(TunableResult result) {
   switch (result) {
     case TunableResult::value: return "value";
-    case TunableResult::held: return "held";
     case TunableResult::stiffness: return "stiffness";
-    case TunableResult::recovery: return "recovery";
     case TunableResult::feedthrough: return "feedthrough";
     case TunableResult::damping: return "damping";
-    case TunableResult::gain: return "gain";
     case TunableResult::force: return "force";
     case TunableResult::change: return "change";
     case TunableResult::now: return "now";
-    case TunableResult::make_up: return "make_up";
+    case TunableResult::wanted: return "wanted";
     case TunableResult::share: return "share";
   }
   return "";

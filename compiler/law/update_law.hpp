@@ -41,6 +41,7 @@ inline constexpr VariableId no_variable{};
 enum class Role : std::uint8_t {
   input,  // given with the sample
   state,  // kept from one call to the next
+  tuned,  // kept until set() changes it: a parameter, or what follows from some
   local,  // of one phase
 };
 
@@ -52,6 +53,8 @@ struct Variable {
   std::size_t size = 1;
   std::vector<std::string> element_names = {};  // of a vector, one name a place; empty for a scalar
   double rest_value = 0;                        // of a state, after reset()
+
+  bool is_kept() const { return role == Role::state || role == Role::tuned; }
 };
 
 // What a constant is in the law's equations: what certificates, verification and reports ask for.
@@ -77,6 +80,9 @@ enum class ConstantRole : std::uint8_t {
   steady_damping,         // b of what no slip changes
   map,                    // of the map of a static curve: where its cells lie, and its cubics
   motor_reach,            // what the motor can make, and shares of it
+  element_value,          // k, B or Y of elements together, beside parameters that change
+  relaxation_share,       // φ of a relaxation that no parameter touches; its α is a loss
+  brake_reach,            // what the brake can give where parameters change
   brake_choice,           // how the brake is commanded: shares, samples, thresholds, what is chosen and not computed
   zero,                   // nothing
 };
@@ -114,27 +120,14 @@ struct SolveNetwork {
 };
 
 // What a call returns: its value, or members of it.
-enum class TunableResult : std::uint8_t {
-  value,
-  held,
-  stiffness,
-  recovery,
-  feedthrough,
-  damping,
-  gain,
-  force,
-  change,
-  now,
-  make_up,
-  share
-};
+enum class TunableResult : std::uint8_t { value, stiffness, feedthrough, damping, force, change, now, wanted, share };
 
 std::string_view name_of(TunableResult result);
 
 struct CallTunable {
   TunableCall call;
-  std::vector<VariableId> given = {};
-  TunableResult result = TunableResult::value;                   // of the target
+  std::vector<ExpressionId> given = {};         // without operations: read once more wherever they are written
+  TunableResult result = TunableResult::value;  // of the target
   std::vector<std::pair<TunableResult, VariableId>> found = {};  // assigned beside it
 };
 
@@ -240,7 +233,7 @@ struct UpdateLaw {
   std::vector<Statement> energy;    // ends with the assignment of `stored`
   std::vector<Statement> start;     // of reset(): locals of the position, where `started_at` needs them
   std::vector<Statement> rest;      // of reset(): states that do not rest at a constant, after all others
-  std::vector<Statement> tune;      // of set(), with the parameters' new values
+  std::vector<Statement> tune;  // of set(), with the parameters' new values: all that is tuned, and states that follow
 
   std::optional<JointPorts> joints;  // of a law of several joints
 

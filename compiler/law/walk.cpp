@@ -17,7 +17,9 @@ struct SolverReads {
     visit_all(law.networks[step.network].held, visit);
     visit_all(law.networks[step.network].last_sign, visit);
   }
-  void operator()(const CallTunable& step) const { visit_all(step.given, visit); }
+  void operator()(const CallTunable& step) const {
+    for (const ExpressionId given : step.given) each_read(law, given, visit);
+  }
 };
 
 struct SolverAssigns {
@@ -42,7 +44,7 @@ struct SolverAssigns {
 template <class Visit>
 void each_expression(const UpdateLaw& law, const Visit& visit) {
   for (const std::vector<Statement>* program : programs(law))
-    for (const Statement& statement : *program) each_expression(law, statement.value, visit);
+    for (const Statement& statement : *program) each_expression(law, statement, visit);
 }
 
 }  // namespace

@@ -23,6 +23,14 @@ void each_expression(const UpdateLaw& law, ExpressionId id, const Visit& visit) 
   for (ExpressionId operand : operands(expression)) each_expression(law, operand, visit);
 }
 
+// Those of a statement: its value, or what its call is given.
+template <class Visit>
+void each_expression(const UpdateLaw& law, const Statement& statement, const Visit& visit) {
+  each_expression(law, statement.value, visit);
+  if (const auto* call = std::get_if<CallTunable>(&statement.step))
+    for (const ExpressionId given : call->given) each_expression(law, given, visit);
+}
+
 using VisitVariable = std::function<void(VariableId)>;
 
 // The variables that an expression reads, each as often as it does.
@@ -38,8 +46,8 @@ bool reads(const UpdateLaw& law, const std::vector<Statement>& program, Variable
 std::set<CoefficientId> constants_read(const UpdateLaw& law);
 bool uses(const UpdateLaw& law, Operation operation);
 
-inline std::array<const std::vector<Statement>*, 4> programs(const UpdateLaw& law) {
-  return {&law.output, &law.keep, &law.update, &law.energy};
+inline std::array<const std::vector<Statement>*, 5> programs(const UpdateLaw& law) {
+  return {&law.output, &law.keep, &law.update, &law.energy, &law.tune};
 }
 
 }  // namespace dashpot::compiler

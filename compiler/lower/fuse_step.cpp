@@ -25,6 +25,7 @@ bool shows(const UpdateLaw& law, ExpressionId id, VariableId input) {
     case Operation::constant:
     case Operation::divide:
     case Operation::square_root:
+    case Operation::mean_decay:
     case Operation::flush:
     case Operation::clamp:
     case Operation::where:

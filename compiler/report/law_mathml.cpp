@@ -59,6 +59,8 @@ class Writer {
       case Operation::divide:
         return "<mfrac><mrow>" + written(e.operands[0]) + "</mrow><mrow>" + written(e.operands[1]) + "</mrow></mfrac>";
       case Operation::square_root: return "<msqrt>" + written(e.operands[0]) + "</msqrt>";
+      case Operation::mean_decay:
+        return "<mi>φ</mi><mo stretchy=\"false\">(</mo>" + written(e.operands[0]) + "<mo stretchy=\"false\">)</mo>";
       case Operation::flush: return written(e.operands[0]);
       case Operation::clamp:
         return "<mi>clamp</mi>" +

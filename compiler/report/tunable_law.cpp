@@ -47,7 +47,7 @@ std::string tunable_law_html(const Compilation& c) {
       "<p>The constants follow the parameters: <code>set()</code> takes the law to others between two samples, "
       "and injects no energy. Everything else on this page holds for their defaults.</p>\n";
   html += parameters_table(tables, c.network);
-  html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake) + ".";
+  html += "<p>The brake's <i>b</i> follows " + escaped(tables.brake.text) + ".";
   if (!tables.mesh_elements.empty())
     html += " By backward Euler, since their relaxations mix with a parameter or at several slips: " +
             escaped(joined_names(tables.mesh_elements)) + ".";
@@ -55,7 +55,8 @@ std::string tunable_law_html(const Compilation& c) {
                     " Cost at most: {} operations before the command, {} after it, {} in <code>set()</code>; "
                     "{} state{}.</p>\n",
                     operations_of(cost_of(c.law, c.law.output)), operations_of(cost_of(c.law, c.law.update)),
-                    operations_of_set(tables), states, states == 1 ? "" : "s");
+                    operations_of(cost_of(c.law, c.law.tune)) + operations_of_energy(tables), states,
+                    states == 1 ? "" : "s");
 }
 
 }  // namespace dashpot::compiler

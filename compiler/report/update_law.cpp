@@ -34,8 +34,7 @@ std::string coupled(const UpdateLaw& law, const Statement& statement, const Coup
 std::string called(const UpdateLaw& law, const Statement& statement, const CallTunable& call) {
   std::string assigned = variable_mathml(law.variables[statement.target]), given;
   for (const auto& [result, id] : call.found) assigned += "<mo>,</mo>" + variable_mathml(law.variables[id]);
-  for (const VariableId id : call.given)
-    given += (given.empty() ? "" : "<mo>,</mo>") + variable_mathml(law.variables[id]);
+  for (const ExpressionId id : call.given) given += (given.empty() ? "" : "<mo>,</mo>") + expression_mathml(law, id);
   const bool is_state = law.variables[statement.target].role == Role::state;
   return line(assigned, is_state ? "←" : "=",
               fmt::format("<mtext>{}</mtext><mo stretchy=\"false\">(</mo>{}<mo stretchy=\"false\">)</mo>",

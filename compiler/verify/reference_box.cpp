@@ -47,7 +47,7 @@ class Box {
         worst = worst ? std::max(*worst, here) : here;
       }
     }
-    box.largest_brake = std::min(Reference(box.largest_brake + behind_slips), Reference(tables_.head.max_damping));
+    box.largest_brake = std::min(Reference(box.largest_brake + behind_slips), Reference(tables_.brake.max_damping));
     box.lacking = *worst;
     return box;
   }
@@ -76,7 +76,7 @@ class Box {
 
   SumCut cut_but_for_dampers(const ReferenceBlock& block) const {
     SumCut cut{added({}, block.stiffness, Reference(1) / 2), {}};
-    const Reference of_any = tables_.head.is_exact ? Reference(57) / 100 : Reference(1) / 2;
+    const Reference of_any = tables_.is_exact ? Reference(57) / 100 : Reference(1) / 2;
     for (const ReferenceRelaxation& r : block.relaxations) {
       const Reference share = r.is_fixed ? hold_of(r.factors, r.stiffness.base) : of_any;
       cut.stiffness = added(cut.stiffness, r.stiffness, share);
@@ -90,7 +90,7 @@ class Box {
     SumCut cut = cut_but_for_dampers(block);
     cut.damping = added(cut.damping, block.damping);
     cut.stiffness.base +=
-        Reference(tables_.head.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) * Reference(facts_.rate));
+        Reference(tables_.least_share) * 2 * (most(cut.stiffness) + most(cut.damping) * Reference(facts_.rate));
     return cut;
   }
 
@@ -190,7 +190,7 @@ class Box {
       auto block = tunables_.blocks[i].begin();
       for (const ReferencePart& child : component.children) {
         if (child.kind == ReferencePart::Kind::block)
-          sum += most(gain_of(*block, true)) * (1 + 2 * Reference(tables_.head.least_share));
+          sum += most(gain_of(*block, true)) * (1 + 2 * Reference(tables_.least_share));
         block += std::ptrdiff_t(blocks_of(child).size());
       }
     }
@@ -222,34 +222,33 @@ class Box {
   Reference make_up(const std::vector<ReferenceSum>& brakes, const Reference& behind_slips) const {
     Reference largest = 0;
     for (const ReferenceSum& brake : brakes) largest = std::max(largest, most(brake));
-    const tunable_slip_rule<double>& rule = tables_.head.slip_rule;
-    return rule.coil_share < 1 ? std::min(behind_slips, Reference(rule.assured_share * largest)) : Reference(0);
+    return std::min(behind_slips, Reference(tables_.brake.assured_share * largest));
   }
 
   ReferenceSum observed() const {
-    const tunable_number<double>& number = tables_.numbers[std::size_t(tables_.head.observed)];
+    const TunableNumber& number = tables_.numbers[std::size_t(tables_.brake.observed)];
     ReferenceSum sum{number.base, std::vector<Reference>(tunables_.parameters.size(), 0)};
-    for (int i = number.first; i < number.first + number.count; ++i)
-      sum.factors[std::size_t(tables_.terms[std::size_t(i)])] +=
-          tables_.shares.empty() ? Reference(1) : Reference(tables_.shares[std::size_t(i)]);
+    for (const TunableTerm& term : number.terms) sum.factors[term.tunable] += Reference(term.share);
     return sum;
   }
 
   std::vector<ReferenceSum> brakes_of_rule() const {
-    const brake_rule rule = tables_.head.rule;
-    const ReferenceSum constant{tables_.head.damping, {}};
-    const bool looks_inside = rule != brake_rule::constant && rule != brake_rule::observed;
+    const BrakeFollows follows = tables_.brake.follows;
+    const ReferenceSum constant{tables_.brake.damping, {}};
+    const bool looks_inside = follows != BrakeFollows::constant && follows != BrakeFollows::observed;
     std::vector<ReferenceSum> all;
     if (looks_inside && !tunables_.linear.meshes.empty()) return all;
-    switch (rule) {
-      case brake_rule::constant: all = {constant}; break;
-      case brake_rule::observed: all = {observed()}; break;
-      case brake_rule::feedthrough: all = {feedthrough()}; break;
-      case brake_rule::zero_frequency: all = {zero_frequency()}; break;
-      case brake_rule::half_zero_frequency: all = {added({}, zero_frequency(), Reference(1) / 2), feedthrough()}; break;
-      case brake_rule::within_viscosity: all = {constant, zero_frequency()}; break;
+    switch (follows) {
+      case BrakeFollows::constant: all = {constant}; break;
+      case BrakeFollows::observed: all = {observed()}; break;
+      case BrakeFollows::feedthrough: all = {feedthrough()}; break;
+      case BrakeFollows::zero_frequency: all = {zero_frequency()}; break;
+      case BrakeFollows::half_zero_frequency:
+        all = {added({}, zero_frequency(), Reference(1) / 2), feedthrough()};
+        break;
+      case BrakeFollows::within_viscosity: all = {constant, zero_frequency()}; break;
     }
-    const Reference reach = tables_.head.max_damping;
+    const Reference reach = tables_.brake.max_damping;
     if (std::none_of(all.begin(), all.end(), [&](const ReferenceSum& b) { return most(b) > reach; })) return all;
     std::erase_if(all, [&](const ReferenceSum& b) { return least(b) >= reach; });
     all.push_back({reach, {}});

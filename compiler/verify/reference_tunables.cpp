@@ -327,8 +327,7 @@ Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& net
   const Reference offset_time("0.1");  // [s], in which a rest length goes home
   const bool is_double = facts.scalar == ScalarType::float64;
   const Reference period = 1 / Reference(facts.rate);
-  pool["tables"] = {
-      period, facts.rate, exp(-period / offset_time), is_double ? 0x1p-200 : 0x1p-60, is_double ? 0x1p-24 : 0x1p-10, 0};
+  pool["tables"] = {facts.rate, exp(-period / offset_time), is_double ? 0x1p-200 : 0x1p-60, 0};
   if (network.contact)
     pool["tables"].push_back(network.contact->at), pool[literals_in_code].push_back(network.contact->at);
   return pool;

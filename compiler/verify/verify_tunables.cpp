@@ -19,11 +19,13 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
       pool_(constants_of_tunables(tunables_, compiled.network, facts_)) {
   const TunableTables& tables = *compiled.law.tunable;
   const tunable_tables<double>& head = tables.head;
-  for (const double chosen :
-       {head.damping, head.max_damping, head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share,
-        head.slip_rule.assured_share, head.motor_limit, head.motor_step})
+  for (const double chosen : {head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share,
+                              head.motor_limit, head.motor_step})
     pool_["tables"].push_back(chosen);
-  pool_["numbers"].push_back(tables.numbers[std::size_t(head.observed)].base);
+  pool_["numbers"].push_back(tables.numbers[std::size_t(tables.brake.observed)].base);
+  for (const tunable_block<double>& block : tables.blocks) pool_["blocks"].push_back(block.least_stiffness);
+  for (const tunable_yield<double>& yield : tables.yields) pool_["yields"].push_back(yield.least);
+  for (const Coefficient& constant : compiled.law.coefficients) add_pool_of(constant);
   pool_["sample_period"] = {1 / Reference(facts_.rate)};
   pool_["added_damping"] = pool_["steady_damping"] = {compiled.certificate.added_damping};
   pool_["threshold"] = {compiled.law.flush_threshold};
@@ -32,6 +34,21 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
   pool_["none"] = {0};
   for (const Variable& variable : compiled.law.variables)
     if (variable.role == Role::state) pool_[literals_in_code].push_back(variable.rest_value);
+}
+
+// By its role: what follows from the network is recomputed from it, what is chosen is compared with a re-emission.
+void TunableVerification::add_pool_of(const Coefficient& constant) {
+  std::vector<Reference>& pool = pool_[constant.name];
+  switch (constant.role) {
+    case ConstantRole::element_value:
+      pool = pool_["numbers"];
+      pool.insert(pool.end(), pool_["shares"].begin(), pool_["shares"].end());
+      pool.push_back(1 / Reference(facts_.rate));
+      return;
+    case ConstantRole::relaxation_share:
+    case ConstantRole::loss: pool = pool_["parts"]; return;
+    default: pool.assign(constant.values.begin(), constant.values.end());
+  }
 }
 
 void TunableVerification::recompute_constants() {

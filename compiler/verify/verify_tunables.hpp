@@ -17,6 +17,7 @@ class TunableVerification {
   void recompute_bounds();
 
  private:
+  void add_pool_of(const Coefficient& constant);
   void compare_ranges(const HeaderConstant& constant);
   void compare_with_pool(const HeaderConstant& constant, const std::vector<Reference>& pool);
   bool covers(double stated, const ReferenceBox& box, const Reference& share) const;

@@ -14,14 +14,15 @@
 //   hold of 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.3e-14 of the sum of the force's terms
+//   falls; rounding adds at most 1.1e-14 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): at most 85 additions, multiplications and divisions
-// cost of update(): at most 29 additions and multiplications; 1 numbers are kept between samples
-// cost of set(): at most 474 additions, multiplications and divisions
+// cost of output(): at most 82 additions, multiplications and divisions
+// cost of update(): at most 21 additions and multiplications; 1 numbers are kept between samples
+// cost of set(): at most 24 additions, multiplications and divisions for the constants, 384 for the springs'
+//   energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
@@ -66,13 +67,9 @@ class friction_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    resting_brake_ = law_.reset(tables, last_position_);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
-    last_brake_ = resting_brake_;
+    held_force_ = law_.reset(tables, last_position_);
+    resting_brake_ = law_.resting_brake(tables, brake_left_);
+    last_brake_ = steady_brake_ + resting_brake_;
     sampled_ = false;
   }
 
@@ -84,13 +81,12 @@ class friction_tunable {
     // σ of all slips
     const scalar slips_force = law_.slip(tables, position_change);
     // b of the slips' regime
-    const auto& slip_brake = law_.slip_brake(tables, position);
+    const auto& slip_brake = law_.slip_brake(tables, position, brake_left_);
     const scalar slips_feedthrough = slip_brake.now;
     const scalar slips_brake = slip_brake.damping;
-    const scalar slips_gain = slip_brake.make_up;
     // m = f − b u̇
     const scalar force = step_stiffness_ * position_change + held_force_ +
-        slips_force - slips_feedthrough * position_change + (velocity_gain_ + slips_gain) * velocity;
+        slips_force - slips_feedthrough * position_change + velocity_gain_ * velocity;
     // b
     const scalar brake = steady_brake_ + slips_brake;
     sampled_ = false;
@@ -118,17 +114,21 @@ class friction_tunable {
     return now;
   }
 
-  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-  // no number and is as it was.
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
+  // bound now, or it was no number and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
-    const scalar values[] = {wanted.yield, wanted.presliding, wanted.drag};
-    const unsigned clamped = law_.set(tables, values);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
+    unsigned clamped = 0;
+    clamped |= dashpot::take_value(tunables[0], wanted.yield, yield_) << 0;
+    clamped |= dashpot::take_value(tunables[1], wanted.presliding, presliding_) << 1;
+    clamped |= dashpot::take_value(tunables[2], wanted.drag, drag_) << 2;
+    step_stiffness_ = law_.set(tables, {drag_, presliding_, yield_});
+    held_force_ = law_.held(tables);
+    // b follows damper_3
+    steady_brake_ = drag_;
+    // b∞ − b
+    velocity_gain_ = drag_ - steady_brake_;
+    brake_left_ = max_damping - steady_brake_;
     return clamped;
   }
 
@@ -140,32 +140,26 @@ class friction_tunable {
   }
 
  private:
+  static constexpr scalar max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
   static constexpr dashpot::tunable_range<scalar> tunables[3] = {
       {1.5, 0.0, 5.0},  // yield [N]
       {2000.0, 200.0, 5000.0},  // presliding [N/m]
       {12.0, 0.0, 40.0},  // drag [N s/m]
   };
-  static constexpr int terms[4] = {2, 1, 0, 2};
-  static constexpr dashpot::tunable_number<scalar> numbers[4] = {
-      {0.0, 0, 1},
-      {0.0, 1, 1},
-      {0.0, 2, 1},
-      {0.0, 3, 1},
-  };
   static constexpr int springs[1] = {
       1,  // spring_2
   };
-  static constexpr dashpot::tunable_part<scalar> parts[2] = {
-      {dashpot::tunable_kind::damper, -1, 0, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::spring, 0, -1, 0, 0, 0, 0, true, 0.0, 0.0},
+  static constexpr dashpot::tunable_part parts[2] = {
+      {dashpot::tunable_kind::damper, -1, 0, -1, -1, 0, 0, 0, 0, false},
+      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, true},  // spring_2
   };
-  static constexpr dashpot::tunable_block blocks[2] = {
-      {0, 1},
-      {1, 1},
+  static constexpr dashpot::tunable_block<scalar> blocks[2] = {
+      {0, 1, 0.002384185791015625},
+      {1, 1, 0.0002980232238769531},
   };
   static constexpr int cuts[1] = {2};
-  static constexpr dashpot::tunable_yield yields[1] = {
-      {0, 1},
+  static constexpr dashpot::tunable_yield<scalar> yields[1] = {
+      {0, 1, 2.980232238769531e-07},
   };
   static constexpr dashpot::tunable_coupling couplings[1] = {
       {0, 3, 1, 0, 0},
@@ -176,23 +170,27 @@ class friction_tunable {
       {dashpot::slip_part::slip, 0, 0, 1, 0, 4, 0, 0, 0},
   };
   static constexpr dashpot::tunable_tables<scalar> tables = {
-      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
-      dashpot::brake_rule::observed, 0.0, 3, 1.7976931348623157e+308, -1,
-      {false, 0.0, 0.0}, {true, 0.0, 1.0, 1.0},
-      3, 1, 2, 2, 1, 1, 0,
-      tunables, terms, numbers, springs, parts, nullptr, blocks, cuts, yields, couplings, nodes, nullptr, nullptr, nullptr,
-      nullptr, 0.0, 0.0};
+      1000.0, 0.9900498337491681, 6.223015277861142e-61, -1,
+      {false, 0.0, 0.0}, {true, 0.0, 1.0},
+      1, 2, 2, 1, 1, 0,
+      springs, parts, nullptr, blocks, cuts, yields, couplings, nodes, nullptr, nullptr, nullptr,
+      0.0, 0.0};
 
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
-  dashpot::tunable_law<scalar, 3, 1, 1, 2, 3, 1, 8, 0> law_{tables};
-  scalar resting_brake_ = law_.reset(tables, last_position_);  // b of a tool in touch and at rest [N·s/m]
-  scalar held_force_ = law_.port(tables).held;  // π, what springs hold [N]
-  scalar step_stiffness_ = law_.port(tables).stiffness;  // what springs answer in a sample [N/m]
-  scalar steady_brake_ = law_.port(tables).damping;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = law_.port(tables).gain;  // b∞ − b [N·s/m]
-  scalar last_brake_ = resting_brake_;  // b of the sample before [N·s/m]
+  scalar yield_ = 1.5;  // parameter [N]
+  scalar presliding_ = 2000.0;  // parameter [N/m]
+  scalar drag_ = 12.0;  // parameter [N s/m]
+  dashpot::tunable_law<scalar, 1, 1, 2, 3, 1, 8, 0> law_;
+  // what springs answer in a sample [N/m]
+  scalar step_stiffness_ = law_.set(tables, {drag_, presliding_, yield_});
+  scalar steady_brake_ = drag_;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = drag_ - steady_brake_;  // b∞ − b [N·s/m]
+  scalar brake_left_ = max_damping - steady_brake_;  // what the brake has left for slips [N·s/m]
+  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
+  scalar resting_brake_ = law_.resting_brake(tables, brake_left_);  // b of what is behind slips that hold [N·s/m]
+  scalar last_brake_ = steady_brake_ + resting_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

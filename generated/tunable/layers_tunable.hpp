@@ -19,9 +19,10 @@
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows drag
-// cost of output(): at most 11533 additions, multiplications and divisions
-// cost of update(): at most 96 additions and multiplications; 4 numbers are kept between samples
-// cost of set(): at most 1434 additions, multiplications and divisions
+// cost of output(): at most 11530 additions, multiplications and divisions
+// cost of update(): at most 77 additions and multiplications; 4 numbers are kept between samples
+// cost of set(): at most 101 additions, multiplications and divisions for the constants, 1158 for the springs'
+//   energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
@@ -32,6 +33,7 @@
 #pragma once
 
 #include <dashpot/command.hpp>
+#include <dashpot/exponential.hpp>
 #include <dashpot/tunable_law.hpp>
 
 namespace dashpot::generated {
@@ -66,13 +68,9 @@ class layers_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    resting_brake_ = law_.reset(tables, last_position_);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
-    last_brake_ = resting_brake_;
+    held_force_ = law_.reset(tables, last_position_);
+    resting_brake_ = law_.resting_brake(tables, brake_left_);
+    last_brake_ = steady_brake_ + resting_brake_;
     sampled_ = false;
   }
 
@@ -84,13 +82,12 @@ class layers_tunable {
     // σ of all slips
     const scalar slips_force = law_.slip(tables, position_change);
     // b of the slips' regime
-    const auto& slip_brake = law_.slip_brake(tables, position);
+    const auto& slip_brake = law_.slip_brake(tables, position, brake_left_);
     const scalar slips_feedthrough = slip_brake.now;
     const scalar slips_brake = slip_brake.damping;
-    const scalar slips_gain = slip_brake.make_up;
     // m = f − b u̇
     const scalar force = step_stiffness_ * position_change + held_force_ +
-        slips_force - slips_feedthrough * position_change + (velocity_gain_ + slips_gain) * velocity;
+        slips_force - slips_feedthrough * position_change + velocity_gain_ * velocity;
     // b
     const scalar brake = steady_brake_ + slips_brake;
     sampled_ = false;
@@ -118,17 +115,31 @@ class layers_tunable {
     return now;
   }
 
-  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-  // no number and is as it was.
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
+  // bound now, or it was no number and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
-    const scalar values[] = {wanted.skin_friction, wanted.muscle_friction, wanted.muscle_stiffness};
-    const unsigned clamped = law_.set(tables, values);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
+    unsigned clamped = 0;
+    clamped |= dashpot::take_value(tunables[0], wanted.skin_friction, skin_friction_) << 0;
+    clamped |= dashpot::take_value(tunables[1], wanted.muscle_friction, muscle_friction_) << 1;
+    clamped |= dashpot::take_value(tunables[2], wanted.muscle_stiffness, muscle_stiffness_) << 2;
+    // x = T k/b
+    muscle_elasticity_muscle_viscosity_ratio_ = dashpot::clamp_to(largest_ratio,
+        muscle_stiffness_ * period / muscle_viscosity);
+    // φ = (1 − e^(−x))/x
+    muscle_elasticity_muscle_viscosity_kept_ = dashpot::mean_decay(muscle_elasticity_muscle_viscosity_ratio_);
+    // α = x φ
+    muscle_elasticity_muscle_viscosity_loss_ = muscle_elasticity_muscle_viscosity_ratio_ *
+        muscle_elasticity_muscle_viscosity_kept_;
+    step_stiffness_ = law_.set(tables, {drag, presliding, skin_elasticity, skin_viscosity, muscle_rest,
+        muscle_stiffness_, muscle_viscosity, skin_friction_, muscle_friction_, fascia,
+        muscle_elasticity_muscle_viscosity_kept_, muscle_elasticity_muscle_viscosity_loss_});
+    held_force_ = law_.held(tables);
+    // b follows drag
+    steady_brake_ = drag;
+    // b∞ − b
+    velocity_gain_ = drag - steady_brake_;
+    brake_left_ = max_damping - steady_brake_;
     return clamped;
   }
 
@@ -140,24 +151,20 @@ class layers_tunable {
   }
 
  private:
+  static constexpr scalar drag = 3.0;  // as in the network [N s/m]
+  static constexpr scalar presliding = 4000.0;  // as in the network [N/m]
+  static constexpr scalar skin_elasticity = 400.0;  // as in the network [N/m]
+  static constexpr scalar skin_viscosity = 3.0;  // as in the network [N s/m]
+  static constexpr scalar muscle_rest = 200.0;  // as in the network [N/m]
+  static constexpr scalar muscle_viscosity = 20.0;  // as in the network [N s/m]
+  static constexpr scalar fascia = 0.5;  // as in the network [N]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // T [s]
+  static constexpr scalar max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
   static constexpr dashpot::tunable_range<scalar> tunables[3] = {
       {0.8, 0.0, 3.0},  // skin_friction [N]
       {1.2, 0.0, 3.0},  // muscle_friction [N]
       {900.0, 100.0, 4000.0},  // muscle_stiffness [N/m]
-  };
-  static constexpr int terms[3] = {2, 0, 1};
-  static constexpr dashpot::tunable_number<scalar> numbers[11] = {
-      {3.0, 0, 0},
-      {4000.0, 0, 0},
-      {400.0, 0, 0},
-      {3.0, 0, 0},
-      {200.0, 0, 0},
-      {0.0, 0, 1},
-      {20.0, 1, 0},
-      {0.0, 1, 1},
-      {0.0, 2, 1},
-      {0.5, 3, 0},
-      {3.0, 3, 0},
   };
   static constexpr int springs[4] = {
       1,  // presliding
@@ -165,25 +172,25 @@ class layers_tunable {
       4,  // muscle_rest
       5,  // muscle_elasticity_muscle_viscosity
   };
-  static constexpr dashpot::tunable_part<scalar> parts[6] = {
-      {dashpot::tunable_kind::damper, -1, 0, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::spring, 0, -1, 0, 0, 0, 0, true, 0.0, 0.0},
-      {dashpot::tunable_kind::spring, 1, -1, 0, 0, 0, 0, true, 0.0, 0.0},
-      {dashpot::tunable_kind::damper, -1, 3, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::spring, 2, -1, 0, 0, 0, 0, true, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 3, 6, 0, 0, 0, 0, false, 0.0, 0.0},
+  static constexpr dashpot::tunable_part parts[6] = {
+      {dashpot::tunable_kind::damper, -1, 0, -1, -1, 0, 0, 0, 0, false},
+      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, true},  // presliding
+      {dashpot::tunable_kind::spring, 1, -1, -1, -1, 0, 0, 0, 0, true},  // skin_elasticity
+      {dashpot::tunable_kind::damper, -1, 3, -1, -1, 0, 0, 0, 0, false},
+      {dashpot::tunable_kind::spring, 2, -1, -1, -1, 0, 0, 0, 0, true},  // muscle_rest
+      {dashpot::tunable_kind::relaxation, 3, 6, 10, 11, 0, 0, 0, 0, false},  // muscle_elasticity_muscle_viscosity
   };
-  static constexpr dashpot::tunable_block blocks[4] = {
-      {0, 1},
-      {1, 1},
-      {2, 2},
-      {4, 2},
+  static constexpr dashpot::tunable_block<scalar> blocks[4] = {
+      {0, 1, 0.00017881393432617188},
+      {1, 1, 0.0002384185791015625},
+      {2, 2, 0.00020265579223632812},
+      {4, 2, 0.00022801071038486734},
   };
   static constexpr int cuts[3] = {7, 8, 9};
-  static constexpr dashpot::tunable_yield yields[3] = {
-      {0, 1},
-      {1, 1},
-      {2, 1},
+  static constexpr dashpot::tunable_yield<scalar> yields[3] = {
+      {0, 1, 1.7881393432617188e-07},
+      {1, 1, 1.7881393432617188e-07},
+      {2, 1, 2.9802322387695312e-08},
   };
   static constexpr dashpot::tunable_graph graphs[1] = {
       {3, 3, 0, 3, 0, 1},
@@ -199,23 +206,37 @@ class layers_tunable {
       {2, 4},
   };
   static constexpr dashpot::tunable_tables<scalar> tables = {
-      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
-      dashpot::brake_rule::observed, 0.0, 10, 1.7976931348623157e+308, -1,
-      {false, 0.0, 0.0}, {true, 0.0, 1.0, 1.0},
-      3, 4, 6, 4, 3, 0, 1,
-      tunables, terms, numbers, springs, parts, nullptr, blocks, cuts, yields, nullptr, nullptr, graphs, links, ties,
-      nullptr, 0.0, 0.0};
+      1000.0, 0.9900498337491681, 6.223015277861142e-61, -1,
+      {false, 0.0, 0.0}, {true, 0.0, 1.0},
+      4, 6, 4, 3, 0, 1,
+      springs, parts, nullptr, blocks, cuts, yields, nullptr, nullptr, graphs, links, ties,
+      0.0, 0.0};
 
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
-  dashpot::tunable_law<scalar, 3, 4, 1, 4, 1, 3, 1, 3> law_{tables};
-  scalar resting_brake_ = law_.reset(tables, last_position_);  // b of a tool in touch and at rest [N·s/m]
-  scalar held_force_ = law_.port(tables).held;  // π, what springs hold [N]
-  scalar step_stiffness_ = law_.port(tables).stiffness;  // what springs answer in a sample [N/m]
-  scalar steady_brake_ = law_.port(tables).damping;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = law_.port(tables).gain;  // b∞ − b [N·s/m]
-  scalar last_brake_ = resting_brake_;  // b of the sample before [N·s/m]
+  scalar skin_friction_ = 0.8;  // parameter [N]
+  scalar muscle_friction_ = 1.2;  // parameter [N]
+  scalar muscle_stiffness_ = 900.0;  // parameter [N/m]
+  dashpot::tunable_law<scalar, 4, 1, 4, 1, 3, 1, 3> law_;
+  // a sample over the relaxation time [1]
+  scalar muscle_elasticity_muscle_viscosity_ratio_ = dashpot::clamp_to(largest_ratio,
+      muscle_stiffness_ * period / muscle_viscosity);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_elasticity_muscle_viscosity_kept_ = dashpot::mean_decay(muscle_elasticity_muscle_viscosity_ratio_);
+  // α, what is lost in a sample [1]
+  scalar muscle_elasticity_muscle_viscosity_loss_ = muscle_elasticity_muscle_viscosity_ratio_ *
+      muscle_elasticity_muscle_viscosity_kept_;
+  // what springs answer in a sample [N/m]
+  scalar step_stiffness_ = law_.set(tables, {drag, presliding, skin_elasticity, skin_viscosity, muscle_rest,
+      muscle_stiffness_, muscle_viscosity, skin_friction_, muscle_friction_, fascia,
+      muscle_elasticity_muscle_viscosity_kept_, muscle_elasticity_muscle_viscosity_loss_});
+  scalar steady_brake_ = drag;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = drag - steady_brake_;  // b∞ − b [N·s/m]
+  scalar brake_left_ = max_damping - steady_brake_;  // what the brake has left for slips [N·s/m]
+  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
+  scalar resting_brake_ = law_.resting_brake(tables, brake_left_);  // b of what is behind slips that hold [N·s/m]
+  scalar last_brake_ = steady_brake_ + resting_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

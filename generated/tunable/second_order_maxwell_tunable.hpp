@@ -13,14 +13,15 @@
 //   there, 0.0652 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 6.9e-15 of the sum of the force's terms
+//   falls; rounding adds at most 6.6e-15 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1 + damper_3
 // cost of output(): at most 5 additions, multiplications and divisions
-// cost of update(): at most 57 additions and multiplications; 3 numbers are kept between samples
-// cost of set(): at most 1240 additions, multiplications and divisions
+// cost of update(): at most 54 additions and multiplications; 3 numbers are kept between samples
+// cost of set(): at most 154 additions, multiplications and divisions for the constants, 900 for the springs'
+//   energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
@@ -31,6 +32,7 @@
 #pragma once
 
 #include <dashpot/command.hpp>
+#include <dashpot/exponential.hpp>
 #include <dashpot/tunable_law.hpp>
 
 namespace dashpot::generated {
@@ -64,13 +66,8 @@ class second_order_maxwell_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    resting_brake_ = law_.reset(tables, last_position_);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
-    last_brake_ = resting_brake_;
+    held_force_ = law_.reset(tables, last_position_);
+    last_brake_ = steady_brake_;
     sampled_ = false;
   }
 
@@ -108,17 +105,33 @@ class second_order_maxwell_tunable {
     return now;
   }
 
-  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-  // no number and is as it was.
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
+  // bound now, or it was no number and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
-    const scalar values[] = {wanted.K1, wanted.B2};
-    const unsigned clamped = law_.set(tables, values);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
+    unsigned clamped = 0;
+    clamped |= dashpot::take_value(tunables[0], wanted.K1, K1_) << 0;
+    clamped |= dashpot::take_value(tunables[1], wanted.B2, B2_) << 1;
+    // x = T k/b
+    B1_spring_2_ratio_ = dashpot::clamp_to(largest_ratio, K1_ * period / B1);
+    // φ = (1 − e^(−x))/x
+    B1_spring_2_kept_ = dashpot::mean_decay(B1_spring_2_ratio_);
+    // α = x φ
+    B1_spring_2_loss_ = B1_spring_2_ratio_ * B1_spring_2_kept_;
+    // x = T k/b
+    damper_3_K2_ratio_ = dashpot::clamp_to(largest_ratio, K2 * period / B2_);
+    // φ = (1 − e^(−x))/x
+    damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
+    // α = x φ
+    damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;
+    step_stiffness_ = law_.set(tables, {K3, K1_, B1, K2, B2_, B1_spring_2_kept_, B1_spring_2_loss_,
+        damper_3_K2_kept_, damper_3_K2_loss_});
+    held_force_ = law_.held(tables);
+    B1_damper_3_sum_ = B1_damper_3 + B2_;
+    // b follows B1 + damper_3
+    steady_brake_ = B1_damper_3_sum_;
+    // b∞ − b
+    velocity_gain_ = no_damping - steady_brake_;
     return clamped;
   }
 
@@ -130,50 +143,61 @@ class second_order_maxwell_tunable {
   }
 
  private:
+  static constexpr scalar K3 = 5.0;  // as in the network [N/m]
+  static constexpr scalar B1 = 5.0;  // as in the network [N s/m]
+  static constexpr scalar K2 = 10.0;  // as in the network [N/m]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // T [s]
+  static constexpr scalar no_damping = 0.0;  // none [N·s/m]
+  static constexpr scalar B1_damper_3 = 5.0;  // of what does not change [N s/m]
   static constexpr dashpot::tunable_range<scalar> tunables[2] = {
       {12.0, 0.0, 100.0},  // K1 [N/m]
       {6.0, 0.5, 20.0},  // B2 [N s/m]
-  };
-  static constexpr int terms[3] = {0, 1, 1};
-  static constexpr dashpot::tunable_number<scalar> numbers[6] = {
-      {5.0, 0, 0},
-      {0.0, 0, 1},
-      {5.0, 1, 0},
-      {10.0, 1, 0},
-      {0.0, 1, 1},
-      {5.0, 2, 1},
   };
   static constexpr int springs[3] = {
       0,  // K3
       1,  // B1_spring_2
       3,  // damper_3_K2
   };
-  static constexpr dashpot::tunable_part<scalar> parts[3] = {
-      {dashpot::tunable_kind::spring, 0, -1, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 1, 2, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 2, 4, 0, 0, 0, 0, false, 0.0, 0.0},
+  static constexpr dashpot::tunable_part parts[3] = {
+      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, false},  // K3
+      {dashpot::tunable_kind::relaxation, 1, 2, 5, 6, 0, 0, 0, 0, false},  // B1_spring_2
+      {dashpot::tunable_kind::relaxation, 2, 4, 7, 8, 0, 0, 0, 0, false},  // damper_3_K2
   };
-  static constexpr dashpot::tunable_block blocks[1] = {
-      {0, 3},
+  static constexpr dashpot::tunable_block<scalar> blocks[1] = {
+      {0, 3, 0.0},
   };
   static constexpr dashpot::tunable_tables<scalar> tables = {
-      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
-      dashpot::brake_rule::observed, 0.0, 5, 1.7976931348623157e+308, 0,
-      {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
-      2, 3, 3, 1, 0, 0, 0,
-      tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-      nullptr, 0.0, 0.0};
+      1000.0, 0.9900498337491681, 6.223015277861142e-61, 0,
+      {false, 0.0, 0.0}, {false, 0.0, 1.0},
+      3, 3, 1, 0, 0, 0,
+      springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+      0.0, 0.0};
 
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
-  dashpot::tunable_law<scalar, 2, 3, 1, 1, 1, 0, 1, 0> law_{tables};
-  scalar resting_brake_ = law_.reset(tables, last_position_);  // b of a tool in touch and at rest [N·s/m]
-  scalar held_force_ = law_.port(tables).held;  // π, what springs hold [N]
-  scalar step_stiffness_ = law_.port(tables).stiffness;  // what springs answer in a sample [N/m]
-  scalar steady_brake_ = law_.port(tables).damping;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = law_.port(tables).gain;  // b∞ − b [N·s/m]
-  scalar last_brake_ = resting_brake_;  // b of the sample before [N·s/m]
+  scalar K1_ = 12.0;  // parameter [N/m]
+  scalar B2_ = 6.0;  // parameter [N s/m]
+  dashpot::tunable_law<scalar, 3, 1, 1, 1, 0, 1, 0> law_;
+  // a sample over the relaxation time [1]
+  scalar B1_spring_2_ratio_ = dashpot::clamp_to(largest_ratio, K1_ * period / B1);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar B1_spring_2_kept_ = dashpot::mean_decay(B1_spring_2_ratio_);
+  scalar B1_spring_2_loss_ = B1_spring_2_ratio_ * B1_spring_2_kept_;  // α, what is lost in a sample [1]
+  // a sample over the relaxation time [1]
+  scalar damper_3_K2_ratio_ = dashpot::clamp_to(largest_ratio, K2 * period / B2_);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
+  scalar damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;  // α, what is lost in a sample [1]
+  // what springs answer in a sample [N/m]
+  scalar step_stiffness_ = law_.set(tables, {K3, K1_, B1, K2, B2_, B1_spring_2_kept_, B1_spring_2_loss_,
+      damper_3_K2_kept_, damper_3_K2_loss_});
+  scalar B1_damper_3_sum_ = B1_damper_3 + B2_;  // of these together [N s/m]
+  scalar steady_brake_ = B1_damper_3_sum_;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = no_damping - steady_brake_;  // b∞ − b [N·s/m]
+  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
+  scalar last_brake_ = steady_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

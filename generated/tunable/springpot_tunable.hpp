@@ -21,8 +21,9 @@
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
 // cost of output(): at most 5 additions, multiplications and divisions
-// cost of update(): at most 114 additions and multiplications; 6 numbers are kept between samples
-// cost of set(): at most 2608 additions, multiplications and divisions
+// cost of update(): at most 111 additions and multiplications; 6 numbers are kept between samples
+// cost of set(): at most 401 additions, multiplications and divisions for the constants, 1674 for the springs'
+//   energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
@@ -33,6 +34,7 @@
 #pragma once
 
 #include <dashpot/command.hpp>
+#include <dashpot/exponential.hpp>
 #include <dashpot/tunable_law.hpp>
 
 namespace dashpot::generated {
@@ -65,13 +67,8 @@ class springpot_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    resting_brake_ = law_.reset(tables, last_position_);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
-    last_brake_ = resting_brake_;
+    held_force_ = law_.reset(tables, last_position_);
+    last_brake_ = steady_brake_;
     sampled_ = false;
   }
 
@@ -109,17 +106,77 @@ class springpot_tunable {
     return now;
   }
 
-  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-  // no number and is as it was.
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
+  // bound now, or it was no number and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
-    const scalar values[] = {wanted.K};
-    const unsigned clamped = law_.set(tables, values);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
+    unsigned clamped = 0;
+    clamped |= dashpot::take_value(tunables[0], wanted.K, K_) << 0;
+    muscle_spring_1_ = muscle_spring_1_share * K_;
+    muscle_damper_1_ = muscle_damper_1_share * K_;
+    muscle_spring_2_ = muscle_spring_2_share * K_;
+    muscle_damper_2_ = muscle_damper_2_share * K_;
+    muscle_spring_3_ = muscle_spring_3_share * K_;
+    muscle_damper_3_ = muscle_damper_3_share * K_;
+    muscle_spring_4_ = muscle_spring_4_share * K_;
+    muscle_damper_4_ = muscle_damper_4_share * K_;
+    muscle_spring_5_ = muscle_spring_5_share * K_;
+    muscle_damper_5_ = muscle_damper_5_share * K_;
+    // x = T k/b
+    muscle_spring_1_muscle_damper_1_ratio_ = muscle_damper_1_ > 0 ? dashpot::clamp_to(largest_ratio,
+        muscle_spring_1_ * period / muscle_damper_1_) : (muscle_spring_1_ > 0 ? largest_ratio : zero);
+    // φ = (1 − e^(−x))/x
+    muscle_spring_1_muscle_damper_1_kept_ = dashpot::mean_decay(muscle_spring_1_muscle_damper_1_ratio_);
+    // α = x φ
+    muscle_spring_1_muscle_damper_1_loss_ = muscle_spring_1_muscle_damper_1_ratio_ *
+        muscle_spring_1_muscle_damper_1_kept_;
+    // x = T k/b
+    muscle_spring_2_muscle_damper_2_ratio_ = muscle_damper_2_ > 0 ? dashpot::clamp_to(largest_ratio,
+        muscle_spring_2_ * period / muscle_damper_2_) : (muscle_spring_2_ > 0 ? largest_ratio : zero);
+    // φ = (1 − e^(−x))/x
+    muscle_spring_2_muscle_damper_2_kept_ = dashpot::mean_decay(muscle_spring_2_muscle_damper_2_ratio_);
+    // α = x φ
+    muscle_spring_2_muscle_damper_2_loss_ = muscle_spring_2_muscle_damper_2_ratio_ *
+        muscle_spring_2_muscle_damper_2_kept_;
+    // x = T k/b
+    muscle_spring_3_muscle_damper_3_ratio_ = muscle_damper_3_ > 0 ? dashpot::clamp_to(largest_ratio,
+        muscle_spring_3_ * period / muscle_damper_3_) : (muscle_spring_3_ > 0 ? largest_ratio : zero);
+    // φ = (1 − e^(−x))/x
+    muscle_spring_3_muscle_damper_3_kept_ = dashpot::mean_decay(muscle_spring_3_muscle_damper_3_ratio_);
+    // α = x φ
+    muscle_spring_3_muscle_damper_3_loss_ = muscle_spring_3_muscle_damper_3_ratio_ *
+        muscle_spring_3_muscle_damper_3_kept_;
+    // x = T k/b
+    muscle_spring_4_muscle_damper_4_ratio_ = muscle_damper_4_ > 0 ? dashpot::clamp_to(largest_ratio,
+        muscle_spring_4_ * period / muscle_damper_4_) : (muscle_spring_4_ > 0 ? largest_ratio : zero);
+    // φ = (1 − e^(−x))/x
+    muscle_spring_4_muscle_damper_4_kept_ = dashpot::mean_decay(muscle_spring_4_muscle_damper_4_ratio_);
+    // α = x φ
+    muscle_spring_4_muscle_damper_4_loss_ = muscle_spring_4_muscle_damper_4_ratio_ *
+        muscle_spring_4_muscle_damper_4_kept_;
+    // x = T k/b
+    muscle_spring_5_muscle_damper_5_ratio_ = muscle_damper_5_ > 0 ? dashpot::clamp_to(largest_ratio,
+        muscle_spring_5_ * period / muscle_damper_5_) : (muscle_spring_5_ > 0 ? largest_ratio : zero);
+    // φ = (1 − e^(−x))/x
+    muscle_spring_5_muscle_damper_5_kept_ = dashpot::mean_decay(muscle_spring_5_muscle_damper_5_ratio_);
+    // α = x φ
+    muscle_spring_5_muscle_damper_5_loss_ = muscle_spring_5_muscle_damper_5_ratio_ *
+        muscle_spring_5_muscle_damper_5_kept_;
+    step_stiffness_ = law_.set(tables, {rest, muscle_spring_1_, muscle_damper_1_, muscle_spring_2_,
+        muscle_damper_2_, muscle_spring_3_, muscle_damper_3_, muscle_spring_4_, muscle_damper_4_, muscle_spring_5_,
+        muscle_damper_5_, muscle_spring_1_muscle_damper_1_kept_, muscle_spring_1_muscle_damper_1_loss_,
+        muscle_spring_2_muscle_damper_2_kept_, muscle_spring_2_muscle_damper_2_loss_,
+        muscle_spring_3_muscle_damper_3_kept_, muscle_spring_3_muscle_damper_3_loss_,
+        muscle_spring_4_muscle_damper_4_kept_, muscle_spring_4_muscle_damper_4_loss_,
+        muscle_spring_5_muscle_damper_5_kept_, muscle_spring_5_muscle_damper_5_loss_});
+    held_force_ = law_.held(tables);
+    muscle_damper_1_to_muscle_damper_5_sum_ = muscle_damper_1_to_muscle_damper_5_share * K_ +
+        muscle_damper_1_to_muscle_damper_5_share_2 * K_ + muscle_damper_1_to_muscle_damper_5_share_3 * K_ +
+        muscle_damper_1_to_muscle_damper_5_share_4 * K_ + muscle_damper_1_to_muscle_damper_5_share_5 * K_;
+    // b follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
+    steady_brake_ = muscle_damper_1_to_muscle_damper_5_sum_;
+    // b∞ − b
+    velocity_gain_ = no_damping - steady_brake_;
     return clamped;
   }
 
@@ -131,40 +188,28 @@ class springpot_tunable {
   }
 
  private:
+  static constexpr scalar rest = 40.0;  // as in the network [N/m]
+  static constexpr scalar muscle_spring_1_share = 0.5529489387983896;  // of K [1]
+  static constexpr scalar muscle_damper_1_share = 12.628169563370793;  // of K [1]
+  static constexpr scalar muscle_spring_2_share = 0.4443552938125914;  // of K [1]
+  static constexpr scalar muscle_damper_2_share = 0.6863981165441095;  // of K [1]
+  static constexpr scalar muscle_spring_3_share = 0.8014436491467305;  // of K [1]
+  static constexpr scalar muscle_damper_3_share = 0.1733444489849207;  // of K [1]
+  static constexpr scalar muscle_spring_4_share = 1.4454917758412602;  // of K [1]
+  static constexpr scalar muscle_damper_4_share = 0.043776778038339514;  // of K [1]
+  static constexpr scalar muscle_spring_5_share = 4.501420953574023;  // of K [1]
+  static constexpr scalar muscle_damper_5_share = 0.014790775209721498;  // of K [1]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // T [s]
+  static constexpr scalar zero = 0.0;  // nothing [1]
+  static constexpr scalar no_damping = 0.0;  // none [N·s/m]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share = 12.628169563370793;  // of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_2 = 0.6863981165441095;  // of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_3 = 0.1733444489849207;  // of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_4 = 0.043776778038339514;  // of K [1]
+  static constexpr scalar muscle_damper_1_to_muscle_damper_5_share_5 = 0.014790775209721498;  // of K [1]
   static constexpr dashpot::tunable_range<scalar> tunables[1] = {
       {120.0, 0.0, 400.0},  // K [N/m]
-  };
-  static constexpr int terms[15] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-  static constexpr scalar shares[15] = {
-      0.5529489387983896,
-      12.628169563370793,
-      0.4443552938125914,
-      0.6863981165441095,
-      0.8014436491467305,
-      0.1733444489849207,
-      1.4454917758412602,
-      0.043776778038339514,
-      4.501420953574023,
-      0.014790775209721498,
-      12.628169563370793,
-      0.6863981165441095,
-      0.1733444489849207,
-      0.043776778038339514,
-      0.014790775209721498,
-  };
-  static constexpr dashpot::tunable_number<scalar> numbers[12] = {
-      {40.0, 0, 0},
-      {0.0, 0, 1},
-      {0.0, 1, 1},
-      {0.0, 2, 1},
-      {0.0, 3, 1},
-      {0.0, 4, 1},
-      {0.0, 5, 1},
-      {0.0, 6, 1},
-      {0.0, 7, 1},
-      {0.0, 8, 1},
-      {0.0, 9, 1},
-      {0.0, 10, 5},
   };
   static constexpr int springs[6] = {
       0,  // rest
@@ -174,35 +219,95 @@ class springpot_tunable {
       7,  // muscle_spring_4_muscle_damper_4
       9,  // muscle_spring_5_muscle_damper_5
   };
-  static constexpr dashpot::tunable_part<scalar> parts[6] = {
-      {dashpot::tunable_kind::spring, 0, -1, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 1, 2, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 2, 4, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 3, 6, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 4, 8, 0, 0, 0, 0, false, 0.0, 0.0},
-      {dashpot::tunable_kind::relaxation, 5, 10, 0, 0, 0, 0, false, 0.0, 0.0},
+  static constexpr dashpot::tunable_part parts[6] = {
+      {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, false},  // rest
+      {dashpot::tunable_kind::relaxation, 1, 2, 11, 12, 0, 0, 0, 0, false},  // muscle_spring_1_muscle_damper_1
+      {dashpot::tunable_kind::relaxation, 2, 4, 13, 14, 0, 0, 0, 0, false},  // muscle_spring_2_muscle_damper_2
+      {dashpot::tunable_kind::relaxation, 3, 6, 15, 16, 0, 0, 0, 0, false},  // muscle_spring_3_muscle_damper_3
+      {dashpot::tunable_kind::relaxation, 4, 8, 17, 18, 0, 0, 0, 0, false},  // muscle_spring_4_muscle_damper_4
+      {dashpot::tunable_kind::relaxation, 5, 10, 19, 20, 0, 0, 0, 0, false},  // muscle_spring_5_muscle_damper_5
   };
-  static constexpr dashpot::tunable_block blocks[1] = {
-      {0, 6},
+  static constexpr dashpot::tunable_block<scalar> blocks[1] = {
+      {0, 6, 0.0},
   };
   static constexpr dashpot::tunable_tables<scalar> tables = {
-      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
-      dashpot::brake_rule::observed, 0.0, 11, 1.7976931348623157e+308, 0,
-      {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
-      1, 6, 6, 1, 0, 0, 0,
-      tunables, terms, numbers, springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-      shares, 0.0, 0.0};
+      1000.0, 0.9900498337491681, 6.223015277861142e-61, 0,
+      {false, 0.0, 0.0}, {false, 0.0, 1.0},
+      6, 6, 1, 0, 0, 0,
+      springs, parts, nullptr, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+      0.0, 0.0};
 
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
-  dashpot::tunable_law<scalar, 1, 6, 1, 1, 1, 0, 1, 0> law_{tables};
-  scalar resting_brake_ = law_.reset(tables, last_position_);  // b of a tool in touch and at rest [N·s/m]
-  scalar held_force_ = law_.port(tables).held;  // π, what springs hold [N]
-  scalar step_stiffness_ = law_.port(tables).stiffness;  // what springs answer in a sample [N/m]
-  scalar steady_brake_ = law_.port(tables).damping;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = law_.port(tables).gain;  // b∞ − b [N·s/m]
-  scalar last_brake_ = resting_brake_;  // b of the sample before [N·s/m]
+  scalar K_ = 120.0;  // parameter [N/m]
+  dashpot::tunable_law<scalar, 6, 1, 1, 1, 0, 1, 0> law_;
+  scalar muscle_spring_1_ = muscle_spring_1_share * K_;  // by its share [N/m]
+  scalar muscle_damper_1_ = muscle_damper_1_share * K_;  // by its share [N s/m]
+  scalar muscle_spring_2_ = muscle_spring_2_share * K_;  // by its share [N/m]
+  scalar muscle_damper_2_ = muscle_damper_2_share * K_;  // by its share [N s/m]
+  scalar muscle_spring_3_ = muscle_spring_3_share * K_;  // by its share [N/m]
+  scalar muscle_damper_3_ = muscle_damper_3_share * K_;  // by its share [N s/m]
+  scalar muscle_spring_4_ = muscle_spring_4_share * K_;  // by its share [N/m]
+  scalar muscle_damper_4_ = muscle_damper_4_share * K_;  // by its share [N s/m]
+  scalar muscle_spring_5_ = muscle_spring_5_share * K_;  // by its share [N/m]
+  scalar muscle_damper_5_ = muscle_damper_5_share * K_;  // by its share [N s/m]
+  // a sample over the relaxation time [1]
+  scalar muscle_spring_1_muscle_damper_1_ratio_ = muscle_damper_1_ > 0 ? dashpot::clamp_to(largest_ratio,
+      muscle_spring_1_ * period / muscle_damper_1_) : (muscle_spring_1_ > 0 ? largest_ratio : zero);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_1_muscle_damper_1_kept_ = dashpot::mean_decay(muscle_spring_1_muscle_damper_1_ratio_);
+  // α, what is lost in a sample [1]
+  scalar muscle_spring_1_muscle_damper_1_loss_ = muscle_spring_1_muscle_damper_1_ratio_ *
+      muscle_spring_1_muscle_damper_1_kept_;
+  // a sample over the relaxation time [1]
+  scalar muscle_spring_2_muscle_damper_2_ratio_ = muscle_damper_2_ > 0 ? dashpot::clamp_to(largest_ratio,
+      muscle_spring_2_ * period / muscle_damper_2_) : (muscle_spring_2_ > 0 ? largest_ratio : zero);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_2_muscle_damper_2_kept_ = dashpot::mean_decay(muscle_spring_2_muscle_damper_2_ratio_);
+  // α, what is lost in a sample [1]
+  scalar muscle_spring_2_muscle_damper_2_loss_ = muscle_spring_2_muscle_damper_2_ratio_ *
+      muscle_spring_2_muscle_damper_2_kept_;
+  // a sample over the relaxation time [1]
+  scalar muscle_spring_3_muscle_damper_3_ratio_ = muscle_damper_3_ > 0 ? dashpot::clamp_to(largest_ratio,
+      muscle_spring_3_ * period / muscle_damper_3_) : (muscle_spring_3_ > 0 ? largest_ratio : zero);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_3_muscle_damper_3_kept_ = dashpot::mean_decay(muscle_spring_3_muscle_damper_3_ratio_);
+  // α, what is lost in a sample [1]
+  scalar muscle_spring_3_muscle_damper_3_loss_ = muscle_spring_3_muscle_damper_3_ratio_ *
+      muscle_spring_3_muscle_damper_3_kept_;
+  // a sample over the relaxation time [1]
+  scalar muscle_spring_4_muscle_damper_4_ratio_ = muscle_damper_4_ > 0 ? dashpot::clamp_to(largest_ratio,
+      muscle_spring_4_ * period / muscle_damper_4_) : (muscle_spring_4_ > 0 ? largest_ratio : zero);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_4_muscle_damper_4_kept_ = dashpot::mean_decay(muscle_spring_4_muscle_damper_4_ratio_);
+  // α, what is lost in a sample [1]
+  scalar muscle_spring_4_muscle_damper_4_loss_ = muscle_spring_4_muscle_damper_4_ratio_ *
+      muscle_spring_4_muscle_damper_4_kept_;
+  // a sample over the relaxation time [1]
+  scalar muscle_spring_5_muscle_damper_5_ratio_ = muscle_damper_5_ > 0 ? dashpot::clamp_to(largest_ratio,
+      muscle_spring_5_ * period / muscle_damper_5_) : (muscle_spring_5_ > 0 ? largest_ratio : zero);
+  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar muscle_spring_5_muscle_damper_5_kept_ = dashpot::mean_decay(muscle_spring_5_muscle_damper_5_ratio_);
+  // α, what is lost in a sample [1]
+  scalar muscle_spring_5_muscle_damper_5_loss_ = muscle_spring_5_muscle_damper_5_ratio_ *
+      muscle_spring_5_muscle_damper_5_kept_;
+  // what springs answer in a sample [N/m]
+  scalar step_stiffness_ = law_.set(tables, {rest, muscle_spring_1_, muscle_damper_1_, muscle_spring_2_,
+      muscle_damper_2_, muscle_spring_3_, muscle_damper_3_, muscle_spring_4_, muscle_damper_4_, muscle_spring_5_,
+      muscle_damper_5_, muscle_spring_1_muscle_damper_1_kept_, muscle_spring_1_muscle_damper_1_loss_,
+      muscle_spring_2_muscle_damper_2_kept_, muscle_spring_2_muscle_damper_2_loss_,
+      muscle_spring_3_muscle_damper_3_kept_, muscle_spring_3_muscle_damper_3_loss_,
+      muscle_spring_4_muscle_damper_4_kept_, muscle_spring_4_muscle_damper_4_loss_,
+      muscle_spring_5_muscle_damper_5_kept_, muscle_spring_5_muscle_damper_5_loss_});
+  // of these together [N s/m]
+  scalar muscle_damper_1_to_muscle_damper_5_sum_ = muscle_damper_1_to_muscle_damper_5_share * K_ +
+      muscle_damper_1_to_muscle_damper_5_share_2 * K_ + muscle_damper_1_to_muscle_damper_5_share_3 * K_ +
+      muscle_damper_1_to_muscle_damper_5_share_4 * K_ + muscle_damper_1_to_muscle_damper_5_share_5 * K_;
+  scalar steady_brake_ = muscle_damper_1_to_muscle_damper_5_sum_;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = no_damping - steady_brake_;  // b∞ − b [N·s/m]
+  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
+  scalar last_brake_ = steady_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -19,7 +19,8 @@
 //   by backward Euler, since their relaxations mix with a tunable or at several slips: spring_1, B1, K2
 // cost of output(): at most 5 additions, multiplications and divisions
 // cost of update(): at most 46 additions and multiplications; 2 numbers are kept between samples
-// cost of set(): at most 806 additions, multiplications and divisions
+// cost of set(): at most 55 additions, multiplications and divisions for the constants, 642 for the springs'
+//   energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
@@ -62,13 +63,8 @@ class standard_solid_tunable {
     last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
     sampled_position_ = 0;
     sampled_position_change_ = 0;
-    resting_brake_ = law_.reset(tables, last_position_);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
-    last_brake_ = resting_brake_;
+    held_force_ = law_.reset(tables, last_position_);
+    last_brake_ = steady_brake_;
     sampled_ = false;
   }
 
@@ -106,17 +102,22 @@ class standard_solid_tunable {
     return now;
   }
 
-  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its bound now, or it was
-  // no number and is as it was.
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
+  // bound now, or it was no number and is as it was.
   unsigned set(const parameters& wanted) noexcept {
     update();
-    const scalar values[] = {wanted.K1};
-    const unsigned clamped = law_.set(tables, values);
-    const auto& port = law_.port(tables);
-    held_force_ = port.held;
-    step_stiffness_ = port.stiffness;
-    steady_brake_ = port.damping;
-    velocity_gain_ = port.gain;
+    unsigned clamped = 0;
+    clamped |= dashpot::take_value(tunables[0], wanted.K1, K1_) << 0;
+    springs_stiffness_ = law_.set(tables, {B1, K1_, K2});
+    held_force_ = law_.held(tables);
+    const auto& meshes = law_.meshes(tables);
+    mesh_stiffness_ = meshes.stiffness;
+    mesh_feedthrough_ = meshes.feedthrough;
+    step_stiffness_ = springs_stiffness_ + mesh_stiffness_;
+    // b follows B1
+    steady_brake_ = B1;
+    // b∞ − b
+    velocity_gain_ = mesh_feedthrough_ - steady_brake_;
     return clamped;
   }
 
@@ -128,49 +129,46 @@ class standard_solid_tunable {
   }
 
  private:
+  static constexpr scalar B1 = 8.0;  // as in the network [N s/m]
+  static constexpr scalar K2 = 600.0;  // as in the network [N/m]
   static constexpr dashpot::tunable_range<scalar> tunables[1] = {
       {200.0, 50.0, 800.0},  // K1 [N/m]
-  };
-  static constexpr int terms[1] = {0};
-  static constexpr dashpot::tunable_number<scalar> numbers[4] = {
-      {8.0, 0, 0},
-      {0.0, 0, 1},
-      {600.0, 1, 0},
-      {8.0, 1, 0},
   };
   static constexpr int springs[2] = {
       1,  // spring_1
       2,  // K2
   };
-  static constexpr dashpot::tunable_part<scalar> parts[1] = {
-      {dashpot::tunable_kind::mesh, -1, -1, 0, 1, 0, 3, false, 0.0, 0.0},
+  static constexpr dashpot::tunable_part parts[1] = {
+      {dashpot::tunable_kind::mesh, -1, -1, -1, -1, 0, 1, 0, 3, false},
   };
   static constexpr dashpot::tunable_edge edges[3] = {
       {-1, 0, -1, 0},
       {-1, 0, 0, -1},
       {0, -2, 1, -1},
   };
-  static constexpr dashpot::tunable_block blocks[1] = {
-      {0, 1},
+  static constexpr dashpot::tunable_block<scalar> blocks[1] = {
+      {0, 1, 0.0},
   };
   static constexpr dashpot::tunable_tables<scalar> tables = {
-      0.001, 1000.0, true, 0.9900498337491681, 6.223015277861142e-61, 5.960464477539063e-08,
-      dashpot::brake_rule::observed, 0.0, 3, 1.7976931348623157e+308, -1,
-      {false, 0.0, 0.0}, {false, 0.0, 1.0, 0.0},
-      1, 2, 1, 1, 0, 0, 0,
-      tunables, terms, numbers, springs, parts, edges, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
-      nullptr, 0.0, 0.0};
+      1000.0, 0.9900498337491681, 6.223015277861142e-61, -1,
+      {false, 0.0, 0.0}, {false, 0.0, 1.0},
+      2, 1, 1, 0, 0, 0,
+      springs, parts, edges, blocks, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, nullptr,
+      0.0, 0.0};
 
   scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
   scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
   scalar last_position_ = 0;  // u of the sample before [m]
-  dashpot::tunable_law<scalar, 1, 2, 1, 1, 1, 0, 1, 0> law_{tables};
-  scalar resting_brake_ = law_.reset(tables, last_position_);  // b of a tool in touch and at rest [N·s/m]
-  scalar held_force_ = law_.port(tables).held;  // π, what springs hold [N]
-  scalar step_stiffness_ = law_.port(tables).stiffness;  // what springs answer in a sample [N/m]
-  scalar steady_brake_ = law_.port(tables).damping;  // b of what no slip changes [N·s/m]
-  scalar velocity_gain_ = law_.port(tables).gain;  // b∞ − b [N·s/m]
-  scalar last_brake_ = resting_brake_;  // b of the sample before [N·s/m]
+  scalar K1_ = 200.0;  // parameter [N/m]
+  dashpot::tunable_law<scalar, 2, 1, 1, 1, 0, 1, 0> law_;
+  scalar springs_stiffness_ = law_.set(tables, {B1, K1_, K2});  // what springs answer in a sample [N/m]
+  scalar mesh_stiffness_ = law_.meshes(tables).stiffness;  // what meshes answer in a sample [N/m]
+  scalar mesh_feedthrough_ = law_.meshes(tables).feedthrough;  // b∞ of the meshes [N·s/m]
+  scalar step_stiffness_ = springs_stiffness_ + mesh_stiffness_;  // what all answer in a sample [N/m]
+  scalar steady_brake_ = B1;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = mesh_feedthrough_ - steady_brake_;  // b∞ − b [N·s/m]
+  scalar held_force_ = law_.reset(tables, last_position_);  // π, what springs hold [N]
+  scalar last_brake_ = steady_brake_;  // b of the sample before [N·s/m]
   bool sampled_ = false;  // a finite sample waits for update()
 };
 

@@ -1,21 +1,10 @@
-static inline scalar law_number(const law_type *self, int index) {
-  scalar sum = law_numbers[index].base;
-  for (int i = law_numbers[index].first; i < (law_numbers[index].first + law_numbers[index].count); ++i)
-#if SHARES
-    sum += law_shares[i] * self->value[law_terms[i]];
-#else
-    sum += self->value[law_terms[i]];
-#endif
-  return sum;
-}
-
 // A spring's force is k (z − r). A change of stiffness leaves the forces alone and moves the offsets r, as far as energy
 // allows; with every sample the offsets then go home by a part of the way, where the tank pays for it.
-static inline scalar law_spring_force(const law_type *self, int spring) {
+static inline scalar law_spring_force(const law_tunables *self, int spring) {
   return self->stiffness[spring] * (self->elongation[spring] - self->offset[spring]);
 }
 
-static inline void law_stretch_spring(law_type *self, int spring, scalar change) {
+static inline void law_stretch_spring(law_tunables *self, int spring, scalar change) {
   self->elongation[spring] = dashpot_flush_belowF(law_threshold, self->elongation[spring] + change);
 }
 
@@ -70,13 +59,13 @@ static inline int law_is_changed(const law_spring_change *change) {
 }
 
 // What is next to a spring makes room for another elongation.
-static inline void law_move_end(law_type *self, int spring, const law_spring_change *change) {
+static inline void law_move_end(law_tunables *self, int spring, const law_spring_change *change) {
   if (!law_is_changed(change)) return;
   self->elongation[spring] = (change->new_stiffness > 0) ? (change->new_force / change->new_stiffness) : 0;
 }
 
 // r = z − F/k; what is no more than rounding of z is none.
-static inline void law_move_offset(law_type *self, int spring, const law_spring_change *change) {
+static inline void law_move_offset(law_tunables *self, int spring, const law_spring_change *change) {
   if (!law_is_changed(change)) return;
   const scalar z = self->elongation[spring];
   const scalar offset = (change->new_stiffness > 0) ? (z - change->new_force / change->new_stiffness) : 0;
@@ -85,7 +74,7 @@ static inline void law_move_offset(law_type *self, int spring, const law_spring_
 }
 
 // Once a sample.
-static inline void law_bring_offsets_home(law_type *self) {
+static inline void law_bring_offsets_home(law_tunables *self) {
   if (!self->is_owing) return;
   self->is_owing = 0;
   for (int i = 0; i < law_spring_count; ++i) {
@@ -188,24 +177,27 @@ static inline scalar law_mesh_moved(const law_mesh_room *mesh, int first, int no
   return (node >= 0) ? mesh->moved[first + node] : ((node == law_mesh_port) ? change : 0);
 }
 
-static inline scalar law_eliminate(law_type *self, const law_part *part, scalar per_stiffness, scalar per_damping) {
-  law_mesh_clear(&self->mesh, part->first_node, part->node_count);
-  for (int i = part->first_edge; i < (part->first_edge + part->edge_count); ++i) {
-    const law_edge *edge = &law_edges[i];
-    const scalar conductance = (edge->spring != law_none) ? (per_stiffness * self->stiffness[edge->spring])
-                                                          : (per_damping * law_number(self, edge->damping));
-    law_mesh_join(&self->mesh, part->first_node, edge->from, edge->to, conductance);
-  }
-  return law_mesh_eliminate(&self->mesh, part->first_node, part->node_count);
-}
-
-static inline void law_advance_mesh(law_type *self, const law_part *part, scalar change) {
-  law_mesh_spread(&self->mesh, part->first_node, part->node_count, change);
+// Without `numbers` of springs alone.
+static inline scalar law_eliminate(const law_tunables *self, const law_part *part, scalar per_stiffness, scalar per_damping,
+                                   const scalar *numbers, law_mesh_room *mesh) {
+  law_mesh_clear(mesh, part->first_node, part->node_count);
   for (int i = part->first_edge; i < (part->first_edge + part->edge_count); ++i) {
     const law_edge *edge = &law_edges[i];
     if (edge->spring != law_none)
-      law_stretch_spring(self, edge->spring, law_mesh_moved(&self->mesh, part->first_node, edge->from, change) -
-                                                 law_mesh_moved(&self->mesh, part->first_node, edge->to, change));
+      law_mesh_join(mesh, part->first_node, edge->from, edge->to, per_stiffness * self->stiffness[edge->spring]);
+    else if (numbers != 0)
+      law_mesh_join(mesh, part->first_node, edge->from, edge->to, per_damping * numbers[edge->damping]);
+  }
+  return law_mesh_eliminate(mesh, part->first_node, part->node_count);
+}
+
+static inline void law_advance_mesh(law_tunables *self, const law_part *part, scalar change, law_mesh_room *mesh) {
+  law_mesh_spread(mesh, part->first_node, part->node_count, change);
+  for (int i = part->first_edge; i < (part->first_edge + part->edge_count); ++i) {
+    const law_edge *edge = &law_edges[i];
+    if (edge->spring != law_none)
+      law_stretch_spring(self, edge->spring, law_mesh_moved(mesh, part->first_node, edge->from, change) -
+                                                 law_mesh_moved(mesh, part->first_node, edge->to, change));
   }
 }
 
@@ -257,14 +249,14 @@ static inline scalar law_eliminate_to_first_order(law_mesh_room *mesh, int first
 }
 
 // The viscosity of a mesh at low frequency: the second term of K + s B seen at the port, as s goes to 0.
-static inline scalar law_viscosity(law_type *self, const law_part *part) {
-  law_mesh_room *mesh = &self->mesh;
+static inline scalar law_mesh_viscosity(law_tunables *self, const law_part *part, const scalar *numbers) {
+  law_mesh_room *mesh = &self->other_mesh;
   law_mesh_clear(mesh, part->first_node, part->node_count);
   for (int i = part->first_edge; i < (part->first_edge + part->edge_count); ++i) {
     const law_edge *edge = &law_edges[i];
     const int first = part->first_node, is_spring = edge->spring != law_none;
     const scalar lead = is_spring ? self->stiffness[edge->spring] : 0;
-    const scalar next = is_spring ? 0 : law_number(self, edge->damping);
+    const scalar next = is_spring ? 0 : numbers[edge->damping];
     const int low = (edge->from < edge->to) ? edge->from : edge->to;
     const int high = (edge->from < edge->to) ? edge->to : edge->from;
     law_mesh_join(mesh, first, edge->from, edge->to, lead);
@@ -279,73 +271,28 @@ static inline scalar law_viscosity(law_type *self, const law_part *part) {
 
 #endif
 // b∞ [N·s/m]
-static inline scalar law_part_feedthrough(law_type *self, const law_part *part) {
-  if (part->kind == law_damper) return law_number(self, part->damping);
+static inline scalar law_part_feedthrough(law_tunables *self, const law_part *part, const scalar *numbers) {
+  if (part->kind == law_damper) return numbers[part->damping];
 #if MESH
-  if (part->kind == law_mesh) return law_eliminate(self, part, 0, 1);
-#endif
-  return 0;
-}
-
-#if ZERO_FREQUENCY
-// What it has at low frequency beyond `through`, its b∞ [N·s/m].
-static inline scalar law_relaxing_damping(law_type *self, const law_part *part, scalar through) {
-  if ((part->kind == law_relaxation) || (part->kind == law_fixed_relaxation)) return law_number(self, part->damping);
-#if VISCOSITY
-  if (part->kind == law_mesh) return law_viscosity(self, part) - through;
+  if (part->kind == law_mesh) return law_eliminate(self, part, 0, 1, numbers, &self->mesh);
 #else
-  (void)through;
+  (void)self;
 #endif
   return 0;
 }
 
-#endif
-#if RELAXES
-// z ← z + φ δ − α z with x = k h/B, α = x φ.
-static inline void law_tune_relaxation(law_type *self, const law_part *part) {
-  const scalar stiffness = self->stiffness[part->spring], damping = law_number(self, part->damping);
-  // A damper of nothing leaves nothing of the spring by itself.
-  if ((stiffness > 0) && !(damping > 0)) {
-    self->share[part->spring] = 0;
-    self->loss[part->spring] = 1;
-    return;
-  }
-  const scalar x = (stiffness > 0) ? (stiffness * law_period / damping) : 0;
-  const scalar share = LEFT_IN_RELAXATION;
-  self->share[part->spring] = share;
-  self->loss[part->spring] = ((x - x) == 0) ? (x * share) : 1;
-}
-
-#endif
 // g = dp/dδ over a sample [N/m]. Leaves a mesh as the steps need it.
-static inline scalar law_part_stiffness(law_type *self, const law_part *part) {
+static inline scalar law_part_stiffness(law_tunables *self, const law_part *part, const scalar *numbers) {
   if (part->kind == law_spring) return self->stiffness[part->spring];
-  if (part->kind == law_damper) return law_number(self, part->damping) * law_rate;
+  if (part->kind == law_damper) return numbers[part->damping] * law_rate;
 #if MESH
-  if (part->kind == law_mesh) return law_eliminate(self, part, 1, law_rate);
+  if (part->kind == law_mesh) return law_eliminate(self, part, 1, law_rate, numbers, &self->mesh);
 #endif
-#if RELAXES
-  if (part->kind == law_relaxation) law_tune_relaxation(self, part);
-#endif
-  if (part->kind == law_fixed_relaxation) {
-    self->share[part->spring] = part->share;
-    self->loss[part->spring] = part->loss;
-  }
   return self->stiffness[part->spring] * self->share[part->spring];
 }
 
-// b∞ is taken out: it acts through the velocity.
-static inline scalar law_part_stiffness_at_port(law_type *self, const law_part *part) {
-  scalar through = 0;
-  if (part->kind == law_damper) return 0;
-#if MESH
-  if (part->kind == law_mesh) through = law_eliminate(self, part, 0, law_rate);
-#endif
-  return law_part_stiffness(self, part) - through;
-}
-
 // π, and what a mesh needs to be spread.
-static inline scalar law_held_by_part(law_type *self, const law_part *part) {
+static inline scalar law_held_by_part(law_tunables *self, const law_part *part) {
   if (part->kind == law_damper) return 0;
   if (part->kind == law_spring) return law_spring_force(self, part->spring);
 #if MESH
@@ -363,11 +310,11 @@ static inline scalar law_held_by_part(law_type *self, const law_part *part) {
          self->stiffness[part->spring] * (self->loss[part->spring] * self->elongation[part->spring]);
 }
 
-static inline void law_advance(law_type *self, const law_part *part, scalar change) {
+static inline void law_advance(law_tunables *self, const law_part *part, scalar change) {
   if (part->kind == law_damper) return;
 #if MESH
   if (part->kind == law_mesh) {
-    law_advance_mesh(self, part, change);
+    law_advance_mesh(self, part, change, &self->mesh);
     return;
   }
 #endif
@@ -378,7 +325,7 @@ static inline void law_advance(law_type *self, const law_part *part, scalar chan
 }
 
 // In a relaxation the damper makes room, of a loose spring the slip; of other springs the offset does.
-static inline void law_take_forces(law_type *self, const law_part *part, const law_spring_change *changes) {
+static inline void law_take_forces(law_tunables *self, const law_part *part, const law_spring_change *changes) {
   if ((part->kind == law_spring) && !part->is_loose) law_move_offset(self, part->spring, &changes[part->spring]);
   else if (part->spring != law_none) law_move_end(self, part->spring, &changes[part->spring]);
 #if MESH
@@ -390,7 +337,7 @@ static inline void law_take_forces(law_type *self, const law_part *part, const l
 #if LIMITS
 // All but `share` of a spring's force is let go of: what is next to it makes room, its offset does, or both do. Behind a
 // surface that can move everything shrinks alike.
-static inline void law_shed_spring(law_type *self, const law_part *part, int spring, scalar share) {
+static inline void law_shed_spring(law_tunables *self, const law_part *part, int spring, scalar share) {
 #if CONTACT
   (void)part;
   self->elongation[spring] *= share;
@@ -405,7 +352,7 @@ static inline void law_shed_spring(law_type *self, const law_part *part, int spr
 #endif
 }
 
-static inline void law_shed_part(law_type *self, const law_part *part, scalar share) {
+static inline void law_shed_part(law_tunables *self, const law_part *part, scalar share) {
   if (part->spring != law_none) law_shed_spring(self, part, part->spring, share);
 #if MESH
   for (int i = part->first_edge; i < (part->first_edge + part->edge_count); ++i)
@@ -415,13 +362,13 @@ static inline void law_shed_part(law_type *self, const law_part *part, scalar sh
 
 // What has been shed is not asked for again, and nothing pulls because of it: the offset is no further from home than
 // the spring, the middle one of 0, r and z.
-static inline void law_bring_shed_offset_home(law_type *self, int spring) {
+static inline void law_bring_shed_offset_home(law_tunables *self, int spring) {
   const scalar r = self->offset[spring], z = self->elongation[spring];
   const scalar least = (r < z) ? r : z, most = (r < z) ? z : r;
   self->offset[spring] = (least > 0) ? least : ((most < 0) ? most : 0);
 }
 
-static inline void law_bring_shed_offsets_home(law_type *self, const law_part *part) {
+static inline void law_bring_shed_offsets_home(law_tunables *self, const law_part *part) {
   if (part->spring != law_none) law_bring_shed_offset_home(self, part->spring);
 #if MESH
   for (int i = part->first_edge; i < (part->first_edge + part->edge_count); ++i)
@@ -434,7 +381,7 @@ static inline scalar law_within_limit(scalar force) {
 }
 
 // m within the motor's limits, and the share s = m/wanted where `wanted` is beyond it.
-static inline scalar law_limited(law_type *self, scalar wanted) {
+static inline scalar law_limited(law_tunables *self, scalar wanted) {
   scalar now = law_within_limit(wanted);
   self->kept_share = 1;
   if (law_motor_step > 0) {
@@ -448,7 +395,7 @@ static inline scalar law_limited(law_type *self, scalar wanted) {
 }
 
 // After the parts have advanced, by the share that the command has kept.
-static inline void law_shed(law_type *self, scalar position) {
+static inline void law_shed(law_tunables *self, scalar position) {
   const scalar share = self->kept_share;
 #if RETURNS
   // How far from where the surface lies unloaded it now lies at rest.
@@ -474,37 +421,29 @@ static inline void law_shed(law_type *self, scalar position) {
 
 #endif
 #if SLIPS
-static inline scalar law_yield_force(const law_type *self, int slip) {
-  const law_yield *yield = &law_yields[slip];
-  scalar least = law_number(self, law_cuts[yield->first_cut]);
-  for (int i = yield->first_cut + 1; i < (yield->first_cut + yield->cut_count); ++i) {
-    const scalar sum = law_number(self, law_cuts[i]);
-    least = (sum < least) ? sum : least;
-  }
-  return least;
+static inline scalar law_yield_force(const law_yield *yield, const scalar *numbers) {
+  scalar weakest = numbers[law_cuts[yield->first_cut]];
+  for (int i = yield->first_cut + 1; i < (yield->first_cut + yield->cut_count); ++i)
+    weakest = (numbers[law_cuts[i]] < weakest) ? numbers[law_cuts[i]] : weakest;
+  return (weakest > yield->least) ? weakest : yield->least;
 }
 
-// Curves of slips through parts that give way without end would lose their digits: none becomes less than a share of
-// what it is with the parameters at their largest.
-static inline scalar law_bounded_yield(const law_type *self, int slip) {
-  const scalar yield = law_yield_force(self, slip);
-  return (yield > self->least_yield[slip]) ? yield : self->least_yield[slip];
-}
-static inline scalar law_bounded_stiffness(const law_type *self, int block) {
-  return (self->block_stiffness[block] > self->least_stiffness[block]) ? self->block_stiffness[block]
-                                                                       : self->least_stiffness[block];
+// Curves of slips through parts that give way without end would lose their digits.
+static inline scalar law_bounded_stiffness(const law_tunables *self, int block) {
+  const scalar least = law_block_table[block].least_stiffness;
+  return (self->block_stiffness[block] > least) ? self->block_stiffness[block] : least;
 }
 
 #endif
 #if TREE
-static inline law_tree law_tree_of(law_type *self, const law_coupling *c) {
+static inline law_tree law_tree_of(law_tunables *self, const law_coupling *c) {
   const law_tree tree = {self->nodes + c->first_node, c->node_count, self->part_states + c->first_node,
                          self->corners + c->first_corner, self->merged};
   return tree;
 }
 
 // dp/dδ with every slip giving way: in parallel the sum, in series the inverse of Σ 1/g.
-static inline scalar law_end_stiffness(const law_type *self, const law_coupling *c, const law_node *node) {
+static inline scalar law_end_stiffness(const law_tunables *self, const law_coupling *c, const law_node *node) {
   scalar sum = 0, compliance = 0;
   int is_flat = 0;
   if (node->kind == law_slip) return 0;
@@ -518,10 +457,11 @@ static inline scalar law_end_stiffness(const law_type *self, const law_coupling 
   return (node->kind == law_parallel) ? sum : (is_flat ? 0 : (1 / compliance));
 }
 
-static inline void law_tune_tree(law_type *self, const law_coupling *c) {
+static inline void law_tune_tree(law_tunables *self, const law_coupling *c, const scalar *numbers) {
   for (int k = c->first_node + c->node_count - 1; k >= c->first_node; --k) {
     law_node *node = &self->nodes[k];
-    if (node->kind == law_slip) node->yield = law_bounded_yield(self, c->first_slip + node->place);
+    *node = law_tree_nodes[k];
+    if (node->kind == law_slip) node->yield = law_yield_force(&law_yields[c->first_slip + node->place], numbers);
     node->stiffness = law_end_stiffness(self, c, node);
     node->compliance = (node->stiffness > 0) ? (1 / node->stiffness) : 0;
   }
@@ -529,11 +469,11 @@ static inline void law_tune_tree(law_type *self, const law_coupling *c) {
 
 #endif
 #if GRAPH
-static inline void law_tune_graph(law_type *self, const law_graph *g) {
+static inline void law_tune_graph(law_tunables *self, const law_graph *g, const scalar *numbers) {
   for (int i = g->first_block; i < (g->first_block + g->tie_count); ++i)
     self->tie_stiffness[i] = law_bounded_stiffness(self, i);
   for (int k = g->first_slip; k < (g->first_slip + g->link_count); ++k) {
-    const scalar yield = law_bounded_yield(self, k);
+    const scalar yield = law_yield_force(&law_yields[k], numbers);
     const law_link link = {law_slip_ends[k].from, law_slip_ends[k].to, -yield, yield};
     self->links[k] = link;
   }
@@ -544,7 +484,7 @@ static inline void law_tune_graph(law_type *self, const law_graph *g) {
 }
 
 // A tie between two ends, in the way that a step of the network reads it.
-static inline void law_put_tie(law_type *self, const law_graph *g, int first, int second, scalar stiffness,
+static inline void law_put_tie(law_tunables *self, const law_graph *g, int first, int second, scalar stiffness,
                                scalar *through) {
   if (second < g->end_count) {
     self->end_between[first * g->end_count + second] += stiffness;
@@ -558,12 +498,12 @@ static inline void law_put_tie(law_type *self, const law_graph *g, int first, in
   }
 }
 
-static inline scalar law_end_moved(const law_type *self, const law_graph *g, int end, scalar change) {
+static inline scalar law_end_moved(const law_tunables *self, const law_graph *g, int end, scalar change) {
   return (end < g->end_count) ? self->end_moved[end] : ((end == g->end_count) ? change : 0);
 }
 
 // From the pattern of the sample before. With a contact one link more is the tool's own.
-static inline scalar law_step_graph(law_type *self, const law_graph *g, int links, scalar change) {
+static inline scalar law_step_graph(law_tunables *self, const law_graph *g, int links, scalar change) {
   scalar through = 0;
   for (int k = g->first_slip; k < (g->first_slip + links); ++k) self->sign[k] = self->last_sign[k];
   for (int i = 0; i < (g->end_count * g->end_count); ++i) self->end_between[i] = 0;
@@ -600,14 +540,14 @@ static inline scalar law_step_graph(law_type *self, const law_graph *g, int link
 
 #endif
 #if GRAPH && BRAKE
-static inline int law_mesh_end(const law_type *self, const law_graph *g, int end, int tool) {
+static inline int law_mesh_end(const law_tunables *self, const law_graph *g, int end, int tool) {
   const int group = self->end_group[end];
   return (group == tool) ? law_mesh_port : ((group == (g->end_count + 1)) ? law_mesh_held : group);
 }
 
 // b∞ between `tool`, one of the ends, and the ground: slips that hold join their ends, of one that slides nothing is
 // left. Tool and ground come last and stay what they are.
-static inline scalar law_graph_feedthrough(law_type *self, const law_graph *g, int tool, const int *sign) {
+static inline scalar law_graph_feedthrough(law_tunables *self, const law_graph *g, int tool, const int *sign) {
   law_mesh_room mesh;
   for (int i = 0; i < (g->end_count + 2); ++i) self->end_group[i] = i;
   for (int k = 0; k < g->link_count; ++k) {
@@ -628,7 +568,7 @@ static inline scalar law_graph_feedthrough(law_type *self, const law_graph *g, i
 
 #endif
 #if SLIPS && !CONTACT
-static inline scalar law_step_slips(law_type *self, scalar change) {
+static inline scalar law_step_slips(law_tunables *self, scalar change) {
   scalar sum = 0;
 #if TREE
   for (int i = 0; i < law_coupling_count; ++i) {
@@ -648,7 +588,7 @@ static inline scalar law_step_slips(law_type *self, scalar change) {
 #endif
 #if SLIPS && CONTACT
 // The one coupling, or graph, of a contact: the whole network.
-static inline scalar law_push_slips(law_type *self, scalar approach, scalar *change) {
+static inline scalar law_push_slips(law_tunables *self, scalar approach, scalar *change) {
 #if GRAPH
   const scalar force = law_step_graph(self, &law_graphs[0], law_graphs[0].link_count + 1, approach);
   *change = self->end_moved[law_graphs[0].end_count - 1];
@@ -664,7 +604,7 @@ static inline scalar law_push_slips(law_type *self, scalar approach, scalar *cha
 #endif
 #if BRAKE
 // b∞ of all that is behind slips, for one pattern of those that give way [N·s/m].
-static inline scalar law_damping_of(law_type *self, const int *sign) {
+static inline scalar law_damping_of(law_tunables *self, const int *sign) {
   scalar sum = 0;
 #if TREE
   for (int i = 0; i < law_coupling_count; ++i) {
@@ -687,28 +627,23 @@ static inline scalar law_damping_of(law_type *self, const int *sign) {
   return sum;
 }
 
-// Of b∞ behind slips, what the brake has left.
-static inline scalar law_left_to_brake(const law_type *self, scalar damping) {
-  const scalar left = law_max_damping - self->port.damping;
-  return (damping < left) ? damping : left;
-}
+static inline scalar law_least(scalar one, scalar other) { return (one < other) ? one : other; }
 
-static inline scalar law_slips_at_rest(law_type *self) {
-  for (int i = 0; i < law_slips; ++i) self->commanded[i] = 0;
-  return law_left_to_brake(self, law_damping_of(self, self->commanded));
-}
-
-static inline void law_reset_brake(law_type *self) {
+// After a reset: what slips leave to a brake that has `left` for them [N·s/m].
+static inline scalar law_tunable_resting_brake(law_tunables *self, scalar left) {
   for (int i = 0; i < law_slips; ++i) {
+    self->commanded[i] = 0;
     self->slid[i] = 0;
     self->slid_at[i] = 0;
   }
-  self->root = law_square_root(law_slips_at_rest(self));
+  const scalar damping = law_least(law_damping_of(self, self->commanded), left);
+  self->root = law_square_root(damping);
+  return damping;
 }
 
 // Which slips slide for the command: a slide ends where the tool has gone the hysteresis, to either side, and the slip
 // not with it.
-static inline void law_follow_slides(law_type *self, scalar position) {
+static inline void law_follow_slides(law_tunables *self, scalar position) {
   for (int i = 0; i < law_slips; ++i) {
     const scalar way = position - self->slid_at[i];
     self->slides_now[i] = (self->sign[i] != 0) || (self->slid[i] && ((law_hysteresis * law_hysteresis - way * way) > 0));
@@ -718,25 +653,24 @@ static inline void law_follow_slides(law_type *self, scalar position) {
 }
 
 // b on its way to what the regime would have: √b ← √b + κ (√b_regime − √b).
-static inline scalar law_reached_damping(law_type *self, scalar wanted) {
+static inline scalar law_reached_damping(law_tunables *self, scalar wanted) {
   if (!(law_coil_share < 1)) return wanted;
   self->root_now = self->root + law_coil_share * (law_square_root(wanted) - self->root);
   return self->root_now * self->root_now;
 }
 
-// What slips leave to the brake after their step, by where the tool is.
-static inline law_slip_brake law_tunable_slip_brake(law_type *self, scalar position) {
-  const scalar now = law_left_to_brake(self, law_damping_of(self, self->sign));
+// What slips leave to a brake that has `left` for them, after their step, by where the tool is.
+static inline law_slip_brake law_tunable_slip_brake(law_tunables *self, scalar position, scalar left) {
+  const scalar now = law_least(law_damping_of(self, self->sign), left);
   law_follow_slides(self, position);
-  const scalar wanted = law_left_to_brake(self, law_damping_of(self, self->commanded));
-  const scalar damping = law_reached_damping(self, wanted);
-  const law_slip_brake left = {now * law_rate, damping, dashpot_clamp_toF(self->make_up, wanted - damping)};
-  return left;
+  const scalar wanted = law_least(law_damping_of(self, self->commanded), left);
+  const law_slip_brake found = {now * law_rate, law_reached_damping(self, wanted), wanted};
+  return found;
 }
 
 #endif
 #if SLIPS
-static inline void law_keep_slips(law_type *self) {
+static inline void law_keep_slips(law_tunables *self) {
   for (int i = 0; i <= law_slips; ++i) self->last_sign[i] = self->sign[i];
 #if BRAKE
   for (int i = 0; i < law_slips; ++i) {
@@ -748,77 +682,48 @@ static inline void law_keep_slips(law_type *self) {
 }
 
 #endif
-static inline void law_tune_brake(law_type *self) {
-  self->feedthrough = 0;
-#if ZERO_FREQUENCY
-  scalar relaxing = 0;
+// g and b∞ of every block. Returns g of all that joins tool and ground without a slip but for dampers and meshes.
+static inline scalar law_find_curves(law_tunables *self, const scalar *numbers) {
+  scalar springs = 0;
+#if MESH
+  self->meshes.stiffness = self->meshes.feedthrough = 0;
 #endif
-  for (int i = 0; i < law_block_table[0].part_count; ++i) {
-    const law_part *part = &law_parts[law_block_table[0].first_part + i];
-    const scalar through = law_part_feedthrough(self, part);
-    self->feedthrough += through;
-#if ZERO_FREQUENCY
-    relaxing += law_relaxing_damping(self, part, through);
-#endif
-  }
-#if ZERO_FREQUENCY
-  const scalar zero_frequency = self->feedthrough + relaxing;
-#endif
-  const scalar wanted = BRAKE_RULE;
-  self->port.damping = (wanted < law_max_damping) ? wanted : law_max_damping;
-#if CONTACT
-  // Where a surface can be left the motor compensates nothing.
-  if (self->port.damping > self->feedthrough) self->port.damping = self->feedthrough;
-#endif
-  self->port.gain = self->feedthrough - self->port.damping;
-  self->port.feedthrough = self->feedthrough * law_rate;
-#if BRAKE
-  const scalar gain = self->port.gain;
-  const scalar assured = law_assured_share * self->port.damping - ((gain < 0) ? -gain : gain);
-  self->make_up = (assured > 0) ? assured : 0;
-#endif
-}
-
-// Everything that follows from the parameters' values.
-static inline void law_tune(law_type *self) {
-  for (int i = 0; i < law_spring_count; ++i) self->stiffness[i] = law_number(self, law_spring_numbers[i]);
-  law_tune_brake(self);
-  for (int i = 1; i < law_block_count; ++i) {
-    self->block_feedthrough[i] = 0;
-    for (int k = 0; k < law_block_table[i].part_count; ++k)
-      self->block_feedthrough[i] += law_part_feedthrough(self, &law_parts[law_block_table[i].first_part + k]);
-  }
-  // Last, so that every mesh is left as the steps need it.
   for (int i = 0; i < law_block_count; ++i) {
-    self->block_stiffness[i] = 0;
-    for (int k = 0; k < law_block_table[i].part_count; ++k)
-      self->block_stiffness[i] += law_part_stiffness(self, &law_parts[law_block_table[i].first_part + k]);
+    self->block_feedthrough[i] = self->block_stiffness[i] = 0;
+    for (int k = 0; k < law_block_table[i].part_count; ++k) {
+      const law_part *part = &law_parts[law_block_table[i].first_part + k];
+      const scalar through = law_part_feedthrough(self, part, numbers);
+      const scalar stiffness = law_part_stiffness(self, part, numbers);
+      self->block_feedthrough[i] += through;
+      self->block_stiffness[i] += stiffness;
+      if ((i > 0) || (part->kind == law_damper)) continue;
+#if MESH
+      if (part->kind == law_mesh) {
+        self->meshes.stiffness += stiffness - through * law_rate;
+        self->meshes.feedthrough += through;
+        continue;
+      }
+#endif
+      springs += stiffness;
+    }
   }
-  self->port.recovery = (self->block_stiffness[0] > 0) ? -(1 / self->block_stiffness[0]) : 0;
-  self->port.stiffness = 0;
-  for (int k = 0; k < law_block_table[0].part_count; ++k)
-    self->port.stiffness += law_part_stiffness_at_port(self, &law_parts[law_block_table[0].first_part + k]);
-#if TREE
-  for (int i = 0; i < law_coupling_count; ++i) law_tune_tree(self, &law_couplings[i]);
-#endif
-#if GRAPH
-  for (int i = 0; i < law_graph_count; ++i) law_tune_graph(self, &law_graphs[i]);
-#endif
+  // Of what no slip changes the brake has been told already.
+  self->block_feedthrough[0] = 0;
+  return springs;
 }
 
 // p = g δ + π: π of every block, and what its meshes need to be spread.
-static inline void law_find_held(law_type *self) {
+static inline void law_find_held(law_tunables *self) {
   for (int i = 0; i < law_block_count; ++i) {
     scalar held = 0;
     for (int k = 0; k < law_block_table[i].part_count; ++k)
       held += law_held_by_part(self, &law_parts[law_block_table[i].first_part + k]);
     self->block_held[i] = held;
   }
-  self->port.held = self->block_held[0];
 }
 
 // Everything but the parameters' values and what follows from them.
-static inline void law_rest(law_type *self) {
+static inline void law_rest(law_tunables *self) {
   for (int i = 0; i < law_springs; ++i) self->elongation[i] = self->offset[i] = 0;
   for (int i = 0; i < law_blocks_room; ++i) self->block_elongation[i] = 0;
   self->tank = 0;
@@ -835,8 +740,8 @@ static inline void law_rest(law_type *self) {
 #endif
 }
 
-// At rest at `position`. Returns b of a tool that is in touch and at rest [N·s/m].
-static inline scalar law_tunable_reset(law_type *self, scalar position) {
+// At rest at `position`. Returns π of what joins tool and ground without a slip [N].
+static inline scalar law_tunable_reset(law_tunables *self, scalar position) {
   law_rest(self);
 #if STATIC
   self->elongation[law_static_spring] = position;
@@ -846,34 +751,45 @@ static inline scalar law_tunable_reset(law_type *self, scalar position) {
   for (int i = 0; i < law_block_table[0].part_count; ++i) {
     const law_part *part = &law_parts[law_block_table[0].first_part + i];
     if (part->kind != law_mesh) continue;
-    law_eliminate(self, part, 1, 0);
-    law_mesh_release(&self->mesh, part->first_node, part->node_count);
-    law_mesh_rest(&self->mesh, part->first_node, part->node_count);
-    law_advance_mesh(self, part, position);
-    law_eliminate(self, part, 1, law_rate);
+    law_eliminate(self, part, 1, 0, 0, &self->other_mesh);
+    law_mesh_release(&self->other_mesh, part->first_node, part->node_count);
+    law_mesh_rest(&self->other_mesh, part->first_node, part->node_count);
+    law_advance_mesh(self, part, position, &self->other_mesh);
   }
 #endif
   law_find_held(self);
   (void)position;
-#if BRAKE
-  law_reset_brake(self);
-  return self->port.damping + law_slips_at_rest(self);
-#else
-  return self->port.damping;
-#endif
+  return self->block_held[0];
 }
 
-// What the tool meets in the next sample, to be asked for after reset and set.
-static inline law_port law_tunable_port(const law_type *self) { return self->port; }
+// π of what joins tool and ground without a slip [N].
+static inline scalar law_tunable_held(const law_tunables *self) { return self->block_held[0]; }
 
+#if MESH
+// What a change has found of meshes without a slip.
+static inline law_meshes law_tunable_meshes(const law_tunables *self) { return self->meshes; }
+
+#endif
+#if VISCOSITY
+// Of those the viscosity at low frequency [N·s/m].
+static inline scalar law_tunable_viscosity(law_tunables *self, const scalar *numbers) {
+  scalar sum = 0;
+  for (int i = 0; i < law_block_table[0].part_count; ++i) {
+    const law_part *part = &law_parts[law_block_table[0].first_part + i];
+    if (part->kind == law_mesh) sum += law_mesh_viscosity(self, part, numbers);
+  }
+  return sum;
+}
+
+#endif
 #if SLIPS && !CONTACT
 // Of all slips, by the tool's displacement in this sample: the force that opposes it [N].
-static inline scalar law_tunable_slip(law_type *self, scalar change) { return law_step_slips(self, change); }
+static inline scalar law_tunable_slip(law_tunables *self, scalar change) { return law_step_slips(self, change); }
 
 #endif
 #if SLIPS && CONTACT
 // The same of slips behind a surface, and all beside them: by what the surface's change would be if it stuck to the tool.
-static inline law_push law_tunable_push(law_type *self, scalar approach) {
+static inline law_push law_tunable_push(law_tunables *self, scalar approach) {
   law_push pushed = {0, 0};
   pushed.force = law_push_slips(self, approach, &pushed.change);
   return pushed;
@@ -882,7 +798,7 @@ static inline law_push law_tunable_push(law_type *self, scalar approach) {
 #endif
 #if LIMITS
 // The motor's part within its limits, and of all forces the share that is kept for it.
-static inline law_limit law_tunable_limit(law_type *self, scalar wanted) {
+static inline law_limit law_tunable_limit(law_tunables *self, scalar wanted) {
   law_limit limited = {0, 1};
   limited.force = law_limited(self, wanted);
   limited.share = self->kept_share;
@@ -892,7 +808,7 @@ static inline law_limit law_tunable_limit(law_type *self, scalar wanted) {
 #endif
 #if RETURNS
 // Where the surface stands when it and its dent have followed a tool that is gone, until the dent is none.
-static inline scalar law_tunable_follow(law_type *self, scalar surface, scalar depth) {
+static inline scalar law_tunable_follow(law_tunables *self, scalar surface, scalar depth) {
 #if LIMITS
   const scalar gap = surface - depth;
   self->returned = ((gap > 0) && (self->dent > 0)) ? ((gap < self->dent) ? gap : self->dent) : 0;
@@ -907,7 +823,7 @@ static inline scalar law_tunable_follow(law_type *self, scalar surface, scalar d
 #endif
 // Takes the states over a sample, by the change of the tool, or of the surface that it pushes, and to its position.
 // Returns π of what joins tool and ground without a slip [N].
-static inline scalar law_tunable_update(law_type *self, scalar change, scalar position) {
+static inline scalar law_tunable_update(law_tunables *self, scalar change, scalar position) {
   self->block_elongation[0] = change;
   for (int i = 0; i < law_block_count; ++i)
     for (int k = 0; k < law_block_table[i].part_count; ++k)
@@ -923,43 +839,48 @@ static inline scalar law_tunable_update(law_type *self, scalar change, scalar po
   law_keep_slips(self);
 #endif
   law_find_held(self);
-  return self->port.held;
+  return self->block_held[0];
 }
 
 // V + T [J]
-static inline scalar law_tunable_stored_energy(const law_type *self) {
+static inline scalar law_tunable_stored_energy(const law_tunables *self) {
   scalar stored = self->tank;
   for (int i = 0; i < law_spring_count; ++i)
     stored += law_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * (scalar)0.5;
   return stored;
 }
 
-// Takes on values within their ranges. Bit i of the result: what was wanted of parameter i was no number within its
-// range. What is no number at all leaves its parameter as it is.
-static inline unsigned law_take_values(law_type *self, const scalar *wanted, int *is_new) {
-  unsigned clamped = 0;
-  for (int i = 0; i < law_parameters_room; ++i) {
-    const law_range_of_parameter *range = &law_ranges[i];
-    scalar value = wanted[i];
-    if (value != value) value = self->value[i];
-    else if (value < range->min) value = range->min;
-    else if (value > range->max) value = range->max;
-    if (!(value == wanted[i])) clamped |= 1u << i;
-    if (value != self->value[i]) *is_new = 1;
-    self->value[i] = value;
-  }
-  return clamped;
+// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// that is not what was wanted, else 0.
+static inline unsigned law_take_value(const law_range_of_parameter *range, scalar wanted, scalar *value) {
+  if (wanted == wanted) *value = (wanted < range->min) ? range->min : ((wanted > range->max) ? range->max : wanted);
+  return (*value == wanted) ? 0u : 1u;
 }
 
-// With the new values: the springs' forces stay as they are as far as energy allows.
-static inline void law_change_over(law_type *self) {
+// With new numbers: the springs' forces stay as they are as far as energy allows. Returns g of all that joins tool and
+// ground without a slip but for dampers and meshes [N/m].
+static inline scalar law_tunable_set(law_tunables *self, const scalar *numbers) {
   law_spring_change changes[law_springs];
   for (int i = 0; i < law_springs; ++i) {
     changes[i].stiffness = self->stiffness[i];
     changes[i].force = law_spring_force(self, i);
     changes[i].new_force = 0;
   }
-  law_tune(self);
+  for (int i = 0; i < law_spring_count; ++i) self->stiffness[i] = numbers[law_spring_numbers[i]];
+#if RELAXES
+  for (int i = 0; i < law_part_count; ++i) {
+    if (law_parts[i].kind != law_relaxation) continue;
+    self->share[law_parts[i].spring] = numbers[law_parts[i].share];
+    self->loss[law_parts[i].spring] = numbers[law_parts[i].loss];
+  }
+#endif
+  const scalar stiffness = law_find_curves(self, numbers);
+#if TREE
+  for (int i = 0; i < law_coupling_count; ++i) law_tune_tree(self, &law_couplings[i], numbers);
+#endif
+#if GRAPH
+  for (int i = 0; i < law_graph_count; ++i) law_tune_graph(self, &law_graphs[i], numbers);
+#endif
   for (int i = 0; i < law_springs; ++i) changes[i].new_stiffness = self->stiffness[i];
   self->tank = law_carry_over(changes, self->tank);
 #if STATIC
@@ -973,20 +894,21 @@ static inline void law_change_over(law_type *self) {
 #endif
   for (int i = 0; i < law_part_count; ++i) law_take_forces(self, &law_parts[i], changes);
   law_find_held(self);
+  return stiffness;
 }
 
-// Before all else: the values to begin with.
-static inline void law_tunable_begin(law_type *self) {
+// Before all else.
+static inline void law_tunable_begin(law_tunables *self) {
   for (int i = 0; i < law_springs; ++i) self->stiffness[i] = self->share[i] = self->loss[i] = 0;
   for (int i = 0; i < law_blocks_room; ++i)
     self->block_stiffness[i] = self->block_held[i] = self->block_feedthrough[i] = 0;
 #if MESH
   law_mesh_clear(&self->mesh, 0, law_mesh_nodes);
-  for (int i = 0; i < law_mesh_nodes; ++i) self->mesh.push[i] = self->mesh.moved[i] = 0;
+  law_mesh_clear(&self->other_mesh, 0, law_mesh_nodes);
+  for (int i = 0; i < law_mesh_nodes; ++i)
+    self->mesh.push[i] = self->mesh.moved[i] = self->other_mesh.push[i] = self->other_mesh.moved[i] = 0;
 #endif
 #if SLIPS
-  for (int i = 0; i < law_blocks_room; ++i) self->least_stiffness[i] = 0;
-  for (int i = 0; i < law_slips; ++i) self->least_yield[i] = 0;
   for (int i = 0; i <= law_slips; ++i) self->sign[i] = 0;
 #endif
 #if TREE
@@ -1010,12 +932,5 @@ static inline void law_tunable_begin(law_type *self) {
   }
   self->root_now = 0;
 #endif
-#if SLIPS
-  for (int i = 0; i < law_parameters_room; ++i) self->value[i] = law_ranges[i].max;
-  law_tune(self);
-  for (int i = 0; i < law_blocks_room; ++i) self->least_stiffness[i] = law_least_share * self->block_stiffness[i];
-  for (int i = 0; i < law_slips; ++i) self->least_yield[i] = law_least_share * law_yield_force(self, i);
-#endif
-  for (int i = 0; i < law_parameters_room; ++i) self->value[i] = law_ranges[i].value;
-  law_tune(self);
+  law_rest(self);
 }

@@ -4,20 +4,12 @@ typedef struct law_range_of_parameter {
   scalar max;
 } law_range_of_parameter;
 
-// base + Σ of the parameters terms[first] … terms[first + count − 1], each times its share where there are shares
-typedef struct law_sum {
-  scalar base;
-  int first;
-  int count;
-} law_sum;
-
 // What a part of a block is. Parts stand in parallel.
 enum {
-  law_spring,            // p = k (z − r)
-  law_damper,            // p = B ż
-  law_relaxation,        // a spring and a damper in series, with k and B from numbers
-  law_fixed_relaxation,  // one that no parameter touches: constants worked out beforehand
-  law_mesh               // springs and dampers between inner nodes
+  law_spring,      // p = k (z − r)
+  law_damper,      // p = B ż
+  law_relaxation,  // a spring and a damper in series
+  law_mesh         // springs and dampers between inner nodes
 };
 
 enum { law_none = -1, law_mesh_port = -1, law_mesh_held = -2 };  // the ends of a mesh, in the place of a node
@@ -26,13 +18,13 @@ typedef struct law_part {
   int kind;
   int spring;      // into the springs; of a mesh none
   int damping;     // number of a damper or relaxation [N·s/m]
+  int share;       // number φ of a relaxation: what a displacement within a sample leaves in its spring [1]
+  int loss;        // number α of a relaxation: what is lost in a sample [1]
   int first_node;  // of a mesh, as are those below
   int node_count;
   int first_edge;
   int edge_count;
   int is_loose;  // a spring in series with a slip, so that its rest length means nothing
-  scalar share;  // of a fixed relaxation: what a displacement within a sample leaves in its spring [1]
-  scalar loss;   // of a fixed relaxation: what is lost in a sample [1]
 } law_part;
 
 #if MESH
@@ -68,6 +60,7 @@ typedef struct law_mesh_room {
 typedef struct law_block_parts {
   int first_part;
   int part_count;
+  scalar least_stiffness;  // behind a slip no softer [N/m]
 } law_block_parts;
 
 // One spring across a change of its stiffness.
@@ -83,6 +76,7 @@ typedef struct law_spring_change {
 typedef struct law_yield {
   int first_cut;
   int cut_count;
+  scalar least;  // no less, whatever the numbers are [N]
 } law_yield;
 
 #endif
@@ -117,16 +111,14 @@ typedef struct law_graph {
 } law_graph;
 
 #endif
-// What the tool meets: of what joins tool and ground, or the surface and ground, without a slip.
-typedef struct law_port {
-  scalar held;         // π [N]
+#if MESH
+// Of the meshes that join tool and ground, or the surface and ground, without a slip.
+typedef struct law_meshes {
   scalar stiffness;    // g without b∞/h [N/m]
-  scalar recovery;     // −1/g, of a surface that nothing touches [m/N]
-  scalar feedthrough;  // b∞/h [N/m]
-  scalar damping;      // b [N·s/m]
-  scalar gain;         // b∞ − b [N·s/m]
-} law_port;
+  scalar feedthrough;  // b∞ [N·s/m]
+} law_meshes;
 
+#endif
 #if SLIPS && CONTACT
 // Of slips behind a surface.
 typedef struct law_push {
@@ -140,7 +132,7 @@ typedef struct law_push {
 typedef struct law_slip_brake {
   scalar now;      // b∞/h behind slips in this sample, as far as the brake makes it [N/m]
   scalar damping;  // b of it, on its way there with the coil [N·s/m]
-  scalar make_up;  // what the motor makes up for a coil on its way [N·s/m]
+  scalar wanted;   // and where it is going [N·s/m]
 } law_slip_brake;
 
 #endif

@@ -262,7 +262,7 @@ void expect_all_parts(const std::vector<Emitted>& all) {
   for (const char* part :
        {"_tree_step(", "_tree_push(", "_network_step(", "_mean_decay(", "_mesh_eliminate(",
         "_eliminate_to_first_order(", "_regime_feedthrough(", "_graph_feedthrough(", "_follow_slides(", "_push_slips(",
-        "_step_slips(", "_limited(", "self->dent", "_make_up_for(", "_network_step(&network", "_shares["})
+        "_step_slips(", "_limited(", "self->dent", "_make_up_for(", "_network_step(&network", "_take_value("})
     EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Emitted& one) {
       return one.header.find(part) != std::string::npos;
     })) << part;

@@ -362,6 +362,18 @@ class Tunables(SimulateTest):
         self.assertEqual(self.simulated("tuned.json", table([(*row, 2) for row in motion], "time,position,B")), plain)
         self.assertAlmostEqual(plain[-1]["motor_force"], 100 * motion[-1][1], delta=1e-14)
 
+    def test_elements_called_like_numbers_of_the_law(self):
+        """Fails if an element that is called like one of the law's own numbers takes its place."""
+        def pushed(name):
+            damper = f'{{ "damper": 2, "name": "{name}" }}'
+            self.write("pushed.json", self.NETWORK.replace('{ "damper": "B" }', damper).replace('"network":', '"contact": { "at": 0.002 }, "network":'))
+            return self.simulated("pushed.json", table([(0.001 * i, 0.01 * math.sin(0.1 * i)) for i in range(80)]))
+
+        plain = pushed("skin")
+        self.assertGreater(max(abs(row["motor_force"]) for row in plain), 0.1)
+        for name in ["none", "surface_at", "encoder_step", "zero", "one", "minus_one", "rate", "no_damping"]:
+            self.assertEqual(pushed(name), plain, name)
+
     def test_values_beyond_the_range(self):
         """Fails if a value beyond its range is taken as it is, or clamped in silence, or warned of in every row."""
         self.write("motion.csv", table([(0, 0, 1000), (0.001, 0.01, 1000), (0.002, 0.01, 1)], "time,position,K"))

@@ -3,6 +3,7 @@ import csv
 import io
 import math
 import os
+import re
 import subprocess
 import unittest
 
@@ -77,8 +78,7 @@ class Springpot(CommandTest):
         header = self.folder / "springpot_tunable.hpp"
         self.dashpot("verify", "certificate.json", header, "--allow-uncertified")
         text = header.read_text()
-        begin = text.index("shares[")
-        place = text.index("    0.", begin) + 7
+        place = re.search(r"_share = \d+\.\d", text).end()
         digit = "1" if text[place] != "1" else "2"
         header.write_text(text[:place] + digit + text[place + 1:])
         self.refused("verify", "certificate.json", header, "--allow-uncertified", code="constant-of-nothing")

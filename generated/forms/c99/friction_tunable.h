@@ -14,14 +14,15 @@
 //   hold of 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
-//   falls; rounding adds at most 1.3e-14 of the sum of the force's terms
+//   falls; rounding adds at most 1.1e-14 of the sum of the force's terms
 // device: none is named: exact brake, exact velocity, no delay
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
-// cost of output(): at most 85 additions, multiplications and divisions
-// cost of update(): at most 29 additions and multiplications; 1 numbers are kept between samples
-// cost of set(): at most 474 additions, multiplications and divisions
+// cost of output(): at most 82 additions, multiplications and divisions
+// cost of update(): at most 21 additions and multiplications; 1 numbers are kept between samples
+// cost of set(): at most 24 additions, multiplications and divisions for the constants, 384 for the springs'
+//   energy
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
 //   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
 //   the motor makes what the spring behind it changes of that
@@ -617,7 +618,6 @@ static inline double friction_tunable_regime_feedthrough(const friction_tunable_
 }
 
 enum {
-  friction_tunable_parameters_room = 3,
   friction_tunable_spring_count = 1,
   friction_tunable_springs = 1,
   friction_tunable_part_count = 2,
@@ -640,20 +640,12 @@ typedef struct friction_tunable_range_of_parameter {
   double max;
 } friction_tunable_range_of_parameter;
 
-// base + Σ of the parameters terms[first] … terms[first + count − 1], each times its share where there are shares
-typedef struct friction_tunable_sum {
-  double base;
-  int first;
-  int count;
-} friction_tunable_sum;
-
 // What a part of a block is. Parts stand in parallel.
 enum {
-  friction_tunable_spring,            // p = k (z − r)
-  friction_tunable_damper,            // p = B ż
-  friction_tunable_relaxation,        // a spring and a damper in series, with k and B from numbers
-  friction_tunable_fixed_relaxation,  // one that no parameter touches: constants worked out beforehand
-  friction_tunable_mesh               // springs and dampers between inner nodes
+  friction_tunable_spring,      // p = k (z − r)
+  friction_tunable_damper,      // p = B ż
+  friction_tunable_relaxation,  // a spring and a damper in series
+  friction_tunable_mesh         // springs and dampers between inner nodes
 };
 
 enum { friction_tunable_none = -1, friction_tunable_mesh_port = -1, friction_tunable_mesh_held = -2 };  // the ends of a mesh, in the place of a node
@@ -662,18 +654,19 @@ typedef struct friction_tunable_part {
   int kind;
   int spring;      // into the springs; of a mesh none
   int damping;     // number of a damper or relaxation [N·s/m]
+  int share;       // number φ of a relaxation: what a displacement within a sample leaves in its spring [1]
+  int loss;        // number α of a relaxation: what is lost in a sample [1]
   int first_node;  // of a mesh, as are those below
   int node_count;
   int first_edge;
   int edge_count;
   int is_loose;  // a spring in series with a slip, so that its rest length means nothing
-  double share;  // of a fixed relaxation: what a displacement within a sample leaves in its spring [1]
-  double loss;   // of a fixed relaxation: what is lost in a sample [1]
 } friction_tunable_part;
 
 typedef struct friction_tunable_block_parts {
   int first_part;
   int part_count;
+  double least_stiffness;  // behind a slip no softer [N/m]
 } friction_tunable_block_parts;
 
 // One spring across a change of its stiffness.
@@ -688,6 +681,7 @@ typedef struct friction_tunable_spring_change {
 typedef struct friction_tunable_yield {
   int first_cut;
   int cut_count;
+  double least;  // no less, whatever the numbers are [N]
 } friction_tunable_yield;
 
 // Slips that are stepped together: nodes of the tree, blocks in the order of their places, slips likewise.
@@ -699,35 +693,20 @@ typedef struct friction_tunable_coupling {
   int first_corner;
 } friction_tunable_coupling;
 
-// What the tool meets: of what joins tool and ground, or the surface and ground, without a slip.
-typedef struct friction_tunable_port {
-  double held;         // π [N]
-  double stiffness;    // g without b∞/h [N/m]
-  double recovery;     // −1/g, of a surface that nothing touches [m/N]
-  double feedthrough;  // b∞/h [N/m]
-  double damping;      // b [N·s/m]
-  double gain;         // b∞ − b [N·s/m]
-} friction_tunable_port;
-
 // Of slips and the brake.
 typedef struct friction_tunable_slip_brake {
   double now;      // b∞/h behind slips in this sample, as far as the brake makes it [N/m]
   double damping;  // b of it, on its way there with the coil [N·s/m]
-  double make_up;  // what the motor makes up for a coil on its way [N·s/m]
+  double wanted;   // and where it is going [N·s/m]
 } friction_tunable_slip_brake;
 
-static const double friction_tunable_period = 0.001;  // h [s]
 static const double friction_tunable_rate = 1000.0;  // 1/h [Hz]
 static const double friction_tunable_retention = 0.9900498337491681;  // what an offset keeps in a sample where the tank pays [1]
 static const double friction_tunable_threshold = 6.223015277861142e-61;  // magnitudes of states below are zero
-static const double friction_tunable_least_share = 5.960464477539063e-08;  // of its greatest value, that a part behind a slip keeps [1]
-static const double friction_tunable_wanted_damping = 0.0;  // b, or the most of it [N·s/m]
-static const double friction_tunable_max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
 static const double friction_tunable_surface_at = 0.0;  // where the surface lies unloaded [m]
 static const double friction_tunable_encoder_step = 0.0;  // how far the gap may open before the command lets go [m]
 static const double friction_tunable_hysteresis = 0.0;  // before a slide has ended for the command [m]
 static const double friction_tunable_coil_share = 1.0;  // of what is missing from √b, in a sample [1]
-static const double friction_tunable_assured_share = 1.0;  // of b, that the motor may make up by an estimate [1]
 static const double friction_tunable_motor_limit = 0.0;  // of its force; 0: none [N]
 static const double friction_tunable_motor_step = 0.0;  // of its change in a period; 0: none [N]
 static const friction_tunable_range_of_parameter friction_tunable_ranges[3] = {
@@ -735,25 +714,18 @@ static const friction_tunable_range_of_parameter friction_tunable_ranges[3] = {
     {2000.0, 200.0, 5000.0},  // presliding [N/m]
     {12.0, 0.0, 40.0},  // drag [N s/m]
 };
-static const int friction_tunable_terms[4] = {2, 1, 0, 2};
-static const friction_tunable_sum friction_tunable_numbers[4] = {
-    {0.0, 0, 1},
-    {0.0, 1, 1},
-    {0.0, 2, 1},
-    {0.0, 3, 1},
-};
 static const int friction_tunable_spring_numbers[1] = {1};
 static const friction_tunable_part friction_tunable_parts[2] = {
-    {friction_tunable_damper, -1, 0, 0, 0, 0, 0, 0, 0.0, 0.0},
-    {friction_tunable_spring, 0, -1, 0, 0, 0, 0, 1, 0.0, 0.0},
+    {friction_tunable_damper, -1, 0, -1, -1, 0, 0, 0, 0, 0},
+    {friction_tunable_spring, 0, -1, -1, -1, 0, 0, 0, 0, 1},
 };
 static const friction_tunable_block_parts friction_tunable_block_table[2] = {
-    {0, 1},
-    {1, 1},
+    {0, 1, 0.002384185791015625},
+    {1, 1, 0.0002980232238769531},
 };
 static const int friction_tunable_cuts[1] = {2};
 static const friction_tunable_yield friction_tunable_yields[1] = {
-    {0, 1},
+    {0, 1, 2.980232238769531e-07},
 };
 static const friction_tunable_coupling friction_tunable_couplings[1] = {
     {0, 3, 1, 0, 0},
@@ -764,24 +736,8 @@ static const friction_tunable_node friction_tunable_tree_nodes[3] = {
     {friction_tunable_slip, 0, 0, 1, 0, 4, 0, 0, 0},
 };
 
-// What may change while the law runs, to begin with as in the network's file.
-typedef struct friction_tunable_parameters {
-  double yield;  // 0 to 5 [N]
-  double presliding;  // 200 to 5000 [N/m]
-  double drag;  // 0 to 40 [N s/m]
-} friction_tunable_parameters;
-
-typedef struct friction_tunable {
-  double held_force;  // π, what springs hold [N]
-  double resting_brake;  // b of a tool in touch and at rest [N·s/m]
-  double last_position;  // u of the sample before [m]
-  double step_stiffness;  // what springs answer in a sample [N/m]
-  double steady_brake;  // b of what no slip changes [N·s/m]
-  double velocity_gain;  // b∞ − b [N·s/m]
-  double last_brake;  // b of the sample before [N·s/m]
-  double sampled_position;  // port displacement u, at this sample [m]
-  double sampled_position_change;  // Δu since the sample before, at this sample [m]
-  double value[friction_tunable_parameters_room];  // of the parameters
+// What a change of parameters works on: the springs, what stands between them, and the slips.
+typedef struct friction_tunable_tunables {
   double elongation[friction_tunable_springs];     // z [m]
   double offset[friction_tunable_springs];         // r, how far the rest length is from home [m]
   double tank;                        // energy that changes have set free [J]
@@ -794,10 +750,6 @@ typedef struct friction_tunable {
   double block_held[friction_tunable_blocks_room];         // π [N]
   double block_elongation[friction_tunable_blocks_room];   // δ in this sample [m]
   double block_feedthrough[friction_tunable_blocks_room];  // b∞; 0 of block 0, whose is the law's own [N·s/m]
-  friction_tunable_port port;
-  double feedthrough;  // b∞ of what no slip changes [N·s/m]
-  double make_up;  // of b that the motor makes up at most [N·s/m]
-  double least_stiffness[friction_tunable_blocks_room], least_yield[friction_tunable_slips];
   int sign[friction_tunable_slips + 1], last_sign[friction_tunable_slips + 1];
   friction_tunable_node nodes[friction_tunable_tree_nodes_room];
   friction_tunable_part_state part_states[friction_tunable_tree_nodes_room];
@@ -806,6 +758,30 @@ typedef struct friction_tunable {
   int slid[friction_tunable_slips], slides_now[friction_tunable_slips];
   double slid_at[friction_tunable_slips], slid_at_now[friction_tunable_slips];  // where the tool was when a slip last slid [m]
   double root, root_now;                              // √b
+} friction_tunable_tunables;
+
+// What may change while the law runs, to begin with as in the network's file.
+typedef struct friction_tunable_parameters {
+  double yield;  // 0 to 5 [N]
+  double presliding;  // 200 to 5000 [N/m]
+  double drag;  // 0 to 40 [N s/m]
+} friction_tunable_parameters;
+
+typedef struct friction_tunable {
+  double held_force;  // π, what springs hold [N]
+  double yield;  // parameter [N]
+  double presliding;  // parameter [N/m]
+  double drag;  // parameter [N s/m]
+  double step_stiffness;  // what springs answer in a sample [N/m]
+  double steady_brake;  // b of what no slip changes [N·s/m]
+  double velocity_gain;  // b∞ − b [N·s/m]
+  double brake_left;  // what the brake has left for slips [N·s/m]
+  double last_position;  // u of the sample before [m]
+  double last_brake;  // b of the sample before [N·s/m]
+  double sampled_position;  // port displacement u, at this sample [m]
+  double sampled_position_change;  // Δu since the sample before, at this sample [m]
+  double resting_brake;  // b of what is behind slips that hold [N·s/m]
+  friction_tunable_tunables law;  // springs, slips and tank
   int sampled;  // 1 while a finite sample waits for friction_tunable_update()
 } friction_tunable;
 
@@ -853,20 +829,13 @@ static inline double friction_tunable_parameter_max(int i) {
   return 0;
 }
 
-static inline double friction_tunable_number(const friction_tunable *self, int index) {
-  double sum = friction_tunable_numbers[index].base;
-  for (int i = friction_tunable_numbers[index].first; i < (friction_tunable_numbers[index].first + friction_tunable_numbers[index].count); ++i)
-    sum += self->value[friction_tunable_terms[i]];
-  return sum;
-}
-
 // A spring's force is k (z − r). A change of stiffness leaves the forces alone and moves the offsets r, as far as energy
 // allows; with every sample the offsets then go home by a part of the way, where the tank pays for it.
-static inline double friction_tunable_spring_force(const friction_tunable *self, int spring) {
+static inline double friction_tunable_spring_force(const friction_tunable_tunables *self, int spring) {
   return self->stiffness[spring] * (self->elongation[spring] - self->offset[spring]);
 }
 
-static inline void friction_tunable_stretch_spring(friction_tunable *self, int spring, double change) {
+static inline void friction_tunable_stretch_spring(friction_tunable_tunables *self, int spring, double change) {
   self->elongation[spring] = dashpot_flush_below(friction_tunable_threshold, self->elongation[spring] + change);
 }
 
@@ -908,13 +877,13 @@ static inline int friction_tunable_is_changed(const friction_tunable_spring_chan
 }
 
 // What is next to a spring makes room for another elongation.
-static inline void friction_tunable_move_end(friction_tunable *self, int spring, const friction_tunable_spring_change *change) {
+static inline void friction_tunable_move_end(friction_tunable_tunables *self, int spring, const friction_tunable_spring_change *change) {
   if (!friction_tunable_is_changed(change)) return;
   self->elongation[spring] = (change->new_stiffness > 0) ? (change->new_force / change->new_stiffness) : 0;
 }
 
 // r = z − F/k; what is no more than rounding of z is none.
-static inline void friction_tunable_move_offset(friction_tunable *self, int spring, const friction_tunable_spring_change *change) {
+static inline void friction_tunable_move_offset(friction_tunable_tunables *self, int spring, const friction_tunable_spring_change *change) {
   if (!friction_tunable_is_changed(change)) return;
   const double z = self->elongation[spring];
   const double offset = (change->new_stiffness > 0) ? (z - change->new_force / change->new_stiffness) : 0;
@@ -923,7 +892,7 @@ static inline void friction_tunable_move_offset(friction_tunable *self, int spri
 }
 
 // Once a sample.
-static inline void friction_tunable_bring_offsets_home(friction_tunable *self) {
+static inline void friction_tunable_bring_offsets_home(friction_tunable_tunables *self) {
   if (!self->is_owing) return;
   self->is_owing = 0;
   for (int i = 0; i < friction_tunable_spring_count; ++i) {
@@ -941,38 +910,28 @@ static inline void friction_tunable_bring_offsets_home(friction_tunable *self) {
 }
 
 // b∞ [N·s/m]
-static inline double friction_tunable_part_feedthrough(friction_tunable *self, const friction_tunable_part *part) {
-  if (part->kind == friction_tunable_damper) return friction_tunable_number(self, part->damping);
+static inline double friction_tunable_part_feedthrough(friction_tunable_tunables *self, const friction_tunable_part *part, const double *numbers) {
+  if (part->kind == friction_tunable_damper) return numbers[part->damping];
+  (void)self;
   return 0;
 }
 
 // g = dp/dδ over a sample [N/m]. Leaves a mesh as the steps need it.
-static inline double friction_tunable_part_stiffness(friction_tunable *self, const friction_tunable_part *part) {
+static inline double friction_tunable_part_stiffness(friction_tunable_tunables *self, const friction_tunable_part *part, const double *numbers) {
   if (part->kind == friction_tunable_spring) return self->stiffness[part->spring];
-  if (part->kind == friction_tunable_damper) return friction_tunable_number(self, part->damping) * friction_tunable_rate;
-  if (part->kind == friction_tunable_fixed_relaxation) {
-    self->share[part->spring] = part->share;
-    self->loss[part->spring] = part->loss;
-  }
+  if (part->kind == friction_tunable_damper) return numbers[part->damping] * friction_tunable_rate;
   return self->stiffness[part->spring] * self->share[part->spring];
 }
 
-// b∞ is taken out: it acts through the velocity.
-static inline double friction_tunable_part_stiffness_at_port(friction_tunable *self, const friction_tunable_part *part) {
-  double through = 0;
-  if (part->kind == friction_tunable_damper) return 0;
-  return friction_tunable_part_stiffness(self, part) - through;
-}
-
 // π, and what a mesh needs to be spread.
-static inline double friction_tunable_held_by_part(friction_tunable *self, const friction_tunable_part *part) {
+static inline double friction_tunable_held_by_part(friction_tunable_tunables *self, const friction_tunable_part *part) {
   if (part->kind == friction_tunable_damper) return 0;
   if (part->kind == friction_tunable_spring) return friction_tunable_spring_force(self, part->spring);
   return friction_tunable_spring_force(self, part->spring) -
          self->stiffness[part->spring] * (self->loss[part->spring] * self->elongation[part->spring]);
 }
 
-static inline void friction_tunable_advance(friction_tunable *self, const friction_tunable_part *part, double change) {
+static inline void friction_tunable_advance(friction_tunable_tunables *self, const friction_tunable_part *part, double change) {
   if (part->kind == friction_tunable_damper) return;
   if (part->kind == friction_tunable_spring) friction_tunable_stretch_spring(self, part->spring, change);
   else
@@ -981,40 +940,32 @@ static inline void friction_tunable_advance(friction_tunable *self, const fricti
 }
 
 // In a relaxation the damper makes room, of a loose spring the slip; of other springs the offset does.
-static inline void friction_tunable_take_forces(friction_tunable *self, const friction_tunable_part *part, const friction_tunable_spring_change *changes) {
+static inline void friction_tunable_take_forces(friction_tunable_tunables *self, const friction_tunable_part *part, const friction_tunable_spring_change *changes) {
   if ((part->kind == friction_tunable_spring) && !part->is_loose) friction_tunable_move_offset(self, part->spring, &changes[part->spring]);
   else if (part->spring != friction_tunable_none) friction_tunable_move_end(self, part->spring, &changes[part->spring]);
 }
 
-static inline double friction_tunable_yield_force(const friction_tunable *self, int slip) {
-  const friction_tunable_yield *yield = &friction_tunable_yields[slip];
-  double least = friction_tunable_number(self, friction_tunable_cuts[yield->first_cut]);
-  for (int i = yield->first_cut + 1; i < (yield->first_cut + yield->cut_count); ++i) {
-    const double sum = friction_tunable_number(self, friction_tunable_cuts[i]);
-    least = (sum < least) ? sum : least;
-  }
-  return least;
+static inline double friction_tunable_yield_force(const friction_tunable_yield *yield, const double *numbers) {
+  double weakest = numbers[friction_tunable_cuts[yield->first_cut]];
+  for (int i = yield->first_cut + 1; i < (yield->first_cut + yield->cut_count); ++i)
+    weakest = (numbers[friction_tunable_cuts[i]] < weakest) ? numbers[friction_tunable_cuts[i]] : weakest;
+  return (weakest > yield->least) ? weakest : yield->least;
 }
 
-// Curves of slips through parts that give way without end would lose their digits: none becomes less than a share of
-// what it is with the parameters at their largest.
-static inline double friction_tunable_bounded_yield(const friction_tunable *self, int slip) {
-  const double yield = friction_tunable_yield_force(self, slip);
-  return (yield > self->least_yield[slip]) ? yield : self->least_yield[slip];
-}
-static inline double friction_tunable_bounded_stiffness(const friction_tunable *self, int block) {
-  return (self->block_stiffness[block] > self->least_stiffness[block]) ? self->block_stiffness[block]
-                                                                       : self->least_stiffness[block];
+// Curves of slips through parts that give way without end would lose their digits.
+static inline double friction_tunable_bounded_stiffness(const friction_tunable_tunables *self, int block) {
+  const double least = friction_tunable_block_table[block].least_stiffness;
+  return (self->block_stiffness[block] > least) ? self->block_stiffness[block] : least;
 }
 
-static inline friction_tunable_tree friction_tunable_tree_of(friction_tunable *self, const friction_tunable_coupling *c) {
+static inline friction_tunable_tree friction_tunable_tree_of(friction_tunable_tunables *self, const friction_tunable_coupling *c) {
   const friction_tunable_tree tree = {self->nodes + c->first_node, c->node_count, self->part_states + c->first_node,
                          self->corners + c->first_corner, self->merged};
   return tree;
 }
 
 // dp/dδ with every slip giving way: in parallel the sum, in series the inverse of Σ 1/g.
-static inline double friction_tunable_end_stiffness(const friction_tunable *self, const friction_tunable_coupling *c, const friction_tunable_node *node) {
+static inline double friction_tunable_end_stiffness(const friction_tunable_tunables *self, const friction_tunable_coupling *c, const friction_tunable_node *node) {
   double sum = 0, compliance = 0;
   int is_flat = 0;
   if (node->kind == friction_tunable_slip) return 0;
@@ -1028,16 +979,17 @@ static inline double friction_tunable_end_stiffness(const friction_tunable *self
   return (node->kind == friction_tunable_parallel) ? sum : (is_flat ? 0 : (1 / compliance));
 }
 
-static inline void friction_tunable_tune_tree(friction_tunable *self, const friction_tunable_coupling *c) {
+static inline void friction_tunable_tune_tree(friction_tunable_tunables *self, const friction_tunable_coupling *c, const double *numbers) {
   for (int k = c->first_node + c->node_count - 1; k >= c->first_node; --k) {
     friction_tunable_node *node = &self->nodes[k];
-    if (node->kind == friction_tunable_slip) node->yield = friction_tunable_bounded_yield(self, c->first_slip + node->place);
+    *node = friction_tunable_tree_nodes[k];
+    if (node->kind == friction_tunable_slip) node->yield = friction_tunable_yield_force(&friction_tunable_yields[c->first_slip + node->place], numbers);
     node->stiffness = friction_tunable_end_stiffness(self, c, node);
     node->compliance = (node->stiffness > 0) ? (1 / node->stiffness) : 0;
   }
 }
 
-static inline double friction_tunable_step_slips(friction_tunable *self, double change) {
+static inline double friction_tunable_step_slips(friction_tunable_tunables *self, double change) {
   double sum = 0;
   for (int i = 0; i < friction_tunable_coupling_count; ++i) {
     const friction_tunable_coupling *c = &friction_tunable_couplings[i];
@@ -1049,7 +1001,7 @@ static inline double friction_tunable_step_slips(friction_tunable *self, double 
 }
 
 // b∞ of all that is behind slips, for one pattern of those that give way [N·s/m].
-static inline double friction_tunable_damping_of(friction_tunable *self, const int *sign) {
+static inline double friction_tunable_damping_of(friction_tunable_tunables *self, const int *sign) {
   double sum = 0;
   for (int i = 0; i < friction_tunable_coupling_count; ++i) {
     const friction_tunable_coupling *c = &friction_tunable_couplings[i];
@@ -1059,28 +1011,23 @@ static inline double friction_tunable_damping_of(friction_tunable *self, const i
   return sum;
 }
 
-// Of b∞ behind slips, what the brake has left.
-static inline double friction_tunable_left_to_brake(const friction_tunable *self, double damping) {
-  const double left = friction_tunable_max_damping - self->port.damping;
-  return (damping < left) ? damping : left;
-}
+static inline double friction_tunable_least(double one, double other) { return (one < other) ? one : other; }
 
-static inline double friction_tunable_slips_at_rest(friction_tunable *self) {
-  for (int i = 0; i < friction_tunable_slips; ++i) self->commanded[i] = 0;
-  return friction_tunable_left_to_brake(self, friction_tunable_damping_of(self, self->commanded));
-}
-
-static inline void friction_tunable_reset_brake(friction_tunable *self) {
+// After a reset: what slips leave to a brake that has `left` for them [N·s/m].
+static inline double friction_tunable_tunable_resting_brake(friction_tunable_tunables *self, double left) {
   for (int i = 0; i < friction_tunable_slips; ++i) {
+    self->commanded[i] = 0;
     self->slid[i] = 0;
     self->slid_at[i] = 0;
   }
-  self->root = friction_tunable_square_root(friction_tunable_slips_at_rest(self));
+  const double damping = friction_tunable_least(friction_tunable_damping_of(self, self->commanded), left);
+  self->root = friction_tunable_square_root(damping);
+  return damping;
 }
 
 // Which slips slide for the command: a slide ends where the tool has gone the hysteresis, to either side, and the slip
 // not with it.
-static inline void friction_tunable_follow_slides(friction_tunable *self, double position) {
+static inline void friction_tunable_follow_slides(friction_tunable_tunables *self, double position) {
   for (int i = 0; i < friction_tunable_slips; ++i) {
     const double way = position - self->slid_at[i];
     self->slides_now[i] = (self->sign[i] != 0) || (self->slid[i] && ((friction_tunable_hysteresis * friction_tunable_hysteresis - way * way) > 0));
@@ -1090,23 +1037,22 @@ static inline void friction_tunable_follow_slides(friction_tunable *self, double
 }
 
 // b on its way to what the regime would have: √b ← √b + κ (√b_regime − √b).
-static inline double friction_tunable_reached_damping(friction_tunable *self, double wanted) {
+static inline double friction_tunable_reached_damping(friction_tunable_tunables *self, double wanted) {
   if (!(friction_tunable_coil_share < 1)) return wanted;
   self->root_now = self->root + friction_tunable_coil_share * (friction_tunable_square_root(wanted) - self->root);
   return self->root_now * self->root_now;
 }
 
-// What slips leave to the brake after their step, by where the tool is.
-static inline friction_tunable_slip_brake friction_tunable_tunable_slip_brake(friction_tunable *self, double position) {
-  const double now = friction_tunable_left_to_brake(self, friction_tunable_damping_of(self, self->sign));
+// What slips leave to a brake that has `left` for them, after their step, by where the tool is.
+static inline friction_tunable_slip_brake friction_tunable_tunable_slip_brake(friction_tunable_tunables *self, double position, double left) {
+  const double now = friction_tunable_least(friction_tunable_damping_of(self, self->sign), left);
   friction_tunable_follow_slides(self, position);
-  const double wanted = friction_tunable_left_to_brake(self, friction_tunable_damping_of(self, self->commanded));
-  const double damping = friction_tunable_reached_damping(self, wanted);
-  const friction_tunable_slip_brake left = {now * friction_tunable_rate, damping, dashpot_clamp_to(self->make_up, wanted - damping)};
-  return left;
+  const double wanted = friction_tunable_least(friction_tunable_damping_of(self, self->commanded), left);
+  const friction_tunable_slip_brake found = {now * friction_tunable_rate, friction_tunable_reached_damping(self, wanted), wanted};
+  return found;
 }
 
-static inline void friction_tunable_keep_slips(friction_tunable *self) {
+static inline void friction_tunable_keep_slips(friction_tunable_tunables *self) {
   for (int i = 0; i <= friction_tunable_slips; ++i) self->last_sign[i] = self->sign[i];
   for (int i = 0; i < friction_tunable_slips; ++i) {
     self->slid[i] = self->slides_now[i];
@@ -1115,57 +1061,38 @@ static inline void friction_tunable_keep_slips(friction_tunable *self) {
   self->root = self->root_now;
 }
 
-static inline void friction_tunable_tune_brake(friction_tunable *self) {
-  self->feedthrough = 0;
-  for (int i = 0; i < friction_tunable_block_table[0].part_count; ++i) {
-    const friction_tunable_part *part = &friction_tunable_parts[friction_tunable_block_table[0].first_part + i];
-    const double through = friction_tunable_part_feedthrough(self, part);
-    self->feedthrough += through;
-  }
-  const double wanted = friction_tunable_number(self, 3);
-  self->port.damping = (wanted < friction_tunable_max_damping) ? wanted : friction_tunable_max_damping;
-  self->port.gain = self->feedthrough - self->port.damping;
-  self->port.feedthrough = self->feedthrough * friction_tunable_rate;
-  const double gain = self->port.gain;
-  const double assured = friction_tunable_assured_share * self->port.damping - ((gain < 0) ? -gain : gain);
-  self->make_up = (assured > 0) ? assured : 0;
-}
-
-// Everything that follows from the parameters' values.
-static inline void friction_tunable_tune(friction_tunable *self) {
-  for (int i = 0; i < friction_tunable_spring_count; ++i) self->stiffness[i] = friction_tunable_number(self, friction_tunable_spring_numbers[i]);
-  friction_tunable_tune_brake(self);
-  for (int i = 1; i < friction_tunable_block_count; ++i) {
-    self->block_feedthrough[i] = 0;
-    for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
-      self->block_feedthrough[i] += friction_tunable_part_feedthrough(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k]);
-  }
-  // Last, so that every mesh is left as the steps need it.
+// g and b∞ of every block. Returns g of all that joins tool and ground without a slip but for dampers and meshes.
+static inline double friction_tunable_find_curves(friction_tunable_tunables *self, const double *numbers) {
+  double springs = 0;
   for (int i = 0; i < friction_tunable_block_count; ++i) {
-    self->block_stiffness[i] = 0;
-    for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
-      self->block_stiffness[i] += friction_tunable_part_stiffness(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k]);
+    self->block_feedthrough[i] = self->block_stiffness[i] = 0;
+    for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k) {
+      const friction_tunable_part *part = &friction_tunable_parts[friction_tunable_block_table[i].first_part + k];
+      const double through = friction_tunable_part_feedthrough(self, part, numbers);
+      const double stiffness = friction_tunable_part_stiffness(self, part, numbers);
+      self->block_feedthrough[i] += through;
+      self->block_stiffness[i] += stiffness;
+      if ((i > 0) || (part->kind == friction_tunable_damper)) continue;
+      springs += stiffness;
+    }
   }
-  self->port.recovery = (self->block_stiffness[0] > 0) ? -(1 / self->block_stiffness[0]) : 0;
-  self->port.stiffness = 0;
-  for (int k = 0; k < friction_tunable_block_table[0].part_count; ++k)
-    self->port.stiffness += friction_tunable_part_stiffness_at_port(self, &friction_tunable_parts[friction_tunable_block_table[0].first_part + k]);
-  for (int i = 0; i < friction_tunable_coupling_count; ++i) friction_tunable_tune_tree(self, &friction_tunable_couplings[i]);
+  // Of what no slip changes the brake has been told already.
+  self->block_feedthrough[0] = 0;
+  return springs;
 }
 
 // p = g δ + π: π of every block, and what its meshes need to be spread.
-static inline void friction_tunable_find_held(friction_tunable *self) {
+static inline void friction_tunable_find_held(friction_tunable_tunables *self) {
   for (int i = 0; i < friction_tunable_block_count; ++i) {
     double held = 0;
     for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
       held += friction_tunable_held_by_part(self, &friction_tunable_parts[friction_tunable_block_table[i].first_part + k]);
     self->block_held[i] = held;
   }
-  self->port.held = self->block_held[0];
 }
 
 // Everything but the parameters' values and what follows from them.
-static inline void friction_tunable_rest(friction_tunable *self) {
+static inline void friction_tunable_rest(friction_tunable_tunables *self) {
   for (int i = 0; i < friction_tunable_springs; ++i) self->elongation[i] = self->offset[i] = 0;
   for (int i = 0; i < friction_tunable_blocks_room; ++i) self->block_elongation[i] = 0;
   self->tank = 0;
@@ -1173,24 +1100,23 @@ static inline void friction_tunable_rest(friction_tunable *self) {
   for (int i = 0; i <= friction_tunable_slips; ++i) self->last_sign[i] = 0;
 }
 
-// At rest at `position`. Returns b of a tool that is in touch and at rest [N·s/m].
-static inline double friction_tunable_tunable_reset(friction_tunable *self, double position) {
+// At rest at `position`. Returns π of what joins tool and ground without a slip [N].
+static inline double friction_tunable_tunable_reset(friction_tunable_tunables *self, double position) {
   friction_tunable_rest(self);
   friction_tunable_find_held(self);
   (void)position;
-  friction_tunable_reset_brake(self);
-  return self->port.damping + friction_tunable_slips_at_rest(self);
+  return self->block_held[0];
 }
 
-// What the tool meets in the next sample, to be asked for after reset and set.
-static inline friction_tunable_port friction_tunable_tunable_port(const friction_tunable *self) { return self->port; }
+// π of what joins tool and ground without a slip [N].
+static inline double friction_tunable_tunable_held(const friction_tunable_tunables *self) { return self->block_held[0]; }
 
 // Of all slips, by the tool's displacement in this sample: the force that opposes it [N].
-static inline double friction_tunable_tunable_slip(friction_tunable *self, double change) { return friction_tunable_step_slips(self, change); }
+static inline double friction_tunable_tunable_slip(friction_tunable_tunables *self, double change) { return friction_tunable_step_slips(self, change); }
 
 // Takes the states over a sample, by the change of the tool, or of the surface that it pushes, and to its position.
 // Returns π of what joins tool and ground without a slip [N].
-static inline double friction_tunable_tunable_update(friction_tunable *self, double change, double position) {
+static inline double friction_tunable_tunable_update(friction_tunable_tunables *self, double change, double position) {
   self->block_elongation[0] = change;
   for (int i = 0; i < friction_tunable_block_count; ++i)
     for (int k = 0; k < friction_tunable_block_table[i].part_count; ++k)
@@ -1199,56 +1125,48 @@ static inline double friction_tunable_tunable_update(friction_tunable *self, dou
   friction_tunable_bring_offsets_home(self);
   friction_tunable_keep_slips(self);
   friction_tunable_find_held(self);
-  return self->port.held;
+  return self->block_held[0];
 }
 
 // V + T [J]
-static inline double friction_tunable_tunable_stored_energy(const friction_tunable *self) {
+static inline double friction_tunable_tunable_stored_energy(const friction_tunable_tunables *self) {
   double stored = self->tank;
   for (int i = 0; i < friction_tunable_spring_count; ++i)
     stored += friction_tunable_spring_force(self, i) * (self->elongation[i] - self->offset[i]) * (double)0.5;
   return stored;
 }
 
-// Takes on values within their ranges. Bit i of the result: what was wanted of parameter i was no number within its
-// range. What is no number at all leaves its parameter as it is.
-static inline unsigned friction_tunable_take_values(friction_tunable *self, const double *wanted, int *is_new) {
-  unsigned clamped = 0;
-  for (int i = 0; i < friction_tunable_parameters_room; ++i) {
-    const friction_tunable_range_of_parameter *range = &friction_tunable_ranges[i];
-    double value = wanted[i];
-    if (value != value) value = self->value[i];
-    else if (value < range->min) value = range->min;
-    else if (value > range->max) value = range->max;
-    if (!(value == wanted[i])) clamped |= 1u << i;
-    if (value != self->value[i]) *is_new = 1;
-    self->value[i] = value;
-  }
-  return clamped;
+// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// that is not what was wanted, else 0.
+static inline unsigned friction_tunable_take_value(const friction_tunable_range_of_parameter *range, double wanted, double *value) {
+  if (wanted == wanted) *value = (wanted < range->min) ? range->min : ((wanted > range->max) ? range->max : wanted);
+  return (*value == wanted) ? 0u : 1u;
 }
 
-// With the new values: the springs' forces stay as they are as far as energy allows.
-static inline void friction_tunable_change_over(friction_tunable *self) {
+// With new numbers: the springs' forces stay as they are as far as energy allows. Returns g of all that joins tool and
+// ground without a slip but for dampers and meshes [N/m].
+static inline double friction_tunable_tunable_set(friction_tunable_tunables *self, const double *numbers) {
   friction_tunable_spring_change changes[friction_tunable_springs];
   for (int i = 0; i < friction_tunable_springs; ++i) {
     changes[i].stiffness = self->stiffness[i];
     changes[i].force = friction_tunable_spring_force(self, i);
     changes[i].new_force = 0;
   }
-  friction_tunable_tune(self);
+  for (int i = 0; i < friction_tunable_spring_count; ++i) self->stiffness[i] = numbers[friction_tunable_spring_numbers[i]];
+  const double stiffness = friction_tunable_find_curves(self, numbers);
+  for (int i = 0; i < friction_tunable_coupling_count; ++i) friction_tunable_tune_tree(self, &friction_tunable_couplings[i], numbers);
   for (int i = 0; i < friction_tunable_springs; ++i) changes[i].new_stiffness = self->stiffness[i];
   self->tank = friction_tunable_carry_over(changes, self->tank);
   for (int i = 0; i < friction_tunable_part_count; ++i) friction_tunable_take_forces(self, &friction_tunable_parts[i], changes);
   friction_tunable_find_held(self);
+  return stiffness;
 }
 
-// Before all else: the values to begin with.
-static inline void friction_tunable_tunable_begin(friction_tunable *self) {
+// Before all else.
+static inline void friction_tunable_tunable_begin(friction_tunable_tunables *self) {
   for (int i = 0; i < friction_tunable_springs; ++i) self->stiffness[i] = self->share[i] = self->loss[i] = 0;
   for (int i = 0; i < friction_tunable_blocks_room; ++i)
     self->block_stiffness[i] = self->block_held[i] = self->block_feedthrough[i] = 0;
-  for (int i = 0; i < friction_tunable_blocks_room; ++i) self->least_stiffness[i] = 0;
-  for (int i = 0; i < friction_tunable_slips; ++i) self->least_yield[i] = 0;
   for (int i = 0; i <= friction_tunable_slips; ++i) self->sign[i] = 0;
   for (int i = 0; i < friction_tunable_tree_nodes_room; ++i) {
     self->nodes[i] = friction_tunable_tree_nodes[i];
@@ -1263,39 +1181,39 @@ static inline void friction_tunable_tunable_begin(friction_tunable *self) {
     self->slid_at_now[i] = 0;
   }
   self->root_now = 0;
-  for (int i = 0; i < friction_tunable_parameters_room; ++i) self->value[i] = friction_tunable_ranges[i].max;
-  friction_tunable_tune(self);
-  for (int i = 0; i < friction_tunable_blocks_room; ++i) self->least_stiffness[i] = friction_tunable_least_share * self->block_stiffness[i];
-  for (int i = 0; i < friction_tunable_slips; ++i) self->least_yield[i] = friction_tunable_least_share * friction_tunable_yield_force(self, i);
-  for (int i = 0; i < friction_tunable_parameters_room; ++i) self->value[i] = friction_tunable_ranges[i].value;
-  friction_tunable_tune(self);
+  friction_tunable_rest(self);
 }
 
 // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite position is
 // treated as 0. Parameters stay as they are.
 static inline void friction_tunable_reset(friction_tunable *self, double position) {
   self->held_force = 0.0;
-  self->resting_brake = 0.0;
   self->last_position = (dashpot_all_finite(position, position, position) != 0) ? position : 0.0;
-  self->step_stiffness = 0.0;
-  self->steady_brake = 0.0;
-  self->velocity_gain = 0.0;
   self->last_brake = 0.0;
   self->sampled_position = 0.0;
   self->sampled_position_change = 0.0;
-  self->resting_brake = friction_tunable_tunable_reset(self, self->last_position);
-  const friction_tunable_port port = friction_tunable_tunable_port(self);
-  self->held_force = port.held;
-  self->step_stiffness = port.stiffness;
-  self->steady_brake = port.damping;
-  self->velocity_gain = port.gain;
-  self->last_brake = self->resting_brake;
+  self->resting_brake = 0.0;
+  self->held_force = friction_tunable_tunable_reset(&self->law, self->last_position);
+  self->resting_brake = friction_tunable_tunable_resting_brake(&self->law, self->brake_left);
+  self->last_brake = self->steady_brake + self->resting_brake;
   self->sampled = 0;
 }
 
 // At rest at 0, with the parameters' values of the network's file. To be called before all others.
 static inline void friction_tunable_init(friction_tunable *self) {
-  friction_tunable_tunable_begin(self);
+  friction_tunable_tunable_begin(&self->law);
+  self->yield = 1.5;
+  self->presliding = 2000.0;
+  self->drag = 12.0;
+  const double max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
+  const double set_numbers[3] = {self->drag, self->presliding, self->yield};
+  self->step_stiffness = friction_tunable_tunable_set(&self->law, set_numbers);
+  self->held_force = friction_tunable_tunable_held(&self->law);
+  // b follows damper_3
+  self->steady_brake = self->drag;
+  // b∞ − b
+  self->velocity_gain = self->drag - self->steady_brake;
+  self->brake_left = max_damping - self->steady_brake;
   friction_tunable_reset(self, 0);
   self->sampled = 0;
 }
@@ -1307,15 +1225,14 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
   // Δu = u − u₋
   const double position_change = position - self->last_position;
   // σ of all slips
-  const double slips_force = friction_tunable_tunable_slip(self, position_change);
+  const double slips_force = friction_tunable_tunable_slip(&self->law, position_change);
   // b of the slips' regime
-  const friction_tunable_slip_brake slip_brake = friction_tunable_tunable_slip_brake(self, position);
+  const friction_tunable_slip_brake slip_brake = friction_tunable_tunable_slip_brake(&self->law, position, self->brake_left);
   const double slips_feedthrough = slip_brake.now;
   const double slips_brake = slip_brake.damping;
-  const double slips_gain = slip_brake.make_up;
   // m = f − b u̇
   const double force = self->step_stiffness * position_change + self->held_force +
-      slips_force - slips_feedthrough * position_change + (self->velocity_gain + slips_gain) * velocity;
+      slips_force - slips_feedthrough * position_change + self->velocity_gain * velocity;
   // b
   const double brake = self->steady_brake + slips_brake;
   self->sampled = dashpot_all_finite(position, velocity, force);
@@ -1335,7 +1252,7 @@ static inline dashpot_command friction_tunable_output(friction_tunable *self, do
 // Takes the states to the next sample; to be called once after each friction_tunable_output(), when the command has left.
 static inline void friction_tunable_update(friction_tunable *self) {
   if (self->sampled != 0) {
-    self->held_force = friction_tunable_tunable_update(self, self->sampled_position_change, self->sampled_position);
+    self->held_force = friction_tunable_tunable_update(&self->law, self->sampled_position_change, self->sampled_position);
     // u₋ = u
     self->last_position = self->sampled_position;
     self->sampled = 0;
@@ -1351,21 +1268,29 @@ static inline dashpot_command friction_tunable_step(friction_tunable *self, doub
 
 // The value of a parameter now, counted from 0.
 static inline double friction_tunable_parameter(const friction_tunable *self, int i) {
-  return ((i >= 0) && (i < friction_tunable_parameters_room)) ? self->value[i] : 0;
+  if (i == 0) return self->yield;
+  if (i == 1) return self->presliding;
+  if (i == 2) return self->drag;
+  return 0;
 }
 
 // Parameters in turn, between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at
 // its bound now, or it was no number and is as it was. What waits for friction_tunable_update() belongs to the parameters before.
 static inline unsigned friction_tunable_set_values(friction_tunable *self, const double *wanted) {
-  int is_new = 0;
   friction_tunable_update(self);
-  const unsigned clamped = friction_tunable_take_values(self, wanted, &is_new);
-  if (is_new != 0) friction_tunable_change_over(self);
-  const friction_tunable_port port = friction_tunable_tunable_port(self);
-  self->held_force = port.held;
-  self->step_stiffness = port.stiffness;
-  self->steady_brake = port.damping;
-  self->velocity_gain = port.gain;
+  unsigned clamped = 0u;
+  clamped |= friction_tunable_take_value(&friction_tunable_ranges[0], wanted[0], &self->yield) << 0;
+  clamped |= friction_tunable_take_value(&friction_tunable_ranges[1], wanted[1], &self->presliding) << 1;
+  clamped |= friction_tunable_take_value(&friction_tunable_ranges[2], wanted[2], &self->drag) << 2;
+  const double max_damping = 1.7976931348623157e+308;  // what the brake can give [N·s/m]
+  const double set_numbers[3] = {self->drag, self->presliding, self->yield};
+  self->step_stiffness = friction_tunable_tunable_set(&self->law, set_numbers);
+  self->held_force = friction_tunable_tunable_held(&self->law);
+  // b follows damper_3
+  self->steady_brake = self->drag;
+  // b∞ − b
+  self->velocity_gain = self->drag - self->steady_brake;
+  self->brake_left = max_damping - self->steady_brake;
   return clamped;
 }
 
@@ -1388,7 +1313,7 @@ static inline double friction_tunable_kept_share(const friction_tunable *self) {
 // In the springs, and set free by changes of parameters, after the last update() [J].
 static inline double friction_tunable_stored_energy(const friction_tunable *self) {
   // V + T: in the springs, and what changes of parameters have set free
-  const double stored = friction_tunable_tunable_stored_energy(self);
+  const double stored = friction_tunable_tunable_stored_energy(&self->law);
   return stored;
 }
 

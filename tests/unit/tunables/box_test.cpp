@@ -153,10 +153,11 @@ TEST(Box, EnergyOfEmittedConstantsIsLookedAtExactly) {
     "elements": [ { "spring": "k", "nodes": ["tool", "ground"] }, { "spring": 40, "nodes": ["tool", "p"] }, { "damper": 2, "nodes": ["p", "ground"] } ] })");
   UpdateLaw law = compiled.law();
   EXPECT_TRUE(check_energy_lemma_over_box(law).holds);
-  auto& parts = law.tunable->parts;
-  const auto fixed = std::find_if(parts.begin(), parts.end(),
-                                  [](const auto& part) { return part.kind == tunable_kind::fixed_relaxation; });
-  ASSERT_NE(fixed, parts.end());
+  auto& springs = law.tunable->fixed;
+  const auto place =
+      std::find_if(springs.begin(), springs.end(), [](const auto& spring) { return spring.has_value(); });
+  ASSERT_NE(place, springs.end());
+  FixedRelaxation* const fixed = &place->value();
   fixed->loss = 0.5;  // (1 − φ)² ≤ ¾
   fixed->share = 1 - std::sqrt(0.75);
   const double above = fixed->share + 1e-16, below = fixed->share - 1e-16;

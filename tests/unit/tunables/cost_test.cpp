@@ -46,6 +46,20 @@ struct Share {
   double set = 0, calls = 0, update = 0;
 };
 
+// What the tables' set() is given.
+std::vector<Counted> numbers_of(const compiler::UpdateLaw& law, const compiler::Evaluation<double>& at) {
+  std::vector<Counted> numbers;
+  for (const compiler::Statement& statement : law.tune)
+    if (const auto* call = std::get_if<compiler::CallTunable>(&statement.step);
+        call != nullptr && call->call == compiler::TunableCall::set)
+      for (const compiler::ExpressionId given : call->given) {
+        const compiler::Expression& e = law.expressions[given];
+        numbers.push_back(e.operation == compiler::Operation::read ? at.value_of(e.variable)
+                                                                   : law.coefficients[e.coefficient].values.front());
+      }
+  return numbers;
+}
+
 // What the calls of a sample are given, but for what other calls find.
 class Sampled {
  public:
@@ -58,8 +72,14 @@ class Sampled {
     for (const compiler::Statement& statement : law_.output)
       if (const auto* call = std::get_if<compiler::CallTunable>(&statement.step)) {
         std::vector<Counted> given;
-        for (const compiler::VariableId id : call->given)
-          given.push_back(id == law_.position ? position : id == law_.wanted ? 1.0 : position - last_);
+        for (const compiler::ExpressionId expression : call->given) {
+          const compiler::VariableId id = law_.expressions[expression].variable;
+          const bool is_tuned = law_.variables[id].role == compiler::Role::tuned;  // what the brake has left
+          given.push_back(id == law_.position ? position
+                          : id == law_.wanted ? 1.0
+                          : is_tuned          ? 1e30
+                                              : position - last_);
+        }
         const auto answer = run_.call(call->call, given);
         if (call->call == compiler::TunableCall::push) change_ = answer.of(compiler::TunableResult::change);
         else change_ = position - last_;
@@ -90,6 +110,10 @@ Share share_of(std::uint64_t seed, Kind kind) {
   Random random(seed);
   std::vector<double> values = compiled.defaults();
   Share most;
+  compiler::Evaluation<double> numbers(law);
+  const std::size_t set_bound =
+      compiler::operations_of(*law.tunable, compiler::TunableCall::set) + compiler::operations_of_energy(*law.tunable);
+  run.call(compiler::TunableCall::set, numbers_of(law, numbers));
   const auto count = [](double& share, std::size_t bound, const auto& call) {
     operations = 0;
     call();
@@ -97,12 +121,29 @@ Share share_of(std::uint64_t seed, Kind kind) {
   };
   for (double position : random_walk(random, 120)) {
     values = next_values(compiled.tunables(), values, random);
-    const std::vector<Counted> given(values.begin(), values.end());
-    count(most.set, compiler::operations_of_set(*law.tunable), [&] { run.set(given.data()); });
+    numbers.set(values);
+    count(most.set, set_bound, [&] { run.call(compiler::TunableCall::set, numbers_of(law, numbers)); });
     count(most.calls, sampled.bound(), [&] { sampled.output(position); });
     count(most.update, compiler::cost_of(law, law.update).called, [&] { sampled.update(); });
   }
   return most;
+}
+
+// What a change costs would be most of a period on a board: a standard solid's constants, and a Kelvin's.
+TEST(TunableCost, of_constants_is_small) {
+  const auto cost = [](const char* network) {
+    const TunableLaw compiled(network);
+    return compiler::operations_of(compiler::cost_of(compiled.law(), compiled.law().tune));
+  };
+  EXPECT_LE(cost(R"({ "dashpot": 1, "name": "solid",
+    "parameters": { "K1": { "value": 200, "tunable": true, "min": 50, "max": 800 } },
+    "network": { "series": [ { "parallel": [ { "spring": "K1" }, { "damper": 8 } ] }, { "spring": 600 } ] } })"),
+            60u);
+  EXPECT_LE(cost(R"({ "dashpot": 1, "name": "kelvin",
+    "parameters": { "K": { "value": 200, "tunable": true, "min": 50, "max": 800 },
+                    "B": { "value": 2, "tunable": true, "min": 0, "max": 8 } },
+    "network": { "parallel": [ { "spring": "K" }, { "damper": "B" } ] } })"),
+            12u);
 }
 
 // A loop would miss its period by a law that takes longer than its header says.

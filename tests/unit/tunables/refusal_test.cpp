@@ -145,7 +145,7 @@ TEST(TunableBrake, goes_no_faster_than_its_coil) {
     "parameters": { "Y": { "value": 0.4, "tunable": true, "min": 0.1, "max": 5 } },
     "network": { "series": [ { "parallel": [ { "spring": 500 }, { "damper": 5 } ] }, { "slip": "Y" } ] } })";
   compiler::UpdateLaw law = TunableLaw(network).law();
-  law.tunable->head.slip_rule = {true, 1e-4, 0.1, 0};
+  law.tunable->head.slip_rule = {true, 1e-4, 0.1};
   compiler::Evaluation<double> run(law);
   double root = std::sqrt(5.0);
   const auto expect = [&](double position, double velocity, double goal) {

@@ -26,7 +26,7 @@ double worst_gain(const std::string& text, std::uint64_t seed) {
   Law law(compiled.law());
   std::vector<double> values = compiled.defaults();
   double stored = 0, last = 0, scale = 0, worst = 0, stiffest = 0;
-  for (const tunable_number<double>& n : compiled.law().tunable->numbers) stiffest = std::max(stiffest, n.base);
+  for (const compiler::TunableNumber& n : compiled.law().tunable->numbers) stiffest = std::max(stiffest, n.base);
   for (const compiler::Tunable& t : compiled.tunables()) stiffest = std::max(stiffest, t.range.max);
   for (double position : random_walk(random, 400)) {
     if (random.chance(0.3)) {

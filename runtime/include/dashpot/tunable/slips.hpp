@@ -16,31 +16,16 @@ class tunable_slips {
   using tables = tunable_tables<Scalar>;
   using curves = tunable_curves<Scalar, Blocks>;
 
-  constexpr void begin(const tables& t) noexcept {
-    for (int i = 0; i < t.coupling_count; ++i)
-      for (int k = t.couplings[i].first_node; k < t.couplings[i].first_node + t.couplings[i].node_count; ++k)
-        nodes_[k] = t.nodes[k];
-  }
-
-  // What is told of the parameters at their largest says how little a part may become: curves of slips through parts
-  // that give way without end would lose their digits. `number` gives the numbers of the tables.
-  template <class Number>
-  constexpr void remember_largest(const tables& t, const curves& of, Number number) noexcept {
-    for (int i = 0; i < t.block_count; ++i) least_stiffness_[i] = t.least_share * of.stiffness[i];
-    for (int i = 0; i < t.slip_count; ++i) least_yield_[i] = t.least_share * yield_force(t, i, number);
-  }
-
-  template <class Number>
-  constexpr void tune(const tables& t, const curves& of, Number number) noexcept {
-    for (int i = 0; i < t.coupling_count; ++i) tune_tree(t, t.couplings[i], of, number);
+  constexpr void tune(const tables& t, const curves& of, const Scalar* numbers) noexcept {
+    for (int i = 0; i < t.coupling_count; ++i) tune_tree(t, t.couplings[i], of, numbers);
     if constexpr (Ends > 0)
-      for (int i = 0; i < t.graph_count; ++i) tune_graph(t, t.graphs[i], of, number);
+      for (int i = 0; i < t.graph_count; ++i) tune_graph(t, t.graphs[i], of, numbers);
   }
 
-  constexpr void reset(Scalar damping) noexcept {
+  constexpr void reset() noexcept {
     for (int& sign : last_sign_) sign = 0;
-    brake_.reset(damping);
   }
+  constexpr void reset_brake(Scalar damping) noexcept { brake_.reset(damping); }
 
   Scalar step(const tables& t, Scalar change, curves& of) noexcept {
     Scalar sum = 0;
@@ -120,37 +105,45 @@ class tunable_slips {
                        sign_ + g.first_slip);
   }
 
-  template <class Number>
-  constexpr void tune_graph(const tables& t, const tunable_graph& g, const curves& of, Number number) noexcept {
-    for (int i = g.first_block; i < g.first_block + g.tie_count; ++i) tie_stiffness_[i] = bounded_stiffness(i, of);
+  constexpr void tune_graph(const tables& t, const tunable_graph& g, const curves& of, const Scalar* numbers) noexcept {
+    for (int i = g.first_block; i < g.first_block + g.tie_count; ++i) tie_stiffness_[i] = bounded_stiffness(t, i, of);
     for (int k = g.first_slip; k < g.first_slip + g.link_count; ++k) {
-      const Scalar yield = bounded_yield(t, k, number);
+      const Scalar yield = yield_force(t.yields[k], t.cuts, numbers);
       links_[k] = {t.links[k].from, t.links[k].to, -yield, yield};
     }
     if (t.contact.is_there) links_[t.slip_count] = {g.end_count, g.end_count - 1, 0, largest_finite()};
   }
 
-  template <class Number>
-  constexpr void tune_tree(const tables& t, const tunable_coupling& c, const curves& of, Number number) noexcept {
+  constexpr void tune_tree(const tables& t, const tunable_coupling& c, const curves& of,
+                           const Scalar* numbers) noexcept {
     for (int k = c.first_node + c.node_count - 1; k >= c.first_node; --k) {
       slip_node<Scalar>& node = nodes_[k];
-      if (node.kind == slip_part::slip) node.yield = bounded_yield(t, c.first_slip + node.place, number);
-      const Scalar g = end_stiffness(c, node, of);
+      // Member by member: a whole one may be a call of memcpy, which may not be there.
+      node.kind = t.nodes[k].kind;
+      node.first_child = t.nodes[k].first_child;
+      node.child_count = t.nodes[k].child_count;
+      node.slips = t.nodes[k].slips;
+      node.place = t.nodes[k].place;
+      node.first_corner = t.nodes[k].first_corner;
+      if (node.kind == slip_part::slip) node.yield = yield_force(t.yields[c.first_slip + node.place], t.cuts, numbers);
+      const Scalar g = end_stiffness(t, c, node, of);
       node.stiffness = g;
       node.compliance = g > 0 ? 1 / g : Scalar(0);
     }
   }
 
-  // A block that is made softer than the least adds a little damping in its place.
-  constexpr Scalar bounded_stiffness(int block, const curves& of) const noexcept {
-    return of.stiffness[block] > least_stiffness_[block] ? of.stiffness[block] : least_stiffness_[block];
+  // Curves of slips through parts that give way without end would lose their digits. A block that is made stiffer adds
+  // a little damping in its place.
+  static constexpr Scalar bounded_stiffness(const tables& t, int block, const curves& of) noexcept {
+    const Scalar least = t.blocks[block].least_stiffness;
+    return of.stiffness[block] > least ? of.stiffness[block] : least;
   }
 
   // With every slip giving way: in parallel the sum, in series the inverse of Σ 1/g.
-  constexpr Scalar end_stiffness(const tunable_coupling& c, const slip_node<Scalar>& node,
+  constexpr Scalar end_stiffness(const tables& t, const tunable_coupling& c, const slip_node<Scalar>& node,
                                  const curves& of) const noexcept {
     if (node.kind == slip_part::slip) return 0;
-    if (node.kind == slip_part::block) return bounded_stiffness(c.first_block + node.place, of);
+    if (node.kind == slip_part::block) return bounded_stiffness(t, c.first_block + node.place, of);
     Scalar sum = 0, compliance = 0;
     bool is_flat = false;
     for (int i = node.first_child; i < node.first_child + node.child_count; ++i) {
@@ -162,24 +155,14 @@ class tunable_slips {
     return node.kind == slip_part::parallel ? sum : is_flat ? Scalar(0) : 1 / compliance;
   }
 
-  template <class Number>
-  constexpr Scalar yield_force(const tables& t, int slip, Number number) const noexcept {
-    const tunable_yield& yield = t.yields[slip];
-    Scalar least = number(t.cuts[yield.first_cut]);
-    for (int i = yield.first_cut + 1; i < yield.first_cut + yield.cut_count; ++i) {
-      const Scalar sum = number(t.cuts[i]);
-      least = sum < least ? sum : least;
-    }
-    return least;
+  static constexpr Scalar yield_force(const tunable_yield<Scalar>& yield, const int* cuts,
+                                      const Scalar* numbers) noexcept {
+    Scalar weakest = numbers[cuts[yield.first_cut]];
+    for (int i = yield.first_cut + 1; i < yield.first_cut + yield.cut_count; ++i)
+      weakest = numbers[cuts[i]] < weakest ? numbers[cuts[i]] : weakest;
+    return weakest > yield.least ? weakest : yield.least;
   }
 
-  template <class Number>
-  constexpr Scalar bounded_yield(const tables& t, int slip, Number number) const noexcept {
-    const Scalar yield = yield_force(t, slip, number);
-    return yield > least_yield_[slip] ? yield : least_yield_[slip];
-  }
-
-  Scalar least_stiffness_[Blocks] = {}, least_yield_[room] = {};
   slip_node<Scalar> nodes_[SlipParts] = {};
   slip_part_state<Scalar> parts_[SlipParts] = {};
   slip_corner<Scalar> corners_[Corners] = {}, merged_[slip_curve_room(room)] = {};

@@ -1,5 +1,6 @@
-// A network whose parameters change while it runs, as tables: what tunable_law.hpp steps and sets. The tables are
-// constants; they hold no state.
+// The structure of a network whose parameters change while it runs, as tables: what tunable_law.hpp steps. The tables
+// are constants; they hold no state. Stiffnesses, dampings and yield forces are numbers that the law works out from the
+// parameters and gives by their place.
 #pragma once
 
 #include <dashpot/slip_tree.hpp>
@@ -13,39 +14,37 @@ struct tunable_range {
   Scalar max;
 };
 
-// base + Σ of the tunables terms[first] … terms[first + count − 1], each times its share
+// `value` becomes what is wanted of it, within its range; what is no number at all leaves it as it is. Returns 1 where
+// that is not what was wanted, else 0.
 template <class Scalar>
-struct tunable_number {
-  Scalar base;
-  int first;
-  int count;
-};
+constexpr unsigned take_value(const tunable_range<Scalar>& range, Scalar wanted, Scalar& value) noexcept {
+  if (wanted == wanted) value = wanted < range.min ? range.min : wanted > range.max ? range.max : wanted;
+  return value == wanted ? 0u : 1u;
+}
 
 // What a part of a block is. Parts stand in parallel.
 enum class tunable_kind : unsigned char {
-  spring,            // p = k (z − r)
-  damper,            // p = B ż
-  relaxation,        // a spring and a damper in series, with k and B from numbers
-  fixed_relaxation,  // one that no tunable touches: a state of its own, constants worked out beforehand
-  mesh,              // springs and dampers between inner nodes
+  spring,      // p = k (z − r)
+  damper,      // p = B ż
+  relaxation,  // a spring and a damper in series
+  mesh,        // springs and dampers between inner nodes
 };
 
 inline constexpr int no_index = -1;
 inline constexpr int mesh_port = -1;  // the ends of a mesh, in the place of a node
 inline constexpr int mesh_held = -2;
 
-template <class Scalar>
 struct tunable_part {
   tunable_kind kind;
   int spring;      // into springs; of a mesh none
   int damping;     // number of a damper or relaxation [N·s/m]
+  int share;       // number φ of a relaxation: what a displacement within a sample leaves in its spring [1]
+  int loss;        // number α of a relaxation: what is lost in a sample [1]
   int first_node;  // of a mesh, as are those below
   int node_count;
   int first_edge;
   int edge_count;
   bool is_loose;  // a spring in series with a slip, so that its rest length means nothing
-  Scalar share;   // of a fixed relaxation: what a displacement within a sample leaves in its spring [1]
-  Scalar loss;    // of a fixed relaxation: what is lost in a sample [1]
 };
 
 // A spring or a damper of a mesh between two of its nodes, counted from the mesh's first; `from` is the end at the
@@ -57,15 +56,19 @@ struct tunable_edge {
   int damping;  // a number, or none
 };
 
+template <class Scalar>
 struct tunable_block {
   int first_part;
   int part_count;
+  Scalar least_stiffness;  // behind a slip no softer [N/m]
 };
 
 // Yield force of a slip: the least of numbers[cuts[first]] …, one number for each way to cut it through.
+template <class Scalar>
 struct tunable_yield {
   int first_cut;
   int cut_count;
+  Scalar least;  // no less, whatever the numbers are [N]
 };
 
 // Slips that are stepped together: nodes of the tree, blocks in the order of their places, slips likewise.
@@ -95,16 +98,6 @@ struct tunable_graph {
   int first_block;
 };
 
-// What the brake's damping follows.
-enum class brake_rule : unsigned char {
-  constant,             // nothing
-  observed,             // a number: the dampers that the brake takes the place of
-  zero_frequency,       // Z(0), the network's viscosity at low frequency
-  half_zero_frequency,  // ½ Z(0), never below b∞
-  feedthrough,          // b∞
-  within_viscosity,     // the constant, never above Z(0)
-};
-
 // The surface that the tool pushes and cannot pull, if there is one.
 template <class Scalar>
 struct tunable_contact {
@@ -119,45 +112,32 @@ struct tunable_slip_rule {
   bool takes_part;
   Scalar hysteresis;  // of the tool's displacement, before a slide has ended for the command [m]
   Scalar coil_share;  // κ: of what is missing from √b, that the coil makes up in a sample [1]
-  Scalar
-      assured_share;  // of the damping that no slip changes, what the motor may make up by an estimate; 0 for none [1]
 };
 
 // Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling or
 // graph.
 template <class Scalar>
 struct tunable_tables {
-  Scalar period;       // h [s]
-  Scalar rate;         // 1/h [Hz]
-  bool is_exact;       // relaxations by the exact scheme, else backward Euler; meshes always by the latter
-  Scalar retention;    // what an offset keeps in a sample where the tank pays [1]
-  Scalar threshold;    // magnitudes of states below are zero
-  Scalar least_share;  // of its greatest value: behind a slip no part is softer, no slip yields sooner [1]
-  brake_rule rule;
-  Scalar damping;      // of brake_rule::constant and within_viscosity [N·s/m]
-  int observed;        // number, of brake_rule::observed
-  Scalar max_damping;  // what the brake can give [N·s/m]
-  int static_spring;   // the spring that joins tool and ground directly, or none
+  Scalar rate;        // 1/h [Hz]
+  Scalar retention;   // what an offset keeps in a sample where the tank pays [1]
+  Scalar threshold;   // magnitudes of states below are zero
+  int static_spring;  // the spring that joins tool and ground directly, or none
   tunable_contact<Scalar> contact;
   tunable_slip_rule<Scalar> slip_rule;
-  int tunable_count, spring_count, part_count, block_count, slip_count, coupling_count, graph_count;
-  const tunable_range<Scalar>* tunables;
-  const int* terms;
-  const tunable_number<Scalar>* numbers;
+  int spring_count, part_count, block_count, slip_count, coupling_count, graph_count;
   const int* springs;  // number of each spring's stiffness
-  const tunable_part<Scalar>* parts;
+  const tunable_part* parts;
   const tunable_edge* edges;
-  const tunable_block* blocks;
+  const tunable_block<Scalar>* blocks;
   const int* cuts;
-  const tunable_yield* yields;
+  const tunable_yield<Scalar>* yields;
   const tunable_coupling* couplings;
   const slip_node<Scalar>* nodes;  // without stiffness, compliance and yield force
   const tunable_graph* graphs;
   const tunable_ends* links;  // one a slip
   const tunable_ends* ties;
-  const Scalar* shares = nullptr;  // one a term; none where all are 1
-  Scalar motor_limit = 0;          // of its force; 0: none [N]
-  Scalar motor_step = 0;           // of its change in a period; 0: none [N]
+  Scalar motor_limit = 0;  // of its force; 0: none [N]
+  Scalar motor_step = 0;   // of its change in a period; 0: none [N]
 };
 
 }  // namespace dashpot

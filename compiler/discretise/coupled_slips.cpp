@@ -7,15 +7,10 @@
 namespace dashpot::compiler {
 namespace {
 
-// g = k0 + b∞/h + Σ c_i
-std::vector<Real> companion_stiffness(const NormalTree& component, Scheme scheme, const Real& sample_period) {
+std::vector<Real> stiffness_of_blocks(const NormalTree& component, Scheme scheme, const Real& sample_period) {
   std::vector<Real> stiffness;
-  for (const NormalTree* block : blocks_breadth_first(component)) {
-    Real g = block->form.static_stiffness + block->form.feedthrough_damping / sample_period;
-    for (const Mode& mode : block->form.modes)
-      g += mode_coefficients(mode, scheme, StateInput::position, sample_period).position_gain;
-    stiffness.push_back(g);
-  }
+  for (const NormalTree* block : blocks_breadth_first(component))
+    stiffness.push_back(companion_stiffness(block->form, scheme, sample_period));
   return stiffness;
 }
 
@@ -30,7 +25,7 @@ CoupledSlips::CoupledSlips(LawWriter& writer, const Network& network, const Real
                            const NormalTree& component)
     : writer_(writer),
       network_(network),
-      table_(slip_table(component, companion_stiffness(component, writer.law().scheme, sample_period),
+      table_(slip_table(component, stiffness_of_blocks(component, writer.law().scheme, sample_period),
                         writer.law().scalar)),
       name_(writer.unique(joined("coupled", name_of(table_.slips.front()->elements, network)))) {
   for (const NormalTree* part : table_.blocks) blocks_.push_back(block_of(*part, sample_period));

@@ -16,4 +16,11 @@ ModeCoefficients mode_coefficients(const Mode& mode, Scheme scheme, StateInput i
   return {decay, loss, gain * spring_share, gain * (1 - spring_share) * sample_period};
 }
 
+Real companion_stiffness(const LinearForm& form, Scheme scheme, const Real& sample_period) {
+  Real g = form.static_stiffness + form.feedthrough_damping / sample_period;
+  for (const Mode& mode : form.modes)
+    g += mode_coefficients(mode, scheme, StateInput::position, sample_period).position_gain;
+  return g;
+}
+
 }  // namespace dashpot::compiler

@@ -16,4 +16,7 @@ struct ModeCoefficients {
 // exact: a = e^{−λh}, c = k (1 − a)/(λh). backward-euler: a = 1/(1 + λh), c = k a.
 ModeCoefficients mode_coefficients(const Mode& mode, Scheme scheme, StateInput input, const Real& sample_period);
 
+// How stiff it is to a step within one sample, g = k0 + b∞/h + Σ c [N/m]
+Real companion_stiffness(const LinearForm& form, Scheme scheme, const Real& sample_period);
+
 }  // namespace dashpot::compiler

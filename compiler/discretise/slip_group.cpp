@@ -48,15 +48,10 @@ SlipGroup::SlipGroup(LawWriter& writer, const Network& network, const Real& samp
                      const SlipDecomposition& settings)
     : writer_(writer), network_(network), sample_period_(sample_period), brake_(writer, settings) {}
 
-// g = k0 + b∞/h + Σ c_i
 SlipResponse SlipGroup::response_of(const NormalTree& component) const {
   std::vector<Real> stiffness;
-  for (const NormalTree* block : blocks_of(component)) {
-    Real g = block->form.static_stiffness + block->form.feedthrough_damping / sample_period_;
-    for (const Mode& mode : block->form.modes)
-      g += mode_coefficients(mode, writer_.law().scheme, StateInput::position, sample_period_).position_gain;
-    stiffness.push_back(g);
-  }
+  for (const NormalTree* block : blocks_of(component))
+    stiffness.push_back(companion_stiffness(block->form, writer_.law().scheme, sample_period_));
   SlipResponse response = slip_response(component, stiffness);
   for (std::size_t i = 0; i < response.blocks.size(); ++i)
     if (holds_nothing(response.blocks[i].block->form)) forget(i, response);

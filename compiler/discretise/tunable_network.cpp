@@ -1,13 +1,11 @@
 #include "discretise/tunable_network.hpp"
 
-#include <dashpot/exponential.hpp>
-#include <dashpot/tunable/mesh.hpp>
-
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "discretise/law_writer.hpp"
+#include "discretise/mode_coefficients.hpp"
 #include "discretise/rounding.hpp"
 #include "discretise/slip_table.hpp"
 #include "discretise/tunable_blocks.hpp"
@@ -81,7 +79,6 @@ class TablesBuilder {
       add_tree(*tree, *form);
     else add_parts(*form);
     count();
-    find_least();
     tables_.brake.observed = blocks_.number(network_, brake_.observed);
     return true;
   }
@@ -149,8 +146,8 @@ class TablesBuilder {
     }
     for (const std::vector<std::size_t>& part : form.networks)
       if (network_.contact) together.insert(together.end(), part.begin(), part.end());
-      else add_graph(part);
-    if (!together.empty()) add_graph(together);
+      else add_graph(part, form.linear);
+    if (!together.empty()) add_graph(together, form.linear);
   }
 
   Tree tree_of(const std::vector<std::size_t>& elements) const {
@@ -182,17 +179,20 @@ class TablesBuilder {
     for (const NormalTree* block : table.blocks)
       if (!has_first_block || block != table.blocks.front())
         blocks_.add(laid_out_part(network_, tree, block->elements), block->elements, loose.count(block) != 0);
+    for (std::size_t i = 0; i < table.blocks.size(); ++i)
+      tables_.blocks[static_cast<std::size_t>(tables_.couplings.back().first_block) + i].least_stiffness =
+          least_stiffness(table.blocks[i]->form);
     for (const NormalTree* slip : table.slips) {
       const int first = static_cast<int>(tables_.cuts.size());
       for (const std::vector<std::size_t>& cut : cuts_through(tree, slip->elements))
         tables_.cuts.push_back(blocks_.number(network_, cut));
-      tables_.yields.push_back({first, static_cast<int>(tables_.cuts.size()) - first, 0});
+      tables_.yields.push_back({first, static_cast<int>(tables_.cuts.size()) - first, least_yield(slip->yield_force)});
       tables_.links.push_back({0, 0});
     }
   }
 
   // Behind a contact the surface is the last of the inner ends, and block 0 between it and the ground the first tie.
-  void add_graph(const std::vector<std::size_t>& elements) {
+  void add_graph(const std::vector<std::size_t>& elements, const LinearForm& beside) {
     const SlipGraph graph = slip_graph(structure_, elements);
     std::map<NodeIndex, int> place;
     for (NodeIndex node : graph.ends) place.emplace(node, static_cast<int>(place.size()));
@@ -202,14 +202,21 @@ class TablesBuilder {
     tables_.graphs.push_back({ends, static_cast<int>(graph.links.size()), static_cast<int>(tables_.yields.size()), 0,
                               static_cast<int>(tables_.ties.size()),
                               static_cast<int>(tables_.blocks.size()) - (network_.contact ? 1 : 0)});
-    if (network_.contact) tables_.ties.push_back({place.at(tool), ends + 1});
+    if (network_.contact) {
+      tables_.ties.push_back({place.at(tool), ends + 1});
+      tables_.blocks.front().least_stiffness = least_stiffness(beside);
+    }
     for (const OnePort& tie : graph.ties) {
       tables_.ties.push_back({place.at(tie.from), place.at(tie.to)});
       blocks_.add(laid_out(network_, tie), tie.elements, is_loose(graph, tie));
+      tables_.blocks.back().least_stiffness =
+          least_stiffness(linear_form(laid_out(structure_, tie), tie.elements, tool, ground));
     }
     for (const GraphLink& link : graph.links) {
       tables_.links.push_back({place.at(link.a), place.at(link.b)});
-      tables_.yields.push_back({static_cast<int>(tables_.cuts.size()), 1, 0});
+      Real largest = 0;
+      for (std::size_t slip : link.slips) largest += value_of(structure_.elements[slip].law);
+      tables_.yields.push_back({static_cast<int>(tables_.cuts.size()), 1, least_yield(largest)});
       tables_.cuts.push_back(blocks_.number(network_, link.slips));
     }
     tables_.graphs.back().tie_count = static_cast<int>(tables_.ties.size()) - tables_.graphs.back().first_tie;
@@ -227,54 +234,12 @@ class TablesBuilder {
     head.graph_count = static_cast<int>(tables_.graphs.size());
   }
 
-  // With every parameter at its largest: curves of slips through parts that give way without end would lose their
-  // digits.
-  void find_least() {
-    if (tables_.yields.empty()) return;
-    for (tunable_yield<double>& yield : tables_.yields) {
-      double weakest = largest(tables_.cuts[static_cast<std::size_t>(yield.first_cut)]);
-      for (int i = yield.first_cut + 1; i < yield.first_cut + yield.cut_count; ++i)
-        weakest = std::min(weakest, largest(tables_.cuts[static_cast<std::size_t>(i)]));
-      yield.least = to_scalar(Real(tables_.least_share * weakest));
-    }
-    for (tunable_block<double>& block : tables_.blocks) {
-      double stiffness = 0;
-      for (int i = block.first_part; i < block.first_part + block.part_count; ++i)
-        stiffness += largest_stiffness(tables_.parts[static_cast<std::size_t>(i)]);
-      block.least_stiffness = to_scalar(Real(tables_.least_share * stiffness));
-    }
+  // Of what they are with every parameter at its largest: curves of slips through parts that give way without end would
+  // lose their digits.
+  double least_stiffness(const LinearForm& largest) const {
+    return to_scalar(tables_.least_share * companion_stiffness(largest, choices_.scheme, period_));
   }
-
-  double largest(int index) const {
-    const TunableNumber& number = tables_.numbers[static_cast<std::size_t>(index)];
-    double sum = number.base;
-    for (const TunableTerm& term : number.terms) sum += term.share * tables_.tunables[term.tunable].range.max;
-    return sum;
-  }
-  double largest_spring(int spring) const { return largest(tables_.springs[static_cast<std::size_t>(spring)]); }
-
-  // Over a sample [N/m].
-  double largest_stiffness(const tunable_part& part) const {
-    switch (part.kind) {
-      case tunable_kind::spring: return largest_spring(part.spring);
-      case tunable_kind::damper: return largest(part.damping) * tables_.head.rate;
-      case tunable_kind::relaxation: {
-        const double stiffness = largest_spring(part.spring), damping = largest(part.damping);
-        if (const auto& fixed = tables_.fixed[static_cast<std::size_t>(part.spring)]) return stiffness * fixed->share;
-        const double x = damping > 0 ? stiffness / (damping * tables_.head.rate) : largest_ratio;
-        return stiffness * (tables_.is_exact ? mean_decay(x) : 1 / (1 + x));
-      }
-      case tunable_kind::mesh: break;
-    }
-    tunable_mesh<double, most_tunable_nodes> mesh;
-    if (part.node_count > most_tunable_nodes) return 0;  // refused
-    for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
-      const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(i)];
-      mesh.join(0, edge,
-                edge.spring != no_index ? largest_spring(edge.spring) : largest(edge.damping) * tables_.head.rate);
-    }
-    return mesh.eliminate(0, part.node_count);
-  }
+  double least_yield(const Real& largest) const { return to_scalar(tables_.least_share * largest); }
 
   const Network& network_;
   Network structure_;

@@ -248,10 +248,8 @@ class ProgramsBuilder {
     return writer_.constant("max_damping", writer_.damping(), "what the brake can give", tables_.brake.max_damping,
                             ConstantRole::brake_reach);
   }
-  ExpressionId period() {
-    return writer_.constant("period", "s", "T", law_.sample_period, ConstantRole::element_value);
-  }
-  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate); }
+  ExpressionId period() { return writer_.constant("period", "s", "T", law_.sample_period, ConstantRole::sampling); }
+  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sampling); }
   ExpressionId one() { return writer_.constant("one", "1", "one", 1); }
   ExpressionId zero() { return writer_.constant("zero", "1", "nothing", 0, ConstantRole::zero); }
   ExpressionId none() { return writer_.constant("no_damping", writer_.damping(), "none", 0, ConstantRole::zero); }

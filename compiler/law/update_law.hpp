@@ -83,6 +83,7 @@ enum class ConstantRole : std::uint8_t {
   element_value,          // k, B or Y of elements together, beside parameters that change
   relaxation_share,       // φ of a relaxation that no parameter touches; its α is a loss
   brake_reach,            // what the brake can give where parameters change
+  sampling,               // T or 1/T
   brake_choice,           // how the brake is commanded: shares, samples, thresholds, what is chosen and not computed
   zero,                   // nothing
 };

@@ -33,8 +33,10 @@ class Blocks {
     return sum;
   }
 
+  // `network`: with every parameter at its largest.
   ReferenceBlock block(const Network& network) const {
     ReferenceBlock block;
+    block.largest_stiffness = companion(reference_form(network), facts_);
     Network fixed = network;
     for (const std::vector<std::size_t>& part : parts_between_ends(network)) {
       if (std::none_of(part.begin(), part.end(), [&](std::size_t i) { return is_tunable(network.elements[i]); }))
@@ -260,7 +262,19 @@ Network at_largest(Network network) {
   return network;
 }
 
-void add_block(const ReferenceBlock& block, Pool& pool) {
+Reference at_largest(const ReferenceSum& sum, const std::vector<const Parameter*>& parameters) {
+  Reference value = sum.base;
+  for (std::size_t i = 0; i < sum.factors.size(); ++i) value += sum.factors[i] * Reference(parameters[i]->max);
+  return value;
+}
+
+// Behind a slip no part is softer, and no slip yields sooner, than this share of what they are at most.
+Reference least_share(const LawFacts& facts) {
+  return facts.scalar == ScalarType::float64 ? Reference(0x1p-24) : Reference(0x1p-10);
+}
+
+void add_block(const ReferenceBlock& block, Pool& pool, const Reference& least_share) {
+  pool["blocks"].push_back(least_share * block.largest_stiffness);
   std::vector<Reference>& numbers = pool["numbers"];
   if (block.has_spring) numbers.push_back(block.stiffness.base);
   if (block.has_damper) numbers.push_back(block.damping.base);
@@ -294,7 +308,7 @@ ReferenceTunables reference_tunables(const Network& network, const LawFacts& fac
   // What stands in series has any order: in a tree that of the file.
   const bool is_tree = result.tree.has_slips() && series_parallel_tree(largest);
   const std::optional<Tree> linear = is_tree ? series_parallel_tree(result.tree.linear_network) : std::nullopt;
-  result.linear = blocks.block(linear ? laid_out(*linear, network) : result.tree.linear_network);
+  result.linear = blocks.block(linear ? laid_out(*linear, largest) : result.tree.linear_network);
   if (network.contact && !result.tree.networks.empty()) {
     const std::vector<std::size_t> behind_slips = elements_behind_slips(result.tree);
     GraphBuilder(behind_slips, largest, blocks).add_to(result);
@@ -317,13 +331,22 @@ Pool constants_of_tunables(const ReferenceTunables& tunables, const Network& net
   }
   for (const Element& e : network.elements)
     if (e.parameter && network.parameters[*e.parameter].tunable) pool["shares"].push_back(e.share);
-  add_block(tunables.linear, pool);
+  const Reference least = least_share(facts);
+  const bool is_behind_slips = network.contact && tunables.tree.has_slips();
+  add_block(tunables.linear, pool, is_behind_slips ? least : Reference(0));
   for (const std::vector<ReferenceBlock>& component : tunables.blocks)
-    for (const ReferenceBlock& block : component) add_block(block, pool);
+    for (const ReferenceBlock& block : component) add_block(block, pool, least);
   for (const ReferenceGraph& graph : tunables.graphs)
-    for (const ReferenceTie& tie : graph.ties) add_block(tie.block, pool);
-  for (const std::vector<ReferenceSum>& cuts : tunables.yield_forces)
-    for (const ReferenceSum& cut : cuts) pool["numbers"].push_back(cut.base);
+    for (const ReferenceTie& tie : graph.ties) add_block(tie.block, pool, least);
+  for (const std::vector<ReferenceSum>& cuts : tunables.yield_forces) {
+    std::optional<Reference> largest;
+    for (const ReferenceSum& cut : cuts) {
+      pool["numbers"].push_back(cut.base);
+      const Reference here = at_largest(cut, tunables.parameters);
+      largest = largest ? std::min(*largest, here) : here;
+    }
+    pool["yields"].push_back(least * largest.value());
+  }
   const Reference offset_time("0.1");  // [s], in which a rest length goes home
   const bool is_double = facts.scalar == ScalarType::float64;
   const Reference period = 1 / Reference(facts.rate);

@@ -34,6 +34,7 @@ struct ReferenceEdge {
 struct ReferenceBlock {
   ReferenceSum stiffness, damping;  // k0 and b∞ of all but the meshes
   bool has_spring = false, has_damper = false;
+  Reference largest_stiffness = 0;  // g over a sample, with every parameter at its largest
   std::vector<ReferenceRelaxation> relaxations;
   std::vector<std::vector<ReferenceEdge>> meshes;
 };

@@ -23,8 +23,6 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
                               head.motor_limit, head.motor_step})
     pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(tables.brake.observed)].base);
-  for (const tunable_block<double>& block : tables.blocks) pool_["blocks"].push_back(block.least_stiffness);
-  for (const tunable_yield<double>& yield : tables.yields) pool_["yields"].push_back(yield.least);
   for (const Coefficient& constant : compiled.law.coefficients) add_pool_of(constant);
   pool_["sample_period"] = {1 / Reference(facts_.rate)};
   pool_["added_damping"] = pool_["steady_damping"] = {compiled.certificate.added_damping};
@@ -43,8 +41,8 @@ void TunableVerification::add_pool_of(const Coefficient& constant) {
     case ConstantRole::element_value:
       pool = pool_["numbers"];
       pool.insert(pool.end(), pool_["shares"].begin(), pool_["shares"].end());
-      pool.push_back(1 / Reference(facts_.rate));
       return;
+    case ConstantRole::sampling: pool = {Reference(facts_.rate), 1 / Reference(facts_.rate)}; return;
     case ConstantRole::relaxation_share:
     case ConstantRole::loss: pool = pool_["parts"]; return;
     default: pool.assign(constant.values.begin(), constant.values.end());

@@ -154,7 +154,7 @@ class friction_tunable {
       {dashpot::tunable_kind::spring, 0, -1, -1, -1, 0, 0, 0, 0, true},  // spring_2
   };
   static constexpr dashpot::tunable_block<scalar> blocks[2] = {
-      {0, 1, 0.002384185791015625},
+      {0, 1, 0.0},
       {1, 1, 0.0002980232238769531},
   };
   static constexpr int cuts[1] = {2};

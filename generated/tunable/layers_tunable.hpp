@@ -181,10 +181,10 @@ class layers_tunable {
       {dashpot::tunable_kind::relaxation, 3, 6, 10, 11, 0, 0, 0, 0, false},  // muscle_elasticity_muscle_viscosity
   };
   static constexpr dashpot::tunable_block<scalar> blocks[4] = {
-      {0, 1, 0.00017881393432617188},
+      {0, 1, 0.0},
       {1, 1, 0.0002384185791015625},
       {2, 2, 0.00020265579223632812},
-      {4, 2, 0.00022801071038486734},
+      {4, 2, 0.00022801071038486737},
   };
   static constexpr int cuts[3] = {7, 8, 9};
   static constexpr dashpot::tunable_yield<scalar> yields[3] = {

@@ -1,6 +1,7 @@
 """`dashpot compile --certificate` and `dashpot verify`."""
 import concurrent.futures
 import json
+import math
 import os
 import random
 import re
@@ -410,6 +411,23 @@ class Verify(CommandTest):
                 told = self.verify(header, certificate, f"apart_{number}", INPUT_REFUSED).stderr
                 found += any(code in told for code in ["constant-of-nothing", "constant-wrong", "unknown-constant"])
             self.assertGreaterEqual(found, 36)  # a digit may make it another of the network's own constants
+
+    def test_what_slips_and_blocks_keep_at_least(self):
+        """Fails if one unit in the last place more or less passes for what a block or a slip keeps at least while parameters change."""
+        refused = 0
+        for law in (["tuned.json"], ["pushed_tuned.json"], [SOURCE / "networks/tunable/layers_tunable.json"]):
+            header, certificate = self.emitted(law, f"law_{refused}")
+            for name in ("blocks", "yields"):
+                table = re.search(rf"static constexpr [^;=]*\bscalar> {name}\[\d*\] = ([^;]*);", header)
+                for place, (start, end) in enumerate(numbers_of(table.group(1))):
+                    least = float(table.group(1)[start:end])
+                    for other in (math.nextafter(least, 0), math.nextafter(least, math.inf)) if least > 0 else ():
+                        told = json.loads(certificate)
+                        told["constants"][name][place] = other
+                        changed = header[:table.start(1) + start] + repr(other) + header[table.start(1) + end:]
+                        self.assertIn(f"'{name}' of place", self.verify(changed, json.dumps(told), f"least_{refused}", INPUT_REFUSED).stderr)
+                        refused += 1
+        self.assertGreater(refused, 20)
 
     def test_what_is_no_certificate(self):
         """Fails if another file in the place of a certificate or a header is taken for one."""

@@ -720,7 +720,7 @@ static const friction_tunable_part friction_tunable_parts[2] = {
     {friction_tunable_spring, 0, -1, -1, -1, 0, 0, 0, 0, 1},
 };
 static const friction_tunable_block_parts friction_tunable_block_table[2] = {
-    {0, 1, 0.002384185791015625},
+    {0, 1, 0.0},
     {1, 1, 0.0002980232238769531},
 };
 static const int friction_tunable_cuts[1] = {2};

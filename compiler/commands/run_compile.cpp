@@ -3,14 +3,18 @@
 #include <iostream>
 #include <utility>
 
+#include <fmt/ranges.h>
+
 #include "certify/storage_instance.hpp"
 #include "commands/axes_commands.hpp"
 #include "commands/changed_network.hpp"
 #include "commands/commands.hpp"
 #include "commands/explain.hpp"
 #include "compile.hpp"
+#include "discretise/tunable_network.hpp"
 #include "emit/write_files.hpp"
 #include "insist.hpp"
+#include "network/law.hpp"
 #include "network/tree.hpp"
 #include "verify/certificate_file.hpp"
 #include "law/law_text.hpp"
@@ -110,11 +114,25 @@ EmissionOptions emission_of(const Compilation& compilation, const Options& optio
   return emission;
 }
 
+// What of a network has a proof of another kind than --proof writes; empty where nothing does.
+std::string parts_with_other_proofs(const Network& network) {
+  std::vector<std::string> parts;
+  for (const Element& element : network.elements)
+    if (kind_of(element.law) == "slip") parts.push_back(fmt::format("the slip '{}'", element.name));
+  if (has_tunables(network)) parts.push_back("tunable parameters");
+  if (network.contact) parts.push_back("a contact");
+  if (network.static_curve) parts.push_back("a static curve");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
 std::string proof_text(const Compilation& c, Diagnostics& diagnostics) {
   const std::optional<std::string> text =
       coq_instance(c.network.name, c.certificate.bound, motor_constants(c.law), c.certificate.loop);
-  if (!text) diagnostics.report<DiagnosticCode::no_storage_function>({}, c.network.name);
-  return text.value_or("");
+  if (text) return *text;
+  diagnostics.report<DiagnosticCode::no_storage_function>({}, c.network.name);
+  if (const std::string parts = parts_with_other_proofs(c.network); !parts.empty())
+    diagnostics.note<DiagnosticCode::proved_by_energy>({}, parts);
+  return "";
 }
 
 ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& diagnostics, StageTimes& times) {

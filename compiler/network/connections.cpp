@@ -15,12 +15,18 @@ namespace {
 
 constexpr std::size_t most_names_listed = 5;
 
-std::string list_names(const std::vector<const Element*>& elements) {
+std::string list_names(const std::vector<std::string>& names) {
   std::string text;
-  for (std::size_t i = 0; i < std::min(elements.size(), most_names_listed); ++i)
-    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", elements[i]->name);
-  if (elements.size() > most_names_listed) text += fmt::format(" and {} more", elements.size() - most_names_listed);
+  for (std::size_t i = 0; i < std::min(names.size(), most_names_listed); ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : ", ", names[i]);
+  if (names.size() > most_names_listed) text += fmt::format(" and {} more", names.size() - most_names_listed);
   return text;
+}
+
+std::string list_names(const std::vector<const Element*>& elements) {
+  std::vector<std::string> names;
+  for (const Element* element : elements) names.push_back(element->name);
+  return list_names(names);
 }
 
 // Connected parts: one representative a node (union by path halving).
@@ -57,6 +63,14 @@ void note_what_end_is_called(const Network& network, NodeIndex end, const std::v
       return diagnostics.note<DiagnosticCode::end_is_called>(node_places[node], network.nodes[end]);
 }
 
+// The nodes that elements join to `end`.
+std::vector<std::string> nodes_joined_to(NodeIndex end, const Network& network, Parts& parts) {
+  std::vector<std::string> names;
+  for (NodeIndex node = 0; node < network.nodes.size(); ++node)
+    if (node != end && parts.find(node) == parts.find(end)) names.push_back(network.nodes[node]);
+  return names;
+}
+
 void check_ends(const Network& network, Span structure, const std::vector<Span>& node_places, Parts& parts,
                 Diagnostics& diagnostics) {
   const std::vector<std::size_t> count = elements_at_nodes(network);
@@ -65,8 +79,11 @@ void check_ends(const Network& network, Span structure, const std::vector<Span>&
     diagnostics.report<DiagnosticCode::end_unused>(structure, network.nodes[end]);
     note_what_end_is_called(network, end, node_places, diagnostics);
   }
-  if (count[tool] > 0 && count[ground] > 0 && parts.find(tool) != parts.find(ground))
-    diagnostics.report<DiagnosticCode::ends_not_connected>(structure);
+  if (count[tool] == 0 || count[ground] == 0 || parts.find(tool) == parts.find(ground)) return;
+  diagnostics.report<DiagnosticCode::ends_not_connected>(structure);
+  const auto at_tool = nodes_joined_to(tool, network, parts), at_ground = nodes_joined_to(ground, network, parts);
+  if (!at_tool.empty() && !at_ground.empty())
+    diagnostics.note<DiagnosticCode::join_the_parts>({}, list_names(at_tool), list_names(at_ground));
 }
 
 void check_floating_parts(const Network& network, Parts& parts, Diagnostics& diagnostics) {

@@ -41,6 +41,8 @@ void report_unit_fault(const ValueDecl& decl, std::size_t unit_begin, const Unit
   }
   const Span place = part_of(decl, unit_begin + fault.begin, unit_begin + fault.end);
   if (fault.kind == UnitFault::Kind::product_after_slash) return report_two_readings(place, unit, diagnostics);
+  if (fault.kind == UnitFault::Kind::percent_in_product)
+    return diagnostics.report<DiagnosticCode::percent_in_product>(place, excerpt(unit));
   const std::string symbol = unit.substr(fault.begin, fault.end - fault.begin);
   diagnostics.report<DiagnosticCode::unknown_unit>(place, excerpt(symbol));
   if (const std::string spaced = spaced_unit(symbol); !spaced.empty()) {

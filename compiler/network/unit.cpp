@@ -74,6 +74,8 @@ class UnitParser {
     if (text_.size() > longest_unit) fail(UnitFault::Kind::malformed, 0, text_.size());
     const Unit unit = quotient();
     if (!fault_ && at_ < text_.size()) fail_here();
+    const std::size_t percent = text_.find('%');
+    if (percent != std::string_view::npos && text_ != "%") fail(UnitFault::Kind::percent_in_product, percent, percent + 1);
     if (fault_) return *fault_;
     return unit;
   }

@@ -21,7 +21,7 @@ struct Unit {
 };
 
 struct UnitFault {
-  enum class Kind { unknown_symbol, product_after_slash, malformed };
+  enum class Kind { unknown_symbol, product_after_slash, percent_in_product, malformed };
 
   Kind kind;
   std::size_t begin;  // bytes [begin, end) of the text
@@ -30,7 +30,7 @@ struct UnitFault {
 
 // In: factors joined by blanks, '*' or '·', and '/', each a symbol with an SI prefix and an integer power ("^2", "²");
 // brackets may stand around a divisor. After a '/' only the next factor divides; a product after it is refused, since
-// "N/m s" is read in two ways.
+// "N/m s" is read in two ways. "%" stands alone: "10 % s" says of no time what a tenth of it is.
 std::variant<Unit, UnitFault> parse_unit(std::string_view text);
 
 // What a factor may be: a symbol, or a prefix and a symbol that takes one.

@@ -46,7 +46,9 @@ void report_unknown_kind(const JsonValue& value, Diagnostics& diagnostics) {
     return diagnostics.note<DiagnosticCode::contact_goes_to_top>({});
   }
   diagnostics.report<DiagnosticCode::unknown_kind>(named->key_span, excerpt(named->key));
-  if (const auto nearest = nearest_name(named->key, branch_kinds))
+  if (named->key == "mass" || named->key == "inertia" || named->key == "inerter")
+    diagnostics.note<DiagnosticCode::networks_have_no_mass>({});
+  else if (const auto nearest = nearest_name(named->key, branch_kinds))
     diagnostics.note<DiagnosticCode::nearest_name>({}, *nearest);
 }
 

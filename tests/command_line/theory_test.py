@@ -62,8 +62,9 @@ class TheoryTest(CommandTest):
 
     # A law without a storage function would leave an empty proof behind.
     def test_nothing_to_prove(self):
-        self.refused("compile", SOURCE / "networks/paper/visco_elasto_plastic.json", "--proof", "law.v",
-                     code="no-storage-function")
+        refused = self.refused("compile", SOURCE / "networks/paper/visco_elasto_plastic.json", "--proof", "law.v",
+                               code="no-storage-function")
+        self.assertIn("note: it has the slip '", refused.stderr)
         self.refused("compile", FIG_5, SOURCE / "networks/paper/kelvin.json", "--proof", "law.v",
                      code="certificate-of-several", status=COMMAND_LINE_WRONG)
         self.assertEqual(self.files(), [])

@@ -74,6 +74,7 @@ function unit_of(text, known) {
     }
   }
 
+  if (text.includes('%') && text !== '%') return null;
   try {
     quotient();
   } catch (fault) {

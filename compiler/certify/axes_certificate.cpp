@@ -370,7 +370,7 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "passivity: {}: what the motors hold from one sample to the next needs {:.6g} N·s/m{}, {:.6g} "
+      "passivity: {}: what the motors hold from one sample to the next needs {:.6g} N s/m{}, {:.6g} "
       "beyond the device's own damping, most at ({:.4g}, {:.4g}) mm",
       c.certified ? "certified for any motion in the workspace, while the motors make their torques"
                   : "not certified, since " + why_not_certified(c, device),

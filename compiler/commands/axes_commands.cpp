@@ -35,8 +35,8 @@ std::size_t operations(const UpdateLaw& law, const std::vector<Statement>& progr
 }
 
 std::string ports_text(const AxesCompilation& c) {
-  std::string text = fmt::format("{:<16} {:<8} {:>12} {:>12} {:>12} {:>6}  {}\n", "port", "map", "b [N·s/m]",
-                                 "k0 [N/m]", "b∞ [N·s/m]", "modes", "rule");
+  std::string text = fmt::format("{:<16} {:<8} {:>12} {:>12} {:>12} {:>6}  {}\n", "port", "map", "b [N s/m]",
+                                 "k0 [N/m]", "b∞ [N s/m]", "modes", "rule");
   for (std::size_t i = 0; i < c.ports.size(); ++i) {
     const Compilation& port = c.ports[i];
     text += fmt::format("{:<16} {:<8} {:>12.6g} {:>12.6g} {:>12.6g} {:>6}  {}{}\n", c.network.ports[i].name,
@@ -46,25 +46,57 @@ std::string ports_text(const AxesCompilation& c) {
                         port.network.contact ? ", contact" : "");
   }
   if (c.network.has_field())
-    text += fmt::format("viscous field [[{}, {}], [{}, {}]] N·s/m\n", c.network.viscous[0][0], c.network.viscous[0][1],
+    text += fmt::format("viscous field [[{}, {}], [{}, {}]] N s/m\n", c.network.viscous[0][0], c.network.viscous[0][1],
                         c.network.viscous[1][0], c.network.viscous[1][1]);
   return text;
 }
 
 std::string share_row(std::string_view name, const axes::ShareMap& share, bool is_chosen) {
-  return fmt::format("{:<14} {:>6.3f} {:>6.3f} {:>6.3f} at ({:.3g}, {:.3g}) mm {:>9.3f} {:>6.3f} {:>10.0f} %{}\n", name,
-                     share.mean, share.median, share.worst, 1e3 * share.worst_at[0], 1e3 * share.worst_at[1],
-                     share.worst_direction_median, share.worst_direction_worst, 100 * share.delay_proof,
-                     is_chosen ? "  chosen" : "");
+  const std::string place = fmt::format("({:.3g}, {:.3g})", 1e3 * share.worst_at[0], 1e3 * share.worst_at[1]);
+  return fmt::format("{:<14} {:>6.3f} {:>6.3f} {:>6.3f} {:>14} {:>8.3f} {:>8.3f} {:>12.0f}{}\n", name, share.mean,
+                     share.median, share.worst, place, share.worst_direction_median, share.worst_direction_worst,
+                     100 * share.delay_proof, is_chosen ? "  chosen" : "");
 }
 
 std::string shares_text(const AxesCompilation& c) {
-  std::string text =
-      "share of the ports' damping that the brakes make over the workspace: in motions alike in all\n"
-      "directions its mean, median and worst, in the worst direction median and worst; and the part of\n"
-      "the workspace where the rest, made by the motors, takes any lateness of the estimate\n";
+  std::string text = fmt::format(
+      "how much of the ports' damping the brakes make, over the workspace\n"
+      "{:<14} {:>20} {:>14} {:>17} {:>12}\n"
+      "{:<14} {:>6} {:>6} {:>6} {:>14} {:>8} {:>8} {:>12}\n",
+      "", "in all directions", "", "in the worst one", "delay-proof", "candidate", "mean", "median", "least", "at [mm]",
+      "median", "least", "[%]");
   for (const axes::BrakeRule rule : all_rules)
     if (const auto share = share_by(c, rule)) text += share_row(name_of(rule), *share, rule == c.rule);
+  return text;
+}
+
+std::string legend(const AxesCompilation& c) {
+  const std::pair<const char*, const char*> of_all[] = {
+      {"map", "what the port's network feels of the tip: its way along a direction, or its distance from something"},
+      {"b", "the damping that the brakes are asked to make along the port"},
+      {"k0", "of the port's spring that is left when everything has relaxed"},
+      {"b∞", "of the port's damper that is felt at once"},
+      {"modes", "springs and dampers in series that relax by themselves"},
+      {"rule", "the decomposition of the port's network that gave b"}};
+  const std::pair<const char*, const char*> of_shares[] = {
+      {"diagonal", "each brake makes what its joint is to feel; what couples the joints is left to the motors"},
+      {"non-injecting", "as much as the brakes can make without the motors bringing energy in"},
+      {"virtual", "no brakes: the motors make all damping, from estimated velocities"},
+      {"in all directions",
+       "1 where brakes turn as much into heat as is wanted, on average over the directions of a "
+       "motion; above 1 they make more, and the motors take that back"},
+      {"in the worst one", "the same in the direction in which it is least"},
+      {"at", "where in the workspace the least is, x and y of the tip"},
+      {"delay-proof",
+       "the part of the workspace where what the motors make of the damping stays passive, however late "
+       "the estimated velocities are"}};
+  std::string text;
+  const auto add = [&text](const auto& lines) {
+    for (const auto& [name, meaning] : lines)
+      for (const std::string& line : wrapped_text(fmt::format("{:<22}{}", name, meaning), 98, 22)) text += line + "\n";
+  };
+  add(of_all);
+  if (c.certificate.share) add(of_shares);
   return text;
 }
 
@@ -119,13 +151,14 @@ std::string explain_json(const AxesCompilation& c) {
   return json.dump(2) + "\n";
 }
 
-std::string explain_text(const AxesCompilation& c) {
+std::string explain_text(const AxesCompilation& c, bool with_legend) {
   std::string text =
       fmt::format("{}: two axes, {}\n", c.network.name,
                   c.has_device ? fmt::format("device '{}', {}", c.device.name, name_of(c.device.arm.kind))
                                : "no device: the joints are the tool's own axes");
   text += "\n" + ports_text(c);
   if (c.certificate.share) text += "\n" + shares_text(c);
+  if (with_legend) text += "\n" + legend(c);
   text += "\n";
   for (const std::string& fact : passivity_lines(c.certificate, c.device))
     for (const std::string& line : wrapped_text(fact, 98, 2)) text += line + "\n";
@@ -151,8 +184,8 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& network, const Opt
   return compile_axes(network, options.choices, device.axes_device, diagnostics);
 }
 
-std::string explain_axes(const AxesCompilation& compilation, bool as_json) {
-  return as_json ? explain_json(compilation) : explain_text(compilation);
+std::string explain_axes(const AxesCompilation& compilation, bool as_json, bool with_legend) {
+  return as_json ? explain_json(compilation) : explain_text(compilation, with_legend);
 }
 
 std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) {

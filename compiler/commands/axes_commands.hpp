@@ -20,7 +20,7 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& network, const Opt
                                             const DeviceChoice& device, Diagnostics& diagnostics);
 
 // What `explain` prints.
-std::string explain_axes(const AxesCompilation& compilation, bool as_json);
+std::string explain_axes(const AxesCompilation& compilation, bool as_json, bool with_legend);
 
 // What `compile --print` shows of a stage.
 std::string axes_stage_text(const AxesCompilation& compilation, const std::string& stage);

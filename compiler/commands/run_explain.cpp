@@ -41,7 +41,7 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
     if (options.as) diagnostics.report<DiagnosticCode::option_on_two_axes>({}, "--as");
     const auto axes = options.as ? std::nullopt : compile_axes(*file, options, device, diagnostics);
     if (!axes || diagnostics.has_errors()) return ExitStatus::input_refused;
-    return write_standard_output(explain_axes(*axes, options.json), diagnostics);
+    return write_standard_output(explain_axes(*axes, options.json, options.legend), diagnostics);
   }
   if (!as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
   std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);

@@ -218,6 +218,12 @@ class AxesTest(CommandTest):
                       "operations before"]:
             self.assertIn(words, " ".join(text.split()))
         self.assertTrue(all(len(line) <= 100 for line in text.splitlines()), text)
+        with_legend = self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--legend").stdout
+        self.assertTrue(all(len(line) <= 100 for line in with_legend.splitlines()), with_legend)
+        for name in ["map", "b", "k0", "b∞", "modes", "rule", "in all directions", "in the worst one", "at", "delay-proof",
+                     *(candidate["name"] for candidate in told["candidates"])]:
+            self.assertIn(name, text)
+            self.assertRegex(with_legend, rf"(?m)^{name} {{{22 - len(name)}}}\S")
 
     # If this fails, more is called certified than the bounds cover, or nothing is; or brakes are told to give more than
     # they have.

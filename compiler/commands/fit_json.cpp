@@ -35,6 +35,7 @@ Json score_json(const FileScore& score) {
           {"digest", score.digest},
           {"rows", score.rows},
           {"free_rows", score.free_rows},
+          {"free_rms", score.free_rows > 0 ? number(score.free_rms) : Json(nullptr)},
           {"rms", number(score.rms)},
           {"range", number(score.range)},
           {"r_squared", number(score.r_squared)},

@@ -86,6 +86,12 @@ class FitPage {
 
   std::string error(double rms) const { return error_text(rms, fit_, problem_); }
 
+  std::string surface_fact() const {
+    if (!fit_.choices.contact) return "";
+    return fact(fit_.choices.contact_is_found ? "surface, found" : "surface, given",
+                place_text(*fit_.choices.contact, fit_.choices.port_motion));
+  }
+
   static std::string fact(const std::string& label, const std::string& value) {
     return "<div><dt>" + label + "</dt><dd>" + escaped(value) + "</dd></div>\n";
   }
@@ -95,7 +101,7 @@ class FitPage {
            fact("R²", fmt::format("{:.5f}", fit_.r_squared)) +
            fact("least of any linear network", error(fit_.floor_rms)) +
            fact("parameters", std::to_string(fit_.parameters)) +
-           fact("effective samples", fmt::format("{:.4g}", fit_.effective_samples)) + "</dl>\n";
+           fact("effective samples", fmt::format("{:.4g}", fit_.effective_samples)) + surface_fact() + "</dl>\n";
   }
 
   bool is_spectrum() const { return recordings_.front().kind == RecordingKind::frequency; }
@@ -133,6 +139,9 @@ class FitPage {
       plot.curves.push_back(curve("", Channel::total, recording.time, loss, false));
     }
     plot.note = fmt::format("rms {}, R² {:.5f}", error(score.rms), score.r_squared);
+    if (score.free_rows > 0)
+      *plot.note +=
+          fmt::format("; {} of {} rows left out, where the tool has left the tissue", score.free_rows, score.rows);
     if (score.left_out_rms)
       *plot.note += fmt::format("; rms {} by a network fitted to the other files", error(*score.left_out_rms));
     return plot;
@@ -149,6 +158,25 @@ class FitPage {
     for (std::size_t i = 0; i < left.size(); ++i) left[i] -= score.answer[i];
     for (std::size_t i = 0; i < recording.assumed_rows; ++i) left[i] = 0;
     return left;
+  }
+
+  // Of rows that were fitted, or of those that were left out.
+  static Points rows_of(const FileScore& score, const std::vector<double>& x, const std::vector<double>& left,
+                        bool are_free) {
+    Points points;
+    for (std::size_t row = 0; row < x.size(); ++row)
+      if (score.is_free[row] == are_free) points.x.push_back(x[row]), points.y.push_back(left[row]);
+    return points;
+  }
+
+  static void add_left(Plot& plot, const FileScore& score, Channel channel, const std::vector<double>& x,
+                       const std::vector<double>& left) {
+    const Points fitted = rows_of(score, x, left, false), free = rows_of(score, x, left, true);
+    plot.curves.push_back(curve(file_name(score), channel, fitted.x, fitted.y, true));
+    if (free.x.empty()) return;
+    const bool is_named = std::any_of(plot.curves.begin(), plot.curves.end(),
+                                      [](const Curve& one) { return one.channel == Channel::left_out; });
+    plot.curves.push_back(curve(is_named ? "" : "left out", Channel::left_out, free.x, free.y, true));
   }
 
   std::string left_figures() const {
@@ -169,10 +197,9 @@ class FitPage {
     static constexpr Channel channels[] = {Channel::motor, Channel::brake, Channel::closed_form, Channel::total};
     for (std::size_t i = 0; i < recordings_.size(); ++i) {
       const std::vector<double> left = left_of(recordings_[i], fit_.files[i]);
-      over_time.curves.push_back(curve(file_name(fit_.files[i]), channels[i % 4], recordings_[i].time, left, true));
+      add_left(over_time, fit_.files[i], channels[i % 4], recordings_[i].time, left);
       if (!recordings_[i].position.empty())
-        over_position.curves.push_back(
-            curve(file_name(fit_.files[i]), channels[i % 4], recordings_[i].position, left, true));
+        add_left(over_position, fit_.files[i], channels[i % 4], recordings_[i].position, left);
     }
     return "<div class=\"figures\">\n" + plot_figure(over_time) + plot_figure(over_position) + "</div>\n";
   }

@@ -29,7 +29,8 @@ class FitText {
                         error(fit_.floor_rms));
     if (fit_.noise && fit_.choices.weighting == Weighting::uniform)
       text += fmt::format("; the noise is about {}", error(*fit_.noise));
-    text += fmt::format("\n{:.4g} effective samples, condition {:.3g}\n", fit_.effective_samples, fit_.condition);
+    text += fmt::format("\n{:.4g} effective samples in all, by which intervals and criterion go; condition {:.3g}\n",
+                        fit_.effective_samples, fit_.condition);
     if (fit_.choices.contact)
       text += fmt::format("surface {} at {}\n", fit_.choices.contact_is_found ? "found" : "given",
                           place_text(*fit_.choices.contact, fit_.choices.port_motion));
@@ -68,8 +69,8 @@ class FitText {
     if (file.free_rows > 0)
       text += fmt::format(
           "\n    {} of the rows are left out: there the tool has left the tissue, which does not come back as fast, "
-          "and the force tells nothing of it",
-          file.free_rows);
+          "and the force, {} rms, tells nothing of it",
+          file.free_rows, quantity_text(file.free_rms, measured_unit(fit_, problem_), 4));
     return text + "\n";
   }
 
@@ -150,6 +151,12 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
   for (const Finding& found : fit.findings) {
     const auto& n = found.numbers;
     switch (found.kind) {
+      case Kind::untouched:
+        diagnostics.report<DiagnosticCode::fit_untouched>({}, found.name, quantity_text(n[0], units.position, 4),
+                                                          quantity_text(n[1], units.position, 4),
+                                                          quantity_text(n[2], units.force, 4));
+        diagnostics.note<DiagnosticCode::fit_contact_remedy>({});
+        break;
       case Kind::floor_above_noise:
         diagnostics.report<DiagnosticCode::fit_floor_above_noise>({}, error_text(n[0], fit, problem),
                                                                   error_text(n[1], fit, problem));
@@ -173,6 +180,11 @@ void report_findings(const Fit& fit, const std::vector<Recording>& recordings, D
       case Kind::no_intervals:
         diagnostics.report<DiagnosticCode::fit_no_intervals>({}, n[0], count(n[1]));
         diagnostics.note<DiagnosticCode::fit_spread_instead>({});
+        break;
+      case Kind::left_out_pushes:
+        diagnostics.report<DiagnosticCode::fit_left_out_pushes>(
+            {}, count(n[0]), found.name, quantity_text(n[1], units.force, 4), quantity_text(n[2], units.force, 4));
+        diagnostics.note<DiagnosticCode::fit_left_out_remedy>({});
         break;
       case Kind::slips_or_softening:
         diagnostics.report<DiagnosticCode::fit_slips_or_softening>({});

@@ -67,6 +67,8 @@ class Findings {
   std::vector<Finding> run(bool size_was_met) {
     if (!size_was_met) add(Finding::Kind::size_not_met);
     look_at_starts();
+    for (std::size_t file = 0; file < problem_.files(); ++file)
+      look_at_touch(problem_.recordings()[file], fit_.files[file]);
     look_at_floor();
     look_at_times();
     look_at_reach(ElementKind::spring);
@@ -97,6 +99,33 @@ class Findings {
       if (const double delay = force_delay(recording); delay != 0)
         add(Finding::Kind::late_force, recording.name, {delay});
     }
+  }
+
+  // Where the tool comes from in front of the tissue, and where it has left it.
+  void look_at_touch(const Recording& recording, const FileScore& file) {
+    if (!is_motion() || !fit_.noise || fit_.choices.form != Form::stiffness) return;
+    if (!fit_.choices.contact) look_at_approach(recording, file);
+    const double elsewhere = std::max(*fit_.noise, file.rms);
+    if (file.free_rms > 3 * elsewhere)
+      add(Finding::Kind::left_out_pushes, file.name,
+          {static_cast<double>(file.free_rows), file.free_largest, file.free_rms});
+  }
+
+  // Rows in which the force has not yet left its noise though the tool moves and the network would push.
+  void look_at_approach(const Recording& recording, const FileScore& file) {
+    const std::size_t first = recording.assumed_rows;
+    const double unmoved = 5 * std::sqrt(2.0) * *fit_.noise;  // five deviations of a difference of two rows
+    double low = recording.position[first], high = low, push = 0;
+    for (std::size_t row = first; row < recording.time.size(); ++row) {
+      if (std::abs(recording.force[row] - recording.force[first]) > unmoved) break;
+      low = std::min(low, recording.position[row]), high = std::max(high, recording.position[row]);
+      push = std::max(push, std::abs(file.answer[row] - file.answer[first]));
+    }
+    const auto [least, most] = std::minmax_element(recording.position.begin(), recording.position.end());
+    // A curve takes up most of the approach, and then not all that comes behind it.
+    const double bent = fit_.model.curve && file.rms > 3 * *fit_.noise ? 1 : 2;
+    if (push > bent * unmoved && high - low > least_return * (*most - *least) && force_delay(recording) == 0)
+      add(Finding::Kind::untouched, file.name, {recording.origin + low, recording.origin + high, push});
   }
 
   void look_at_floor() {

@@ -59,8 +59,7 @@ class Fitter {
     // with other rows is no start for the structure, so that is looked for again.
     if (follow_surface(fit_.model)) {
       refine_with_surface();
-      search();
-      refine_with_surface();
+      search_behind_surface();
     }
     measure();
     const bool has_no_curve = fit_.model.curve && curve_stiffness(fit_.model).value == 0;
@@ -119,6 +118,19 @@ class Fitter {
     for (int turn = 0; turn < surface_turns && follow_surface(fit_.model); ++turn)
       fit_.model = refined(searched(), fit_.model, gains_are_free(), {10, 1e-9});
     fit_.model = tidied(std::move(fit_.model));
+  }
+
+  // Sizes, intervals and criterion are told of rows that the chosen network has put to the test: as long as refining
+  // still moves the surface, it is searched again.
+  void search_behind_surface() {
+    constexpr int searches = 6;
+    constexpr double settled = 0.01;  // of what is left
+    for (int i = 0; i < searches; ++i) {
+      search();
+      const double found = fit_.model.residual_sum;
+      refine_with_surface();
+      if (found <= (1 + settled) * fit_.model.residual_sum) break;
+    }
   }
 
   void search() {
@@ -280,6 +292,19 @@ class Fitter {
     return answer;
   }
 
+  static void score_free_rows(FileScore& score, const Recording& recording, const VectorXd& answer) {
+    score.is_free.resize(recording.time.size());
+    double sum = 0;
+    for (std::size_t row = 0; row < recording.time.size(); ++row) {
+      score.is_free[row] = recording.is_free(row);
+      if (!score.is_free[row]) continue;
+      const double left = recording.force[row] - answer[static_cast<Index>(row)];
+      sum += left * left;
+      score.free_largest = std::max(score.free_largest, std::abs(left));
+    }
+    if (score.free_rows > 0) score.free_rms = std::sqrt(sum / static_cast<double>(score.free_rows));
+  }
+
   static FileScore score_of(const Problem& problem, std::size_t file, const VectorXd& left, const VectorXd& answer) {
     const Recording& recording = problem.recordings()[file];
     const Block& block = problem.blocks()[file];
@@ -291,6 +316,7 @@ class Fitter {
     score.digest = recording.digest;
     score.rows = recording.measured_rows();
     score.free_rows = recording.free_rows();
+    score_free_rows(score, recording, answer.segment(block.begin, block.count));
     const double weighed = std::max<double>(1, static_cast<double>((weights.array() > 0).count()));
     score.rms = std::sqrt(own.squaredNorm() / weighed);
     const auto [low, high] = std::minmax_element(recording.force.begin(), recording.force.end());

@@ -32,6 +32,9 @@ struct FileScore {
   std::string digest;
   std::size_t rows = 0;
   std::size_t free_rows = 0;  // of these: the tool has left the tissue, and they are left out
+  double free_rms = 0;        // of the force in the free rows, in the recording's quantity
+  double free_largest = 0;    // of its amounts
+  std::vector<bool> is_free;  // row by row
   double rms = 0;             // in the recording's quantity; with weights that are not uniform, of the weighted rows
   double range = 0;           // of what was measured: greatest less least
   double r_squared = 0;
@@ -50,6 +53,7 @@ struct FileScore {
 // Something that a reader must know before believing the network.
 struct Finding {
   enum class Kind {
+    untouched,            // name: the file [from, to, force]
     floor_above_noise,    // [floor, noise]
     floor_not_certified,  // [cosine]
     slower_than_record,   // name [time, duration]
@@ -57,6 +61,7 @@ struct Finding {
     ill_conditioned,      // [condition]
     beyond_reach,         // name, other: elements too far apart to be compiled [factor]
     no_intervals,         // [effective samples, parameters]
+    left_out_pushes,      // name: the file [rows, largest, rms]
     slips_or_softening,
     shape_is_straight,  // name: of the curve
     loading_only,

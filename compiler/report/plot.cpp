@@ -22,6 +22,7 @@ const char* class_of(Channel channel) {
     case Channel::brake: return "brake";
     case Channel::motor: return "motor";
     case Channel::closed_form: return "closed";
+    case Channel::left_out: return "aside";
   }
   return "";
 }

@@ -10,7 +10,7 @@
 namespace dashpot::compiler {
 
 // A class of the page's style sheet: one colour for each channel.
-enum class Channel { total, brake, motor, closed_form };
+enum class Channel { total, brake, motor, closed_form, left_out };
 
 struct Curve {
   std::string name;  // beside the plot; empty: without

@@ -39,6 +39,27 @@ def recording(rows=400, period=0.005, header="time [s],position [mm],force [N]",
     return "\n".join([header, *lines]) + "\n"
 
 
+def approach(force_after_lift_off=0.0, noise=0.004):
+    """A Zener body whose surface is at 2.6 mm: the tool comes from 0, presses to 6.6 mm, holds, and goes back faster than
+    the body. In the rows after it has left, a force of one's own. Its noise is that of an even distribution."""
+    h, surface, relaxation = 0.01, 2.6e-3, 0.4
+    decay, q, last, rows, seed = math.exp(-h / relaxation), 0.0, 0.0, [], 7
+    share, has_left = (1 - decay) * relaxation / h, False
+    for i in range(1100):
+        t = i * h
+        x = 2e-3 * t if t < 3.3 else 6.6e-3 if t < 9 else max(0.0, 6.6e-3 - 20e-3 * (t - 9))
+        u = x - surface
+        force = 0.0
+        if u > 0 and not has_left:
+            q, last = decay * q + share * 250 * (u - last), u
+            force = 150 * u + q
+            has_left = force < 0
+        seed = 16807 * seed % 2147483647
+        force = max(0.0, force) + (force_after_lift_off if has_left else 0) + noise * math.sqrt(12) * (seed / 2147483647 - 0.5)
+        rows.append(f"{t:.2f},{1e3 * x:.5f},{force:.6f}")
+    return "\n".join(["time [s],position [mm],force [N]", *rows]) + "\n"
+
+
 class Fit(CommandTest):
     def fit(self, *arguments, **more):
         return self.dashpot("fit", *arguments, **more)
@@ -149,6 +170,8 @@ int main() {
         self.write("zener.csv", recording())
         self.write("moving.csv", recording(first=100))
         self.write("late.csv", recording(late=8))
+        self.write("approach.csv", approach())
+        self.write("sticks.csv", approach(force_after_lift_off=-0.3))
         self.write("triangles.csv", recording(rows=1600, period=0.01, motion=triangles))
         self.write("ramp.csv", "time [s],position [mm],force [N]\n" + "".join(f"{i},{i},{i + i % 3}\n" for i in range(200)))
         self.write("slow.csv", "time [s],modulus [N/m]\n" + "".join(
@@ -172,6 +195,8 @@ int main() {
                 (["zener.csv", "zener.csv", "--tare"], {"fit-offsets-absorb"}),
                 (["moving.csv"], {"fit-in-motion"}),
                 (["late.csv"], {"fit-late-force"}),
+                (["approach.csv"], {"fit-untouched", "fit-floor-above-noise"}),
+                (["sticks.csv", "--contact", "2.6 mm"], {"fit-left-out-pushes"}),
                 (["triangles.csv"], {"fit-no-hold"}),
                 (["zener.csv", "--shape", "power"], {"fit-shape-is-straight"}),
                 (["ramp.csv"], {"fit-loading-only", "fit-one-rate"}),
@@ -359,6 +384,41 @@ int main() {
         self.assertEqual(told["contact"], {"at": 5e-4, "found": False})
         for element, value in zip(told["elements"], (300, 200, 100), strict=True):
             self.assertAlmostEqual(element["value"] / value, 1, places=4)
+
+    def test_a_tool_that_comes_from_in_front(self):
+        """Fails if a recording that begins in front of the tissue is fitted as if it touched, and nobody hears of it."""
+        self.write("approach.csv", approach())
+        self.write("zener.csv", recording())
+        for words in ([], ["--shape", "auto"]):
+            done = self.fit("approach.csv", *words)
+            self.assertRegex(done.stderr, r"in 'approach.csv' the force stays at its noise while the tool goes from 0 m to 2\.6\d* mm")
+            self.assertIn("note: --contact find looks for the surface", done.stderr)
+        self.assertNotIn("[fit-untouched]", self.fit("approach.csv", "--contact", "find").stderr)
+        self.assertNotIn("[fit-untouched]", self.fit("zener.csv").stderr)
+
+    def test_a_surface_that_is_not_left(self):
+        """Fails if rows are left out that carry a force, and R² alone is told; or if rows without force are blamed."""
+        self.write("leaves.csv", approach())
+        self.write("sticks.csv", approach(force_after_lift_off=-0.3))
+        surface = ["--contact", "2.6 mm"]
+        self.assertNotIn("[fit-left-out-pushes]", self.fit("leaves.csv", *surface).stderr)
+        done = self.fit("sticks.csv", *surface, "--report", "sticks.html")
+        self.assertRegex(done.stderr, r"of 'sticks.csv' that are left out, the force is up to 3\d\d(\.\d+)? mN")
+        told = self.told("sticks.csv", *surface)["files"][0]
+        self.assertGreater(told["free_rms"], 0.1)
+        self.assertGreater(told["r_squared"], 0.999)
+        page = (self.folder / "sticks.html").read_text()
+        for part in ("<dt>surface, given</dt><dd>2.6 mm</dd>", f"{told['free_rows']} of {told['rows']} rows left out",
+                     '<span class="key aside dots">left out</span>'):
+            self.assertIn(part, page)
+
+    def test_sizes_behind_a_surface(self):
+        """Fails if sizes, effective samples and floor are told of a surface that the chosen network does not leave."""
+        self.write("approach.csv", approach())
+        told = self.told("approach.csv", "--contact", "find")
+        chosen = min(told["sizes"], key=lambda entry: entry["criterion"])
+        self.assertLess(chosen["rms"], 1.02 * told["rms"])
+        self.assertGreater(told["effective_samples"], 0.5 * sum(file["effective_samples"] for file in told["files"]))
 
     def test_a_line_without_end(self):
         """Fails if a line is read for as long as it lasts."""

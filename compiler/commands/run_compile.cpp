@@ -12,6 +12,7 @@
 #include "commands/explain.hpp"
 #include "compile.hpp"
 #include "discretise/tunable_network.hpp"
+#include "emit/response_test.hpp"
 #include "emit/write_files.hpp"
 #include "insist.hpp"
 #include "network/law.hpp"
@@ -173,6 +174,8 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       continue;
     } else if (const auto emitted =
                    options.target->emit(*compilation, emission_of(*compilation, options), diagnostics)) {
+      if (const std::string why = why_no_motion_is_played(*compilation); options.emission.with_test && !why.empty())
+        diagnostics.report<DiagnosticCode::test_without_motion>({}, compilation->network.name, why);
       if (options.uncertified) warn_of_uncertified(*compilation, options.choices, diagnostics);
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)

@@ -8,8 +8,10 @@
 
 #include "certify/motor_limits.hpp"
 #include "discretise/rounding.hpp"
+#include "emit/banner.hpp"
 #include "law/cost.hpp"
 #include "linear/motion_map.hpp"
+#include "source/wrapped_text.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -70,18 +72,33 @@ std::vector<Fields> rests_on_curve(const Compilation& c) {
 
 }  // namespace
 
+std::string why_no_motion_is_played(const Compilation& c) {
+  const char* const what = c.form.has_slips() ? "slips"
+                           : c.network.map    ? "a static curve"
+                           : c.law.sheds()    ? "a motor at its limits"
+                                              : nullptr;
+  return what ? fmt::format("with {} a force along it has no closed form", what) : "";
+}
+
 CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
   CodeModel model;
   Fields& fields = model.fields;
   fields["name"] = c.network.name;
+  const std::string why_none = why_no_motion_is_played(c);
+  model.lists["about"] = as_list(wrapped_text(
+      why_none.empty()
+          ? fmt::format("Tests {} against the closed forms of its network", c.network.name)
+          : fmt::format("Tests {} at rest, and by numbers that are none. No motion is played to it, since {}; "
+                        "'dashpot simulate' says what the force of any motion is",
+                        c.network.name, why_none),
+      112, 0));
   fields["scheme"] = name_of(c.law.scheme);
   fields["rate"] = fmt::format("{:#}", c.rate);
   fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
   model.lists["rests"] = c.network.map ? rests_on_curve(c) : rest_on_spring(c);
   model.lists["closed_forms"];
   model.lists["modes"];
-  // Forces of slips and behind a static curve have no closed form along a ramp.
-  if (c.form.has_slips() || c.law.sheds() || c.network.map) return model;
+  if (!why_none.empty()) return model;
   const LinearForm& linear = c.form.linear;
   model.lists["closed_forms"].push_back(
       {{"static_stiffness", fmt::format("{:#}", to_double(linear.static_stiffness))},

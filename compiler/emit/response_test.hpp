@@ -8,6 +8,9 @@
 
 namespace dashpot::compiler {
 
+// Why no motion is played to the law: its force would have no closed form. Empty where it has one.
+std::string why_no_motion_is_played(const Compilation& c);
+
 // `log1p`: the language's name of ln(1 + x).
 CodeModel response_test_model(const Compilation& c, const std::string& log1p);
 

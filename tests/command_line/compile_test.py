@@ -50,6 +50,18 @@ class Files(CommandTest):
         self.assertEqual(self.files("out"), ["kelvin.hpp", "kelvin_test.cpp"])
         self.assertIn('#include "kelvin.hpp"', (self.folder / "out/kelvin_test.cpp").read_text())
 
+    def test_a_test_without_motion(self):
+        """Fails if a test that plays no motion does not say so and why, where it is made and in itself; or one that plays one does."""
+        slipping = SOURCE / "networks/paper/visco_elasto_plastic.json"
+        for target, ending in (("cpp", "cpp"), ("c99", "c")):
+            done = self.dashpot("compile", slipping, "--name", "slipping", "--target", target, "--with-test", "-o", "out")
+            self.assertIn("note: the test of 'slipping' plays no motion to it, since with slips", done.stderr)
+            head = " ".join((self.folder / f"out/slipping_test.{ending}").read_text().replace("// ", "").split("#include")[0].split())
+            self.assertIn("at rest, and by numbers that are none. No motion is played to it, since with slips", head)
+            done = self.dashpot("compile", "kelvin.json", "--target", target, "--with-test", "-o", "out")
+            self.assertNotIn("plays no motion", done.stderr)
+            self.assertIn("against the closed forms", (self.folder / f"out/kelvin_test.{ending}").read_text())
+
     def test_the_scalar(self):
         """Fails if --scalar does not reach the code."""
         for scalar in ["double", "float"]:

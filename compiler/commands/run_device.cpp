@@ -81,10 +81,15 @@ std::optional<FilledBrake> fill_in(const Device& device, const BladeWords& blade
   return is_within_numbers(filled, rotary, diagnostics) ? std::optional(filled) : std::nullopt;
 }
 
+// What a formula says of a brake is not measured.
+void assume(nlohmann::ordered_json& json, const char* name) {
+  nlohmann::ordered_json& assumed = json["assumed"];
+  if (std::find(assumed.begin(), assumed.end(), name) == assumed.end()) assumed.push_back(name);
+}
+
 // A constant of the brake before would make another current of the new largest damping.
 void leave_out_constant(nlohmann::ordered_json& json) {
   json["brake"].erase("damping_per_current_squared");
-  if (!json.contains("assumed")) return;
   nlohmann::ordered_json& assumed = json["assumed"];
   assumed.erase(std::remove(assumed.begin(), assumed.end(), "brake.damping_per_current_squared"), assumed.end());
 }
@@ -107,9 +112,12 @@ std::string filled_text(const SourceFile& file, const FilledBrake& brake, const 
       !brake.damping_per_current_squared && json["brake"].contains("damping_per_current_squared");
   add_to_source(json, blade, without_constant);
   json["brake"]["max_damping"] = fmt::format("{:.6g} {}", brake.damping, damping_unit(rotary));
-  if (brake.damping_per_current_squared)
+  assume(json, "brake.max_damping");
+  if (brake.damping_per_current_squared) {
     json["brake"]["damping_per_current_squared"] =
         fmt::format("{:.6g} {}", *brake.damping_per_current_squared, current_unit(rotary));
+    assume(json, "brake.damping_per_current_squared");
+  }
   if (without_constant) leave_out_constant(json);
   return json.dump(2) + "\n";
 }

@@ -340,6 +340,7 @@ class Blade(unittest.TestCase):
             before["brake"][key] = filled["brake"][key]
         self.assertTrue(filled["source"].startswith(before.pop("source") + "; brake.max_damping by 'dashpot device' from a blade of 1.59 mm"))
         del filled["source"]
+        before["assumed"].append("brake.max_damping")
         self.assertEqual(filled, before)
 
     def test_what_was_said_of_the_brake_before(self):
@@ -348,6 +349,18 @@ class Blade(unittest.TestCase):
         self.assertNotIn("damping_per_current_squared", filled["brake"])
         self.assertNotIn("brake.damping_per_current_squared", filled["assumed"])
         self.assertIn("is left out", filled["source"])
+
+    def test_a_formula_is_no_measurement(self):
+        """Fails if what the formula says of a brake stands as if it had been measured, or is listed twice."""
+        path = os.path.join(tempfile.mkdtemp(), "measured.json")
+        with open(device("pantograph_brake_2009")) as stream:
+            measured = json.load(stream)
+        del measured["assumed"]
+        for assumed in (None, ["brake.max_damping"]):
+            with open(path, "w") as stream:
+                json.dump(measured if assumed is None else {**measured, "assumed": assumed}, stream)
+            result = dashpot("device", path, *self.WORDS, "--current", "2 A")
+            self.assertEqual(json.loads(result.stdout)["assumed"], ["brake.max_damping", "brake.damping_per_current_squared"])
 
     def test_correction_and_radius_can_be_given(self):
         """Fails if what the user states is overruled."""

@@ -147,6 +147,34 @@ std::vector<double> addition(const AxesDevice& device, const Pair<double>& weigh
   return added;
 }
 
+// vᵀ J⁻ᵀ B J⁻¹ v of the brakes' B for the unit v in which it is largest, over the workspace.
+double largest_at_tip(const std::vector<double>& dampings, const AxesDevice& device) {
+  double largest = 0;
+  for (const axes::Place& place : axes::places_in(device.arm, device.workspace, places_a_side)) {
+    const auto [first, second] = axes::pose(device.arm, place.joints).column;
+    const double determinant = first[0] * second[1] - first[1] * second[0];
+    Symmetric<double> there{0, 0, 0};
+    for (std::size_t k = 0; k < dampings.size(); ++k) {
+      if (device.brakes[k].brake.kind == brake_kind::none) continue;
+      const Pair<double>& along = device.brakes[k].along;
+      const Pair<double> turn = {(along[0] * second[1] - along[1] * first[1]) / determinant,
+                                 (along[1] * first[0] - along[0] * second[0]) / determinant};
+      there = there + dampings[k] * axes::outer(turn);
+    }
+    largest = std::max(largest, axes::eigenvalues(there, Symmetric<double>{1, 0, 1})[1]);
+  }
+  return largest;
+}
+
+// x W, of each joint.
+std::string at_joints(double x, const AxesCertificate& c, const AxesDevice& device) {
+  if (device.arm.kind == axes::Kinematics::cartesian) return fmt::format("{:.6g} N·s/m", x);
+  return fmt::format("{:.6g} and {:.6g} N·m·s/rad", x * c.weight[0], x * c.weight[1]);
+}
+
+// Of a place that is told in millimetres, what is less than a nanometre is 0.
+double in_millimetres(double place) { return 1e3 * (std::abs(place) < 1e-9 ? 0 : place); }
+
 // Empty where every port has a bound.
 std::string unproved(const std::vector<CertifiedPort>& ports, const AxesDevice& device) {
   for (const device_description& joint : device.joints)
@@ -356,31 +384,41 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
     if (brake.kind != brake_kind::none)
       c.added[k] = std::min(c.added[k], std::max(0.0, brake.max_damping - brake.residual_damping));
   }
+  if (c.adds()) c.added_at_tip = largest_at_tip(c.added, device);
   return c;
+}
+
+std::optional<Pair<double>> own_damping_that_would_do(const AxesCertificate& c, const AxesDevice& device) {
+  if (!c.is_proved || !c.uncovered.empty() || !std::isfinite(c.missing)) return std::nullopt;
+  Pair<double> own{};
+  // Rounded up to the digits that are told.
+  for (std::size_t joint = 0; joint < 2; ++joint)
+    own[joint] = (device.mechanics.damping[joint] + c.missing * c.weight[joint]) * (1 + 1e-3);
+  return own;
 }
 
 std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return c.reason;
   if (!c.uncovered.empty()) return c.uncovered;
-  return fmt::format("{:.4g} N s/m{} is missing, more than its brakes can give", c.missing,
-                     device.arm.kind == axes::Kinematics::cartesian ? "" : " times the square of each joint's link");
+  return at_joints(c.missing, c, device) + " of damping are missing at the joints, more than its brakes can give";
 }
 
 std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "passivity: {}: what the motors hold from one sample to the next needs {:.6g} N s/m{}, {:.6g} "
-      "beyond the device's own damping, most at ({:.4g}, {:.4g}) mm",
+      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints, {} beyond "
+      "what the device itself has; most is missing at ({:.4g}, {:.4g}) mm",
       c.certified ? "certified for any motion in the workspace, while the motors make their torques"
                   : "not certified, since " + why_not_certified(c, device),
-      c.needed, device.arm.kind == axes::Kinematics::cartesian ? "" : " times the square of each joint's link",
-      c.missing, 1e3 * c.worst[0], 1e3 * c.worst[1]));
+      at_joints(c.needed, c, device), at_joints(c.missing, c, device), in_millimetres(c.worst[0]),
+      in_millimetres(c.worst[1])));
   if (c.for_estimates > 0)
-    lines.push_back(fmt::format("  of which {:.6g} are for what the motors make of estimated velocities, however late",
-                                c.for_estimates));
+    lines.push_back(fmt::format("  of which {} are for what the motors make of estimated velocities, however late",
+                                at_joints(c.for_estimates, c, device)));
   if (c.for_lag > 0)
-    lines.push_back(fmt::format("  of which {:.6g} are for the lag of the motors' amplifiers", c.for_lag));
+    lines.push_back(
+        fmt::format("  of which {} are for the lag of the motors' amplifiers", at_joints(c.for_lag, c, device)));
   const std::string unit = port_units(device.joint_motion()).damping;
   std::string added;
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);
@@ -391,8 +429,9 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
                     "of the workspace",
                     100 * c.share->delay_proof));
   if (c.adds())
-    lines.push_back(fmt::format("  added to the brakes' commands for it: {} {}{}", added, unit,
-                                c.certified ? "" : ", all that they can give"));
+    lines.push_back(
+        fmt::format("  added to the brakes' commands for it: {} {}{}; felt at the tip: up to {:.3g} N s/m more", added,
+                    unit, c.certified ? "" : ", all that they can give", c.added_at_tip));
   return lines;
 }
 

@@ -36,6 +36,7 @@ struct AxesCertificate {
   axes::Pair<double> weight{1, 1};  // square of each joint's link [m²]; [1] of joints that slide
   axes::Pair<double> worst{0, 0};   // tip where most is missing [m]
   std::vector<double> added;        // to each brake's command [N·m·s/rad] or [N·s/m]
+  double added_at_tip = 0;          // that, where and in which direction most of it is felt at the tip [N·s/m]
   std::string uncovered;            // what of this network on this device no bound covers yet; empty: nothing
   bool certified = false;
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
@@ -54,6 +55,10 @@ std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::ve
 // added to the brakes' commands, as far as they reach.
 AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                              const AxesDevice& device, axes::BrakeRule rule);
+
+// Damping of their own with which the joints would do; empty where nothing is proved, or no damping is enough.
+std::optional<axes::Pair<double>> own_damping_that_would_do(const AxesCertificate& certificate,
+                                                            const AxesDevice& device);
 
 // Why not, as one clause.
 std::string why_not_certified(const AxesCertificate& certificate, const AxesDevice& device);

@@ -210,6 +210,20 @@ std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) 
   return text;
 }
 
+namespace {
+
+void note_what_would_do(const AxesCompilation& c, Diagnostics& diagnostics) {
+  const auto own = own_damping_that_would_do(c.certificate, c.device);
+  if (!own) return;
+  const std::string unit = c.device.joint_motion() == motion::rotation ? "N m s/rad" : "N s/m";
+  const auto& there = c.device.mechanics.damping;
+  diagnostics.note<DiagnosticCode::joints_that_would_do>({}, (*own)[0], (*own)[1], unit, there[0], there[1], (*own)[0],
+                                                         unit, (*own)[1], unit);
+  diagnostics.note<DiagnosticCode::softer_ports_remedy>({});
+}
+
+}  // namespace
+
 std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const Options& options,
                                                  Diagnostics& diagnostics) {
   const std::string target(options.target->name);
@@ -224,12 +238,14 @@ std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const
                                                        why_not_certified(certificate, c.device));
   } else if (!certificate.certified) {
     const std::string lacks = why_not_certified(certificate, c.device);
+    if (options.uncertified)
+      diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, lacks);
+    else diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device, lacks);
+    note_what_would_do(c, diagnostics);
     if (!options.uncertified) {
-      diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device, lacks);
       diagnostics.note<DiagnosticCode::compile_uncertified>({});
       return std::nullopt;
     }
-    diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, lacks);
   }
   return emit_axes_cpp(c, options.emission, diagnostics);
 }

@@ -14,9 +14,9 @@
 namespace dashpot::compiler {
 namespace {
 
-// For who has not read the theory: the words_of_ports that the sentences below use.
+// For who has not read the theory: the words that the sentences below use.
 const char* const words_of_ports =
-    "words_of_ports: a port is a network of one axis behind a map w of the tool's position, which says how far the "
+    "words: a port is a network of one axis behind a map w of the tool's position, which says how far the "
     "tool has gone "
     "into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what gives "
     "the "

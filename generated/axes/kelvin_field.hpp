@@ -9,19 +9,20 @@
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
 //   100.6) mm, in motions alike in all directions
 // passivity: certified for any motion in the workspace, while the motors make their torques: what the motors hold
-//   from one sample to the next needs 1.07845 N·s/m times the square of each joint's link, 1.06082 beyond the
-//   device's own damping, most at (0.9375, 70) mm
-//   of which 0.869354 are for what the motors make of estimated velocities, however late
-//   of which 0.194309 are for the lag of the motors' amplifiers
+//   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints, 0.00421038 and
+//   0.00421038 N·m·s/rad beyond what the device itself has; most is missing at (0.9375, 70) mm
+//   of which 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities, however
+//   late
+//   of which 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
-//   added to the brakes' commands for it: 0.00446137, 0.00446137 N m s/rad
+//   added to the brakes' commands for it: 0.00446137, 0.00446137 N m s/rad; felt at the tip: up to 3.62 N s/m more
 // device: pantograph_2dof
 // cost of output(): 81 additions, 99 multiplications, 22 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
-// words_of_ports: a port is a network of one axis behind a map w of the tool's position, which says how far the
-//   tool has gone into what the network resists; B* is the damping that all ports ask for, over the joints.
-//   Passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
+//   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
+//   gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 891796bb1804f2b9e2fd5639d51c9ddbcd99cc9834cf0fe75acc324a0ae3ae4c. It belongs to whoever had it

@@ -9,19 +9,22 @@
 // share: of the ports' damping the brakes make 109 % in the median over the workspace, 71.1 % at least, at (-1,
 //   119.4) mm, in motions alike in all directions
 // passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the loop is late:
-//   what the motors hold from one sample to the next needs 11.2533 N·s/m times the square of each joint's link,
-//   11.2356 beyond the device's own damping, most at (-22.97, 120) mm
-//   of which 1.87381 are for what the motors make of estimated velocities, however late
-//   of which 8.48392 are for the lag of the motors' amplifiers
+//   what the motors hold from one sample to the next needs 0.0446642 and 0.0446642 N·m·s/rad of damping at the
+//   joints, 0.0445942 and 0.0445942 N·m·s/rad beyond what the device itself has; most is missing at (-22.97, 120)
+//   mm
+//   of which 0.00743716 and 0.00743716 N·m·s/rad are for what the motors make of estimated velocities, however
+//   late
+//   of which 0.0336727 and 0.0336727 N·m·s/rad are for the lag of the motors' amplifiers
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
-//   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give
+//   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip: up
+//   to 11.3 N s/m more
 // device: pantograph_2dof
 // cost of output(): 96 additions, 121 multiplications, 49 selections, 1 guards against subnormal numbers
 // cost of update(): 1 additions, 2 multiplications, 0 selections, 1 guards against subnormal numbers
-// words_of_ports: a port is a network of one axis behind a map w of the tool's position, which says how far the
-//   tool has gone into what the network resists; B* is the damping that all ports ask for, over the joints.
-//   Passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+// words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
+//   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
+//   gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 92763b4e7d88c80643bd40e5f80871202c4447194ad7f18354069871e6f22289. It belongs to whoever had it

@@ -2,6 +2,7 @@
 import json
 import math
 import random
+import re
 import shutil
 import struct
 import subprocess
@@ -259,6 +260,39 @@ class AxesTest(CommandTest):
             self.assertIn(reason, text)
         refused = self.dashpot("compile", "thick.json", "--device", PANTOGRAPH, status=INPUT_REFUSED).stderr
         self.assertIn("[axes-not-certified]", refused)
+        # What the refusal asks for is enough.
+        stiff = json.loads(PANTOGRAPH.read_text())
+        stiff["mechanics"]["damping"] = json.loads(re.search(r'would do: "damping": (\[.*?\]) in "mechanics"', refused)[1])
+        self.write("stiff.json", json.dumps(stiff))
+        self.dashpot("compile", "thick.json", "--device", "stiff.json", "-o", "out")
+        self.assertIn("N·m·s/rad of damping are missing at the joints, more than its brakes can give", refused)
+
+    def test_what_is_added_is_told_at_the_tip(self):
+        """Fails if damping that is added to the brakes is not what the hand feels of it where it feels most."""
+        text = " ".join(self.dashpot("explain", FIELD, "--device", PANTOGRAPH).stdout.split())
+        told = float(re.search(r"felt at the tip: up to (\S+) N s/m more", text)[1])
+        added = json.loads(self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--json").stdout)["added_damping"]
+        (left, right), (low, high) = ([float(end.split()[0]) * 1e-3 for end in side]
+                                      for side in json.loads(PANTOGRAPH.read_text())["kinematics"]["workspace"].values())
+        draw, felt = random.Random(5), []
+        while len(felt) < 4000:
+            q = [draw.uniform(math.pi / 2, 1.2 * math.pi), draw.uniform(-0.2 * math.pi, math.pi / 2)]
+            try:
+                x, y = tip_of(q)
+            except ValueError:  # the arm does not reach from elbow to elbow
+                continue
+            # Both elbows outwards, as the arm is built.
+            outwards = math.atan2(y, x + BASE / 2) < q[0] and q[1] < math.atan2(y, x - BASE / 2)
+            if not (outwards and left <= x <= right and low <= y <= high):
+                continue
+            (a, c), (b, d) = jacobian_of(q)
+            determinant = a * d - b * c
+            turns = [(d / determinant, -b / determinant), (-c / determinant, a / determinant)]  # of J⁻¹, by rows
+            xx, xy, yy = (sum(damping * turn[i] * turn[j] for damping, turn in zip(added, turns)) for i, j in ((0, 0), (0, 1), (1, 1)))
+            felt.append((xx + yy) / 2 + math.hypot((xx - yy) / 2, xy))
+        # Three digits are told, of a grid that reaches into the corners.
+        self.assertLessEqual(max(felt), 1.006 * told)
+        self.assertGreater(max(felt), 0.8 * told)
 
     # If this fails, what knows one axis alone takes two for one, or says something that helps nobody.
     def test_a_force_that_turns_at_once_is_refused(self):

@@ -13,11 +13,21 @@
 namespace dashpot::compiler {
 namespace {
 
-// For who has not read the theory: the words that the sentences of the compiler's stages use.
-const char* const words =
-    "words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A mode "
-    "is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and the motor "
-    "makes what the spring behind it changes of that";
+// For who has not read the theory: the words that the sentences of the compiler's stages use, of those that are there.
+std::string words_in(const std::vector<std::string>& facts) {
+  const auto are_used = [&](std::string_view word) {
+    return std::any_of(facts.begin(), facts.end(),
+                       [&](const std::string& fact) { return fact.find(word) != std::string::npos; });
+  };
+  std::string text =
+      "words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive";
+  if (are_used("mode")) text += ". A mode is a spring behind a damper, whose force dies away";
+  if (are_used("observe"))
+    text +=
+        ". A damper is observed where its damping is in b, and the motor makes what the spring behind it changes of "
+        "that";
+  return text;
+}
 
 std::string length_unit(const Network& network) { return network.port_motion == motion::rotation ? "[rad]" : "[m]"; }
 std::string velocity_unit(const Network& network) {
@@ -187,8 +197,11 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
     for (const std::string& line :
          to_lines(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion)))
       facts.push_back(line);
-  facts.push_back(
-      fmt::format("device: {}", c.device ? c.device->name : "none is named: exact brake, exact velocity, no delay"));
+  facts.push_back(fmt::format("device: {}",
+                              c.device ? c.device->name
+                                       : "none is named: exact brake, no delay, and for velocity the difference of the "
+                                         "last two positions over the period. Pass that one: a smoother estimate is "
+                                         "later, and of it nothing is certified here"));
   if (c.law.tunable) describe_tunables(c.law, unit, facts);
   else describe_cost(c, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
@@ -196,7 +209,7 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
   if (c.law.relative_error_bound > 0)
     facts.push_back(fmt::format("rounding: {}the force of a mode is off by at most {:.2g} of its peak",
                                 form_text(c.law.mode_form), c.law.relative_error_bound));
-  facts.push_back(words);
+  facts.push_back(words_in(facts));
   std::vector<std::string> lines;
   for (const std::string& fact : facts)
     for (const std::string& line : wrapped_text(fact, 112, 2)) lines.push_back(comment_text(line));

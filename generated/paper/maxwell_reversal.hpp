@@ -12,14 +12,14 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 3.5e-14 of the
 //   sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 2 multiplications, 1 guards against subnormal numbers; 4 numbers are kept between
 //   samples
 // rounding: the force of a mode is off by at most 3.4e-14 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+//   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 041e63869ced8fe985eef984dbc7ae607baf712997d1c3bd809f61ee96c87ecb. It belongs to whoever had it

@@ -14,13 +14,12 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 8.9e-16 of the
 //   sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 0 additions, 1 multiplications, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 guards against subnormal numbers; 2 numbers are kept between
 //   samples
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 0616b31dfd2ebcd8ce7fa7e4c10a74f9c83b03f123577b772d74eb3a63207355. It belongs to whoever had it

@@ -21,15 +21,15 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 9.5e-15 of the sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 7 additions, 3 multiplications, 1 guards against subnormal numbers
 //   and at most 61 additions, multiplications and divisions for the coupled slips
 // cost of update(): 2 additions, 3 multiplications, 2 guards against subnormal numbers; 7 numbers are kept between
 //   samples
 // rounding: the force of a mode is off by at most 1.6e-15 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+//   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 04a5eed649deccadd8600587906cac37a240dd7aaf4c91c8a82b95348dcce7e3. It belongs to whoever had it

@@ -15,15 +15,15 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 1.4e-15 of the sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 5 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 1 additions, 1 multiplications, 1 guards against subnormal numbers; 6 numbers are kept between
 //   samples
 // constant time: output() and update() decide by masks, not by jumps
 // rounding: the force of a mode is off by at most 5.6e-16 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+//   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 641bd9a185539eb5b87be22748db07e1bc3e1f20f78caf1bfff209cfd4314851. It belongs to whoever had it

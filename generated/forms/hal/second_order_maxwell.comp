@@ -36,7 +36,8 @@ passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, m
 energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
   sum of the force's terms
 .br
-device: none is named: exact brake, exact velocity, no delay
+device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+  period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 .br
 cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 .br
@@ -46,8 +47,7 @@ cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal num
 rounding: the force of a mode is off by at most 2e-13 of its peak
 .br
 words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-  mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-  the motor makes what the spring behind it changes of that""";
+  mode is a spring behind a damper, whose force dies away""";
 pin in float position "of the tool [m]";
 pin in float velocity "of the tool [m/s], as the estimator 'exact' tells it";
 pin in bit enable = 0 "false: safe, at rest where the tool is; clears a fault";
@@ -85,14 +85,14 @@ license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of the law than stored_energy() falls; rounding adds at most 2e-13 of the
 //   sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 3 additions, 4 multiplications, 2 guards against subnormal numbers; 6 numbers are kept between
 //   samples
 // rounding: the force of a mode is off by at most 2e-13 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+//   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
 // af2735eee93eb33a8f9a4a4f82c0acd10271a91cc25bb6eaf3dfce559e6694af. It belongs to whoever had it

@@ -10,14 +10,14 @@
 // passivity: certified for any motion, samples at 1000 Hz: needs 3.56961 N·s/m, most at 22.435 Hz, at least 6
 //   N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // cost of output(): 4 additions, 3 multiplications, 0 guards against subnormal numbers
 // cost of update(): 2 additions, 3 multiplications, 1 guards against subnormal numbers; 5 numbers are kept between
 //   samples
 // rounding: the force of a mode is off by at most 1.2e-14 of its peak
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+//   mode is a spring behind a damper, whose force dies away
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 568aa916d322e556af757b430ca7c246b5eba538d99702a6ca3cab14fe37fc1d. It belongs to whoever had it

@@ -78,7 +78,9 @@ std::string to_text(const servo_summary& summary) {
          shedding(summary) + timing(summary) + faults(summary.faults) +
          print("energy    %.6g J that motor and brake took from the tool, never below %.6g J%s\n", summary.energy,
                summary.lowest_energy,
-               summary.lowest_energy < 0 ? ": below zero the tool had got more than it gave" : "") +
+               summary.lowest_energy < 0 ? ": below zero the tool may have got more than it gave; of the brake's heat "
+                                           "only what the encoder's steps leave certain is counted"
+                                         : "") +
          losses(summary) +
          (summary.verdict == admission::admitted ? "" : "warning   the law is not certified on this device\n") +
          print("ended     %s, %s\n", name_of(summary.state), ending(summary));

@@ -303,10 +303,20 @@ class NetworkBuilder {
     return std::nullopt;
   }
 
+  // Whether the command line has put in a value: what stood there may have used a parameter.
+  bool is_set_from_outside() const {
+    const auto is_set = [](const std::optional<ValueDecl>& value) {
+      return value && value->span.file != nullptr && !value->span.file->words_at(value->span.begin).empty();
+    };
+    return std::any_of(leaves_.begin(), leaves_.end(), [&](const PlacedLeaf& p) { return is_set(p.leaf->value); }) ||
+           std::any_of(decl_.parameters.begin(), decl_.parameters.end(),
+                       [&](const ParameterDecl& parameter) { return is_set(parameter.value); });
+  }
+
   // Where parts of the file were not understood, these would only echo it.
   void check_whole() {
     if (!decl_.complete) return;
-    if (!decl_.shares_parameters) table_.report_unused();
+    if (!decl_.shares_parameters && !is_set_from_outside()) table_.report_unused();
     const std::size_t errors_before = diagnostics_.error_count();
     check_connections(network_, decl_.structure_span, node_places_, diagnostics_);
     if (diagnostics_.error_count() == errors_before) mark_effect(network_, diagnostics_);

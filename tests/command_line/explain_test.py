@@ -29,6 +29,12 @@ class Changes(CommandTest):
         found = self.explained("tuned.json", "--set", "B=8", "--set", "K=20", "--set", "K=30")
         self.assertEqual((found["static_stiffness"], found["feedthrough_damping"]), (37, 8))
 
+    def test_set_leaves_no_parameter_unused(self):
+        """Fails if --set, which takes the place of what used a parameter, is answered by a warning about that parameter's place."""
+        self.write("pad.json", network('{ "spring": "2 * E", "name": "fat" }', "pad", '"parameters": { "E": "30 N/m", "F": "2 N/m" },'))
+        self.assertIn("'F' is not used", self.dashpot("explain", "pad.json", "--name", "other").stderr)
+        self.assertNotIn("[unused-parameter]", self.dashpot("explain", "pad.json", "--set", "fat=200 N/m").stderr)
+
     def test_set_that_does_not_fit(self):
         """Fails if a name that nothing has, or a value that the file could not hold, is taken, or is refused without what would do."""
         self.write("tuned.json", self.TUNED)

@@ -90,10 +90,10 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
   const double steepest = c.port.steepest();
   choice.largest_error = settler.largest_error(choice, c.certificate.added_damping / (steepest * steepest));
-  c.decomposition.in_words =
-      choice_in_words(c.decomposition, port_units(c.network.port_motion), device.max_damping().value_or(0),
-                      c.network.map.has_value(), to_double(zero_frequency_damping(c.form.linear)),
-                      to_double(c.form.linear.feedthrough_damping), what_is_beside_slips(c.form));
+  c.decomposition.in_words = choice_in_words(
+      c.decomposition, {port_units(c.network.port_motion), device.max_damping().value_or(0), c.network.map.has_value(),
+                        has_tunables(c.network), to_double(zero_frequency_damping(c.form.linear)),
+                        to_double(c.form.linear.feedthrough_damping), what_is_beside_slips(c.form)});
 }
 
 // The encoder's range at the tool, against where the surface lies.
@@ -111,7 +111,12 @@ void warn_of_surface(const Contact& contact, const Compilation& c, Diagnostics& 
   diagnostics.note<DiagnosticCode::surface_reach_remedy>({}, has_arm ? " or its \"arm_radius\"" : "");
 }
 
-// What the chosen candidate needs behind slips or a contact is known when the whole law is.
+// What the chosen candidate needs behind slips or a contact, or over the ranges of parameters, is known when the whole
+// law is.
+bool is_known_by_the_whole(const Compilation& c) {
+  return c.form.has_slips() || c.network.contact || c.network.map || has_tunables(c.network);
+}
+
 void tell_of_certificate(Compilation& c) {
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
   const bool is_proved = c.certificate.bound.proof != Proof::none;
@@ -237,8 +242,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   times.enter("certificate");
   certify_law(result, choices);
   if (result.network.map && !is_representable(result.law, result.network, diagnostics)) return std::nullopt;
-  const bool is_known_by_the_whole = result.form.has_slips() || result.network.contact || result.network.map;
-  if (!result.port.is_ideal() && !is_tunable && is_known_by_the_whole) tell_of_certificate(result);
+  if (!result.port.is_ideal() && is_known_by_the_whole(result)) tell_of_certificate(result);
   tell_what_is_felt(result, present, choices, result.port);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
@@ -254,6 +258,7 @@ void weigh_all_candidates(Compilation& c, const Choices& asked) {
     candidate.error_over_band = std::move(errors.errors);
     if (!errors.frequencies.empty()) c.decomposition.error_frequencies = std::move(errors.frequencies);
   }
+  if (c.port.is_ideal() && is_known_by_the_whole(c)) tell_of_certificate(c);
 }
 
 }  // namespace dashpot::compiler

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
 #include <set>
 #include <vector>
 
@@ -25,9 +25,21 @@ std::optional<Compilation> compiled(const Network& network, Choices choices, con
   return compile(network, choices, device, unheard, unseen);
 }
 
-bool would_do(const Network& network, const Choices& choices, const Device& device) {
+// Of what is felt, in the band and, with slips, in runs around yield [1].
+double felt_error(const Compilation& c) {
+  return std::max(c.decomposition.choice().largest_error, c.decomposition.slips.error);
+}
+
+// What has been tried and is certified.
+struct Remedy {
+  double value;
+  double error;  // of what is felt with it [1]
+};
+
+// With what is felt; empty where it is not certified.
+std::optional<double> error_where_certified(const Network& network, const Choices& choices, const Device& device) {
   const std::optional<Compilation> again = compiled(network, choices, device);
-  return again && again->certificate.certified;
+  return again && again->certificate.certified ? std::optional(felt_error(*again)) : std::nullopt;
 }
 
 bool is_proved_at_the_limit(const std::optional<Compilation>& c) {
@@ -72,8 +84,8 @@ class Remedies {
         scale_(c.port.at_tool().replaced_by(with_brake(*c.device, 1)).max_damping().value_or(0)) {}
 
   // At the tool, in four digits: what is missing for the law as it is, or room for all that it would be told.
-  std::optional<double> brake(double enough) const {
-    if (const std::optional<double> told = brake_as_told(enough)) return told;
+  std::optional<Remedy> brake(double enough) const {
+    if (const std::optional<Remedy> told = brake_as_told(enough)) return told;
     const std::optional<Compilation> unlimited = compiled(c_.network, choices_, with_brake_at_tool(1e30));
     return unlimited && unlimited->certificate.certified ? brake_as_told(unlimited->law.largest_damping) : std::nullopt;
   }
@@ -83,7 +95,7 @@ class Remedies {
   double at_tool(double damping) const { return damping * scale_; }
 
   // At the tool, in four digits: of the device itself, whatever the brake does; `loop` in place of the device's own.
-  std::optional<double> own_damping(const loop_description& loop, double amplifier_lag) const {
+  std::optional<Remedy> own_damping(const loop_description& loop, double amplifier_lag) const {
     Device device = *c_.device;
     device.description.loop = loop;
     device.description.motor.amplifier_lag = amplifier_lag;
@@ -99,14 +111,14 @@ class Remedies {
       mechanics.damping =
           std::max(mechanics.damping, rounded_up(again->certificate.bound.needed * some_more, 4) / scale_);
       again = compiled(c_.network, choices_, device);
-      if (again && again->certificate.certified) return mechanics.damping * scale_;
+      if (again && again->certificate.certified) return Remedy{mechanics.damping * scale_, felt_error(*again)};
       if (!again) break;
     }
     return std::nullopt;
   }
 
   // In the device's own unit, in four digits: of the device itself, for a law that keeps to its motor's limit.
-  std::optional<double> own_damping_at_the_limit() const {
+  std::optional<Remedy> own_damping_at_the_limit() const {
     Device device = *c_.device;
     double& own = device.description.mechanics.damping;
     std::optional<MotorLimits> limits = c_.certificate.limits;
@@ -115,31 +127,32 @@ class Remedies {
       const double lack = std::max(limits->needed - *limits->available, 0.0);
       own = rounded_up((own * scale_ + lack) * (1 + 1e-9) / scale_, 4);
       const std::optional<Compilation> again = compiled(c_.network, choices_, device);
-      if (is_proved_at_the_limit(again)) return own;
+      if (is_proved_at_the_limit(again)) return Remedy{own, felt_error(*again)};
       limits = again ? std::optional(again->certificate.limits) : std::nullopt;
     }
     return std::nullopt;
   }
 
   // Of all springs and dampers, in three digits. Behind a static curve it is the curve that says how large forces are.
-  std::optional<double> share(std::initializer_list<double> guesses) const {
+  std::optional<Remedy> share(std::initializer_list<double> guesses) const {
     if (c_.network.static_curve) return std::nullopt;
     for (const double guess : guesses)
       for (const double careful : {1.0, 0.9, 0.75, 0.5}) {
         if (!(guess * careful > 1e-6 && guess * careful < 1)) continue;
         const double told = rounded_down(guess * careful, 3);
-        if (would_do(scaled(told), choices_, *c_.device)) return told;
+        if (const auto error = error_where_certified(scaled(told), choices_, *c_.device)) return Remedy{told, *error};
       }
     return std::nullopt;
   }
 
   // The first power of two times the device's own; empty where even a thousandfold does not help.
-  std::optional<double> rate() const {
+  std::optional<Remedy> rate() const {
     Device faster = *c_.device;
     for (int doubling = 1; doubling <= 10; ++doubling) {
       faster.description.loop.sample_period /= 2;
       const double told = as_told(1 / faster.description.loop.sample_period, 6);
-      if (may_do(faster) && would_do(c_.network, choices_, faster)) return told;
+      if (!may_do(faster)) continue;
+      if (const auto error = error_where_certified(c_.network, choices_, faster)) return Remedy{told, *error};
     }
     return std::nullopt;
   }
@@ -147,10 +160,11 @@ class Remedies {
  private:
   Device with_brake_at_tool(double damping) const { return with_brake(*c_.device, damping / scale_); }
 
-  std::optional<double> brake_as_told(double damping) const {
+  std::optional<Remedy> brake_as_told(double damping) const {
     if (!(damping > 0 && damping < 1e300)) return std::nullopt;
     const double told = rounded_up(damping, 4);
-    return would_do(c_.network, choices_, with_brake_at_tool(told)) ? std::optional(told) : std::nullopt;
+    const std::optional<double> error = error_where_certified(c_.network, choices_, with_brake_at_tool(told));
+    return error ? std::optional(Remedy{told, *error}) : std::nullopt;
   }
 
   Network scaled(double share) const {
@@ -198,14 +212,16 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   loop_description prompt = device.loop;
   prompt.delay_samples = 0;
   const bool is_late = device.loop.delay_samples > 0 || device.motor.amplifier_lag > 0;
-  const auto tell = [&](double damping, const char* besides) {
-    diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping, at_tool, remedies.at_tool(own), besides,
-                                                                remedies.at_joint(damping), at_joint);
+  const auto tell = [&](const Remedy& damping, const char* besides) {
+    diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping.value, at_tool, remedies.at_tool(own),
+                                                                besides, remedies.at_joint(damping.value), at_joint,
+                                                                in_percent(damping.error));
   };
   if (const auto damping = remedies.own_damping(device.loop, device.motor.amplifier_lag)) return tell(*damping, "");
   const auto damping = is_late ? remedies.own_damping(prompt, 0) : std::nullopt;
   if (!damping) return;
-  if (remedies.at_joint(*damping) > own) return tell(*damping, " with no \"delay_samples\" and no \"amplifier_lag\"");
+  if (remedies.at_joint(damping->value) > own)
+    return tell(*damping, " with no \"delay_samples\" and no \"amplifier_lag\"");
   diagnostics.note<DiagnosticCode::prompt_loop_that_would_do>({});
 }
 
@@ -235,6 +251,12 @@ struct OtherChoices {
 // From the smallest change of what was asked to the largest.
 std::vector<OtherChoices> other_choices(const Compilation& c, const Choices& asked) {
   std::vector<OtherChoices> all;
+  const Candidate& choice = c.decomposition.choice();
+  for (const StateInputMerit& merit : choice.state_inputs)
+    if (!asked.state_input && !choice.faithful && merit.largest_error < noticeably * choice.largest_error) {
+      all.push_back({asked, "--state-input " + std::string(name_of(merit.state_input))});
+      all.back().choices.state_input = merit.state_input;
+    }
   OtherChoices other{asked, ""};
   const auto change = [&](const char* option) {
     other.options += (other.options.empty() ? "" : " ") + std::string(option);
@@ -275,60 +297,83 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
     const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
     if (!again || !again->certificate.certified) continue;
     diagnostics.note<DiagnosticCode::choice_that_would_do>({}, other.options, again->decomposition.choice().damping,
-                                                           unit);
+                                                           unit, in_percent(felt_error(*again)));
     break;
   }
   const Remedies remedies(c, choices);
-  const std::optional<double> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
+  const std::optional<Remedy> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
   if (brake)
-    diagnostics.note<DiagnosticCode::brake_that_would_do>({}, *brake, unit, loop.max_damping, remedies.at_joint(*brake),
-                                                          port_units(c.device->description.motion).damping);
-  const double by_loop = available / needed, by_brake = brake ? loop.max_damping / *brake : 0;
+    diagnostics.note<DiagnosticCode::brake_that_would_do>(
+        {}, brake->value, unit, loop.max_damping, remedies.at_joint(brake->value),
+        port_units(c.device->description.motion).damping, in_percent(brake->error));
+  const double by_loop = available / needed, by_brake = brake ? loop.max_damping / brake->value : 0;
   if (const auto share = remedies.share({std::max(by_loop, by_brake), std::min(by_loop, by_brake)}))
-    diagnostics.note<DiagnosticCode::scale_that_would_do>({}, *share);
-  if (const std::optional<double> rate = remedies.rate())
-    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, *rate);
+    diagnostics.note<DiagnosticCode::scale_that_would_do>({}, share->value, in_percent(share->error));
+  if (const std::optional<Remedy> rate = remedies.rate())
+    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, rate->value, in_percent(rate->error));
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
 }
 
 namespace {
 
-// One value of the device file made harmless.
+// One value of the device file made harmless, or better.
 struct MendedDevice {
-  const char* cause;
-  const char* change;
+  std::string change;
   Device device;
+  bool is_of_estimator = false;
+  double error = 0;                        // of what is felt [1]
+  std::optional<double> motor_noise = {};  // rms [N]
 };
 
 std::vector<MendedDevice> mended(const Device& device) {
   std::vector<MendedDevice> all;
   const device_description& is = device.description;
-  const auto mend = [&](bool is_there, const char* cause, const char* change, auto apply) {
+  const auto mend = [&](bool is_there, std::string change, auto apply) {
     if (!is_there) return;
-    all.push_back({cause, change, device});
+    all.push_back({std::move(change), device});
     apply(all.back().device.description);
   };
-  mend(is.encoder.step > 0, "the encoder's step", "with a 16th of it",
-       [](device_description& d) { d.encoder.step /= 16; });
-  mend(is.loop.delay_samples > 0, "the loop's delay", "without it",
-       [](device_description& d) { d.loop.delay_samples = 0; });
-  mend(is.motor.amplifier_lag > 0, "the amplifier's lag", "without it",
+  const velocity_description& velocity = is.velocity;
+  const bool has_window =
+      velocity.estimator == estimator_kind::backward_difference || velocity.estimator == estimator_kind::least_squares;
+  const unsigned window = std::max(velocity.window / 2, velocity.estimator == estimator_kind::least_squares ? 2U : 1U);
+  mend(has_window && window < velocity.window, fmt::format("with a \"window\" of {}", window),
+       [=](device_description& d) { d.velocity.window = window; });
+  mend(velocity.cutoff > 0, fmt::format("with a \"cutoff\" of {:.6g} Hz", 2 * velocity.cutoff),
+       [](device_description& d) { d.velocity.cutoff *= 2; });
+  for (MendedDevice& other : all) other.is_of_estimator = true;
+  mend(is.encoder.step > 0, "with a 16th of the encoder's step", [](device_description& d) { d.encoder.step /= 16; });
+  mend(is.loop.delay_samples > 0, "without the loop's delay", [](device_description& d) { d.loop.delay_samples = 0; });
+  mend(is.motor.amplifier_lag > 0, "without the amplifier's lag",
        [](device_description& d) { d.motor.amplifier_lag = 0; });
-  mend(is.brake.coil_lag > 0, "the lag of the brake's coil", "without it",
+  mend(is.brake.coil_lag > 0, "without the lag of the brake's coil",
        [](device_description& d) { d.brake.coil_lag = 0; });
-  mend(is.brake.tolerance > 0, "the brake's tolerance", "without it",
-       [](device_description& d) { d.brake.tolerance = 0; });
-  mend(is.brake.residual_damping > 0, "the brake's residual damping", "without it",
+  mend(is.brake.tolerance > 0, "without the brake's tolerance", [](device_description& d) { d.brake.tolerance = 0; });
+  mend(is.brake.residual_damping > 0, "without the brake's residual damping",
        [](device_description& d) { d.brake.residual_damping = 0; });
   return all;
+}
+
+// Best first, with what a quicker estimate costs.
+std::string changes_text(std::vector<MendedDevice> changes, const Candidate& choice, const std::string& force) {
+  std::sort(changes.begin(), changes.end(),
+            [](const MendedDevice& one, const MendedDevice& other) { return one.error < other.error; });
+  std::string text;
+  for (const MendedDevice& other : changes) {
+    text += fmt::format("{}{} % {}", text.empty() ? "" : ", ", in_percent(other.error), other.change);
+    if (other.is_of_estimator && other.motor_noise && choice.motor_noise)
+      text += fmt::format(" (where the motor's noise is {:.3g} {} in place of {:.3g})", *other.motor_noise, force,
+                          *choice.motor_noise);
+  }
+  return text;
 }
 
 // An error that is felt: of which kind, and what is said of a choice that errs less.
 struct FeltError {
   std::optional<double> (*of)(const Compilation&);  // [1]; empty where it has not been looked at
   void (*tell_choice)(const Compilation& better, const std::string& options, Diagnostics&);
-  bool tries_devices_for_tunables;  // not where each trial takes long
+  bool is_soon_tried;  // else no devices for tunables, where each trial takes long
 };
 
 const FeltError where_slips_give_way{
@@ -381,25 +426,30 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   for (const OtherChoices& other : others)
     if (const auto again = improvement.by(other.choices, *c.device))
       return error.tell_choice(*again, other.options, diagnostics);
-  if (c.law.tunable && !error.tries_devices_for_tunables) return;
-  std::optional<MendedDevice> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const MendedDevice& other : mended(*c.device)) {
-    // Compiled again: less may then be added to the brake for passivity, and what is added is felt.
-    const std::optional<Compilation> again = improvement.by(choices, other.device);
-    if (again && *error.of(*again) < least) best = other, least = *error.of(*again);
-  }
-  if (best)
-    return diagnostics.note<DiagnosticCode::errs_less_on_another_device>({}, best->cause, best->change,
-                                                                         in_percent(least));
+  if (c.law.tunable && !error.is_soon_tried) return;
+  const PortUnits units = port_units(c.network.port_motion);
   Device faster = *c.device;
+  std::vector<MendedDevice> changes = mended(*c.device);
+  if (error.is_soon_tried) {
+    faster.description.loop.sample_period /= 2;
+    changes.push_back({fmt::format("at a rate of {:.6g} Hz", 1 / faster.description.loop.sample_period), faster});
+    faster = *c.device;
+  }
+  // Compiled again: less may then be added to the brake for passivity, and what is added is felt.
+  std::erase_if(changes, [&](MendedDevice& other) {
+    const std::optional<Compilation> again = improvement.by(choices, other.device);
+    if (again) other.error = *error.of(*again), other.motor_noise = again->decomposition.choice().motor_noise;
+    return !again;
+  });
+  if (!changes.empty())
+    return diagnostics.note<DiagnosticCode::errs_less_on_another_device>(
+        {}, changes_text(std::move(changes), c.decomposition.choice(), units.force));
   for (int doubling = 1; doubling <= 4; ++doubling) {
     faster.description.loop.sample_period /= 2;
     if (const auto again = improvement.by(choices, faster))
       return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,
                                                                          in_percent(*error.of(*again)));
   }
-  const PortUnits units = port_units(c.network.port_motion);
   for (int doubling = 1; doubling <= 4; ++doubling) {
     const double most = std::ldexp(c.device->description.brake.max_damping, doubling);
     if (const auto again = improvement.by(choices, with_brake(*c.device, most)))
@@ -424,12 +474,11 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
     tell_what_errs_less(c, choices, where_slips_give_way, diagnostics);
     diagnostics.note<DiagnosticCode::runs_of_ones_own>({});
   }
-  if (!c.certificate.certified) return;  // what it lacks is told instead
   const Candidate& choice = c.decomposition.choice();
   if (!(noticeably * choice.largest_error > choices.tolerance)) return;
   diagnostics.report<DiagnosticCode::felt_error>(c.network.name_span, choice.name, in_percent(choice.largest_error),
                                                  c.device->name, in_percent(choices.tolerance));
-  tell_what_errs_less(c, choices, in_the_band, diagnostics);
+  if (c.certificate.certified) tell_what_errs_less(c, choices, in_the_band, diagnostics);  // else what it lacks is told
 }
 
 void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
@@ -440,14 +489,14 @@ void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choic
     Choices other = choices;
     other.decomposition = "velocity-free";
     if (const auto again = compiled(c.network, other, *c.device); is_proved_at_the_limit(again))
-      diagnostics.report<DiagnosticCode::proved_at_the_limit>({}, "--decomposition velocity-free",
-                                                              again->certificate.limits.needed, unit);
+      diagnostics.report<DiagnosticCode::proved_at_the_limit>(
+          {}, "--decomposition velocity-free", again->certificate.limits.needed, unit, in_percent(felt_error(*again)));
   }
   const Remedies remedies(c, choices);
-  if (const std::optional<double> own = remedies.own_damping_at_the_limit())
+  if (const std::optional<Remedy> own = remedies.own_damping_at_the_limit())
     diagnostics.report<DiagnosticCode::own_damping_at_the_limit>(
-        {}, remedies.at_tool(*own), unit, remedies.at_tool(c.device->description.mechanics.damping), *own,
-        port_units(c.device->description.motion).damping);
+        {}, remedies.at_tool(own->value), unit, remedies.at_tool(c.device->description.mechanics.damping), own->value,
+        port_units(c.device->description.motion).damping, in_percent(own->error));
 }
 
 void warn_of_driving_uncertified(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

@@ -10,11 +10,8 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double next_to_nothing = 0.01;  // of what the brake can give
-constexpr const char* in_runs =
-    " This damping was chosen together with the law behind the slips, by runs around yield as well as over the band, "
-    "because with the damping that is best over the band alone the error where slips give way is beyond the tolerance.";
-constexpr double same = 1e-6;  // relative: one damping
+constexpr double little = 0.1;  // of what the brake can give
+constexpr double same = 1e-6;   // relative: one damping
 
 bool is_same(double x, double y) { return std::abs(x - y) <= same * std::max(std::abs(x), std::abs(y)); }
 
@@ -24,11 +21,21 @@ const Candidate* named(const Decomposition& decomposition, const char* name) {
   return nullptr;
 }
 
-std::string allowance(const FaithfulChoice& choice, double tolerance) {
+std::string allowance(const FaithfulChoice& choice, double tolerance, bool is_tunable) {
   if (choice.allowed_error <= tolerance * (1 + 1e-9)) return fmt::format("{} % are allowed", in_percent(tolerance));
-  return fmt::format("no damping brings less than {} %{}, and up to {} % are taken", in_percent(choice.least_error),
-                     choice.in_runs ? ", there and in runs in which slips give way" : "",
+  return fmt::format("no damping{} brings less than {} %, and up to {} % are taken",
+                     is_tunable ? " of those tried" : "", in_percent(choice.least_error),
                      in_percent(choice.allowed_error));
+}
+
+// Of a damping that was chosen together with the law behind the slips.
+std::string chosen_in_runs(const FaithfulChoice& choice, double error_in_runs, bool is_tunable) {
+  return fmt::format(
+      " In runs around yield, in which slips give way{}, it errs by up to {} %. b was chosen by the larger of the two: "
+      "it "
+      "is the largest that errs by no more than {} %, where none brings less than {} %.",
+      is_tunable ? " and parameters keep the values of the file" : "", in_percent(error_in_runs),
+      in_percent(choice.allowed_error), in_percent(choice.least_error));
 }
 
 // What is gained and what it costs.
@@ -50,20 +57,22 @@ std::string against_paper(const Candidate& choice, const Candidate& paper, const
   return text + ".";
 }
 
-// Why hardly anything is left to the brake; empty where it has something to do.
-std::string idle_brake(const Candidate& choice, const PortUnits& units, double reach, double viscosity,
-                       double feedthrough, Beside beside) {
-  if (beside == Beside::nothing) return "";
-  if (reach == 0) return "The device has no brake.";
-  if (choice.damping + choice.minimum_damping.value_or(0) >= next_to_nothing * reach) return "";
-  if (viscosity < next_to_nothing * reach)
-    return fmt::format("The brake has next to nothing to do, because {} damps by no more than {:.3g} {}.",
-                       beside == Beside::linear ? "what is beside the slips" : "the whole network", viscosity,
-                       units.damping);
-  return fmt::format(
-      "The brake has next to nothing to do: of the network's damping only {:.3g} {} act at once, the rest is behind "
-      "springs; a brake acts at once, and what it makes too much the motor takes back a sample too late.",
-      feedthrough, units.damping);
+// Why little is left to the brake; empty where it has something to do.
+std::string idle_brake(const Candidate& choice, const ChosenFor& what) {
+  if (what.beside == Beside::nothing) return "";
+  if (what.reach == 0) return "The device has no brake.";
+  if (choice.damping >= little * what.reach) return "";
+  if (what.zero_frequency_damping < little * what.reach)
+    return fmt::format("The brake does little, because {} damps by no more than {:.3g} {}.",
+                       what.beside == Beside::linear ? "what is beside the slips" : "the whole network",
+                       what.zero_frequency_damping, what.units.damping);
+  std::string text = fmt::format(
+      "The brake does little, because of the network's damping only {:.3g} {} act at once: the rest is behind springs. "
+      "A brake acts at once, and what it makes too much the motor takes back a sample too late.",
+      what.feedthrough_damping, what.units.damping);
+  if (choice.damping < what.feedthrough_damping * (1 - same))
+    text += " It does not make all of that, because on this device a larger b errs more or needs more added damping.";
+  return text;
 }
 
 }  // namespace
@@ -80,27 +89,31 @@ std::string reason_for_faithful(const Candidate& chosen, const Choices& choices)
                      name_of(chosen.state_input));
 }
 
-std::string choice_in_words(const Decomposition& decomposition, const PortUnits& units, double reach,
-                            bool is_behind_curve, double zero_frequency_damping, double feedthrough_damping,
-                            Beside beside) {
+std::string choice_in_words(const Decomposition& decomposition, const ChosenFor& what) {
   const Candidate& choice = decomposition.choice();
   if (!choice.faithful) return "";
+  const FaithfulChoice& by = *choice.faithful;
+  const PortUnits& units = what.units;
   const std::string taken =
-      fmt::format("'faithful' takes b = {:.4g} of the brake's {:.4g} {}", choice.damping, reach, units.damping) +
-      (is_behind_curve ? ", which is what it is worth behind the curve where that is steepest," : "");
-  if (beside == Beside::nothing)
+      fmt::format("'faithful' takes b = {:.4g} of the brake's {:.4g} {}", choice.damping, what.reach, units.damping) +
+      (what.is_behind_curve ? ", which is what it is worth behind the curve where that is steepest," : "");
+  const std::string by_runs = by.in_runs ? chosen_in_runs(by, decomposition.slips.error, what.is_tunable) : "";
+  if (what.beside == Beside::nothing)
     return fmt::format(
-        "All of the network is behind slips: {} beside them.{} What is felt of the slips depends on the motion: "
-        "'dashpot "
-        "run --motion' measures it.",
-        taken, choice.faithful->in_runs ? in_runs : "");
-  std::string text =
-      fmt::format("{} and the felt force{} errs by up to {} % in the band ({}){}.",
-                  is_behind_curve ? taken : taken + ",", beside == Beside::linear ? " of what is beside the slips" : "",
-                  in_percent(choice.largest_error), allowance(*choice.faithful, decomposition.tolerance),
-                  choice.faithful->certified ? "" : "; nothing that errs so little is certified");
-  if (choice.faithful->in_runs) text += in_runs;
-  if (const Candidate* paper = named(decomposition, "paper")) text += " " + against_paper(choice, *paper, units);
+        "All of the network is behind slips, and {} beside them.{} What is felt of the slips depends on the motion: "
+        "'dashpot run --motion' measures it.",
+        taken, by_runs);
+  std::string text = fmt::format(
+      "{} and the felt force{} errs by up to {} % in the band{}.", what.is_behind_curve ? taken : taken + ",",
+      what.beside == Beside::linear ? " of what is beside the slips" : "", in_percent(choice.largest_error),
+      by.in_runs ? "" : fmt::format(" ({})", allowance(by, decomposition.tolerance, what.is_tunable)));
+  text += by_runs;
+  if (what.is_tunable && !is_within(choice.largest_error, by.allowed_error))
+    text += " In the band it errs by more than that, because passivity adds more over the ranges of its parameters.";
+  if (!by.certified) text += " Nothing that errs so little is certified.";
+  // Its row holds for the values of the file, that of the choice for all in their ranges.
+  const Candidate* paper = what.is_tunable ? nullptr : named(decomposition, "paper");
+  if (paper) text += " " + against_paper(choice, *paper, units);
   if (const auto& moves = decomposition.moves) {
     text +=
         fmt::format(" If each value that the device file assumes is off by up to {:.0f} %, b ", 100 * assumed_spread);
@@ -109,10 +122,10 @@ std::string choice_in_words(const Decomposition& decomposition, const PortUnits&
                 : fmt::format("is {:.4g} to {:.4g} {}{}.", moves->least, moves->most, units.damping,
                               moves->by.empty() ? "" : ", mostly because of " + moves->by);
   }
-  if (zero_frequency_damping > 0 && choice.damping > zero_frequency_damping * (1 + same))
-    text += fmt::format(" That is {:.3g} % more than the network damps in steady motion; the motor pushes it back.",
-                        100 * (choice.damping / zero_frequency_damping - 1));
-  const std::string idle = idle_brake(choice, units, reach, zero_frequency_damping, feedthrough_damping, beside);
+  if (what.zero_frequency_damping > 0 && choice.damping > what.zero_frequency_damping * (1 + same))
+    text += fmt::format(" b is {:.3g} % more than the network damps in steady motion; the motor pushes it back.",
+                        100 * (choice.damping / what.zero_frequency_damping - 1));
+  const std::string idle = idle_brake(choice, what);
   return idle.empty() ? text : text + " " + idle;
 }
 

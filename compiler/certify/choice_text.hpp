@@ -11,12 +11,20 @@ namespace dashpot::compiler {
 // What a network has beside its slips, of which alone an error over frequency speaks.
 enum class Beside { no_slips, linear, nothing };
 
-// One sentence on `faithful`: its b, what it gains and costs against the paper's rule, how it moves over the device's
-// assumed values, and where the brake has nothing to do, why. Empty for another choice, and without a device. `reach`:
-// of the brake [N·s/m], behind a static curve where that is steepest; `zero_frequency_damping`: Z_d(0) [N·s/m].
-std::string choice_in_words(const Decomposition& decomposition, const PortUnits& units, double reach,
-                            bool is_behind_curve, double zero_frequency_damping, double feedthrough_damping,
-                            Beside beside);
+// What `faithful` chose for.
+struct ChosenFor {
+  PortUnits units;
+  double reach;  // of the brake, behind a static curve where that is steepest [N·s/m]
+  bool is_behind_curve;
+  bool is_tunable;                // what is certified holds over the ranges of its parameters
+  double zero_frequency_damping;  // Z_d(0) [N·s/m]
+  double feedthrough_damping;     // b∞ [N·s/m]
+  Beside beside;
+};
+
+// Sentences on `faithful`: its b, what it gains and costs against the paper's rule, how it moves over the device's
+// assumed values, and where the brake has little to do, why. Empty for another choice, and without a device.
+std::string choice_in_words(const Decomposition& decomposition, const ChosenFor& what);
 
 // Which state input `faithful` came with.
 std::string reason_for_faithful(const Candidate& chosen, const Choices& choices);

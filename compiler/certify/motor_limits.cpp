@@ -205,8 +205,8 @@ namespace {
 
 std::string why_not_bounded(const SampledLoop& loop) {
   if (!(loop.travel > 0)) return "the device file states no \"range\" of its encoder";
-  return "none is known of what follows the velocity's estimate, which 'velocity-free' does not, of dampers behind "
-         "slips, and of parameters that change";
+  return "no bound is known for a law that uses the velocity's estimate ('velocity-free' does not), for dampers behind "
+         "slips, or for parameters that change";
 }
 
 }  // namespace

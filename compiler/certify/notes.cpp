@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "certify/choice_text.hpp"
 #include "decompose/slip_laws.hpp"
 #include "network/port_units.hpp"
 
@@ -30,6 +31,13 @@ bool any(const Candidate&, const Candidate&) { return true; }
 bool needs_no_more(const Candidate& candidate, const Candidate& choice) {
   return candidate.minimum_damping && choice.minimum_damping &&
          *candidate.minimum_damping <= *choice.minimum_damping * (1 + 1e-6);
+}
+
+// Without a device nothing errs.
+std::string price_of(const Candidate& other, const Candidate& choice) {
+  if (other.largest_error == 0 && choice.largest_error == 0) return "";
+  return fmt::format(", and would err by {} % in place of {} %", in_percent(other.largest_error),
+                     in_percent(choice.largest_error));
 }
 
 // A law that would keep the noise of the estimate out of the motor, with its error in a run.
@@ -59,13 +67,14 @@ std::vector<std::string> notes_on_choice(const Decomposition& decomposition, con
   const Candidate& choice = decomposition.choice();
   const Candidate* calmest = least(decomposition, &Candidate::minimum_damping, any);
   if (calmest && choice.minimum_damping && *calmest->minimum_damping < worthwhile * *choice.minimum_damping)
-    notes.push_back(fmt::format("'{}' would need {:.4g} in place of {:.4g} {} of minimum damping", calmest->name,
+    notes.push_back(fmt::format("'{}' would need {:.4g} in place of {:.4g} {} of minimum damping{}", calmest->name,
                                 *calmest->minimum_damping, *choice.minimum_damping,
-                                port_units(network.port_motion).damping));
+                                port_units(network.port_motion).damping, price_of(*calmest, choice)));
   const Candidate* quietest = least(decomposition, &Candidate::motor_noise, needs_no_more);
   if (quietest && choice.motor_noise && *quietest->motor_noise < worthwhile * *choice.motor_noise)
-    notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise",
-                                quietest->name, 100 * *quietest->motor_noise / *choice.motor_noise));
+    notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise{}",
+                                quietest->name, 100 * *quietest->motor_noise / *choice.motor_noise,
+                                price_of(*quietest, choice)));
   if (const std::optional<std::string> note = quieter_law(decomposition.slips)) notes.push_back(*note);
   return notes;
 }

@@ -1,6 +1,9 @@
 #include "certify/tunable_choice.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 #include "certify/settle.hpp"
 #include "discretise/discretise.hpp"
@@ -64,25 +67,39 @@ class BoxChoice {
 
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const PortDevice& port, double rate) {
-  Candidate& faithful = decomposition.candidates[decomposition.chosen];
+  constexpr int halvings = 3;  // of the way to the next larger damping that was tried
+  constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr double same = 1e-6;  // relative: one damping
+  const Candidate& faithful = decomposition.choice();
   const double feedthrough = to_double(form.linear.feedthrough_damping);
-  const double reach = port.max_damping().value_or(feedthrough);
+  const double most = std::min(feedthrough, port.max_damping().value_or(feedthrough));
+  BoxChoice box(network, form, decomposition, choices, port, rate);
   std::vector<Candidate> candidates;
   std::vector<EvaluatedOption> options;
-  {
-    BoxChoice box(network, form, decomposition, choices, port, rate);
-    for (const double damping : {faithful.damping, std::min(feedthrough, reach)}) {
-      if (!candidates.empty() && damping == candidates.front().damping) continue;
-      const auto weighed = box.weighed(faithful, damping);
-      if (!weighed) continue;
-      candidates.push_back(weighed->candidate);
-      options.push_back(weighed->option);
-    }
-  }
+  const auto look_at = [&](double damping) {
+    for (const EvaluatedOption& known : options)
+      if (std::abs(known.damping - damping) <= same * std::max(known.damping, damping)) return;
+    const auto weighed = box.weighed(faithful, damping);
+    if (!weighed) return;
+    candidates.push_back(weighed->candidate);
+    options.push_back(weighed->option);
+  };
+  look_at(faithful.damping);
+  for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) look_at(share * most);
   if (options.empty()) return;
-  const FaithfulChoice choice = choose_faithful(options, choices.tolerance);
-  faithful = candidates[choice.chosen];
-  faithful.faithful = choice;
+  FaithfulChoice choice = choose_faithful(options, choices.tolerance);
+  for (int i = 0; i < halvings; ++i) {
+    const double chosen = options[choice.chosen].damping;
+    double next = none;
+    for (const EvaluatedOption& option : options)
+      if (option.damping > chosen) next = std::min(next, option.damping);
+    if (next == none) break;
+    look_at((chosen + next) / 2);
+    choice = choose_faithful(options, choices.tolerance);
+  }
+  Candidate best = candidates[choice.chosen];
+  best.faithful = choice;
+  decomposition.candidates[decomposition.chosen] = best;
 }
 
 bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,

@@ -6,10 +6,10 @@
 
 namespace dashpot::compiler {
 
-// In: a decomposition whose candidate `faithful` is settled at the default values. That damping, held while the
-// parameters change, is weighed against b∞, which follows them and needs no estimate: both by what is felt at the
-// default values and by what the certificate over the whole range of the parameters asks for. Ensures: the candidate
-// has the one that faithful_rule.hpp takes. Lists nothing for a brake that cannot give b∞.
+// In: a decomposition whose candidate `faithful` is settled at the default values. That damping, b∞, which follows the
+// parameters and needs no estimate, and some between 0 and b∞ are weighed by what is felt at the default values with
+// what the certificate over the whole range of the parameters adds. Ensures: the candidate has the one that
+// faithful_rule.hpp takes, after the way from it to the next larger one has been halved three times.
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const PortDevice& port, double rate);
 

@@ -185,6 +185,15 @@ std::string fitted(const std::string& text) {
   return all;
 }
 
+// b and what is added to it.
+std::string brake_text(const Compilation& c, const PortUnits& units) {
+  if (!c.device || c.certificate.added_damping == 0) return "";
+  std::string told = fmt::format("{}{:.4g}", c.law.tunable ? "at least " : "", c.law.damping);
+  if (c.law.brake_changes() && !c.law.tunable) told += fmt::format(" to {:.4g}", c.law.largest_damping);
+  return fmt::format("brake is told         {} {}, of which {:.4g} are for passivity; it can make {:.4g}\n", told,
+                     units.damping, c.certificate.added_damping, c.port.at_tool().max_damping().value_or(0));
+}
+
 // Behind a contact whose brake does nothing even while the tool touches: why, and what would change it.
 std::string why_no_brake(const Compilation& c, const PortUnits& units) {
   if (c.law.damping > 0 || c.law.largest_damping > 0) return "";
@@ -221,6 +230,7 @@ std::string legend_of_lines(const std::string& text) {
       {"zero-frequency damping", "of the whole network in a slow and steady motion"},
       {"behind friction", "what happens to damping while a slip slides, and why that was chosen"},
       {"any delay", "the damping to add to b so that a late velocity estimate cannot make the law give energy"},
+      {"brake is told", "at the tool: b, or in all that every regime asks for, and what passivity adds"},
       {"contact", "where the tissue begins, and what is commanded in front of it"},
       {"passivity",
        "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
@@ -253,7 +263,7 @@ std::string legend_of_slips(const std::string& text) {
   const Column columns[] = {
       {"behind ", "behind …:", "of these slips: the law that was chosen, and why; below it how many regimes they have"},
       {"  stuck", "stuck", "the regime: the slips that hold in it; the others slide"},
-      {"  stuck", "b", "the damping that the brake is told to make in this regime"},
+      {"  stuck", "b", "the damping that the brake makes in this regime; what is added for passivity is not in it"},
       {"  stuck", "its observer's", "what the rule in the last column asks of the brake, before limits lower it"},
       {"  stuck", "b∞", "the damping that is felt at once in this regime"},
       {"  stuck", "compensation", "what the motor takes back of the brake, by the velocity estimate"},
@@ -284,7 +294,7 @@ std::string explain_text(const Compilation& c, bool with_legend) {
           kelvin_text(c, units) + "\n";
   const bool has_candidates = !c.is_told_slip_by_slip();
   if (has_candidates) text += candidates_text(c.decomposition, c.network);
-  text += chosen_text(c.decomposition);
+  text += chosen_text(c.decomposition) + brake_text(c, units);
   if (with_legend && has_candidates) text += "\n" + legend(c.device.has_value()) + "\n";
   const std::string slips = to_text(c.decomposition.slips, c.network);
   text += slips;

@@ -255,10 +255,11 @@ bool is_same(const Candidate& one, const Candidate& other) {
   return one.damping == other.damping && one.state_input == other.state_input;
 }
 
-std::string candidate_row(const Candidate& c) {
+// `mark` follows the name.
+std::string candidate_row(const Candidate& c, const char* mark) {
   const auto number = [](double value) { return fmt::format("{:.5g}", value); };
   const auto or_dash = [&](const std::optional<double>& value) { return value ? number(*value) : "-"; };
-  return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", c.name, number(c.damping),
+  return fmt::format("{:<17}{:>12}  {:<9}{:>12}{:>12}{:>12}{:>12}{:>12}\n", c.name + mark, number(c.damping),
                      name_of(c.state_input), number(c.velocity_gain), number(c.extra_damping_any_delay.value_or(0)),
                      or_dash(c.minimum_damping), or_dash(c.motor_noise), fmt::format("{:.4g}", 100 * c.largest_error));
 }
@@ -278,19 +279,24 @@ std::string candidates_text(const Decomposition& decomposition, const Network& n
   std::string text = heading("candidate", "b", "states", "velocity", "any-delay", "minimum", "noise", "error") +
                      heading("", "", "driven by", "gain", "extra", "damping", "", "") +
                      heading("", units.damping, "", units.damping, units.damping, units.damping, units.force, "%");
+  const bool is_tunable = has_tunables(network);
+  const Candidate& choice = decomposition.choice();
   std::string reasons, equals;
   for (const Candidate& c : decomposition.candidates) {
-    const auto first = std::find_if(decomposition.candidates.begin(), decomposition.candidates.end(),
-                                    [&](const Candidate& other) { return is_same(other, c); });
+    const Candidate& first =
+        *std::find_if(decomposition.candidates.begin(), decomposition.candidates.end(), [&](const Candidate& other) {
+          const bool is_left_out = is_tunable && is_same(choice, c) && &other != &choice;
+          return is_same(other, c) && !is_left_out;
+        });
     reasons += reason_line(c);
-    if (&*first == &c) text += candidate_row(c);
-    else equals += fmt::format("{}{} as {}", equals.empty() ? "" : ", ", c.name, first->name);
+    if (&first == &c) text += candidate_row(c, is_tunable && &c != &choice ? "*" : "");
+    else equals += fmt::format("{}{} as {}", equals.empty() ? "" : ", ", c.name, first.name);
   }
   if (!equals.empty()) text += fmt::format("the same              {}\n", equals);
-  if (has_tunables(network) && decomposition.candidates.size() > 1)
+  if (is_tunable && decomposition.candidates.size() > 1)
     text +=
-        "other rows            of the network with its parameters held at the values of its file; only the "
-        "chosen row holds for every value within their ranges\n";
+        "rows with *           of the network with its parameters held at the values of its file; only the "
+        "chosen row needs its minimum damping for every value within their ranges, and errs with that added\n";
   return text + "reasons\n" + reasons;
 }
 
@@ -305,14 +311,17 @@ std::string legend(bool has_device) {
                                          "delay, amplifier lag, brake tolerance and added damping included"
                                        : "of the felt force; 0 on an ideal device";
   const std::pair<const char*, std::string> columns[] = {
-      {"b", "the damping that the brake is told to make"},
+      {"b", "the network's damping that the brake makes; what is added for passivity is not in it"},
       {"states driven by",
        "what moves the motor's states: the measured position, the velocity estimate, or both as the network's nodes "
        "have it (nodal)"},
       {"velocity gain", "how much force the motor makes of the velocity estimate; 0: it needs none"},
       {"any-delay extra",
        "the damping to add so that the law is passive with an exact brake, however late the estimate is"},
-      {"minimum damping", "what must be added to b so that the law is certified; -: nothing is proved"},
+      {"minimum damping",
+       "what must be added to b so that the law is certified; -: nothing is proved. It is felt too, and may make up "
+       "for "
+       "damping that a late motor takes away"},
       {"noise", "the rms force of the motor that comes from the encoder's steps alone; -: not known"},
       {"error", error}};
   std::string text;

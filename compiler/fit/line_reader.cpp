@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "fit/table_shape.hpp"
+
 namespace dashpot::compiler::fitting {
 namespace {
 

@@ -15,7 +15,8 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.3e-12 of the sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: skin_friction (0 to 3 N), muscle_friction (0 to 3 N), muscle_stiffness (100 to 4000 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows drag
@@ -23,9 +24,7 @@
 // cost of update(): at most 77 additions and multiplications; 4 numbers are kept between samples
 // cost of set(): at most 101 additions, multiplications and divisions for the constants, 1158 for the springs'
 //   energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // f0efa940f84bdf7de39f3046f7db636a23508bba43641aab1bc67b5c837ec98b. It belongs to whoever had it

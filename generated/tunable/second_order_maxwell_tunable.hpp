@@ -14,7 +14,8 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 6.6e-15 of the sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1 + damper_3
@@ -22,9 +23,7 @@
 // cost of update(): at most 54 additions and multiplications; 3 numbers are kept between samples
 // cost of set(): at most 154 additions, multiplications and divisions for the constants, 900 for the springs'
 //   energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // 5c194d7008f5fe1bb0e1c8f01d1156815ca3b1ae3e5903a351efbfbd8297cdca. It belongs to whoever had it

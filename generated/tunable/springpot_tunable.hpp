@@ -16,7 +16,8 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.3e-14 of the sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K (0 to 400 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows muscle_damper_1 + muscle_damper_2 + muscle_damper_3 + muscle_damper_4 + muscle_damper_5
@@ -24,9 +25,7 @@
 // cost of update(): at most 111 additions and multiplications; 6 numbers are kept between samples
 // cost of set(): at most 401 additions, multiplications and divisions for the constants, 1674 for the springs'
 //   energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // ad65d63c24093f1299b3ee1f326d3cb11e6151cf24830b048ab36de99b135cf8. It belongs to whoever had it

@@ -12,7 +12,8 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 5.7e-15 of the sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: K1 (50 to 800 N/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows B1
@@ -21,9 +22,7 @@
 // cost of update(): at most 46 additions and multiplications; 2 numbers are kept between samples
 // cost of set(): at most 55 additions, multiplications and divisions for the constants, 642 for the springs'
 //   energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // b57d94149fbc717b05578019de4d32e026e1596c4f3a169d2568b21102a47de3. It belongs to whoever had it

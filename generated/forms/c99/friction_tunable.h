@@ -15,7 +15,8 @@
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.1e-14 of the sum of the force's terms
-// device: none is named: exact brake, exact velocity, no delay
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
 // tunable: yield (0 to 5 N), presliding (200 to 5000 N/m), drag (0 to 40 N s/m)
 //   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
 //   b [N·s/m] follows damper_3
@@ -23,9 +24,7 @@
 // cost of update(): at most 21 additions and multiplications; 1 numbers are kept between samples
 // cost of set(): at most 24 additions, multiplications and divisions for the constants, 384 for the springs'
 //   energy
-// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive. A
-//   mode is a spring behind a damper, whose force dies away. A damper is observed where its damping is in b, and
-//   the motor makes what the spring behind it changes of that
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest
 // c86fcb8b7c393e3b623d21078d88e80af59e3eaf3833b10700b69af0c86379ba. It belongs to whoever had it

@@ -51,7 +51,7 @@ BEYOND_THE_SCHEMAS = {
     # values and units
     "element_of_value_zero", "quantity_not_finite", "quantity_without_number", "quantity_too_large", "quantity_too_small",
     "unit_behind_an_escape", "unit_in_small_letters", "unit_malformed", "unit_of_another_element", "unit_of_the_other_motion",
-    "unit_read_in_two_ways", "unit_run_together", "unit_unknown", "unit_without_a_name", "unit_without_radian",
+    "unit_read_in_two_ways", "unit_run_together", "unit_unknown", "unit_without_a_name", "unit_with_percent", "unit_without_radian",
     "valid_range_of_wrong_unit", "valid_range_reversed", "yield_zero",
     # connections
     "ends_of_an_element_equal", "ground_unused", "loop_beside_the_path", "node_used_once",

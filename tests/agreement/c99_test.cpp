@@ -181,7 +181,7 @@ std::vector<Emitted> all_emitted(compiler::ScalarType scalar) {
   std::vector<Emitted> all;
   for (std::uint64_t seed = 1; seed <= repetitions(12, 400); ++seed)
     all.push_back(emitted(network_of(seed), scalar, seed));
-  for (std::uint64_t seed = 1; seed <= repetitions(10, 320); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(16, 320); ++seed) {
     const compiler::SourceFile source("tunable.json", tunable_network(seed, Kind((seed + seed / 8) % kinds)));
     all.push_back(emitted(source, scalar, seed, fmt::format("tunable_{}", seed)));
   }

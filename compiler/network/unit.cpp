@@ -75,7 +75,8 @@ class UnitParser {
     const Unit unit = quotient();
     if (!fault_ && at_ < text_.size()) fail_here();
     const std::size_t percent = text_.find('%');
-    if (percent != std::string_view::npos && text_ != "%") fail(UnitFault::Kind::percent_in_product, percent, percent + 1);
+    if (percent != std::string_view::npos && text_ != "%")
+      fail(UnitFault::Kind::percent_in_product, percent, percent + 1);
     if (fault_) return *fault_;
     return unit;
   }

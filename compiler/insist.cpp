@@ -433,7 +433,6 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   if (error.is_soon_tried) {
     faster.description.loop.sample_period /= 2;
     changes.push_back({fmt::format("at a rate of {:.6g} Hz", 1 / faster.description.loop.sample_period), faster});
-    faster = *c.device;
   }
   // Compiled again: less may then be added to the brake for passivity, and what is added is felt.
   std::erase_if(changes, [&](MendedDevice& other) {
@@ -444,7 +443,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   if (!changes.empty())
     return diagnostics.note<DiagnosticCode::errs_less_on_another_device>(
         {}, changes_text(std::move(changes), c.decomposition.choice(), units.force));
-  for (int doubling = 1; doubling <= 4; ++doubling) {
+  for (int doubling = error.is_soon_tried ? 2 : 1; doubling <= 4; ++doubling) {
     faster.description.loop.sample_period /= 2;
     if (const auto again = improvement.by(choices, faster))
       return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,

@@ -166,6 +166,16 @@ std::string explain_text(const AxesCompilation& c, bool with_legend) {
                             operations(c.law, c.law.output), operations(c.law, c.law.update));
 }
 
+void note_what_would_do(const AxesCompilation& c, Diagnostics& diagnostics) {
+  const auto own = own_damping_that_would_do(c.certificate, c.device);
+  if (!own) return;
+  const std::string unit = port_units(c.device.joint_motion()).damping;
+  const auto& there = c.device.mechanics.damping;
+  diagnostics.note<DiagnosticCode::joints_that_would_do>({}, (*own)[0], (*own)[1], unit, there[0], there[1], (*own)[0],
+                                                         unit, (*own)[1], unit);
+  diagnostics.note<DiagnosticCode::softer_ports_remedy>({});
+}
+
 }  // namespace
 
 bool has_two_axes(const SourceFile& network) { return axes_of(network) == most_axes; }
@@ -209,20 +219,6 @@ std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) 
   }
   return text;
 }
-
-namespace {
-
-void note_what_would_do(const AxesCompilation& c, Diagnostics& diagnostics) {
-  const auto own = own_damping_that_would_do(c.certificate, c.device);
-  if (!own) return;
-  const std::string unit = c.device.joint_motion() == motion::rotation ? "N m s/rad" : "N s/m";
-  const auto& there = c.device.mechanics.damping;
-  diagnostics.note<DiagnosticCode::joints_that_would_do>({}, (*own)[0], (*own)[1], unit, there[0], there[1], (*own)[0],
-                                                         unit, (*own)[1], unit);
-  diagnostics.note<DiagnosticCode::softer_ports_remedy>({});
-}
-
-}  // namespace
 
 std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const Options& options,
                                                  Diagnostics& diagnostics) {

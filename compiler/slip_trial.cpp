@@ -224,10 +224,11 @@ SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const Upda
     : device_(device), at_(at) {
   const int instants = instants_a_sample(device);
   const std::string unit = port_units(network.port_motion).position;
-  const double period = coarse.sample_period, highest = 0.25 / period;
-  const double high = std::min(device.band_high() / (2 * pi), highest),
-               low = std::min(std::max(device.band_low() / (2 * pi), 1.25 / (most_samples * period)), high);
-  for (const double frequency : {low, high}) {
+  const double period = coarse.sample_period, slowest = 1.25 / (most_samples * period), highest = 0.25 / period;
+  const double low = std::clamp(device.band_low() / (2 * pi), slowest, highest),
+               high = std::clamp(device.band_high() / (2 * pi), slowest, highest);
+  const std::vector<double> frequencies = low < high ? std::vector{low, high} : std::vector{low};
+  for (const double frequency : frequencies) {
     const double yield = displacement_at_yield(network, coarse, frequency);
     for (const double share : around_yield) {
       motions_.push_back(sine(at, share * yield, frequency, period, instants));

@@ -110,4 +110,22 @@ TEST(RunError, SteadyTakesWhatTheToleranceAllows) {
   EXPECT_GT(steady->mean_damping, 0);
 }
 
+// Fails if a loop whose rate is far above the band plays a part of a motion only, or works through millions of samples.
+TEST(RunError, MotionsOfVeryFastLoopsAreWhole) {
+  const compiler::Network network = written_network(
+      R"({"parallel": [{"damper": 1}, {"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"damper": 5}]}]}]})");
+  compiler::Choices choices;
+  choices.rate = 1e9;
+  choices.decomposition = "virtual";
+  const compiler::Compilation c = compiled(network, choices, nullptr);
+  const compiler::PortDevice ideal = compiler::PortDevice::ideal();
+  const compiler::SlipTrial trial(network, c.law, c.law, ideal, 0);
+  ASSERT_FALSE(trial.motions().empty());
+  for (const auto& motion : trial.motions()) {
+    EXPECT_LE(motion.position.size(), 1500u) << motion.name;
+    const auto [least, most] = std::minmax_element(motion.position.begin(), motion.position.end());
+    EXPECT_NEAR(*least, -*most, 0.01 * *most) << motion.name;
+  }
+}
+
 }  // namespace dashpot::testing

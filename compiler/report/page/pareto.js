@@ -100,7 +100,8 @@ function set_up_pareto(figures, candidates) {
     ctx.stroke();
   }
 
-  // Beside its point, where no other name is: the chosen one first.
+  // Beside its point, where no other name is, with a line to it from further away: the chosen one first. A name that finds no
+  // room is told by pointing at its point.
   function paint_names(u, ctx, placed, scale) {
     const reach = 5 * scale;
     const taken = placed.map(([, [px, py]]) => ({ left: px - reach, right: px + reach, top: py - reach, bottom: py + reach }));
@@ -111,13 +112,20 @@ function set_up_pareto(figures, candidates) {
       const name = p.names.length > 2 ? `${p.names[0]} and ${p.names.length - 1} more` : p.names.join(', ');
       const width = ctx.measureText(name).width, height = 12 * scale;
       const boxes = [];
-      for (const down of [-7, 15, -22, 30, -37, 45])
-        for (const left of [px + 9 * scale, px - width - 9 * scale])
-          boxes.push({ left, right: left + width, top: py + down * scale - height, bottom: py + down * scale });
-      const box = boxes.find(is_free) ?? boxes[0];
+      for (const down of [0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75])
+        for (const left of [px + 9 * scale, px - width - 9 * scale, px - width / 2])
+          boxes.push({ left, right: left + width, top: py + down * scale - height / 2, bottom: py + down * scale + height / 2 });
+      const box = boxes.find(is_free);
+      if (!box) continue;
       taken.push(box);
-      ctx.fillStyle = colour(p.beaten && !p.chosen ? '--muted' : '--ink');
+      ctx.fillStyle = ctx.strokeStyle = colour(p.beaten && !p.chosen ? '--muted' : '--ink');
       ctx.fillText(name, box.left, box.bottom - 2 * scale);
+      if (box.top <= py + height && box.bottom >= py - height) continue;
+      ctx.lineWidth = scale / 2;
+      ctx.beginPath();
+      ctx.moveTo(px, py);
+      ctx.lineTo(Math.min(Math.max(px, box.left), box.right), box.bottom < py ? box.bottom : box.top);
+      ctx.stroke();
     }
   }
 

@@ -77,10 +77,11 @@ void TunableVerification::compare_with_pool(const HeaderConstant& constant, cons
       diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
 }
 
-// What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has.
+// What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has, beside its
+// own.
 bool TunableVerification::covers(double stated, const ReferenceBox& box, const Reference& share) const {
   const bool is_double = header_.scalar == ScalarType::float64;
-  const Reference found = box.needed(share), size = share * box.least_brake + box.largest_brake;
+  const Reference found = box.needed(share), size = found + share * box.least_brake + box.largest_brake;
   const Reference rounding = is_double ? 0x1p-49 : 0x1p-20, margin = is_double ? Reference("1e-12") : Reference("1e-4");
   return Reference(stated) >= found - rounding * size &&
          Reference(stated) <= found + margin * size + Reference("1e-60");

@@ -103,6 +103,11 @@ OTHER_LAWS = [
 ]
 
 
+# Networks with tunable parameters whose brake is told what passivity adds, and little else.
+TUNED_ON_DEVICES = [[SOURCE / f"networks/tunable/{name}_tunable.json", "--device", SOURCE / f"runtime/devices/{device}.json"]
+                    for name in ("second_order_maxwell", "springpot")
+                    for device in ("board_mps2", "pantograph_brake_2009", "phantom_shorted_motor", "phantom_single_motor")]
+
 # A relaxation that is over within a sample, one of almost no force, a surface with nothing behind it, and dampers far apart.
 EXTREMES = {"quick": '{"series": [{"spring": 1}, {"damper": 2e-5}]}', "faint": '{"series": [{"spring": 1e-30}, {"damper": 1e-30}]}',
             "nothing": '{"damper": 0}'}
@@ -167,7 +172,7 @@ class Verify(CommandTest):
 
     def test_every_shape_of_law(self):
         """Fails if a sound header is refused, or one is passed whose constants are another network's."""
-        for i, law in enumerate(LAWS + SLIP_LAWS + OTHER_LAWS + EXTREME_LAWS):
+        for i, law in enumerate(LAWS + SLIP_LAWS + OTHER_LAWS + TUNED_ON_DEVICES + EXTREME_LAWS):
             with self.subTest(law=law):
                 header, certificate = self.emitted(law, f"law_{i}")
                 self.assertIn("nearest", self.verify(header, certificate, f"sound_{i}").stdout)

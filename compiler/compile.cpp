@@ -78,6 +78,19 @@ void settle_choice(Compilation& c, const Network& present, const Choices& choice
   c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
 }
 
+// What is compared with the choice, again with what is chosen behind the slips.
+void settle_compared(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
+  if (device.is_ideal() || has_tunables(c.network)) return;
+  CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
+  for (Candidate& candidate : c.decomposition.candidates)
+    if (&candidate != &c.decomposition.choice() && is_compared(candidate)) settler.settle(candidate);
+  if (c.decomposition.choice().name == "faithful") return;
+  Candidate again = c.decomposition.choice();
+  settler.settle(again);
+  again.state_input = c.decomposition.choice().state_input;
+  c.decomposition.reason = reason_for_input(again, choices, false, port_units(c.network.port_motion).damping);
+}
+
 Beside what_is_beside_slips(const NormalForm& form) {
   if (!form.has_slips()) return Beside::no_slips;
   return form.is_all_behind_slips() ? Beside::nothing : Beside::linear;
@@ -221,7 +234,10 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   settle_choice(result, present, choices, result.port);
   // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
   const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
-  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, choices, result.port);
+  if (result.form.has_slips() && !slips_are_as_split) {
+    choose_slip_law(result, choices, result.port);
+    settle_compared(result, present, choices, result.port);
+  }
   if (result.decomposition.choice().faithful && choices.varies_assumed)
     result.decomposition.moves = moves_of(result, present, choices);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);

@@ -33,11 +33,14 @@ bool needs_no_more(const Candidate& candidate, const Candidate& choice) {
          *candidate.minimum_damping <= *choice.minimum_damping * (1 + 1e-6);
 }
 
-// Without a device nothing errs.
-std::string price_of(const Candidate& other, const Candidate& choice) {
-  if (other.largest_error == 0 && choice.largest_error == 0) return "";
-  return fmt::format(", and would err by {} % in place of {} %", in_percent(other.largest_error),
-                     in_percent(choice.largest_error));
+// Without a device nothing errs. Behind slips another candidate may be given another law, which needs something else.
+std::string price_of(const Candidate& other, const Decomposition& decomposition) {
+  const Candidate& choice = decomposition.choice();
+  const std::string alike =
+      decomposition.slips.all().empty() ? "" : ", if what is done behind the slips stays as it is chosen here";
+  if (other.largest_error == 0 && choice.largest_error == 0) return alike;
+  return fmt::format(", and would err by {} % in place of {} %{}", in_percent(other.largest_error),
+                     in_percent(choice.largest_error), alike);
 }
 
 // A law that would keep the noise of the estimate out of the motor, with its error in a run.
@@ -69,12 +72,12 @@ std::vector<std::string> notes_on_choice(const Decomposition& decomposition, con
   if (calmest && choice.minimum_damping && *calmest->minimum_damping < worthwhile * *choice.minimum_damping)
     notes.push_back(fmt::format("'{}' would need {:.4g} in place of {:.4g} {} of minimum damping{}", calmest->name,
                                 *calmest->minimum_damping, *choice.minimum_damping,
-                                port_units(network.port_motion).damping, price_of(*calmest, choice)));
+                                port_units(network.port_motion).damping, price_of(*calmest, decomposition)));
   const Candidate* quietest = least(decomposition, &Candidate::motor_noise, needs_no_more);
   if (quietest && choice.motor_noise && *quietest->motor_noise < worthwhile * *choice.motor_noise)
     notes.push_back(fmt::format("'{}' would need no more damping and bring {:.3g} % of the motor's noise{}",
                                 quietest->name, 100 * *quietest->motor_noise / *choice.motor_noise,
-                                price_of(*quietest, choice)));
+                                price_of(*quietest, decomposition)));
   if (const std::optional<std::string> note = quieter_law(decomposition.slips)) notes.push_back(*note);
   return notes;
 }

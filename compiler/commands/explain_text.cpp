@@ -294,6 +294,10 @@ std::string explain_text(const Compilation& c, bool with_legend) {
           kelvin_text(c, units) + "\n";
   const bool has_candidates = !c.is_told_slip_by_slip();
   if (has_candidates) text += candidates_text(c.decomposition, c.network);
+  if (has_candidates && c.device && c.form.has_slips())
+    text +=
+        "other rows            with what is done behind the slips as it is chosen here; --decomposition chooses that "
+        "anew\n";
   text += chosen_text(c.decomposition) + brake_text(c, units);
   if (with_legend && has_candidates) text += "\n" + legend(c.device.has_value()) + "\n";
   const std::string slips = to_text(c.decomposition.slips, c.network);

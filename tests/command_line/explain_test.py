@@ -282,6 +282,26 @@ class Json(CommandTest):
         self.write("exact.json", json.dumps(device))
         self.assertEqual(self.felt_where_slips_give_way(network_file, "--device", "exact.json")[0], told)
 
+    def test_what_is_compared_has_the_numbers_of_its_row(self):
+        """Fails if the words compare a choice behind slips with a candidate that was weighed before the law behind them was chosen."""
+        self.write("needle.json", network("""{ "parallel": [ { "damper": 1 }, { "series": [ { "slip": 0.4, "name": "skin" }, { "spring": 400 } ] },
+          { "series": [ { "slip": 0.8, "name": "capsule" }, { "parallel": [ { "spring": 300 }, { "damper": 0.5 } ] } ] } ] }""", "needle"))
+        self.write("handle.json", json.dumps({
+            "dashpot_device": 1, "name": "handle", "motion": "rotation", "arm_radius": "60 mm",
+            "loop": {"rate": "2 kHz", "delay_samples": 1, "band": ["0.1 Hz", "30 Hz"]}, "encoder": {"counts_per_turn": 20000},
+            "velocity": {"estimator": "backward_difference", "window": 8},
+            "motor": {"torque_constant": "0.24 N m/A", "max_torque": "0.6 N m", "amplifier_lag": "0.3 ms"},
+            "brake": {"kind": "eddy_current", "max_damping": "10 mN m s/rad", "damping_per_current_squared": "1.5 mN m s/(rad A^2)", "tolerance": "10 %",
+                      "coil_lag": "4 ms"},
+            "mechanics": {"inertia": "0.3 g m^2", "damping": "200 uN m s/rad", "coulomb_friction": "5 mN m"}}))
+        found = self.explained("needle.json", "--device", "handle.json")
+        (paper,) = (c for c in found["candidates"] if c["name"] == "paper")
+        told = re.search(r"the paper's rule, b = 1 N s/m, it errs by (\S+) %, (\S+) N s/m have to be added", found["choice"]["in_words"]).groups()
+        self.assertEqual(told, (f"{100 * paper['largest_error']:.3g}", f"{paper['minimum_damping']:.3g}"))
+        asked = self.explained("needle.json", "--device", "handle.json", "--decomposition", "paper")
+        (paper,) = (c for c in asked["candidates"] if c["name"] == "paper")
+        self.assertIn(f"position {paper['minimum_damping']:.4g} N s/m, {100 * paper['largest_error']:.4g} %", asked["reason"])
+
     def test_behind_slips_no_more_is_added_than_is_missing(self):
         """Fails if more is added to the brake than the minimum damping that is told; what is added is felt."""
         self.write("needle.json", """{ "dashpot": 1, "name": "needle", "network": { "parallel": [ { "damper": 0.41 }, { "spring": 18.5 },

@@ -96,13 +96,18 @@ Beside what_is_beside_slips(const NormalForm& form) {
   return form.is_all_behind_slips() ? Beside::nothing : Beside::linear;
 }
 
-// The error of the law as it is, with the damping that the certificate has added.
+// What the certificate has added to the brake, as it is felt at the tool.
+double added_at_tool(const Compilation& c) {
+  const double steepest = c.port.steepest();
+  return c.certificate.added_damping / (steepest * steepest);
+}
+
+// The error of the law as it is.
 void tell_what_is_felt(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
   if (device.is_ideal()) return;
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
-  const double steepest = c.port.steepest();
-  choice.largest_error = settler.largest_error(choice, c.certificate.added_damping / (steepest * steepest));
+  choice.largest_error = settler.largest_error(choice, added_at_tool(c));
   c.decomposition.in_words = choice_in_words(
       c.decomposition, {port_units(c.network.port_motion), device.max_damping().value_or(0), c.network.map.has_value(),
                         has_tunables(c.network), to_double(zero_frequency_damping(c.form.linear)),
@@ -269,8 +274,10 @@ void weigh_all_candidates(Compilation& c, const Choices& asked) {
   CandidateSettler settler(c.network, c.form, c.decomposition, choices, c.port, c.rate);
   for (std::size_t i = 0; i < c.decomposition.candidates.size(); ++i) {
     Candidate& candidate = c.decomposition.candidates[i];
-    if (i != c.decomposition.chosen || c.port.is_ideal()) settler.settle(candidate);
-    CandidateSettler::ErrorOverBand errors = settler.error_over_band(candidate);
+    const bool is_made = i == c.decomposition.chosen && !c.port.is_ideal();
+    if (!is_made) settler.settle(candidate);
+    CandidateSettler::ErrorOverBand errors =
+        settler.error_over_band(candidate, is_made ? std::optional(added_at_tool(c)) : std::nullopt);
     candidate.error_over_band = std::move(errors.errors);
     if (!errors.frequencies.empty()) c.decomposition.error_frequencies = std::move(errors.frequencies);
   }

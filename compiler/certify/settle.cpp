@@ -142,12 +142,13 @@ double CandidateSettler::largest_error(const Candidate& candidate, double added)
   return felt(candidate.state_input).largest(candidate.damping, added);
 }
 
-CandidateSettler::ErrorOverBand CandidateSettler::error_over_band(const Candidate& candidate) {
+CandidateSettler::ErrorOverBand CandidateSettler::error_over_band(const Candidate& candidate,
+                                                                  std::optional<double> added) {
   if (device_.is_ideal()) return {};
   for (const StateInputMerit& merit : candidate.state_inputs)
     if (merit.state_input == candidate.state_input)
       return {felt(merit.state_input).frequencies(),
-              felt(merit.state_input).over_band(candidate.damping, added_in(merit))};
+              felt(merit.state_input).over_band(candidate.damping, added.value_or(added_in(merit)))};
   return {};
 }
 

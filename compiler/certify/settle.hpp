@@ -23,10 +23,11 @@ class CandidateSettler {
   void settle(Candidate& candidate);
 
   // Of what is felt of a candidate that is settled, at each of the frequencies [Hz], [1]; empty without a device.
+  // `added`: for passivity, where that is not what settle() found [N·s/m].
   struct ErrorOverBand {
     std::vector<double> frequencies, errors;
   };
-  ErrorOverBand error_over_band(const Candidate& candidate);
+  ErrorOverBand error_over_band(const Candidate& candidate, std::optional<double> added = std::nullopt);
 
   // Gives a candidate another damping; what depends on the loop is left to settle() and settle_at().
   void place(Candidate& candidate, double damping);

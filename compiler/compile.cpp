@@ -33,8 +33,8 @@ bool is_compared(const Candidate& candidate) {
   return candidate.name == "paper" || candidate.name == "velocity-free" || candidate.name == "virtual";
 }
 
-// How `faithful` moves over what the device file assumes.
-std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const Choices& choices) {
+// How `faithful` moves over what the device file assumes; `gap` of jitter at what was chosen.
+std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present, const Choices& choices, double gap) {
   const Candidate& choice = c.decomposition.choice();
   ChoiceMoves moves{choice.damping, choice.damping, ""};
   double furthest = 1e-6 * choice.damping;
@@ -42,7 +42,9 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
     Compilation again = c;
     again.device = device;
     Candidate& candidate = again.decomposition.candidates[again.decomposition.chosen];
-    CandidateSettler(present, c.form, c.decomposition, choices, port, c.rate).settle(candidate);
+    CandidateSettler settler(present, c.form, c.decomposition, choices, port, c.rate);
+    settler.assume_jitter_gap(gap);
+    settler.settle(candidate);
     if (has_tunables(c.network)) choose_over_box(c.network, c.form, again.decomposition, choices, port, c.rate);
     return c.form.has_slips() ? damping_on_another_device(again, choices, port) : candidate.damping;
   };
@@ -60,22 +62,26 @@ std::optional<ChoiceMoves> moves_of(const Compilation& c, const Network& present
   return devices.empty() ? std::nullopt : std::optional(moves);
 }
 
-// Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law.
-void settle_choice(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
-  if (device.is_ideal()) return;
+// Without a device nothing tells the state inputs apart, and nothing is added: the certificate comes with the law. Out:
+// the gap of jitter at what is chosen.
+double settle_choice(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
+  if (device.is_ideal()) return 1;
   const bool is_tunable = has_tunables(c.network), is_faithful = c.decomposition.choice().name == "faithful";
-  if (is_tunable && !is_faithful) return;
+  if (is_tunable && !is_faithful) return 1;
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
   std::vector<Candidate>& candidates = c.decomposition.candidates;
+  settler.settle(candidates[c.decomposition.chosen]);
+  const double gap = settler.last_jitter_gap();
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (i == c.decomposition.chosen || is_compared(candidates[i])) settler.settle(candidates[i]);
+    if (i != c.decomposition.chosen && is_compared(candidates[i])) settler.settle(candidates[i]);
   if (!is_faithful) {
     const std::string unit = port_units(c.network.port_motion).damping;
     c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, false, unit);
-    return;
+    return gap;
   }
   if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, device, c.rate);
   c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
+  return gap;
 }
 
 // What is compared with the choice, again with what is chosen behind the slips.
@@ -236,7 +242,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
       decompose(is_tunable ? present : result.network, result.form, choices, on, diagnostics);
   if (!decomposition) return std::nullopt;
   result.decomposition = std::move(*decomposition);
-  settle_choice(result, present, choices, result.port);
+  const double gap = settle_choice(result, present, choices, result.port);
   // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
   const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
   if (result.form.has_slips() && !slips_are_as_split) {
@@ -244,7 +250,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
     settle_compared(result, present, choices, result.port);
   }
   if (result.decomposition.choice().faithful && choices.varies_assumed)
-    result.decomposition.moves = moves_of(result, present, choices);
+    result.decomposition.moves = moves_of(result, present, choices, gap);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);
   times.enter("discretisation");
   warn_about_rate_and_scalar(result.network, result.form, result.decomposition, choices, result.rate, diagnostics);

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <dashpot/estimators/estimator_names.hpp>
 #include <initializer_list>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "certify/choice_text.hpp"
@@ -145,6 +147,42 @@ class Remedies {
     return std::nullopt;
   }
 
+  // The largest of a half, a quarter or an eighth of the device's own, in four digits [s]. Without any, a law behind an
+  // amplifier's lag would be certified for a constant period only.
+  std::optional<Remedy> jitter() const {
+    Device calmer = *c_.device;
+    const double own = calmer.description.loop.jitter;
+    for (const double share : {0.5, 0.25, 0.125}) {
+      if (own == 0) break;
+      const double told = as_told(share * own * 1e3, 4) * 1e-3;
+      calmer.description.loop.jitter = told;
+      if (!may_do(calmer)) continue;
+      if (const auto error = error_where_certified(c_.network, choices_, calmer)) return Remedy{told, *error};
+    }
+    return std::nullopt;
+  }
+
+  // As the device file writes it; of those that every certificate knows. With what is felt.
+  std::optional<std::pair<std::string, double>> estimator() const {
+    const auto error_with = [this](estimator_kind kind, unsigned window) -> std::optional<double> {
+      Device other = *c_.device;
+      const velocity_description own = std::exchange(other.description.velocity, {});
+      other.description.velocity.estimator = kind;
+      other.description.velocity.window = window;
+      if ((own.estimator == kind && own.window == window) || !may_do(other)) return std::nullopt;
+      return error_where_certified(c_.network, choices_, other);
+    };
+    if (c_.device->description.loop.jitter > 0)
+      if (const auto error = error_with(estimator_kind::interval_difference, 1))
+        return std::pair(fmt::format(R"("estimator": "{}")", name_of(estimator_kind::interval_difference)), *error);
+    for (const unsigned window : {15, 10, 5, 2, 1})
+      if (const auto error = error_with(estimator_kind::backward_difference, window))
+        return std::pair(
+            fmt::format(R"("estimator": "{}", "window": {})", name_of(estimator_kind::backward_difference), window),
+            *error);
+    return std::nullopt;
+  }
+
   // The first power of two times the device's own; empty where even a thousandfold does not help.
   std::optional<Remedy> rate() const {
     Device faster = *c_.device;
@@ -187,9 +225,11 @@ class Remedies {
   bool may_do(const Device& device) const {
     if (c_.law.tunable) return true;
     Candidate candidate = c_.decomposition.choice();
-    CandidateSettler(c_.network, c_.form, c_.decomposition, choices_, c_.port.replaced_by(device),
-                     1 / device.description.loop.sample_period)
-        .settle(candidate);
+    const PortDevice port = c_.port.replaced_by(device);  // which the settler looks at
+    CandidateSettler settler(c_.network, c_.form, c_.decomposition, choices_, port,
+                             1 / device.description.loop.sample_period);
+    settler.assume_jitter_gap(1);  // with what is necessary
+    settler.settle(candidate);
     return candidate.certified == true;
   }
 
@@ -202,6 +242,13 @@ class Remedies {
 
 namespace {
 
+void tell_of_jitter(const Compilation& c, const Remedies& remedies, Diagnostics& diagnostics) {
+  if (const std::optional<Remedy> jitter = remedies.jitter())
+    diagnostics.note<DiagnosticCode::jitter_that_would_do>({}, jitter->value * 1e3,
+                                                           c.device->description.loop.jitter * 1e3, jitter->value * 1e3,
+                                                           in_percent(jitter->error));
+}
+
 // What the device itself would have to be like: with more friction of the kind that a brake cannot replace, or a loop
 // that is not late.
 void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
@@ -212,6 +259,7 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   loop_description prompt = device.loop;
   prompt.delay_samples = 0;
   const bool is_late = device.loop.delay_samples > 0 || device.motor.amplifier_lag > 0;
+  if (c.certificate.loop.amplifier_lag > 0) tell_of_jitter(c, remedies, diagnostics);
   const auto tell = [&](const Remedy& damping, const char* besides) {
     diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping.value, at_tool, remedies.at_tool(own),
                                                                 besides, remedies.at_joint(damping.value), at_joint,
@@ -311,6 +359,10 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
     diagnostics.note<DiagnosticCode::scale_that_would_do>({}, share->value, in_percent(share->error));
   if (const std::optional<Remedy> rate = remedies.rate())
     diagnostics.note<DiagnosticCode::rate_that_would_do>({}, rate->value, in_percent(rate->error));
+  tell_of_jitter(c, remedies, diagnostics);
+  const bool follows = c.decomposition.choice().velocity_gain > 0;
+  if (const auto estimator = follows ? remedies.estimator() : std::nullopt)
+    diagnostics.note<DiagnosticCode::estimator_that_would_do>({}, estimator->first, in_percent(estimator->second));
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
 }

@@ -6,10 +6,16 @@
 
 #include "certify/certificate.hpp"
 #include "certify/estimator_factors.hpp"
+#include "certify/proved_bound.hpp"
 #include "decompose/slip_laws.hpp"
 #include "discretise/discretise.hpp"
 
 namespace dashpot::compiler {
+namespace {
+
+constexpr double gap_spread = 1 + 1e-3;  // by which the gap at another damping may be above the one that was looked at
+
+}  // namespace
 
 SlipRuns::SlipRuns(const Compilation& c, const Choices& choices, const PortDevice& device)
     : c_(c),
@@ -30,7 +36,7 @@ SlipDecomposition SlipRuns::decomposed(const Candidate& beside, const SlipPlan& 
   return decompose_slips(c_.network, c_.form, beside, plan, device_);
 }
 
-Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& plan) const {
+Compilation SlipRuns::made_with_room(const Candidate& beside, const SlipPlan& plan) {
   Compilation whole = made_by(beside, plan);
   if (device_.is_ideal() || c_.network.contact || whole.certificate.certified) return whole;
   SlipPlan roomy = plan;
@@ -91,12 +97,20 @@ UpdateLaw SlipRuns::by_motor(int times) const {
   return discretise(c_.network, c_.form, whole, choices_, c_.rate * times);
 }
 
-Compilation SlipRuns::made_by(const Candidate& beside, const SlipPlan& plan) const {
+Compilation SlipRuns::made_by(const Candidate& beside, const SlipPlan& plan) {
   Compilation made = c_;
   made.decomposition.candidates[made.decomposition.chosen] = beside;
   made.decomposition.slips = decomposed(beside, plan);
   made.law = discretise(made.network, made.form, made.decomposition, choices_, made.rate);
-  made.certificate = certify(made.law, loop_, slip_motor(made.network, made.form, made.decomposition, choices_, loop_));
+  const auto slips = slip_motor(made.network, made.form, made.decomposition, choices_, loop_);
+  if (!slips || made.law.tunable) {
+    made.certificate = certify(made.law, loop_, slips);
+    return made;
+  }
+  auto gap = gaps_.find(beside.state_input);
+  if (gap == gaps_.end())
+    gap = gaps_.emplace(beside.state_input, jitter_gap(linear_motor_constants(made.law), loop_) * gap_spread).first;
+  made.certificate = weighed_by_gap(made.law, loop_, *slips, gap->second);
   return made;
 }
 

@@ -2,6 +2,7 @@
 // made, certified and run.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,7 +38,7 @@ class SlipRuns {
 
   // By a plan. Where the brake has no room for what passivity adds, by the same with less of the brake, if that is
   // certified.
-  Compilation made_with_room(const Candidate& beside, const SlipPlan& plan) const;
+  Compilation made_with_room(const Candidate& beside, const SlipPlan& plan);
 
   // Made with room, and run through all motions.
   SlipOption run(const Candidate& beside, const SlipPlan& plan);
@@ -45,7 +46,7 @@ class SlipRuns {
  private:
   std::vector<FeltForce> felt_of(const UpdateLaw& law);
   UpdateLaw by_motor(int times) const;
-  Compilation made_by(const Candidate& beside, const SlipPlan& plan) const;
+  Compilation made_by(const Candidate& beside, const SlipPlan& plan);
   std::optional<double> noise_of(const SlipDecomposition& slips) const;
 
   const Compilation& c_;
@@ -56,6 +57,8 @@ class SlipRuns {
   std::vector<SlipLaw> laws_;
   UpdateLaw coarse_, fine_;
   std::optional<SlipTrial> trial_;  // made before the first run
+  // Of jitter (certify/proved_bound.hpp), as first looked at: what is run twice has to come out the same.
+  std::map<StateInput, double> gaps_;
 };
 
 }  // namespace dashpot::compiler

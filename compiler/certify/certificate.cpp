@@ -132,24 +132,29 @@ PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const
   return motor ? with_slew(bound, *motor, loop) : bound;
 }
 
+PassivityBound bound_beside_slips(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop,
+                                  std::size_t terms) {
+  PassivityBound nothing;
+  nothing.proof = Proof::hold;
+  return slips.behind_contact || linear.is_idle() ? nothing : passivity_bound(linear, loop, terms);
+}
+
 // Least bounds add up, and of two statements the weaker is left.
-PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop) {
-  PassivityBound bound;
-  bound.proof = Proof::hold;
-  if (!slips.behind_contact && !linear.is_idle()) bound = passivity_bound(linear, loop);
+PassivityBound with_slips(PassivityBound bound, const SlipMotor& slips, const SampledLoop& loop) {
   bound.any_regime = true;
+  bound.storage.reset();
   if (bound.proof == Proof::none) return bound;
   const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
   if (loop.motor_slew > 0) return not_proved("the motor's slew is limited, and its force behind slips jumps");
   if (slips.lets_go_by_estimate && is_late)
     return not_proved("the contact lets go by a velocity estimate, and the loop is late");
-  const bool is_punctual = loop.amplifier_lag > 0;  // what is proved with a lag is proved for punctual samples
-  if (is_punctual) {
+  if (loop.amplifier_lag > 0) {
     bound.proof = Proof::sampled;
     bound.reason = "the amplifier lags";
-    bound.constant_period_only = true;
+    bound.constant_period_only = bound.constant_period_only || loop.jitter == 0;
+    if (loop.jitter >= loop.sample_period) return not_proved(at_once);
   }
-  const double hold = is_punctual ? 1 : loop.longest_hold() / loop.sample_period;
+  const double hold = loop.longest_hold() / loop.sample_period;
   const double compensation = slips.compensation * hold;
   const std::optional<double> gain = compensation > 0 ? estimate_gain(loop) : 0;
   if (!gain) return not_proved(not_proved_for(loop));
@@ -210,25 +215,45 @@ double rounding_of_step(const UpdateLaw& law) {
 PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   if (!box.hindrance.empty()) return not_proved(box.hindrance);
   if (loop.motor_slew > 0) return not_proved("the motor's slew is limited, and parameters change");
+  if (loop.amplifier_lag > 0 && loop.jitter >= loop.sample_period) return not_proved(at_once);
   PassivityBound bound;
   bound.needed = box.lacking + box.largest_brake;
   if (!std::isfinite(bound.needed)) return within_range(bound);
   bound.proof = loop.amplifier_lag > 0 ? Proof::sampled : Proof::hold;
   if (loop.amplifier_lag > 0) bound.reason = "the amplifier lags";
-  bound.constant_period_only = loop.amplifier_lag > 0;
+  bound.constant_period_only = loop.amplifier_lag > 0 && loop.jitter == 0;
   bound.needed = std::max(0.0, ceiling(assured_share(loop) * Rational(box.least_brake) + Rational(box.lacking)));
   bound.any_value = true;
   return bound;
 }
 
+// Part by part, or, behind an amplifier's lag, of all parts together sample by sample, where that asks for less.
+PassivityBound bound_with_slips(const PassivityBound& beside, const MotorConstants& linear, const SlipMotor& slips,
+                                const SampledLoop& loop) {
+  PassivityBound bound = with_slips(beside, slips, loop);
+  if (bound.proof == Proof::none || !needs_jitter_gap(loop)) return bound;
+  const std::optional<double> together = needed_sample_by_sample(linear, slips, loop);
+  // Behind a contact the brake leaves a free tool alone, which touches late.
+  const bool is_enough = !slips.behind_contact || (together && Rational(*together) <= assured_damping(loop, 0));
+  if (!together || !is_enough || bound.needed <= *together) return bound;
+  bound.proof = Proof::hold;
+  bound.needed = *together;
+  bound.frequency = 0;
+  return bound;
+}
+
 PassivityBound bound_of(const UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
-  return slips ? passivity_bound(linear_motor_constants(law), *slips, loop) : proved_bound(motor_constants(law), loop);
+  if (!slips)
+    return stated_bound(motor_constants(law), loop,
+                        assured_damping(loop, brake_command({}, loop, law.damping, law.scalar)));
+  const MotorConstants linear = linear_motor_constants(law);
+  const PassivityBound beside = bound_beside_slips(linear, *slips, loop);
+  return bound_with_slips(under_jitter(beside, linear, loop, std::nullopt), linear, *slips, loop);
 }
 
 BoxMotor box_of(const UpdateLaw& law, const SampledLoop& loop) {
-  const Rational hold = loop.amplifier_lag > 0 ? Rational(1) : longest_hold_share(loop);
-  return box_motor(
-      law, {hold, lateness(loop), estimate_gain(loop), assured_share(loop), estimate_pulse(loop), loop.encoder_step});
+  return box_motor(law, {longest_hold_share(loop), lateness(loop), estimate_gain(loop), assured_share(loop),
+                         estimate_pulse(loop), loop.encoder_step});
 }
 
 // A brake that changes is told a sum, of whose rounding nothing is promised.
@@ -290,23 +315,18 @@ void settle_box(UpdateLaw& law, const SampledLoop& loop, Certificate& result) {
   law.largest_damping = box.largest_brake + added;
 }
 
-}  // namespace
-
-Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
+// `known`: the bound of a law without tunables, where it is.
+Certificate certified(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips,
+                      const std::optional<PassivityBound>& known) {
   const std::optional<MotorConstants> motor = motor_constants(law);
   Certificate result;
   result.loop = loop;
   if (law.tunable) settle_box(law, loop, result);
-  else result.bound = bound_of(law, loop, slips);
-  const double told = surely_told(law);
+  else result.bound = known ? *known : bound_of(law, loop, slips);
   const bool may_add = result.bound.proof != Proof::none && !law.tunable;
-  // Behind slips the statement under jitter may ask for less than that for punctual samples: nothing is added for more.
-  if (may_add && slips)
-    result.bound = under_jitter(result.bound, linear_motor_constants(law), slips, loop, Rational(result.bound.needed));
+  if (may_add) result.minimum_damping = missing_damping(result.bound, loop, surely_told(law));
   if (may_add) result.added_damping = add_missing(law, result.bound, loop, slips && slips->behind_contact);
   const Rational assured = assured_damping(loop, surely_told(law));
-  if (may_add) result.bound = under_jitter(result.bound, linear_motor_constants(law), slips, loop, assured);
-  if (may_add) result.minimum_damping = missing_damping(result.bound, loop, told);
   result.assured = assured.convert_to<double>();
   result.certified = result.bound.proof != Proof::none && assured >= Rational(result.bound.needed);
   if (motor) result.energy = check_energy_lemma(*motor);
@@ -324,6 +344,18 @@ Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional
                   : motor_limits(law, slips, loop, result.bound.needed, assured);
   if (loop.encoder_step > 0) result.quantisation_stiffness = 2 * loop.coulomb_friction / loop.encoder_step;
   return result;
+}
+
+}  // namespace
+
+Certificate certify(UpdateLaw& law, const SampledLoop& loop, const std::optional<SlipMotor>& slips) {
+  return certified(law, loop, slips, std::nullopt);
+}
+
+Certificate weighed_by_gap(UpdateLaw& law, const SampledLoop& loop, const SlipMotor& slips, double gap) {
+  const MotorConstants linear = linear_motor_constants(law);
+  const PassivityBound beside = bound_beside_slips_by_gap(linear, slips, loop, gap);
+  return certified(law, loop, slips, bound_with_slips(beside, linear, slips, loop));
 }
 
 }  // namespace dashpot::compiler

@@ -30,7 +30,8 @@ struct PassivityBound {
   std::string reason;       // why nothing is proved, or why it is not the hold certificate; one clause
   bool any_regime = false;  // with slips or a contact: whatever slides, sticks, touches or lets go
   bool any_value = false;   // with tunables: wherever they are in their ranges
-  // Proved for punctual samples alone: the amplifier lags. Else it holds under any jitter up to the device's.
+  // Proved for punctual samples alone: the amplifier lags. Else it holds under any jitter up to the device's; a
+  // certificate states the former only of a device that states no jitter.
   bool constant_period_only = false;
   // P, by rows up to the diagonal, of the storage function that proves `needed`; empty where that rests on another one.
   std::optional<std::vector<std::vector<double>>> storage = {};
@@ -64,8 +65,11 @@ std::string why_not_certified(const Certificate& certificate, motion port_motion
 PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop,
                                std::size_t terms = most_terms);
 
-// The same of a law with slips or a contact, of which `linear` is what reaches ground without a slip.
-PassivityBound passivity_bound(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop);
+// Of a law with slips or a contact, what `linear` needs, which reaches ground without a slip; and with what the slips
+// need, under the device's jitter, beside it.
+PassivityBound bound_beside_slips(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop,
+                                  std::size_t terms = most_terms);
+PassivityBound with_slips(PassivityBound beside, const SlipMotor& slips, const SampledLoop& loop);
 
 // x = ((S − b_device)/share − b)⁺: what the brake's command lacks, not below it; infinite where no command would do.
 double missing_damping(const PassivityBound& bound, const SampledLoop& loop, double brake);

@@ -12,10 +12,7 @@ std::string covered(const Certificate& c) {
   std::string regimes = c.bound.any_regime ? ", whatever slides, sticks, touches or lets go" : "";
   if (c.bound.any_value) regimes += ", any values within their ranges between changes";
   if (c.bound.constant_period_only)
-    return fmt::format("any motion{}, samples at {:.6g} Hz", regimes, 1 / c.loop.sample_period) +
-           (c.loop.jitter > 0
-                ? ", jitter not covered: the amplifier lags, and nothing is proved of it with this damping"
-                : "");
+    return fmt::format("any motion{}, samples at {:.6g} Hz", regimes, 1 / c.loop.sample_period);
   const std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";
   if (c.bound.proof == Proof::sampled)
     return fmt::format("any motion{}, samples at {:.6g} Hz{}", regimes, 1 / c.loop.sample_period, jitter);
@@ -25,7 +22,7 @@ std::string covered(const Certificate& c) {
 
 std::string requirement(const Certificate& c, const std::string& unit) {
   const std::string most = c.bound.frequency > 0 ? fmt::format(", most at {:.6g} Hz", c.bound.frequency) : "";
-  const bool over_holds = c.bound.proof == Proof::hold || (c.loop.jitter > 0 && !c.bound.constant_period_only);
+  const bool over_holds = c.bound.proof == Proof::hold || c.loop.jitter > 0;
   const std::string hold = over_holds ? fmt::format(" over the longest hold of {:.6g} s", c.loop.longest_hold()) : "";
   return fmt::format("needs {:.6g} {}{}{}", c.bound.needed, unit, hold, most);
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,9 +12,15 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+// Of a few rows and columns: what large products prepare would cost more than it saves.
+template <class Left, class Right>
+Matrix product(const Left& left, const Right& right) {
+  return left.lazyProduct(right);
+}
+
 Matrix matrix_of(const HoldInequality& of, const CommonStorage& at) {
   const Eigen::Index n = at.P.rows();
-  Matrix M = of.constant + at.damping * of.damping - of.next.transpose() * at.P * of.next;
+  Matrix M = of.constant + at.damping * of.damping - product(of.next.transpose(), product(at.P, of.next));
   M.topLeftCorner(n, n) += at.P;
   return M;
 }
@@ -56,8 +63,9 @@ class Barrier {
     add_products(inverse, 1, hessian);
     for (const HoldInequality& one : all_) {
       const Matrix W = inverse_of(matrix_of(one, at));
-      const Matrix before = W.topLeftCorner(n_, n_), across = W.topRows(n_) * one.next.transpose(),
-                   after = one.next * W * one.next.transpose(), weighed = W * one.damping * W;
+      const Matrix onward = product(one.next, W), weighed = product(W, product(one.damping, W));
+      const Matrix before = W.topLeftCorner(n_, n_), across = onward.leftCols(n_).transpose(),
+                   after = product(onward, one.next.transpose());
       gradient.head(count) += on_entries(after - before);
       gradient(count) -= W.cwiseProduct(one.damping).sum();
       add_products(before, 1, hessian);
@@ -65,7 +73,7 @@ class Barrier {
       add_products(across.transpose(), -1, hessian);
       add_products(after, 1, hessian);
       hessian.row(count).head(count) +=
-          on_entries(weighed.topLeftCorner(n_, n_) - one.next * weighed * one.next.transpose());
+          on_entries(weighed.topLeftCorner(n_, n_) - product(one.next, product(weighed, one.next.transpose())));
       hessian(count, count) += weighed.cwiseProduct(one.damping).sum();
     }
     const Vector unit = hessian.diagonal().cwiseSqrt().cwiseInverse();
@@ -115,20 +123,21 @@ CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, do
   double dimensions = double(at.P.rows());
   for (const HoldInequality& one : all) dimensions += double(one.constant.rows());
   double t = dimensions / std::abs(at.damping);
+  std::optional<double> value = barrier.value(at, t);
   for (int i = 0; i < most_steps && at.damping > 0; ++i) {
-    const std::optional<double> before = barrier.value(at, t);
     const auto [step, decrement] = barrier.step(at, t);
-    if (!before || !std::isfinite(decrement) || decrement < 0) break;
-    if (decrement < 0.1) {  // near enough to the path, where b is no more than dimensions/t above the least
+    if (!value || !std::isfinite(decrement) || decrement < 0) break;
+    if (decrement < 1) {  // near enough to the path, where b is no more than dimensions/t above the least
       if (dimensions / t < excess * std::abs(at.damping)) break;
-      t *= 8;
+      *value += 9 * t * at.damping;
+      t *= 10;
       continue;
     }
     std::optional<CommonStorage> better;
     for (double length = 1; length > 1e-8 && !better; length /= 2) {
       const CommonStorage tried{at.damping + length * step.damping, at.P + length * step.P};
-      const std::optional<double> value = barrier.value(tried, t);
-      if (value && *value < *before - length * decrement / 10) better = tried;
+      const std::optional<double> reached = barrier.value(tried, t);
+      if (reached && *reached < *value - length * decrement / 10) better = tried, value = reached;
     }
     if (!better) break;
     at = std::move(*better);
@@ -136,10 +145,22 @@ CommonStorage least(const std::vector<HoldInequality>& all, CommonStorage at, do
   return at;
 }
 
-}  // namespace
+// How much is lacking in some direction; nothing, or less, where M ⪰ 0.
+double lacking(const HoldInequality& hold, const CommonStorage& at) {
+  return -Eigen::SelfAdjointEigenSolver<Matrix>(matrix_of(hold, at), Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
+}
 
-std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
-                                                  double excess) {
+// Of the states to · x.
+HoldInequality in_coordinates(const HoldInequality& hold, const Matrix& to, const Matrix& from) {
+  const Eigen::Index n = to.rows(), all = hold.constant.rows();
+  Matrix back = Matrix::Identity(all, all);
+  back.topLeftCorner(n, n) = from;
+  return {to * hold.next * back, back.transpose() * hold.constant * back, back.transpose() * hold.damping * back};
+}
+
+// From `start` on, for these holds alone.
+std::optional<CommonStorage> least_for(const std::vector<HoldInequality>& holds, const CommonStorage& start,
+                                       double excess) {
   const Eigen::Index n = start.P.rows();
   std::vector<HoldInequality> by_damping = holds, by_slack;
   // P stays below a bound, ρ I − P ⪰ 0: where the input does not reach a state, nothing else keeps it from growing.
@@ -150,9 +171,8 @@ std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequali
     HoldInequality slack = hold;
     slack.constant += start.damping * slack.damping;
     slack.damping.setIdentity();
-    const Eigen::SelfAdjointEigenSolver<Matrix> values(matrix_of(slack, {0, at.P}), Eigen::EigenvaluesOnly);
-    const double lacking = -values.eigenvalues().minCoeff();
-    at.damping = std::max(at.damping, lacking > 0 ? 2 * lacking : lacking / 2);
+    const double lack = lacking(slack, {0, at.P});
+    at.damping = std::max(at.damping, lack > 0 ? 2 * lack : lack / 2);
     by_slack.push_back(std::move(slack));
   }
   // With the b that came in: how much is lacking at the least, in b's place; nothing, once it is below 0.
@@ -160,6 +180,41 @@ std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequali
   if (!(at.damping < 0)) return std::nullopt;
   at.damping = start.damping;
   return least(by_damping, std::move(at), excess);
+}
+
+}  // namespace
+
+bool serves(const HoldInequality& hold, const CommonStorage& tried) {
+  return log_determinant(tried.P) && log_determinant(matrix_of(hold, tried));
+}
+
+// Few of the holds ask for all that is needed: the search begins with the last, and takes in what is served least. In
+// coordinates in which `start` is one: else the P of states that the input hardly reaches grows so far beyond that of
+// the others that rounding ends the search.
+std::optional<CommonStorage> least_common_storage(const std::vector<HoldInequality>& holds, const CommonStorage& start,
+                                                  double excess) {
+  const Eigen::Index n = start.P.rows();
+  const Eigen::LLT<Matrix> factors(start.P);
+  if (factors.info() != Eigen::Success) return std::nullopt;
+  const Matrix one = Matrix::Identity(n, n), to = factors.matrixU(), from = factors.matrixU().solve(one);
+  std::vector<HoldInequality> others;
+  for (const HoldInequality& hold : holds) others.push_back(in_coordinates(hold, to, from));
+  std::vector<HoldInequality> asking = {std::move(others.back())};
+  others.pop_back();
+  CommonStorage best{start.damping, one};
+  for (bool is_first = true;; is_first = false) {
+    const auto lacks = [&](const HoldInequality& hold) { return lacking(hold, best); };
+    const auto least_served = std::ranges::max_element(others, {}, lacks);
+    if (least_served != others.end() && lacks(*least_served) > 0) {
+      asking.push_back(std::move(*least_served));
+      others.erase(least_served);
+    } else if (!is_first) {
+      return CommonStorage{best.damping, to.transpose() * best.P * to};
+    }
+    std::optional<CommonStorage> found = least_for(asking, {start.damping, one}, excess);
+    if (!found) return std::nullopt;
+    best = std::move(*found);
+  }
 }
 
 }  // namespace dashpot::compiler

@@ -22,6 +22,9 @@ struct CommonStorage {
   Eigen::MatrixXd P;
 };
 
+// Whether P ≻ 0 and M ≻ 0, as doubles tell.
+bool serves(const HoldInequality& hold, const CommonStorage& tried);
+
 // In: a positive P, which need not serve any hold, and a b that is large enough for some P. Out: the pair whose b is no
 // more than `excess` (relative) above the least, or what has been reached where rounding ends the search before that;
 // empty where no P is found for the b that came in.

@@ -208,7 +208,8 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
   motor.velocity_gain = 0;
   std::optional<SlipMotor> without_estimate = slips;
   if (slips) without_estimate->compensation = 0;
-  PassivityBound bound = slips ? passivity_bound(motor, *without_estimate, behind) : passivity_bound(motor, behind);
+  PassivityBound bound = slips ? with_slips(bound_beside_slips(motor, *slips, behind), *without_estimate, behind)
+                               : passivity_bound(motor, behind);
   if (bound.proof == Proof::none) return bound;
   const double least = map.least_tangent(0, map.reach);
   const Rational told = Rational(damping) * Rational(least) * Rational(least);

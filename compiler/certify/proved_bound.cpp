@@ -1,7 +1,12 @@
 #include "certify/proved_bound.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "certify/adaptive_window.hpp"
+#include "certify/estimator_factors.hpp"
 #include "certify/motor_limits.hpp"
+#include "certify/unproved.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -33,28 +38,101 @@ PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const Sa
   return bound;
 }
 
-PassivityBound under_jitter(PassivityBound bound, const MotorConstants& linear, const std::optional<SlipMotor>& slips,
-                            const SampledLoop& loop, const Rational& assured) {
-  const bool is_open = bound.proof != Proof::none && bound.constant_period_only && loop.jitter > 0 && !bound.any_value;
-  if (!is_open || Rational(bound.needed) > assured) return bound;
+namespace {
+
+bool is_one_linear_loop(const MotorConstants& motor, const SampledLoop& loop) {
+  return !motor.follows_estimate() || estimator_factors(loop);
+}
+
+// What an estimate that is not linear adds to what position drives: its gain, which no lag makes larger [N·s/m].
+std::optional<double> needed_beside(const MotorConstants& motor, const SampledLoop& loop) {
+  if (is_one_linear_loop(motor, loop)) return 0;
+  const std::optional<double> estimate = damping_for_estimate(motor, loop);
+  if (!estimate) return std::nullopt;
+  return *estimate * (loop.longest_hold() / loop.sample_period) * (1 + 1e-14);
+}
+
+}  // namespace
+
+PassivityBound under_jitter(PassivityBound bound, const MotorConstants& motor, const SampledLoop& loop,
+                            std::optional<Rational> enough) {
+  if (bound.proof == Proof::none || !bound.constant_period_only || loop.jitter == 0) return bound;
+  if (loop.jitter >= loop.sample_period) return not_proved(at_once);
+  const bool is_linear = is_one_linear_loop(motor, loop);
+  const std::optional<double> beside = needed_beside(motor, loop);
   std::optional<StorageProof> proof;
-  if (!slips && loop.motor_slew == 0) proof = storage_proof(linear, loop, std::nullopt, assured.convert_to<double>());
-  if (proof && Rational(proof->damping) <= assured) {
+  if (beside && loop.motor_slew == 0)
+    proof = proof_for_all_holds(is_linear ? motor : position_driven(motor), loop,
+                                enough ? std::optional(enough->convert_to<double>() - *beside) : std::nullopt);
+  if (proof && *beside > 0) proof->damping = std::nextafter(proof->damping + *beside, HUGE_VAL);
+  const std::optional<double> by_sample = needed_sample_by_sample(motor, std::nullopt, loop);
+  if (!proof && !by_sample) return not_proved("the amplifier lags, and nothing is proved of it under the jitter");
+  bound.constant_period_only = false;
+  if (proof && (!by_sample || proof->damping <= *by_sample)) {
     bound.needed = proof->damping;
-    bound.storage = std::move(proof->storage);
-    bound.constant_period_only = false;
+    bound.storage = is_linear ? std::optional(std::move(proof->storage)) : std::nullopt;
     return bound;
   }
-  const std::optional<double> needed = needed_sample_by_sample(linear, slips, loop);
-  // Behind a contact the brake leaves a free tool alone, which touches late.
-  const Rational there = slips && slips->behind_contact ? assured_damping(loop, 0) : assured;
-  if (!needed || Rational(*needed) > there) return bound;
   bound.proof = Proof::hold;
-  bound.needed = *needed;
+  bound.needed = *by_sample;
   bound.frequency = 0;
   bound.storage.reset();
-  bound.constant_period_only = false;
   return bound;
+}
+
+bool needs_jitter_gap(const SampledLoop& loop) { return loop.amplifier_lag > 0 && loop.jitter > 0; }
+
+namespace {
+
+// The law takes increments and not times, so that a hold of another length is one of another loop: what a velocity
+// gain gives for a displacement stays what it was, but where the estimate knows how long the hold was.
+PassivityBound bound_at_longest_holds(MotorConstants motor, SampledLoop loop, std::size_t terms) {
+  const double longer = loop.longest_hold() / loop.sample_period;
+  const bool is_measured = loop.has_device && loop.velocity.estimator == estimator_kind::interval_difference;
+  motor.velocity_gain *= is_measured ? 1 : longer;
+  for (MotorMode& mode : motor.modes) mode.velocity_drive *= is_measured ? 1 : longer;
+  loop.velocity.cutoff /= longer;
+  loop.velocity.acceleration /= longer * longer;
+  loop.sample_period = loop.longest_hold();
+  loop.jitter = 0;
+  return passivity_bound(motor, loop, terms);
+}
+
+}  // namespace
+
+PassivityBound bound_by_gap(const MotorConstants& motor, const SampledLoop& loop, double gap, std::size_t terms) {
+  if (!needs_jitter_gap(loop)) return passivity_bound(motor, loop, terms);
+  if (!std::isfinite(gap)) return not_proved("the amplifier lags, and nothing is proved of it under the jitter");
+  PassivityBound bound = bound_at_longest_holds(motor, loop, terms);
+  bound.constant_period_only = false;
+  bound.needed *= gap;
+  return bound;
+}
+
+PassivityBound bound_beside_slips_by_gap(const MotorConstants& linear, const SlipMotor& slips, const SampledLoop& loop,
+                                         double gap, std::size_t terms) {
+  const bool is_there = !slips.behind_contact && !linear.is_idle();
+  return is_there ? bound_by_gap(linear, loop, gap, terms) : bound_beside_slips(linear, slips, loop, terms);
+}
+
+double jitter_gap(const MotorConstants& motor, const SampledLoop& loop) {
+  if (!needs_jitter_gap(loop)) return 1;
+  const PassivityBound necessary = bound_at_longest_holds(motor, loop, most_terms / 10);
+  if (necessary.proof == Proof::none) return 1;
+  const std::optional<double> beside = needed_beside(motor, loop);
+  const std::optional<double> one_for_all =
+      beside ? estimate_for_all_holds(is_one_linear_loop(motor, loop) ? motor : position_driven(motor), loop)
+             : std::nullopt;
+  const std::optional<double> by_sample = needed_sample_by_sample(motor, std::nullopt, loop);
+  const double needed = std::min(one_for_all ? *one_for_all + *beside : HUGE_VAL, by_sample ? *by_sample : HUGE_VAL);
+  if (!std::isfinite(needed)) return HUGE_VAL;
+  return necessary.needed > 0 ? std::max(needed / necessary.needed, 1.0) : 1;
+}
+
+PassivityBound stated_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop,
+                            const Rational& there) {
+  const bool is_lifted = motor && loop.amplifier_lag > 0 && loop.jitter > 0;
+  return is_lifted ? under_jitter(passivity_bound(motor, loop), *motor, loop, there) : proved_bound(motor, loop);
 }
 
 }  // namespace dashpot::compiler

@@ -5,6 +5,7 @@
 
 #include "certify/convex_search.hpp"
 #include "certify/curve_bound.hpp"
+#include "certify/estimator_factors.hpp"
 #include "certify/proved_bound.hpp"
 #include "decompose/spectrum.hpp"
 #include "discretise/discretise.hpp"
@@ -19,6 +20,10 @@ constexpr std::size_t search_terms = most_terms / 10;
 // Share of the bound over frequencies by which the storage function that proves it may be above it, and as much again
 // for the search for that function, which is a search.
 constexpr double proof_reserve = 2 * most_storage_excess;
+
+constexpr double gap_tolerance = 1e-3;  // of what jitter asks for
+
+constexpr int most_looks = 4;  // at what jitter asks for, where a search went by too little or too much
 
 // Beyond the precision of the bounds.
 bool is_noticeably_less(double x, double y) { return x < y * (1 - 1e-6); }
@@ -44,6 +49,11 @@ CandidateSettler::CandidateSettler(const Network& network, const NormalForm& for
       slips_(slip_motor(network, form, decomposition, choices, loop_)) {}
 
 void CandidateSettler::settle(Candidate& candidate) {
+  if (looks_at_gaps_) {
+    gaps_.clear();
+    gap_.reset();
+    is_changed_by_look(candidate.state_input, std::min(candidate.damping, loop_.max_damping));
+  }
   if (candidate.name == "faithful" && !device_.is_ideal()) settle_faithful(candidate);
   else settle_named(candidate);
 }
@@ -59,6 +69,7 @@ void CandidateSettler::settle_named(Candidate& candidate) {
       if (is_better(merit, *best)) best = &merit;
   }
   take(candidate, *best);
+  if (is_changed_by_look(candidate.state_input, candidate.damping)) settle_at(candidate);
   if (!device_.is_ideal()) make_room(candidate);
 }
 
@@ -69,7 +80,13 @@ void CandidateSettler::settle_faithful(Candidate& candidate) {
                        const PassivityBound found = bound(input, damping, search_terms);
                        return found.proof == Proof::none ? std::nullopt : std::optional(found.needed);
                      }});
-  const FaithfulFind found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
+  FaithfulFind found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
+  const auto is_to_be_found_anew = [&] {
+    const FoundOption& it = found.options[found.choice.chosen];
+    return is_changed_by_look(lines[it.line].state_input, it.option.damping);
+  };
+  for (int round = 0; round < most_looks && is_to_be_found_anew(); ++round)
+    found = find_faithful(lines, reach(), choices_.tolerance, device_.velocity_noise());
   const FoundOption& chosen = found.options[found.choice.chosen];
   place(candidate, chosen.option.damping);
   candidate.state_input = lines[chosen.line].state_input;
@@ -163,14 +180,45 @@ const std::optional<MotorConstants>& CandidateSettler::without_brake(StateInput 
 }
 
 // Whatever b: it is only in the velocity gain, b∞ − b.
-PassivityBound CandidateSettler::bound(StateInput input, double damping, std::size_t terms) {
+std::optional<MotorConstants> CandidateSettler::motor_at(StateInput input, double damping) {
   std::optional<MotorConstants> motor = without_brake(input);
-  if (motor) {
-    motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
-    motor->brake = damping;
-  }
-  if (network_.map && motor) return behind_curve(std::move(*motor), damping);
-  return motor && slips_ ? passivity_bound(*motor, *slips_, loop_) : passivity_bound(motor, loop_, terms);
+  if (!motor) return motor;
+  motor->velocity_gain -= rounded(Real(damping), choices_.scalar);
+  motor->brake = damping;
+  return motor;
+}
+
+PassivityBound CandidateSettler::bound(StateInput input, double damping, std::size_t terms) {
+  const std::optional<MotorConstants> motor = motor_at(input, damping);
+  if (!motor) return passivity_bound(motor, loop_, terms);
+  if (network_.map) return behind_curve(*motor, damping);
+  const double gap = gap_of(input);
+  if (!slips_) return bound_by_gap(*motor, loop_, gap, terms);
+  return with_slips(bound_beside_slips_by_gap(*motor, *slips_, loop_, gap, terms), *slips_, loop_);
+}
+
+double CandidateSettler::gap_of(StateInput input) const {
+  const auto known = gaps_.find(input);
+  return known != gaps_.end() ? known->second : gap_.value_or(1);
+}
+
+// Whether bound() has gone by another gap than is found at that damping; from then on it goes by that.
+bool CandidateSettler::is_changed_by_look(StateInput input, double damping) {
+  const bool is_asked_for = looks_at_gaps_ && needs_jitter_gap(loop_) && !network_.map;
+  const std::optional<MotorConstants> motor = is_asked_for ? motor_at(input, damping) : std::nullopt;
+  if (!motor || (slips_ && slips_->behind_contact)) return false;
+  const auto [look, is_new] = looks_.try_emplace({input, damping});
+  if (is_new) look->second = jitter_gap(*motor, loop_) * (1 + gap_tolerance);
+  const double before = gap_of(input), is = look->second;
+  if (is == before || std::abs(is - before) <= gap_tolerance * before) return false;
+  gap_ = gaps_[input] = is;
+  return true;
+}
+
+void CandidateSettler::assume_jitter_gap(double gap) {
+  gap_ = gap;
+  gaps_.clear();
+  looks_at_gaps_ = false;
 }
 
 // As if the law had no map, and lacked as much.
@@ -219,9 +267,11 @@ void CandidateSettler::take(Candidate& candidate, const StateInputMerit& merit) 
 
 void CandidateSettler::make_room(Candidate& candidate) {
   if (!candidate.minimum_damping || candidate.certified == true || slips_) return;
-  const std::optional<double> fitting = largest_fitting(candidate.state_input, candidate.damping);
-  if (!fitting) return;
   const double wanted = candidate.wanted_damping;
+  std::optional<double> fitting = largest_fitting(candidate.state_input, candidate.damping);
+  for (int round = 0; round < most_looks && fitting && is_changed_by_look(candidate.state_input, *fitting); ++round)
+    fitting = largest_fitting(candidate.state_input, candidate.damping);
+  if (!fitting) return;
   place(candidate, *fitting);
   candidate.wanted_damping = wanted;
   settle_at(candidate);

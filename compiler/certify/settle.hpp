@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "certify/certificate.hpp"
 #include "certify/faithful_search.hpp"
@@ -33,6 +34,10 @@ class CandidateSettler {
   void place(Candidate& candidate, double damping);
   // settle() without a choice: of the damping and the state input that the candidate has.
   void settle_at(Candidate& candidate);
+  // What jitter asks for beyond what is necessary (proved_bound.hpp) is looked at for the damping that settle()
+  // chooses; from here on it is taken for `gap`.
+  void assume_jitter_gap(double gap);
+  double last_jitter_gap() const { return gap_.value_or(1); }  // of the candidate that was settled last
   // Of what is felt of a candidate with so much added to its damping [N·s/m], over the band [1].
   double largest_error(const Candidate& candidate, double added);
 
@@ -46,6 +51,9 @@ class CandidateSettler {
   SearchReach reach() const;
   const std::optional<MotorConstants>& without_brake(StateInput input);
   PassivityBound bound(StateInput input, double damping, std::size_t terms = most_terms);
+  std::optional<MotorConstants> motor_at(StateInput input, double damping);
+  double gap_of(StateInput input) const;
+  bool is_changed_by_look(StateInput input, double damping);
   PassivityBound behind_curve(MotorConstants motor, double damping) const;
   void weigh(Candidate& candidate, StateInputMerit& merit);
   void take(Candidate& candidate, const StateInputMerit& merit);
@@ -62,6 +70,10 @@ class CandidateSettler {
   std::optional<SlipMotor> slips_;
   std::map<StateInput, std::optional<MotorConstants>> motors_;
   std::map<StateInput, std::unique_ptr<FeltError>> felt_;
+  std::map<std::pair<StateInput, double>, double> looks_;  // at the gap of jitter, by damping
+  std::map<StateInput, double> gaps_;                      // of the candidate that is settled
+  std::optional<double> gap_;                              // of its state inputs that have not been looked at
+  bool looks_at_gaps_ = true;
 };
 
 }  // namespace dashpot::compiler

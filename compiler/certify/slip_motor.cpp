@@ -5,6 +5,7 @@
 
 #include "certify/cut.hpp"
 #include "certify/held_slips.hpp"
+#include "certify/motor_limits.hpp"
 #include "discretise/mode_coefficients.hpp"
 #include "discretise/rounding.hpp"
 
@@ -133,14 +134,12 @@ class Sum {
 }  // namespace
 
 double lateness(const SampledLoop& loop) {
-  const double share = loop.amplifier_lag / loop.sample_period;
-  const double spread = share > 0 ? share / 2 / std::tanh(1 / (2 * share)) : 0;
-  return (loop.delay_samples + 1 + std::sqrt(spread)) * (1 + 1e-14);
+  const double lag = time_of_lag(loop);
+  return (loop.delay_samples + 1 + (std::isfinite(lag) ? lag / (2 * loop.longest_hold()) : 0)) * (1 + 1e-14);
 }
 
 double stiffness_share(const SlipMotor& motor, const SampledLoop& loop) {
-  const bool is_late = loop.delay_samples > 0;
-  if (is_late && motor.springs_alone && loop.amplifier_lag == 0) return 1 + 2.0 * loop.delay_samples;
+  if (motor.springs_alone) return (2 * lateness(loop) - 1) * (1 + 1e-14);
   return lateness(loop) * lateness(loop);
 }
 

@@ -7,10 +7,12 @@
 // so that for any motion, any jitter up to T_max, whatever slides, sticks, touches or lets go, a constant damping of
 //     β T_max + (b∞(cut) − min x) T_max/h
 // is enough. A force that comes n samples late, or through an amplifier of lag τ, differs from the one that would be
-// passive, part by part, by no more than the share n + 1 + √((τ/2T) coth(T/2τ)) of what a hold does: β takes its
-// square. Where no damper crosses the cut, and without lag, β takes 1 + 2n: the work of all parts on the increments of
-// their forces, Δp δ, sums to no less than nothing for slips, dampers and contacts, and on the cut to Σ (1 + a) ΔF²/2c
-// at least, so that ‖ΔF‖ ≤ 2β ‖Δu‖. A motor that adds −κ v̂ with a constant κ, and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ γ T_max/h.
+// passive, part by part, by no more than the share s = n + 1 + L/2T_max of what the longest hold does: β takes its
+// square. L = 2 √(T_max τ (1 − q²_T)/2)/(1 − q), q of the shortest hold and q_T of the longest, is the lag's
+// (motor_limits.hpp): what is lacking after a hold is q of what was, less the next change, and √(τ (1 − q²)/2) of it is
+// felt over the hold. Where no damper crosses the cut, β takes 2s − 1: the work of all parts on the increments of their
+// forces, Δp δ, sums to no less than nothing for slips, dampers and contacts, and on the cut to Σ (1 + a) ΔF²/2c at
+// least, so that ‖ΔF‖ ≤ 2β ‖Δu‖. A motor that adds −κ v̂ with a constant κ, and ‖v̂‖₂ ≤ γ ‖Δu/h‖₂, adds κ γ T_max/h.
 // What a ramp takes back is (1 − ε) (h/T_max) of the brake's own excess in every sample that the estimate knows of, and
 // adds nothing.
 #pragma once
@@ -41,10 +43,10 @@ struct SlipMotor {
 std::optional<SlipMotor> slip_motor(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                                     const Choices& choices, const SampledLoop& loop);
 
-// n + 1 + √((τ/2T) coth(T/2τ)), not below it.
+// s, not below it; without the lag where two samples may follow at once, of which nothing is proved.
 double lateness(const SampledLoop& loop);
 
-// What β counts for in a loop that is late: 1 + 2n, or the square of that, not below it.
+// What β counts for in a loop that is late: 2s − 1 or s², not below it.
 double stiffness_share(const SlipMotor& motor, const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -18,7 +18,9 @@ namespace {
 namespace checker = dashpot_check;
 
 constexpr std::size_t most_states_in_digits = 30;  // beyond, 50 digits take seconds
-constexpr std::size_t most_states_in_common = 18;  // beyond, so does the search of one P for all holds
+// Beyond, so does the search of one P for all holds, which rounding ends early besides: it is left for laws of which
+// nothing else is known.
+constexpr std::size_t most_states_in_common = 18, most_states_in_common_at_all = 30;
 
 using Complex = std::complex<double>;
 
@@ -130,19 +132,37 @@ std::vector<double> angles_of_interest(double binding) {
   return angles;
 }
 
-// What the states are divided by, as powers of two.
-std::vector<double> scales(const Recursion<double>& r, const OneHold& lag, double hold, double damping,
-                           double binding) {
-  const Response response(r);
-  std::vector<double> squares(std::size_t(r.A.rows()), 0.0);
-  for (const double angle : angles_of_interest(binding)) {
-    const std::vector<Complex> x = response.at(angle);
-    const double left = std::max(damping - needed_at(r, lag, hold, x), damping * 1e-12);
-    for (std::size_t i = 0; i < x.size(); ++i) squares[i] = std::max(squares[i], std::norm(x[i]) * hold / left);
+// What the states are divided by, as powers of two: their excursions over the angles of interest, whatever the damping.
+class StateScales {
+ public:
+  StateScales(const Recursion<double>& r, const OneHold& lag, double hold, double binding) : hold_(hold) {
+    const Response response(r);
+    for (const double angle : angles_of_interest(binding)) {
+      const std::vector<Complex> x = response.at(angle);
+      places_.push_back({needed_at(r, lag, hold, x), {}});
+      for (const Complex& state : x) places_.back().squares.push_back(std::norm(state));
+    }
   }
-  for (double& square : squares) square = square > 0 ? std::exp2(std::round(std::log2(square) / 2)) : 1;
-  return squares;
-}
+
+  std::vector<double> at(double damping) const {
+    std::vector<double> squares(places_.front().squares.size(), 0.0);
+    for (const Place& place : places_) {
+      const double left = std::max(damping - place.needed, damping * 1e-12);
+      for (std::size_t i = 0; i < squares.size(); ++i)
+        squares[i] = std::max(squares[i], place.squares[i] * hold_ / left);
+    }
+    for (double& square : squares) square = square > 0 ? std::exp2(std::round(std::log2(square) / 2)) : 1;
+    return squares;
+  }
+
+ private:
+  struct Place {
+    double needed;                // S(θ)
+    std::vector<double> squares;  // |x_i(θ)|²
+  };
+  double hold_;
+  std::vector<Place> places_;
+};
 
 // P = −X, X the stabilising solution of AᵀXA − X − (AᵀXB + S)(R + BᵀXB)⁻¹(·)ᵀ − Q = 0 (Chu, Fan & Lin 2005).
 template <class Scalar>
@@ -245,11 +265,13 @@ std::pair<double, double> largest_need(const Recursion<double>& r, const OneHold
 
 class StorageSearch {
  public:
+  // Not `is_proved`: what is found is so as doubles tell.
   StorageSearch(const checker::Program& program, const checker::LoopForm& loop, const checker::Device& device,
-                const SampledBound& bound)
+                const SampledBound& bound, bool is_proved)
       : program_(program),
         loop_(loop),
         device_(device),
+        is_proved_(is_proved),
         hold_(device.sample_period + device.jitter),
         lag_(one_hold(hold_, device.amplifier_lag)) {
     const Recursion<double> r = recursion<double>(loop, lag_);
@@ -257,6 +279,7 @@ class StorageSearch {
     const bool is_scaled = lag_.spread == 0 && device.estimator != name_of(estimator_kind::interval_difference);
     std::tie(supremum_, angle_) = largest_need(r, lag_, hold_, is_scaled ? bound.attained * jitter : 0,
                                                2 * std::numbers::pi * bound.frequency * device.sample_period);
+    scales_.emplace(r, lag_, hold_, angle_);
   }
 
   double supremum() const { return supremum_; }
@@ -265,47 +288,94 @@ class StorageSearch {
 
   std::optional<StorageProof> at(double damping, bool in_doubles) const {
     if (!(damping > 0)) return std::nullopt;
-    const std::vector<double> scale = scales(recursion<double>(loop_, lag_), lag_, hold_, damping, angle_);
+    const std::vector<double> scale = scales_->at(damping);
     const std::optional<checker::Storage> storage = in_doubles
                                                         ? found_storage<double>(loop_, lag_, hold_, damping, scale)
                                                         : found_storage<Real>(loop_, lag_, hold_, damping, scale);
-    if (!storage || !checker::proves(program_, device_, *storage, damping)) return std::nullopt;
+    if (!storage || !proves(*storage, damping)) return std::nullopt;
     return StorageProof{damping, *storage, in_doubles};
   }
 
-  // One for all holds that is next to the best: from `damping`, where there is one.
-  std::optional<StorageProof> best_for_all(double damping) const {
-    const std::vector<double> scale = scales(recursion<double>(loop_, lag_), lag_, hold_, damping, angle_);
+  // One for all holds that is next to the best, up to `excess`: from `damping`, where there is one.
+  std::optional<StorageProof> best_for_all(double damping, double excess) const {
+    const std::vector<double> scale = scales_->at(damping);
     const std::optional<checker::Storage> first = found_storage<double>(loop_, lag_, hold_, damping, scale);
     if (!first) return std::nullopt;
-    const Eigen::Index n = Eigen::Index(states());
-    CommonStorage start{1, Dense<double>(n, n)};
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j <= i; ++j)
-        start.P(i, j) = start.P(j, i) =
-            (*first)[std::size_t(i)][std::size_t(j)] * scale[std::size_t(i)] * scale[std::size_t(j)];
-    const double unit = std::sqrt(hold_ / damping);
-    std::vector<HoldInequality> holds;
-    for (const checker::Hold& hold : checker::holds(device_)) holds.push_back(inequality(hold, scale, unit, damping));
-    const std::optional<CommonStorage> best = least_common_storage(holds, start, 1e-4);
+    const std::optional<CommonStorage> best =
+        least_common_storage(inequalities(scale, damping), {1, scaled(*first, scale)}, excess);
     if (!best) return std::nullopt;
     checker::Storage storage(states());
-    for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j <= i; ++j)
-        storage[std::size_t(i)].push_back(best->P(i, j) / (scale[std::size_t(i)] * scale[std::size_t(j)]));
+    for (std::size_t i = 0; i < states(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        storage[i].push_back(best->P(Eigen::Index(i), Eigen::Index(j)) / (scale[i] * scale[j]));
     const double least = best->damping * damping;
-    if (!checker::proves(program_, device_, storage, least)) return std::nullopt;
+    if (!proves(storage, least)) return std::nullopt;
     return StorageProof{least, storage, true};
   }
 
+  // The P of the longest hold, where it serves all others too: at as little more than the supremum as is found soon.
+  std::optional<StorageProof> longest_for_all() const {
+    constexpr double first_tried = 1e-4, most_tried = 100;  // beyond the supremum, relative to it
+    double fails = 0, serves = first_tried;
+    std::optional<StorageProof> best = longest_for_all_at(serves);
+    for (; !best && serves < most_tried; best = longest_for_all_at(serves)) fails = serves, serves *= 2;
+    for (int i = 0; i < 3 && best && fails > 0; ++i) {
+      const double middle = std::sqrt(fails * serves);
+      if (std::optional<StorageProof> less = longest_for_all_at(middle)) best = std::move(less), serves = middle;
+      else fails = middle;
+    }
+    if (!best || proves(best->storage, best->damping)) return best;
+    return at(best->damping * (1 + 1e-6), true);
+  }
+
  private:
-  // In the coordinates of the search: states over `scale`, inputs over `unit`, dampings over `damping`.
-  HoldInequality inequality(const checker::Hold& hold, const std::vector<double>& scale, double unit,
+  bool proves(const checker::Storage& storage, double damping) const {
+    return !is_proved_ || checker::proves(program_, device_, storage, damping);
+  }
+
+  // As doubles tell.
+  std::optional<StorageProof> longest_for_all_at(double excess) const {
+    const double damping = supremum_ * (1 + excess);
+    if (!(damping > 0)) return std::nullopt;
+    const std::vector<double> scale = scales_->at(damping);
+    std::optional<checker::Storage> storage = found_storage<double>(loop_, lag_, hold_, damping, scale);
+    if (!storage) return std::nullopt;
+    const CommonStorage tried{1, scaled(*storage, scale)};
+    for (const HoldInequality& hold : inequalities(scale, damping))
+      if (!serves(hold, tried)) return std::nullopt;
+    return StorageProof{damping, std::move(*storage), true};
+  }
+
+  static Dense<double> scaled(const checker::Storage& storage, const std::vector<double>& scale) {
+    const Eigen::Index n = Eigen::Index(scale.size());
+    Dense<double> P(n, n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j <= i; ++j)
+        P(i, j) = P(j, i) = storage[std::size_t(i)][std::size_t(j)] * scale[std::size_t(i)] * scale[std::size_t(j)];
+    return P;
+  }
+
+  // Of all holds, in the coordinates of the search: states over `scale`, inputs over a unit, dampings over `damping`.
+  // Corners that doubles do not tell apart are one.
+  std::vector<HoldInequality> inequalities(const std::vector<double>& scale, double damping) const {
+    if (holds_.empty())
+      for (const checker::Hold& hold : checker::holds(device_)) {
+        const OneHold one{nearest<double>(hold.rate), nearest<double>(hold.decay), nearest<double>(hold.share),
+                          nearest<double>(hold.spread)};
+        const bool is_known = std::any_of(holds_.begin(), holds_.end(), [&](const auto& known) {
+          return known.first.rate == one.rate && known.first.decay == one.decay && known.first.share == one.share;
+        });
+        if (!is_known) holds_.emplace_back(one, recursion<double>(loop_, one));
+      }
+    std::vector<HoldInequality> all;
+    for (const auto& [hold, r] : holds_) all.push_back(inequality(hold, r, scale, damping));
+    return all;
+  }
+
+  HoldInequality inequality(const OneHold& hold, const Recursion<double>& r, const std::vector<double>& scale,
                             double damping) const {
-    const OneHold lag{nearest<double>(hold.rate), nearest<double>(hold.decay), nearest<double>(hold.share),
-                      nearest<double>(hold.spread)};
-    const Recursion<double> r = recursion<double>(loop_, lag);
-    const Eigen::Index n = r.A.rows(), all = n + (lag.spread == 0 ? 1 : 2);
+    const double unit = std::sqrt(hold_ / damping);
+    const Eigen::Index n = r.A.rows(), all = n + (hold.spread == 0 ? 1 : 2);
     HoldInequality result{Dense<double>::Zero(n, all), Dense<double>::Zero(all, all), Dense<double>::Zero(all, all)};
     for (Eigen::Index i = 0; i < n; ++i) {
       const double by = scale[std::size_t(i)];
@@ -313,21 +383,24 @@ class StorageSearch {
       result.next(i, n) = r.B(i, 0) * unit / by;
       result.constant(i, n) = result.constant(n, i) = r.C(0, i) * by * unit / 2;
     }
-    const double share = damping * unit * unit / nearest<double>(hold.longest);
+    const double share = damping * unit * unit * hold.rate;
     result.constant(n, n) = -r.stiffness * unit * unit / 2;
     result.damping(n, n) = share;
     if (all == n + 1) return result;
     result.constant(n - 1, n + 1) = result.constant(n + 1, n - 1) = scale.back() * unit / 2;
-    result.damping(n + 1, n + 1) = share / lag.spread;
+    result.damping(n + 1, n + 1) = share / hold.spread;
     return result;
   }
 
   const checker::Program& program_;
   const checker::LoopForm& loop_;
   const checker::Device& device_;
+  bool is_proved_;
   double hold_;  // the longest [s]
   OneHold lag_;  // over it
   double supremum_ = 0, angle_ = 0;
+  std::optional<StateScales> scales_;
+  mutable std::vector<std::pair<OneHold, Recursion<double>>> holds_;  // all that differ, when first asked for
 };
 
 // Empty where the estimator's coefficients, as rounded, are not what the checker derives.
@@ -350,22 +423,18 @@ std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::siz
   return std::nullopt;
 }
 
-// One P for holds of all lengths, behind an amplifier's lag or of intervals that vary, if not more than `most` is
-// needed. Of many states the P of the longest has to serve all.
-std::optional<StorageProof> jittered_proof(const StorageSearch& search, double most) {
-  constexpr double most_tried = 100, near_enough = 1.01;  // relative to the supremum
-  if (search.states() <= most_states_in_common)
+// One P for holds of all lengths, behind an amplifier's lag or of intervals that vary. The P of the longest may serve
+// all where that asks for hardly more than is necessary, and of many states it has to.
+std::optional<StorageProof> jittered_proof(const StorageSearch& search, bool is_soon) {
+  constexpr double most_tried = 100;  // relative to the supremum
+  constexpr double hardly_more = 1.01;
+  const std::optional<StorageProof> of_longest = search.longest_for_all();
+  if (is_soon && of_longest && of_longest->damping < search.supremum() * hardly_more) return of_longest;
+  if (search.states() <= (of_longest ? most_states_in_common : most_states_in_common_at_all))
     for (double serves = 2; serves < most_tried; serves *= 2)
-      if (std::optional<StorageProof> proof = search.best_for_all(search.supremum() * serves))
-        return proof->damping <= most ? proof : std::nullopt;
-  double fails = 1, serves = std::min(most_tried, most / search.supremum());
-  std::optional<StorageProof> best = search.at(search.supremum() * serves, true);
-  while (best && serves > near_enough * fails) {
-    const double middle = std::sqrt(fails * serves);
-    if (std::optional<StorageProof> proof = search.at(search.supremum() * middle, true)) best = proof, serves = middle;
-    else fails = middle;
-  }
-  return best;
+      if (std::optional<StorageProof> proof = search.best_for_all(search.supremum() * serves, is_soon ? 1e-3 : 1e-4))
+        return of_longest && of_longest->damping < proof->damping ? of_longest : proof;
+  return of_longest;
 }
 
 }  // namespace
@@ -416,31 +485,60 @@ checker::Program checked_program(const MotorConstants& motor) {
   return program;
 }
 
-std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
-                                          std::optional<double> stated, double most) {
+namespace {
+
+// What `find` finds for a motor on a device with its estimator, if there is anything to find.
+template <class Find>
+std::optional<StorageProof> found_proof(const MotorConstants& motor, const SampledLoop& loop, bool is_proved,
+                                        Find find) {
   const std::optional<EstimatorFactors> factors =
       motor.follows_estimate() ? estimator_factors(loop) : EstimatorFactors{};
-  if (!factors) return std::nullopt;
+  const bool may_follow_at_once = needs_one_for_all_holds(motor, loop) && loop.jitter >= loop.sample_period;
+  if (!factors || may_follow_at_once) return std::nullopt;
   const checker::Device device = checked_device(loop);
   const checker::Program program = checked_program(motor);
-  const std::optional<checker::LoopForm> known = loop_form_of(program, device);
-  if (!known) return std::nullopt;
-  const checker::LoopForm& form = *known;
-  const std::size_t n = form.states.size();
-  if (n > most_storage_states) return std::nullopt;
-  if (form.force.empty() && form.stiffness == 0) {
+  const std::optional<checker::LoopForm> form = loop_form_of(program, device);
+  if (!form || form->states.size() > most_storage_states) return std::nullopt;
+  if (form->force.empty() && form->stiffness == 0) {
     StorageProof idle;
-    for (std::size_t i = 0; i < n; ++i) idle.storage.emplace_back(i + 1, 0.0);
+    for (std::size_t i = 0; i < form->states.size(); ++i) idle.storage.emplace_back(i + 1, 0.0);
     return idle;
   }
   const NeededDamping needed(motor, loop, *factors);
-  const StorageSearch search(program, form, device, sampled_bound(needed, loop.sample_period, most_terms / 10));
-  if (search.supremum() > most) return std::nullopt;
-  for (const bool in_doubles : {true, false})
-    if (stated && *stated > search.supremum() && (in_doubles || n <= most_states_in_digits))
-      if (std::optional<StorageProof> proof = search.at(*stated, in_doubles)) return proof;
-  const bool is_one_for_all = loop.jitter > 0 && (loop.amplifier_lag > 0 || divides_by_varying_interval(loop));
-  return is_one_for_all ? jittered_proof(search, most) : punctual_proof(search, n);
+  const SampledBound bound = sampled_bound(needed, loop.sample_period, most_terms / 10);
+  return find(StorageSearch(program, *form, device, bound, is_proved));
+}
+
+}  // namespace
+
+bool needs_one_for_all_holds(const MotorConstants& motor, const SampledLoop& loop) {
+  return loop.jitter > 0 && (loop.amplifier_lag > 0 || (motor.follows_estimate() && divides_by_varying_interval(loop)));
+}
+
+std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
+                                          std::optional<double> stated) {
+  return found_proof(motor, loop, true, [&](const StorageSearch& search) {
+    for (const bool in_doubles : {true, false})
+      if (stated && *stated > search.supremum() && (in_doubles || search.states() <= most_states_in_digits))
+        if (std::optional<StorageProof> proof = search.at(*stated, in_doubles)) return proof;
+    return needs_one_for_all_holds(motor, loop) ? jittered_proof(search, false)
+                                                : punctual_proof(search, search.states());
+  });
+}
+
+std::optional<StorageProof> proof_for_all_holds(const MotorConstants& motor, const SampledLoop& loop,
+                                                std::optional<double> enough) {
+  return found_proof(motor, loop, true, [&](const StorageSearch& search) {
+    const bool may_be_enough = !enough || search.supremum() <= *enough;
+    std::optional<StorageProof> proof = may_be_enough ? jittered_proof(search, true) : std::nullopt;
+    return proof && (!enough || proof->damping <= *enough) ? proof : jittered_proof(search, false);
+  });
+}
+
+std::optional<double> estimate_for_all_holds(const MotorConstants& motor, const SampledLoop& loop) {
+  const std::optional<StorageProof> found =
+      found_proof(motor, loop, false, [](const StorageSearch& search) { return jittered_proof(search, true); });
+  return found ? std::optional(found->damping) : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

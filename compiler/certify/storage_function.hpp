@@ -8,7 +8,6 @@
 // nothing here has to be believed.
 #pragma once
 
-#include <limits>
 #include <optional>
 
 #include "certify/certificate.hpp"
@@ -31,11 +30,22 @@ dashpot_check::Device checked_device(const SampledLoop& loop);
 // A motor as the checker would read it from a header.
 dashpot_check::Program checked_program(const MotorConstants& motor);
 
+// Whether the length of a hold changes more than what a damping turns into heat in it: behind an amplifier's lag, and
+// where the estimate divides by that length. One P has then to serve holds of all lengths.
+bool needs_one_for_all_holds(const MotorConstants& motor, const SampledLoop& loop);
+
 // For `stated` where that is proved. Else not more than 1e-8 above the supremum over all frequencies, if doubles do and
-// samples are punctual, else as little above as is found; with jitter times T_max/T, and behind an amplifier's lag what
-// one P for all holds needs. Empty where nothing is proved, and where more than `most` is necessary.
+// samples are punctual, else as little above as is found; with jitter times T_max/T, and where one P serves all holds
+// next to what the best of them needs. Empty where nothing is proved.
 std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
-                                          std::optional<double> stated = std::nullopt,
-                                          double most = std::numeric_limits<double>::infinity());
+                                          std::optional<double> stated = std::nullopt);
+
+// One P for all holds, as above. Found sooner, with up to a hundredth more damping, where that is no more than `enough`
+// or that is empty.
+std::optional<StorageProof> proof_for_all_holds(const MotorConstants& motor, const SampledLoop& loop,
+                                                std::optional<double> enough);
+
+// The damping of such a proof that is found soon, as doubles tell, sooner still: for a search [N·s/m].
+std::optional<double> estimate_for_all_holds(const MotorConstants& motor, const SampledLoop& loop);
 
 }  // namespace dashpot::compiler

@@ -9,6 +9,9 @@ namespace dashpot::compiler {
 
 PassivityBound not_proved(std::string reason);
 
+// The reason where samples are so late that two may follow at once.
+inline constexpr const char* at_once = "the amplifier lags, and the jitter is a sample or more";
+
 // Of an estimator that nothing is known of.
 std::string not_proved_for(const SampledLoop& loop);
 

@@ -112,18 +112,17 @@ class Verification {
 
   void recompute_bounds(const PortDevice& device) {
     const SampledLoop loop = sampled_loop(device, 1 / *certificate_.choices.rate);
-    PassivityBound bound = proved_bound(motor_of(groups_), loop);
     const double brake = value_of(groups_, "damping"), added = value_of(groups_, "added_damping");
     const bool is_too_small = is_correctly_rounded(0, Reference(certificate_.damping), header_.scalar);
     const double damping = is_too_small ? 0 : certificate_.damping;
+    const double alone = brake_command({}, loop, damping, header_.scalar);
+    const PassivityBound bound = stated_bound(motor_of(groups_), loop, assured_damping(loop, alone));
     const double expected = brake_command(bound, loop, damping, header_.scalar);
     expect("brake command", brake, expected);
-    const double alone = brake_command({}, loop, damping, header_.scalar);
     const double of_it = header_.scalar == ScalarType::float64 ? expected - alone : double(float(expected - alone));
     expect("added damping", added, of_it);
     const Rational assured = assured_damping(loop, brake);
     expect("assured damping", certificate_.assured_damping, assured.convert_to<double>());
-    bound = under_jitter(std::move(bound), motor_of(groups_), std::nullopt, loop, assured);
     if (bound.proof != Proof::none) expect("needed damping", certificate_.needed_damping, bound.needed);
     const bool certified = bound.proof != Proof::none && assured >= Rational(bound.needed);
     if (certificate_.proof != name_of(bound.proof) || certificate_.certified != certified)

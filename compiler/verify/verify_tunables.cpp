@@ -93,8 +93,7 @@ void TunableVerification::recompute_bounds() {
   const auto gain = estimate_gain(loop);
   const Rational exact_share = assured_share(loop);
   const Reference share = Reference(numerator(exact_share)) / Reference(denominator(exact_share));
-  const Reference hold =
-      loop.amplifier_lag > 0 ? Reference(1) : Reference(Reference(loop.longest_hold()) / Reference(loop.sample_period));
+  const Reference hold = Reference(loop.longest_hold()) / Reference(loop.sample_period);
   const ReferenceLoop around{hold, lateness(loop), share, gain ? std::optional(Reference(*gain)) : std::nullopt,
                              reference_pulse(loop)};
   const auto box =

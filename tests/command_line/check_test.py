@@ -292,8 +292,12 @@ class CheckTest(CommandTest):
     def test_measured_interval(self):
         device = json.loads(PANTOGRAPH.read_text())
         device["velocity"] = {"estimator": "interval_difference"}
+        with self.subTest("an amplifier that lags"): self.check_measured_interval(device)
         del device["motor"]["amplifier_lag"]
         device["assumed"].remove("motor.amplifier_lag")
+        with self.subTest("no lag"): self.check_measured_interval(device)
+
+    def check_measured_interval(self, device):
         law = [FIG_5, "--device", self.write("measured.json", json.dumps(device)), "--decomposition", "zero-frequency"]
         header, certificate = self.compiled(law)
         accepted, words = self.said(header, certificate)

@@ -21,21 +21,25 @@ constexpr std::size_t most_states_in_digits = 30;  // beyond, 50 digits take sec
 // Beyond, so does the search of one P for all holds, which rounding ends early besides: it is left for laws of which
 // nothing else is known.
 constexpr std::size_t most_states_in_common = 18, most_states_in_common_at_all = 30;
+constexpr double most_off_in_doubles = 1e-10;  // relative, of a supremum; beyond, it is taken in 50 digits
 
-using Complex = std::complex<double>;
+template <class Scalar>
+using Complex = std::complex<Scalar>;
 
 template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
 // 1/T, and q, p, κ of an amplifier's lag; of none q = p = κ = 0.
+template <class Scalar>
 struct OneHold {
-  double rate, decay = 0, share = 0, spread = 0;
+  Scalar rate, decay = 0, share = 0, spread = 0;
 };
 
-OneHold one_hold(double hold, double lag) {
-  if (lag == 0) return {1 / hold};
+template <class Scalar>
+OneHold<Scalar> one_hold(double hold, double lag) {
+  if (lag == 0) return {1 / Scalar(hold)};
   const Real x = Real(hold) / Real(lag), q = exp(-x), p = (1 - q) / x;
-  return {1 / hold, to_double(q), to_double(p), to_double(p * ((1 + q) / 2 - p))};
+  return {1 / Scalar(hold), Scalar(q), Scalar(p), Scalar(p * ((1 + q) / 2 - p))};
 }
 
 // x⁺ = A x + B w, what is multiplied by w, C, and e.
@@ -52,7 +56,7 @@ Scalar nearest(const checker::Rational& value) {
 }
 
 template <class Scalar>
-Recursion<Scalar> recursion(const checker::LoopForm& loop, const OneHold& hold) {
+Recursion<Scalar> recursion(const checker::LoopForm& loop, const OneHold<Scalar>& hold) {
   const Eigen::Index n = Eigen::Index(loop.states.size());
   Recursion<Scalar> r{Dense<Scalar>::Zero(n, n), Dense<Scalar>::Zero(n, 1), Dense<Scalar>::Zero(1, n),
                       nearest<Scalar>(loop.stiffness)};
@@ -62,7 +66,7 @@ Recursion<Scalar> recursion(const checker::LoopForm& loop, const OneHold& hold) 
     for (const auto& [name, value] : loop.next.at(loop.states[std::size_t(i)])) {
       const Scalar factor = nearest<Scalar>(value);
       if (name == "w") r.B(i, 0) += factor;
-      else if (name == "pace") r.B(i, 0) += factor * Scalar(hold.rate);
+      else if (name == "pace") r.B(i, 0) += factor * hold.rate;
       else r.A(i, place.at(name)) = factor;
     }
   for (const auto& [name, value] : loop.force) r.C(0, place.at(name)) = nearest<Scalar>(value);
@@ -74,33 +78,34 @@ Recursion<Scalar> recursion(const checker::LoopForm& loop, const OneHold& hold) 
 }
 
 // x(θ) = (zI − A)⁻¹ B. The states stand so that A is lower triangular but for a few rows of the estimator.
+template <class Scalar>
 class Response {
  public:
-  explicit Response(const Recursion<double>& r) : r_(r) {
+  explicit Response(const Recursion<Scalar>& r) : r_(r) {
     for (Eigen::Index i = 0, end = 0; i < r.A.rows(); i = end) {
       for (end = i + 1; end < r.A.rows() && reads_beyond(i, end); ++end) continue;
       blocks_.emplace_back(i, end);
     }
   }
 
-  std::vector<Complex> at(double angle) const {
-    const double sine = std::sin(angle / 2);
-    const Complex less_one(-2 * sine * sine, std::sin(angle));  // z − 1
-    std::vector<Complex> x(std::size_t(r_.A.rows()));
+  std::vector<Complex<Scalar>> at(double angle) const {
+    using Matrix = Dense<Complex<Scalar>>;
+    using std::sin;
+    const Scalar sine = sin(Scalar(angle) / 2);
+    const Complex<Scalar> less_one(-2 * sine * sine, sin(Scalar(angle)));  // z − 1
+    std::vector<Complex<Scalar>> x(std::size_t(r_.A.rows()));
     for (const auto& [from, end] : blocks_) {
       const Eigen::Index size = end - from;
-      Eigen::MatrixXcd left = Eigen::MatrixXcd::Zero(size, size);
-      Eigen::VectorXcd right(size);
+      Matrix left = Matrix::Zero(size, size), right(size, 1);
       for (Eigen::Index i = from; i < end; ++i) {
-        right(i - from) = r_.B(i, 0);
+        right(i - from, 0) = r_.B(i, 0);
         for (Eigen::Index j = 0; j < from; ++j)
-          if (r_.A(i, j) != 0) right(i - from) += r_.A(i, j) * x[std::size_t(j)];
+          if (r_.A(i, j) != 0) right(i - from, 0) += r_.A(i, j) * x[std::size_t(j)];
         for (Eigen::Index j = from; j < end; ++j)
-          left(i - from, j - from) = i == j ? less_one + (1 - r_.A(i, i)) : Complex(-r_.A(i, j));
+          left(i - from, j - from) = i == j ? less_one + Scalar(1 - r_.A(i, i)) : Complex<Scalar>(-r_.A(i, j));
       }
-      const Eigen::VectorXcd solution =
-          size == 1 ? Eigen::VectorXcd(right / left(0, 0)) : left.partialPivLu().solve(right);
-      for (Eigen::Index i = from; i < end; ++i) x[std::size_t(i)] = solution(i - from);
+      const Matrix solution = size == 1 ? Matrix(right / left(0, 0)) : Matrix(left.partialPivLu().solve(right));
+      for (Eigen::Index i = from; i < end; ++i) x[std::size_t(i)] = solution(i - from, 0);
     }
     return x;
   }
@@ -109,22 +114,26 @@ class Response {
   bool reads_beyond(Eigen::Index from, Eigen::Index end) const {
     return (r_.A.block(from, end, end - from, r_.A.cols() - end).array() != 0).any();
   }
-  const Recursion<double>& r_;
+  const Recursion<Scalar>& r_;
   std::vector<std::pair<Eigen::Index, Eigen::Index>> blocks_;
 };
 
 // The damping that the loop needs at one frequency, S(θ).
-double needed_at(const Recursion<double>& r, const OneHold& lag, double hold, const std::vector<Complex>& x) {
-  double answer = r.stiffness / 2;
+template <class Scalar>
+Scalar needed_at(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double hold,
+                 const std::vector<Complex<Scalar>>& x) {
+  using std::sqrt;
+  Scalar answer = r.stiffness / 2;
   for (std::size_t i = 0; i < x.size(); ++i) answer -= r.C(0, Eigen::Index(i)) * x[i].real();
-  if (lag.spread == 0) return hold * answer;
-  return hold * (answer + std::hypot(answer, std::sqrt(lag.spread) * std::abs(x.back()))) / 2;
+  if (lag.spread == 0) return Scalar(hold) * answer;
+  return Scalar(hold) * (answer + sqrt(answer * answer + lag.spread * std::norm(x.back()))) / 2;
 }
 
 std::vector<double> angles_of_interest(double binding) {
   std::vector<double> angles = {std::numbers::pi};
   for (int i = 0; i < 420; ++i) angles.push_back(std::numbers::pi * std::pow(10.0, -13.5 * i / 420));
   for (int i = 0; i <= 80; ++i) angles.push_back(std::numbers::pi * i / 80);
+  for (int i = 0; i < 120; ++i) angles.push_back(std::numbers::pi * (1 - std::pow(10.0, -8.0 * i / 120) / 2));
   for (int i = -100; i <= 100; ++i) {
     const double near = binding + (i < 0 ? -1 : 1) * binding * std::pow(10.0, -8.0 * (100 - std::abs(i)) / 100) / 2;
     if (near > 0 && near <= std::numbers::pi) angles.push_back(near);
@@ -133,14 +142,15 @@ std::vector<double> angles_of_interest(double binding) {
 }
 
 // What the states are divided by, as powers of two: their excursions over the angles of interest, whatever the damping.
+template <class Scalar>
 class StateScales {
  public:
-  StateScales(const Recursion<double>& r, const OneHold& lag, double hold, double binding) : hold_(hold) {
-    const Response response(r);
+  StateScales(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double hold, double binding) : hold_(hold) {
+    const Response<Scalar> response(r);
     for (const double angle : angles_of_interest(binding)) {
-      const std::vector<Complex> x = response.at(angle);
-      places_.push_back({needed_at(r, lag, hold, x), {}});
-      for (const Complex& state : x) places_.back().squares.push_back(std::norm(state));
+      const std::vector<Complex<Scalar>> x = response.at(angle);
+      places_.push_back({double(needed_at(r, lag, hold, x)), {}});
+      for (const Complex<Scalar>& state : x) places_.back().squares.push_back(double(std::norm(state)));
     }
   }
 
@@ -189,7 +199,7 @@ std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>
 }
 
 template <class Scalar>
-std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, const OneHold& lag, double hold,
+std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, const OneHold<Scalar>& lag, double hold,
                                               double damping, const std::vector<double>& scale) {
   const Recursion<Scalar> r = recursion<Scalar>(loop, lag);
   const Eigen::Index n = r.A.rows(), inputs = lag.spread == 0 ? 1 : 2;
@@ -204,7 +214,7 @@ std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, con
     S(i, 0) = r.C(0, i) * by(i, 0) * unit / Scalar(2);
   }
   R(0, 0) -= r.stiffness * unit * unit / Scalar(2);
-  if (inputs == 2) S(n - 1, 1) = by(n - 1, 0) * unit * sqrt(Scalar(lag.spread)) / Scalar(2);
+  if (inputs == 2) S(n - 1, 1) = by(n - 1, 0) * unit * sqrt(lag.spread) / Scalar(2);
   const std::optional<Dense<Scalar>> P = riccati<Scalar>(A, B, S, R);
   if (!P) return std::nullopt;
   checker::Storage storage(loop.states.size());
@@ -244,10 +254,11 @@ std::vector<double> runtime_coefficients(const velocity_description& v, double T
 }
 
 // The largest S(θ) that is found, and where: `attained` at `angle`, and what lies near the angles of interest.
-std::pair<double, double> largest_need(const Recursion<double>& r, const OneHold& lag, double hold, double attained,
-                                       double angle) {
-  const Response response(r);
-  const auto need = [&](double at) { return needed_at(r, lag, hold, response.at(at)); };
+template <class Scalar>
+std::pair<double, double> largest_need(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double hold,
+                                       double attained, double angle) {
+  const Response<Scalar> response(r);
+  const auto need = [&](double at) { return double(needed_at(r, lag, hold, response.at(at))); };
   std::vector<double> angles = angles_of_interest(angle > 0 ? angle : 1);
   std::sort(angles.begin(), angles.end());
   std::size_t best = 0;
@@ -257,7 +268,8 @@ std::pair<double, double> largest_need(const Recursion<double>& r, const OneHold
   double low = angles[best == 0 ? 0 : best - 1], high = angles[std::min(best + 1, angles.size() - 1)];
   for (int i = 0; i < 60; ++i) {
     const double third = (high - low) / 3;
-    (need(low + third) < need(high - third) ? low : high) += (need(low + third) < need(high - third) ? third : -third);
+    const bool rises = need(low + third) < need(high - third);
+    (rises ? low : high) += rises ? third : -third;
   }
   most = std::max(most, need((low + high) / 2));
   return most > attained ? std::pair(most, (low + high) / 2) : std::pair(attained, angle);
@@ -273,12 +285,19 @@ class StorageSearch {
         device_(device),
         is_proved_(is_proved),
         hold_(device.sample_period + device.jitter),
-        lag_(one_hold(hold_, device.amplifier_lag)) {
-    const Recursion<double> r = recursion<double>(loop, lag_);
+        lag_(one_hold<double>(hold_, device.amplifier_lag)),
+        lag_in_digits_(one_hold<Real>(hold_, device.amplifier_lag)) {
     const double jitter = hold_ / device.sample_period;
     const bool is_scaled = lag_.spread == 0 && device.estimator != name_of(estimator_kind::interval_difference);
-    std::tie(supremum_, angle_) = largest_need(r, lag_, hold_, is_scaled ? bound.attained * jitter : 0,
-                                               2 * std::numbers::pi * bound.frequency * device.sample_period);
+    const double attained = is_scaled ? bound.attained * jitter : 0;
+    const double angle = 2 * std::numbers::pi * bound.frequency * device.sample_period;
+    const Recursion<double> r = recursion<double>(loop, lag_);
+    std::tie(supremum_, angle_) = largest_need(r, lag_, hold_, attained, angle);
+    // A pole next to −1 keeps few digits in doubles.
+    const Recursion<Real> exact = recursion<Real>(loop, lag_in_digits_);
+    const double there = double(needed_at(exact, lag_in_digits_, hold_, Response<Real>(exact).at(angle_)));
+    if (!(std::abs(supremum_ - there) <= most_off_in_doubles * supremum_))
+      std::tie(supremum_, angle_) = largest_need(exact, lag_in_digits_, hold_, attained, angle);
     scales_.emplace(r, lag_, hold_, angle_);
   }
 
@@ -288,10 +307,9 @@ class StorageSearch {
 
   std::optional<StorageProof> at(double damping, bool in_doubles) const {
     if (!(damping > 0)) return std::nullopt;
-    const std::vector<double> scale = scales_->at(damping);
-    const std::optional<checker::Storage> storage = in_doubles
-                                                        ? found_storage<double>(loop_, lag_, hold_, damping, scale)
-                                                        : found_storage<Real>(loop_, lag_, hold_, damping, scale);
+    const std::optional<checker::Storage> storage =
+        in_doubles ? found_storage<double>(loop_, lag_, hold_, damping, scales_->at(damping))
+                   : found_storage<Real>(loop_, lag_in_digits_, hold_, damping, scales_in_digits().at(damping));
     if (!storage || !proves(*storage, damping)) return std::nullopt;
     return StorageProof{damping, *storage, in_doubles};
   }
@@ -329,6 +347,12 @@ class StorageSearch {
   }
 
  private:
+  const StateScales<Real>& scales_in_digits() const {
+    if (!scales_in_digits_)
+      scales_in_digits_.emplace(recursion<Real>(loop_, lag_in_digits_), lag_in_digits_, hold_, angle_);
+    return *scales_in_digits_;
+  }
+
   bool proves(const checker::Storage& storage, double damping) const {
     return !is_proved_ || checker::proves(program_, device_, storage, damping);
   }
@@ -360,8 +384,8 @@ class StorageSearch {
   std::vector<HoldInequality> inequalities(const std::vector<double>& scale, double damping) const {
     if (holds_.empty())
       for (const checker::Hold& hold : checker::holds(device_)) {
-        const OneHold one{nearest<double>(hold.rate), nearest<double>(hold.decay), nearest<double>(hold.share),
-                          nearest<double>(hold.spread)};
+        const OneHold<double> one{nearest<double>(hold.rate), nearest<double>(hold.decay), nearest<double>(hold.share),
+                                  nearest<double>(hold.spread)};
         const bool is_known = std::any_of(holds_.begin(), holds_.end(), [&](const auto& known) {
           return known.first.rate == one.rate && known.first.decay == one.decay && known.first.share == one.share;
         });
@@ -372,7 +396,7 @@ class StorageSearch {
     return all;
   }
 
-  HoldInequality inequality(const OneHold& hold, const Recursion<double>& r, const std::vector<double>& scale,
+  HoldInequality inequality(const OneHold<double>& hold, const Recursion<double>& r, const std::vector<double>& scale,
                             double damping) const {
     const double unit = std::sqrt(hold_ / damping);
     const Eigen::Index n = r.A.rows(), all = n + (hold.spread == 0 ? 1 : 2);
@@ -396,11 +420,13 @@ class StorageSearch {
   const checker::LoopForm& loop_;
   const checker::Device& device_;
   bool is_proved_;
-  double hold_;  // the longest [s]
-  OneHold lag_;  // over it
+  double hold_;          // the longest [s]
+  OneHold<double> lag_;  // over it
+  OneHold<Real> lag_in_digits_;
   double supremum_ = 0, angle_ = 0;
-  std::optional<StateScales> scales_;
-  mutable std::vector<std::pair<OneHold, Recursion<double>>> holds_;  // all that differ, when first asked for
+  std::optional<StateScales<double>> scales_;
+  mutable std::optional<StateScales<Real>> scales_in_digits_;                 // when first asked for
+  mutable std::vector<std::pair<OneHold<double>, Recursion<double>>> holds_;  // all that differ, when first asked for
 };
 
 // Empty where the estimator's coefficients, as rounded, are not what the checker derives.
@@ -414,7 +440,7 @@ std::optional<checker::LoopForm> loop_form_of(const checker::Program& program, c
 
 // As near above the supremum as one of the steps allows.
 std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::size_t states) {
-  for (double slack = 4e-9; slack < 0.1; slack *= 10) {
+  for (const double slack : {4e-9, 9e-9, 4e-8, 4e-7, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2}) {
     const double damping = search.supremum() * (1 + slack);
     for (const bool in_doubles : {true, false})
       if (in_doubles || states <= most_states_in_digits)

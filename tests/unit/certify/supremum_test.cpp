@@ -2,8 +2,11 @@
 // modes, estimators whose poles lie next to 1 or to −1.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <dashpot/estimators/kalman.hpp>
+#include <map>
+#include <string>
 
 #include "certify/storage_function.hpp"
 #include "linear/real_traits.hpp"
@@ -92,26 +95,37 @@ struct Peak {
   Digits fastest;  // the largest angle seen at which all of it is needed but a thousandth
 };
 
-// The highest of angles spread over the decades next to rest and next to Nyquist, and what lies around it.
+// The highest of angles spread over the decades next to rest and next to Nyquist, and what lies around it and around
+// every other that is next to as high: a long window has many peaks.
 Peak peak_in_digits(const MotorConstants& motor, const SampledLoop& loop, int points) {
-  std::vector<Digits> angles;
-  for (int i = 0; i <= points; ++i) {
-    const Digits share = pow(Digits(10), Digits(-14) * i / points);
-    angles.push_back(half_turn() * share);
-    angles.push_back(half_turn() * (1 - share / 2));
-    if (i > 0) angles.push_back(half_turn() * i / points);
-  }
-  Peak peak = {angles.front(), needed_in_digits(motor, loop, angles.front()), 0};
   std::vector<std::pair<Digits, Digits>> seen;
   const auto look_at = [&](const Digits& angle) {
     seen.emplace_back(angle, needed_in_digits(motor, loop, angle));
-    if (seen.back().second > peak.needed) peak.angle = angle, peak.needed = seen.back().second;
+    return seen.back().second;
   };
-  for (const Digits& angle : angles) look_at(angle);
-  const Digits reach = std::min(peak.angle, Digits(half_turn() - peak.angle));
-  for (Digits step = (reach > 0 ? reach : peak.angle) / 4; step > 1e-12 * peak.angle; step *= Digits(0.6))
-    for (const Digits& angle : {Digits(peak.angle - step), Digits(peak.angle + step)})
-      if (angle > 0 && angle <= half_turn()) look_at(angle);
+  for (int i = 0; i <= points; ++i) {
+    const Digits share = pow(Digits(10), Digits(-14) * i / points);
+    look_at(half_turn() * share);
+    look_at(half_turn() * (1 - share / 2));
+    if (i > 0) look_at(half_turn() * i / points);
+  }
+  std::sort(seen.begin(), seen.end());
+  const auto highest = std::ranges::max_element(seen, {}, [](const auto& one) { return one.second; });
+  const Digits most = highest->second, rounding = abs(most) * 1e-12;
+  std::vector<Peak> peaks = {{highest->first, most, 0}};
+  for (std::size_t i = 1; i + 1 < seen.size(); ++i) {
+    const auto& [angle, needed] = seen[i];
+    const bool is_peak = needed > seen[i - 1].second + rounding && needed > seen[i + 1].second + rounding;
+    if (is_peak && needed < most && needed > 0.99 * most) peaks.push_back({angle, needed, 0});
+  }
+  for (Peak& peak : peaks) {
+    const Digits reach = std::min(peak.angle, Digits(half_turn() - peak.angle));
+    for (Digits step = (reach > 0 ? reach : peak.angle) / 4; step > 1e-12 * peak.angle; step *= Digits(0.6))
+      for (const Digits& angle : {Digits(peak.angle - step), Digits(peak.angle + step)})
+        if (angle > 0 && angle <= half_turn())
+          if (const Digits needed = look_at(angle); needed > peak.needed) peak.angle = angle, peak.needed = needed;
+  }
+  Peak peak = *std::ranges::max_element(peaks, {}, &Peak::needed);
   for (const auto& [angle, needed] : seen)
     if (needed >= 0.999 * peak.needed) peak.fastest = std::max(peak.fastest, angle);
   return peak;
@@ -213,34 +227,68 @@ double extracted_share(const MotorConstants& motor, const SampledLoop& loop, dou
   return most.convert_to<double>();
 }
 
-// A storage function would prove less damping than some frequency needs, or the statement ask for more than 1e-8 beyond
-// it; or with 0.95 of what is proved there would be no motion that gets energy out of the loop: of a sinusoid in its
-// steady state (1/0.95 − 1) of what the damping takes up, and of no motion more.
-TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) {
-  const std::uint64_t cases = repetitions(25, 5000);
-  std::uint64_t proved = 0, nearly = 0, needed = 0, extracted = 0;
-  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+// Why there is no storage function; in the checker's words, where it does not know the loop.
+std::string reason_for_none(const MotorConstants& motor, const SampledLoop& loop) {
+  if (!estimator_factors(loop)) return "the estimate's recursion, as rounded, does not die away";
+  try {
+    const std::size_t states = dashpot_check::loop_form(checked_program(motor), checked_device(loop)).states.size();
+    return states > most_storage_states ? "it has too many states" : "none is found";
+  } catch (const dashpot_check::Unknown& unknown) {
+    return unknown.what();
+  }
+}
+
+// What is proved of random motors on random devices, which are punctual: no P has to serve more than one hold.
+struct Proved {
+  std::uint64_t all = 0, nearly = 0, needed = 0, extracted = 0;
+  std::map<std::string, int> unproved;
+
+  void take(std::uint64_t seed) {
     SCOPED_TRACE(seed);
     Random random(seed + 17000);
     const SampledLoop loop = extreme_loop(random);
     const MotorConstants motor = extreme_motor(random, loop.sample_period);
     const std::optional<StorageProof> proof = estimator_factors(loop) ? storage_proof(motor, loop) : std::nullopt;
-    if (!proof) continue;
-    ++proved;
+    if (!proof) {
+      ++unproved[reason_for_none(motor, loop)];
+      return;
+    }
+    ++all;
     const Peak peak = peak_in_digits(motor, loop, 120);
     EXPECT_GE(Digits(proof->damping), peak.needed);
     nearly += proof->damping <= peak.needed * (1 + 1e-8) ? 1 : 0;
-    if (peak.needed <= 0) continue;
+    if (peak.needed <= 0) return;
     ++needed;
     const double share = extracted_share(motor, loop, 0.95 * proof->damping, peak.fastest);
     EXPECT_LE(share, 1 / 0.95 - 1 + 1e-8);
     extracted += share >= 0.04 ? 1 : 0;
   }
+};
+
+// A storage function would prove less damping than some frequency needs, or the statement ask for more than 1e-8 beyond
+// it; or with 0.95 of what is proved there would be no motion that gets energy out of the loop: of a sinusoid in its
+// steady state (1/0.95 − 1) of what the damping takes up, and of no motion more.
+TEST(Supremum, IsWhatStorageFunctionsProveOfRandomMotors) {
+  const std::uint64_t cases = repetitions(25, 5000);
+  Proved proved;
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) proved.take(seed);
   std::printf("%d proved, %d of them within 1e-8 of the supremum; 0.95 of it is too little for a motion in %d of %d\n",
-              int(proved), int(nearly), int(extracted), int(needed));
-  EXPECT_GE(proved, cases * 9 / 10);
-  EXPECT_GE(nearly, proved * 9 / 10);
-  EXPECT_GE(extracted, needed * 95 / 100);
+              int(proved.all), int(proved.nearly), int(proved.extracted), int(proved.needed));
+  for (const auto& [reason, count] : proved.unproved) std::printf("%d not proved: %s\n", count, reason.c_str());
+  EXPECT_GE(proved.all, cases * 9 / 10);
+  EXPECT_GE(proved.nearly, proved.all * 99 / 100);
+  EXPECT_GE(proved.extracted, proved.needed * 95 / 100);
+}
+
+// Doubles would keep too few digits of a pole next to −1, of an estimate that follows every sample, to find the
+// supremum or a P near it; no state would be looked at where a filter near half the rate rings; or the test
+// see the lower of two peaks that a long window has.
+TEST(Supremum, IsWhatStorageFunctionsProveNearHalfTheRate) {
+  Proved proved;
+  const std::uint64_t seeds[] = {52, 99, 196, 261, 376, 76, 215, 255, 1191};
+  for (const std::uint64_t seed : seeds) proved.take(seed);
+  EXPECT_EQ(proved.all, std::size(seeds));
+  EXPECT_EQ(proved.nearly, std::size(seeds));
 }
 
 // A pole of the filter next to −1 would keep no digits, and the bound fall below the supremum.

@@ -165,10 +165,10 @@ Form estimate(const Device& device, LoopForm& loop) {
     if (std::fabs(given - derived) <= off * std::fabs(derived)) return Rational(given);
     throw Unknown("a coefficient of the estimator is not what its description gives");
   };
-  const long double T = device.sample_period;
+  const long double T = device.sample_period, turn = std::acos(-1.0L), share = device.cutoff * device.sample_period;
   const Form arriving = loop.next.at(displacement(device.delay_samples));
   if (kind == "butterworth") {  // sections of two trapezoidal integrators
-    const long double turn = std::acos(-1.0L), warped = std::tan(turn * (device.cutoff * T));
+    const long double warped = std::sin(turn * share) / std::sin(turn * (0.5L - share));
     Form value = coefficient(1 / T) * arriving;
     const Rational g = coefficient(warped);
     for (unsigned i = 0, order = device.order < 4 ? 2 : 4; i < order / 2; ++i) {

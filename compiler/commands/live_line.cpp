@@ -26,7 +26,8 @@ void LiveLine::show(const telemetry_record& record) {
 
 void LiveLine::print() {
   const double elapsed = time_ - last_time_;
-  const double rate = elapsed > 0 ? double(records_) / elapsed : 0;
+  const double periods = shown_ ? double(records_) : double(records_) - 1;  // the first record begins one
+  const double rate = elapsed > 0 ? periods / elapsed : 0;
   const char* force = rotary_ ? "N m" : "N";
   const char* damping = rotary_ ? "N m s/rad" : "N s/m";
   const std::string line = fmt::format(

@@ -58,6 +58,20 @@ std::string shedding(const servo_summary& summary) {
       static_cast<unsigned long long>(summary.shed), summary.least_share);
 }
 
+// Of a balance that was below zero: what may have come out, beside what the springs held before.
+std::string debt(const servo_summary& summary) {
+  if (summary.lowest_energy >= 0) return "";
+  const double stored = summary.stored_at_start;
+  if (stored > 0 && summary.lowest_energy >= -stored)
+    return print(": below zero, but the springs held %.4g J when the run began, and no more than that came out",
+                 stored);
+  const std::string beyond = stored > 0
+                                 ? print(": the springs held %.4g J when the run began; beyond that the tool", stored)
+                                 : std::string(": below zero the tool");
+  return beyond +
+         " may have got more than it gave; of the brake's heat only what the encoder's steps leave certain is counted";
+}
+
 // A command that has left need not have arrived.
 const char* ending(const servo_summary& summary) {
   if (summary.safe_confirmed) return "device left safe";
@@ -76,12 +90,9 @@ std::string to_text(const servo_summary& summary) {
          print("clipped   %llu commands at the motor's limit, %llu at the brake's\n", count(summary.motor_clipped),
                count(summary.brake_clipped)) +
          shedding(summary) + timing(summary) + faults(summary.faults) +
-         print("energy    %.6g J that motor and brake took from the tool, never below %.6g J%s\n", summary.energy,
-               summary.lowest_energy,
-               summary.lowest_energy < 0 ? ": below zero the tool may have got more than it gave; of the brake's heat "
-                                           "only what the encoder's steps leave certain is counted"
-                                         : "") +
-         losses(summary) +
+         print("energy    %.6g J that motor and brake took from the tool, never below %.6g J", summary.energy,
+               summary.lowest_energy) +
+         debt(summary) + "\n" + losses(summary) +
          (summary.verdict == admission::admitted ? "" : "warning   the law is not certified on this device\n") +
          print("ended     %s, %s\n", name_of(summary.state), ending(summary));
 }

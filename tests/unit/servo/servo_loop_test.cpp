@@ -317,6 +317,26 @@ struct float_spring {
   float position_ = 0;  // [m]
 };
 
+// Broken, energy that comes out of springs that were pressed before the run would be told as made from nothing.
+TEST(ServoLoopScalar, TellsWhatTheSpringsHeldAtTheStart) {
+  scripted_device device;
+  device.on_read([](std::size_t, device_sample& sample) {
+    sample.position = 0.002;
+    return device_status::ok;
+  });
+  float_spring model;
+  any_estimator<float> estimator(device.description().velocity, 0.001, device.description().encoder.step);
+  servo_options options;
+  options.duration = 0.01;
+  options.outputs.log = nullptr;
+  servo_summary summary = servo_loop(model, device, estimator, options, simulated_clock{}).run();
+  EXPECT_NEAR(summary.stored_at_start, 20 * 0.002 * 0.002, 1e-10);
+  summary.lowest_energy = -0.9 * summary.stored_at_start;
+  EXPECT_NE(to_text(summary).find("no more than that came out\n"), std::string::npos) << to_text(summary);
+  summary.lowest_energy = -1.1 * summary.stored_at_start;
+  EXPECT_NE(to_text(summary).find("beyond that the tool may have got more than it gave"), std::string::npos);
+}
+
 // Broken, a model in single precision could not run, or its numbers would be rounded twice on their way.
 TEST(ServoLoopScalar, FloatModelAndEstimatorRun) {
   scripted_device device, same_motion;

@@ -92,6 +92,7 @@ class arm_path {
     for (unsigned i = 0; i < arm_.brake_count; ++i) sum += brakes_[i].energy.balance();
     return sum;
   }
+  double stored_at_start() const noexcept { return stored_at_start_; }
   fault_place place() const noexcept { return place_; }  // of the newest fault
 
   bool is_safe(const arm_actuation& applied) const noexcept {
@@ -279,6 +280,7 @@ class arm_path {
     const scalar position[arm_axes] = {static_cast<scalar>(sample.position[0]),
                                        static_cast<scalar>(sample.position[1])};
     model_.reset(position);
+    stored_at_start_ = static_cast<double>(model_.stored_energy());
     for (unsigned j = 0; j < arm_axes; ++j) {
       joints_[j].feed.reset(sample.of_joint(j));
       joints_[j].energy.reset(sample.position[j]);
@@ -342,6 +344,7 @@ class arm_path {
   double position_[arm_axes] = {};               // [rad] or [m]
   double velocity_[arm_axes] = {};               // [rad/s] or [m/s]
   double tip_[2] = {};                           // [m]
+  double stored_at_start_ = 0;                   // [J]
   fault_place place_;
   bool at_rest_ = false;
   bool answered_ = false;

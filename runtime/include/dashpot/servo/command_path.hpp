@@ -91,7 +91,8 @@ class command_path {
   const actuation& safe() const noexcept { return safe_; }
   bool has_answered() const noexcept { return answered_; }      // this period's sample reached the model
   double energy() const noexcept { return energy_.balance(); }  // taken from the tool since start(), at least [J]
-  static fault_place place() noexcept { return {}; }            // of a fault: there is one axis
+  double stored_at_start() const noexcept { return stored_at_start_; }  // by the model [J]
+  static fault_place place() noexcept { return {}; }                    // of a fault: there is one axis
 
   // Whether what a device applies is the safe command, to the rounding of one in single precision.
   bool is_safe(const actuation& applied) const noexcept {
@@ -176,6 +177,7 @@ class command_path {
   void rest_at(const device_sample& sample) noexcept {
     const double position = actuator_.gear().tool_motion(sample.position);
     model_.reset(static_cast<scalar>(position));
+    stored_at_start_ = static_cast<double>(model_.stored_energy());
     energy_.reset(position);
     feed_.reset(sample);
     at_rest_ = true;
@@ -221,6 +223,7 @@ class command_path {
   double position_ = 0;  // [m] or [rad]
   double velocity_ = 0;  // [m/s] or [rad/s]
   double kept_share_ = 1;
+  double stored_at_start_ = 0;  // [J]
   bool at_rest_ = false;
   bool answered_ = false;
   bool has_left_ = false;           // the newest command

@@ -168,6 +168,7 @@ class servo_cycle {
     if (path_.has_answered()) path_.account(summary_);
     summary_.energy = path_.energy();
     if (summary_.energy < summary_.lowest_energy) summary_.lowest_energy = summary_.energy;
+    if (path_.stored_at_start() > summary_.stored_at_start) summary_.stored_at_start = path_.stored_at_start();
   }
 
   record_type record_of(const wake_up& woken, std::int64_t left, bool running) const noexcept {

@@ -36,6 +36,7 @@ struct servo_summary {
   double largest_damping = 0;   // that it wanted of the brake [N·s/m] or [N·m·s/rad]
   double energy = 0;            // taken from the tool by motor and brake since the last start, at least [J]
   double lowest_energy = 0;     // its least value of the whole run; below zero energy was given to the tool [J]
+  double stored_at_start = 0;   // by the model as it started, the most of all starts: this much it may give [J]
   std::uint64_t telemetry_dropped = 0;
   std::uint64_t events_dropped = 0;
   int telemetry_error = 0;  // errno of the first failed write, 0: none

@@ -59,9 +59,10 @@ class FitText {
     const bool is_spectrum = problem_.recordings().front().kind == RecordingKind::frequency;
     text += fmt::format(" at {:.6g} {}", file.largest_time, is_spectrum ? "rad/s" : "s");
     if (is_motion) text += fmt::format(", {}", quantity_text(file.largest_position, units_.position, 4));
-    text +=
-        fmt::format("; neighbours correlate by {:.3f}, {:.4g} effective samples; a gain of {:.4f} would leave least",
-                    file.lag_one, file.effective_samples, file.best_gain);
+    text += fmt::format(
+        "; neighbours correlate by {:.3f}, {:.4g} effective samples; {:.4f} times the network's forces "
+        "would leave least",
+        file.lag_one, file.effective_samples, file.best_gain);
     if (file.gain != 1) text += fmt::format("; gain {:.4f}", file.gain);
     if (file.offset != 0)
       text += fmt::format("; offset {}", quantity_text(file.offset, measured_unit(fit_, problem_), 4));
@@ -120,7 +121,8 @@ class FitText {
 
   std::string path() const {
     std::string text =
-        "\nsizes that were tried, before elements that the data do without are left out\n  relaxations  slips  "
+        "\nsizes that were tried, before elements that the data do without are left out; the least criterion is taken "
+        "(*)\n  relaxations  slips  "
         "springpots  parameters         rms  criterion\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
       const PathEntry& entry = fit_.path[i];

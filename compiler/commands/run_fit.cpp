@@ -13,6 +13,7 @@
 #include "commands/fit_output.hpp"
 #include "emit/write_files.hpp"
 #include "fit/read_recording.hpp"
+#include "network/name_rules.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -49,7 +50,7 @@ std::string command_line(const FitWords& words, const std::string& without = "")
   return text;
 }
 
-// A C++ name of what is left of a path without its folders and its ending.
+// A name that a network may have, of what is left of a path without its folders and its ending.
 std::string name_of_file(const std::string& path) {
   std::string name;
   for (const char c : std::filesystem::path(path).stem().string()) {
@@ -60,7 +61,7 @@ std::string name_of_file(const std::string& path) {
   while (name.ends_with('_')) name.pop_back();
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0) name = "fitted_" + name;
   while (name.ends_with('_')) name.pop_back();
-  return name;
+  return legal_name(name);
 }
 
 class FitCommand {
@@ -97,6 +98,7 @@ class FitCommand {
   }
 
   bool take_words() {
+    if (words_.name && !check_name({*words_.name, {}}, "network", diagnostics_)) return false;
     if (words_.relaxation && words_.creep) return contradicts("--relaxation", "--creep", "a recording is one of them");
     read_.columns.is_relaxation = words_.relaxation;
     read_.columns.is_creep = words_.creep;

@@ -27,19 +27,29 @@ std::optional<Compilation> compiled(const Network& network, Choices choices, con
   return compile(network, choices, device, unheard, unseen);
 }
 
-// Of what is felt, in the band and, with slips, in runs around yield [1].
-double felt_error(const Compilation& c) {
-  return std::max(c.decomposition.choice().largest_error, c.decomposition.slips.error);
+// Of what is felt: in the band or, where slips give way, in runs around yield.
+struct WorstError {
+  double share;       // [1]
+  const char* where;  // empty where there are no such runs
+};
+
+WorstError felt_error(const Compilation& c) {
+  const double in_band = c.decomposition.choice().largest_error, in_runs = c.decomposition.slips.error;
+  if (c.decomposition.slips.merits.empty()) return {in_band, ""};
+  return in_runs > in_band ? WorstError{in_runs, " in runs around yield"} : WorstError{in_band, " in the band"};
 }
+
+// "77.5 % in runs around yield"
+std::string in_words(const WorstError& error) { return in_percent(error.share) + " %" + error.where; }
 
 // What has been tried and is certified.
 struct Remedy {
   double value;
-  double error;  // of what is felt with it [1]
+  WorstError error;  // of what is felt with it
 };
 
 // With what is felt; empty where it is not certified.
-std::optional<double> error_where_certified(const Network& network, const Choices& choices, const Device& device) {
+std::optional<WorstError> error_where_certified(const Network& network, const Choices& choices, const Device& device) {
   const std::optional<Compilation> again = compiled(network, choices, device);
   return again && again->certificate.certified ? std::optional(felt_error(*again)) : std::nullopt;
 }
@@ -163,8 +173,8 @@ class Remedies {
   }
 
   // As the device file writes it; of those that every certificate knows. With what is felt.
-  std::optional<std::pair<std::string, double>> estimator() const {
-    const auto error_with = [this](estimator_kind kind, unsigned window) -> std::optional<double> {
+  std::optional<std::pair<std::string, WorstError>> estimator() const {
+    const auto error_with = [this](estimator_kind kind, unsigned window) -> std::optional<WorstError> {
       Device other = *c_.device;
       const velocity_description own = std::exchange(other.description.velocity, {});
       other.description.velocity.estimator = kind;
@@ -201,7 +211,7 @@ class Remedies {
   std::optional<Remedy> brake_as_told(double damping) const {
     if (!(damping > 0 && damping < 1e300)) return std::nullopt;
     const double told = rounded_up(damping, 4);
-    const std::optional<double> error = error_where_certified(c_.network, choices_, with_brake_at_tool(told));
+    const std::optional<WorstError> error = error_where_certified(c_.network, choices_, with_brake_at_tool(told));
     return error ? std::optional(Remedy{told, *error}) : std::nullopt;
   }
 
@@ -244,9 +254,8 @@ namespace {
 
 void tell_of_jitter(const Compilation& c, const Remedies& remedies, Diagnostics& diagnostics) {
   if (const std::optional<Remedy> jitter = remedies.jitter())
-    diagnostics.note<DiagnosticCode::jitter_that_would_do>({}, jitter->value * 1e3,
-                                                           c.device->description.loop.jitter * 1e3, jitter->value * 1e3,
-                                                           in_percent(jitter->error));
+    diagnostics.note<DiagnosticCode::jitter_that_would_do>(
+        {}, jitter->value * 1e3, c.device->description.loop.jitter * 1e3, jitter->value * 1e3, in_words(jitter->error));
 }
 
 // What the device itself would have to be like: with more friction of the kind that a brake cannot replace, or a loop
@@ -258,19 +267,25 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   const double own = device.mechanics.damping;
   loop_description prompt = device.loop;
   prompt.delay_samples = 0;
-  const bool is_late = device.loop.delay_samples > 0 || device.motor.amplifier_lag > 0;
   if (c.certificate.loop.amplifier_lag > 0) tell_of_jitter(c, remedies, diagnostics);
-  const auto tell = [&](const Remedy& damping, const char* besides) {
+  const auto tell = [&](const Remedy& damping, const std::string& besides) {
     diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping.value, at_tool, remedies.at_tool(own),
                                                                 besides, remedies.at_joint(damping.value), at_joint,
-                                                                in_percent(damping.error));
+                                                                in_words(damping.error));
   };
   if (const auto damping = remedies.own_damping(device.loop, device.motor.amplifier_lag)) return tell(*damping, "");
-  const auto damping = is_late ? remedies.own_damping(prompt, 0) : std::nullopt;
-  if (!damping) return;
-  if (remedies.at_joint(damping->value) > own)
-    return tell(*damping, " with no \"delay_samples\" and no \"amplifier_lag\"");
-  diagnostics.note<DiagnosticCode::prompt_loop_that_would_do>({});
+  const auto tell_without = [&](const loop_description& loop, const char* lateness) {
+    const auto damping = remedies.own_damping(loop, 0);
+    if (!damping) return false;
+    if (remedies.at_joint(damping->value) > own) tell(*damping, fmt::format(" with {}", lateness));
+    else diagnostics.note<DiagnosticCode::prompt_loop_that_would_do>({}, lateness);
+    return true;
+  };
+  // The least change first: often the lag alone stands in the way.
+  if (device.motor.amplifier_lag > 0 && tell_without(device.loop, "no \"amplifier_lag\"")) return;
+  if (device.loop.delay_samples == 0) return;
+  tell_without(prompt, device.motor.amplifier_lag > 0 ? "no \"delay_samples\" and no \"amplifier_lag\""
+                                                      : "no \"delay_samples\"");
 }
 
 }  // namespace
@@ -345,7 +360,7 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
     const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
     if (!again || !again->certificate.certified) continue;
     diagnostics.note<DiagnosticCode::choice_that_would_do>({}, other.options, again->decomposition.choice().damping,
-                                                           unit, in_percent(felt_error(*again)));
+                                                           unit, in_words(felt_error(*again)));
     break;
   }
   const Remedies remedies(c, choices);
@@ -353,16 +368,17 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   if (brake)
     diagnostics.note<DiagnosticCode::brake_that_would_do>(
         {}, brake->value, unit, loop.max_damping, remedies.at_joint(brake->value),
-        port_units(c.device->description.motion).damping, in_percent(brake->error));
+        port_units(c.device->description.motion).damping, in_words(brake->error));
   const double by_loop = available / needed, by_brake = brake ? loop.max_damping / brake->value : 0;
   if (const auto share = remedies.share({std::max(by_loop, by_brake), std::min(by_loop, by_brake)}))
-    diagnostics.note<DiagnosticCode::scale_that_would_do>({}, share->value, in_percent(share->error));
+    diagnostics.note<DiagnosticCode::scale_that_would_do>(
+        {}, share->value, c.form.has_slips() ? ", and its yield forces as they are," : "", in_words(share->error));
   if (const std::optional<Remedy> rate = remedies.rate())
-    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, rate->value, in_percent(rate->error));
+    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, rate->value, in_words(rate->error));
   tell_of_jitter(c, remedies, diagnostics);
   const bool follows = c.decomposition.choice().velocity_gain > 0;
   if (const auto estimator = follows ? remedies.estimator() : std::nullopt)
-    diagnostics.note<DiagnosticCode::estimator_that_would_do>({}, estimator->first, in_percent(estimator->second));
+    diagnostics.note<DiagnosticCode::estimator_that_would_do>({}, estimator->first, in_words(estimator->second));
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
 }
@@ -541,13 +557,13 @@ void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choic
     other.decomposition = "velocity-free";
     if (const auto again = compiled(c.network, other, *c.device); is_proved_at_the_limit(again))
       diagnostics.report<DiagnosticCode::proved_at_the_limit>(
-          {}, "--decomposition velocity-free", again->certificate.limits.needed, unit, in_percent(felt_error(*again)));
+          {}, "--decomposition velocity-free", again->certificate.limits.needed, unit, in_words(felt_error(*again)));
   }
   const Remedies remedies(c, choices);
   if (const std::optional<Remedy> own = remedies.own_damping_at_the_limit())
     diagnostics.report<DiagnosticCode::own_damping_at_the_limit>(
         {}, remedies.at_tool(own->value), unit, remedies.at_tool(c.device->description.mechanics.damping), own->value,
-        port_units(c.device->description.motion).damping, in_percent(own->error));
+        port_units(c.device->description.motion).damping, in_words(own->error));
 }
 
 void warn_of_driving_uncertified(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

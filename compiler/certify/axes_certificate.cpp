@@ -175,11 +175,16 @@ std::string at_joints(double x, const AxesCertificate& c, const AxesDevice& devi
 // Of a place that is told in millimetres, what is less than a nanometre is 0.
 double in_millimetres(double place) { return 1e3 * (std::abs(place) < 1e-9 ? 0 : place); }
 
-// Empty where every port has a bound.
-std::string unproved(const std::vector<CertifiedPort>& ports, const AxesDevice& device) {
+// Empty where it can be told how far the joints go while a force is held.
+std::string unknown_travel(const AxesDevice& device) {
   for (const device_description& joint : device.joints)
     if (joint.encoder.max_speed == 0)
       return "the encoders state no \"max_speed\", which bounds how far the joints go while a force is held";
+  return "";
+}
+
+// Empty where every port has a bound.
+std::string unproved(const std::vector<CertifiedPort>& ports) {
   for (const CertifiedPort& port : ports) {
     // A contact is not proved on one axis where the brake leaves a free tool alone; here what is needed is always
     // there.
@@ -204,10 +209,13 @@ bool are_late(const AxesDevice& device) {
                      [](const device_description& joint) { return joint.motor.amplifier_lag > 0; });
 }
 
-std::string what_is_uncovered(const std::vector<CertifiedPort>& ports, const AxesDevice& device,
-                              const std::optional<double>& estimate_gain) {
+std::string uncovered_in_device(const AxesDevice& device) {
   for (const device_description& joint : device.joints)
     if (joint.motor.slew > 0) return "the motors' slew is limited, which no bound of two axes covers yet";
+  return "";
+}
+
+std::string uncovered_in_ports(const std::vector<CertifiedPort>& ports, const AxesDevice& device) {
   for (const CertifiedPort& port : ports) {
     const std::string of_port = fmt::format("port '{}': ", port.port->name);
     if (varies(port)) return of_port + "its damping changes with its slips, which no bound of two axes covers yet";
@@ -216,7 +224,7 @@ std::string what_is_uncovered(const std::vector<CertifiedPort>& ports, const Axe
       return of_port + "the contact lets go by a velocity estimate, and the loop is late";
     if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and the loop is late";
   }
-  return estimate_gain ? "" : "nothing is known of the gain of the velocity estimator, which the motors follow";
+  return "";
 }
 
 // The loop of a joint, as one axis has it.
@@ -338,10 +346,12 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   }
   c.share = share_of(network, ports, device, rule);
   c.weight = weight_of(device.arm);
-  if (const std::string reason = unproved(ports, device); !reason.empty()) {
-    c.reason = reason;
-    return c;
+  c.reason = unknown_travel(device);
+  if (c.reason.empty()) {
+    c.reason = unproved(ports);
+    c.lies_in_port = !c.reason.empty();
   }
+  if (!c.reason.empty()) return c;
   std::vector<axes::PortLoad> loads;
   for (const CertifiedPort& port : ports) loads.push_back(load_of(port, device.loop().sample_period));
   const axes::SampledLoop loop = loop_of(device);
@@ -377,7 +387,13 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
     for (double& damping : c.added) damping *= 1 + 1e-3;
   }
   c.worst = axes::pose(device.arm, rest.joints).tip;
-  c.uncovered = what_is_uncovered(ports, device, gain);
+  c.uncovered = uncovered_in_device(device);
+  if (c.uncovered.empty()) {
+    c.uncovered = uncovered_in_ports(ports, device);
+    c.lies_in_port = !c.uncovered.empty();
+  }
+  if (c.uncovered.empty() && !gain)
+    c.uncovered = "nothing is known of the gain of the velocity estimator, which the motors follow";
   c.certified = is_settled && c.uncovered.empty() && std::isfinite(c.missing) && is_within_reach(c.added, device);
   for (std::size_t k = 0; k < device.brakes.size(); ++k) {
     const brake_description& brake = device.brakes[k].brake;

@@ -38,6 +38,7 @@ struct AxesCertificate {
   std::vector<double> added;        // to each brake's command [N·m·s/rad] or [N·s/m]
   double added_at_tip = 0;          // that, where and in which direction most of it is felt at the tip [N·s/m]
   std::string uncovered;            // what of this network on this device no bound covers yet; empty: nothing
+  bool lies_in_port = false;        // either of these: another network in a port may have a bound
   bool certified = false;
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "compile_axes.hpp"
@@ -51,10 +52,14 @@ std::string ports_text(const AxesCompilation& c) {
   return text;
 }
 
+// In thousandths, without the sign of a zero.
+double rounded_share(double share) { return std::round(share * 1e3) / 1e3 + 0.0; }
+
 std::string share_row(std::string_view name, const axes::ShareMap& share, bool is_chosen) {
   const std::string place = fmt::format("({:.3g}, {:.3g})", 1e3 * share.worst_at[0], 1e3 * share.worst_at[1]);
-  return fmt::format("{:<14} {:>6.3f} {:>6.3f} {:>6.3f} {:>14} {:>8.3f} {:>8.3f} {:>12.0f}{}\n", name, share.mean,
-                     share.median, share.worst, place, share.worst_direction_median, share.worst_direction_worst,
+  return fmt::format("{:<14} {:>6.3f} {:>6.3f} {:>6.3f} {:>14} {:>8.3f} {:>8.3f} {:>12.0f}{}\n", name,
+                     rounded_share(share.mean), rounded_share(share.median), rounded_share(share.worst), place,
+                     rounded_share(share.worst_direction_median), rounded_share(share.worst_direction_worst),
                      100 * share.delay_proof, is_chosen ? "  chosen" : "");
 }
 
@@ -77,7 +82,9 @@ std::string legend(const AxesCompilation& c) {
       {"k0", "of the port's spring that is left when everything has relaxed"},
       {"b∞", "of the port's damper that is felt at once"},
       {"modes", "springs and dampers in series that relax by themselves"},
-      {"rule", "the decomposition of the port's network that gave b"}};
+      {"rule",
+       "the decomposition of the port's network that gave b; it cannot be chosen. 'contact': the port pushes and never "
+       "pulls, and b is no more than b∞"}};
   const std::pair<const char*, const char*> of_shares[] = {
       {"diagonal", "each brake makes what its joint is to feel; what couples the joints is left to the motors"},
       {"non-injecting", "as much as the brakes can make without the motors bringing energy in"},
@@ -220,6 +227,24 @@ std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) 
   return text;
 }
 
+bool insist_on_certificate(const AxesCompilation& c, const Options& options, Diagnostics& diagnostics) {
+  const AxesCertificate& certificate = c.certificate;
+  if (certificate.certified) return true;
+  const std::string device = c.has_device ? fmt::format("device '{}'", c.device.name) : "an ideal device";
+  const std::string why = why_not_certified(certificate, c.device);
+  if (!certificate.is_proved || !certificate.uncovered.empty()) {
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, why);
+    if (certificate.lies_in_port) diagnostics.note<DiagnosticCode::ports_that_can_be_certified>({});
+    return true;
+  }
+  if (options.uncertified)
+    diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, why);
+  else diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device, why);
+  note_what_would_do(c, diagnostics);
+  if (!options.uncertified) diagnostics.note<DiagnosticCode::compile_uncertified>({});
+  return options.uncertified;
+}
+
 std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const Options& options,
                                                  Diagnostics& diagnostics) {
   const std::string target(options.target->name);
@@ -227,23 +252,8 @@ std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const
   if (target != "cpp") diagnostics.report<DiagnosticCode::target_on_two_axes>(c.network.name_span, target);
   if (option != nullptr) diagnostics.report<DiagnosticCode::option_on_two_axes>(c.network.name_span, option);
   if (target != "cpp" || option != nullptr) return std::nullopt;
-  const AxesCertificate& certificate = c.certificate;
-  const std::string device = c.has_device ? fmt::format("device '{}'", c.device.name) : "an ideal device";
-  if (!certificate.is_proved || !certificate.uncovered.empty()) {
-    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device,
-                                                       why_not_certified(certificate, c.device));
-  } else if (!certificate.certified) {
-    const std::string lacks = why_not_certified(certificate, c.device);
-    if (options.uncertified)
-      diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, lacks);
-    else diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device, lacks);
-    note_what_would_do(c, diagnostics);
-    if (!options.uncertified) {
-      diagnostics.note<DiagnosticCode::compile_uncertified>({});
-      return std::nullopt;
-    }
-  }
-  return emit_axes_cpp(c, options.emission, diagnostics);
+  return insist_on_certificate(c, options, diagnostics) ? emit_axes_cpp(c, options.emission, diagnostics)
+                                                        : std::nullopt;
 }
 
 }  // namespace dashpot::compiler

@@ -25,7 +25,11 @@ std::string explain_axes(const AxesCompilation& compilation, bool as_json, bool 
 // What `compile --print` shows of a stage.
 std::string axes_stage_text(const AxesCompilation& compilation, const std::string& stage);
 
-// The header. Refuses: targets and options that know no two axes, and on a device what lacks damping.
+// Warns of what is not certified, with what could be; true but on a device that lacks damping, which is refused unless
+// --uncertified is given.
+bool insist_on_certificate(const AxesCompilation& compilation, const Options& options, Diagnostics& diagnostics);
+
+// The header. Refuses: targets and options that know no two axes, and what insist_on_certificate() refuses.
 std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& compilation, const Options& options,
                                                  Diagnostics& diagnostics);
 

@@ -77,10 +77,11 @@ std::string range_of(const arm_servo_summary& summary, unsigned brakes, const Po
 }
 
 void warn_of_uncertified_axes(const AxesCompilation& c, Diagnostics& diagnostics) {
-  if (!c.certificate.certified)
-    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name,
-                                                       fmt::format("device '{}'", c.device.name),
-                                                       why_not_certified(c.certificate, c.device));
+  if (c.certificate.certified) return;
+  diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name,
+                                                     fmt::format("device '{}'", c.device.name),
+                                                     why_not_certified(c.certificate, c.device));
+  if (c.certificate.lies_in_port) diagnostics.note<DiagnosticCode::ports_that_can_be_certified>({});
 }
 
 }  // namespace

@@ -77,12 +77,15 @@ void check(const std::string& path, const Options& options, const fitting::ReadC
   } else if (is_device(*file)) {
     axes_of(*file) > 1 ? void(read_axes_device(*file, diagnostics)) : void(read_device(*file, diagnostics));
   } else if (has_two_axes(*file)) {
-    compile_axes(*file, options, device, diagnostics);
+    if (const auto axes = compile_axes(*file, options, device, diagnostics))
+      insist_on_certificate(*axes, options, diagnostics);
   } else if (as_many_axes(*file, device, diagnostics)) {
     Choices choices = options.choices;
     choices.varies_assumed = false;  // nothing is told of it
     const auto compilation = compile(*file, choices, device.device, diagnostics);
-    if (compilation) warn_of_felt_error(*compilation, choices, diagnostics);
+    if (!compilation) return;
+    warn_of_felt_error(*compilation, choices, diagnostics);
+    insist_on_certificate(*compilation, choices, diagnostics);  // as `compile` does
   }
 }
 

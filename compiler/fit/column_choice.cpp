@@ -304,8 +304,16 @@ class Chooser {
       diagnostics_.report<DiagnosticCode::recording_wrong_unit>({}, title, *unit, rule.word, rule.likely_unit);
       return;
     }
+    if (is_named && columns_[*index].unit) warn_of_unit(columns_[*index], *unit, *read);
     add({request.role, *index, request.offset, request.is_negated ? -read->factor : read->factor, read->dimension,
          title});
+  }
+
+  // Where --columns overrules a header that says otherwise.
+  void warn_of_unit(const TableColumn& column, const std::string& asked, const ReadUnit& read) {
+    const std::optional<ReadUnit> stated = unit_in(*column.unit);
+    if (!stated || (stated->factor == read.factor && stated->dimension == read.dimension)) return;
+    diagnostics_.report<DiagnosticCode::recording_unit_overruled>({}, column.title, *column.unit, asked);
   }
 
   // A modulus without a unit, normalised for one, takes that of --scale.

@@ -294,6 +294,46 @@ class AxesTest(CommandTest):
         self.assertLessEqual(max(felt), 1.006 * told)
         self.assertGreater(max(felt), 0.8 * told)
 
+    def test_which_ports_can_be_certified(self):
+        """Fails if the note on ports that can be certified says so of one that is not, or leaves one out, or if `check` does not say of
+        them what `compile` says."""
+        prompt = json.loads(PANTOGRAPH.read_text())
+        del prompt["motors"]["amplifier_lag"]
+        prompt["assumed"].remove("motors.amplifier_lag")
+        prompt["mechanics"]["damping"] = "0.1 N m s/rad"  # more than any of these needs
+        late = json.loads(json.dumps(prompt))
+        late["motors"]["amplifier_lag"] = "0.3 ms"
+        spring, damper, slip = {"spring": "150 N/m"}, {"damper": "0.5 N s/m"}, {"slip": "1 N"}
+        side_by_side, relaxing = {"parallel": [spring, damper]}, {"parallel": [spring, {"series": [spring, damper]}]}
+        sliding = {"series": [slip, spring]}
+        for device, contact, network, is_certified in (
+                (late, False, side_by_side, True), (late, False, relaxing, False), (prompt, False, relaxing, False),
+                (late, True, side_by_side, False), (prompt, True, side_by_side, True), (late, True, relaxing, True),
+                (late, False, sliding, True), (late, False, {"parallel": [sliding, damper]}, True),
+                (late, True, sliding, True), (prompt, True, {"parallel": [sliding, damper]}, False),
+                (prompt, False, {"series": [slip, side_by_side]}, False)):
+            port = {"name": "floor", "map": {"wall": {"through": [0, "110 mm"], "normal": [0, 1]}}, "network": network}
+            if contact:
+                port["contact"] = {"at": 0}
+            self.write("device.json", json.dumps(device))
+            self.write("floor.json", json.dumps({"dashpot": 1, "axes": 2, "name": "soft_floor", "ports": [port]}))
+            with self.subTest(network=network, contact=contact, late=device is late):
+                told = self.dashpot("compile", "floor.json", "--device", "device.json", "-o", "out").stderr
+                self.assertEqual("note: ports that can be certified: " in told, not is_certified)
+                self.assertEqual("[nothing-proved]" in told, not is_certified)
+                self.assertEqual(self.dashpot("check", "floor.json", "--device", "device.json").stderr, told)
+
+    def test_what_the_springs_held_is_no_gain(self):
+        """Fails if energy that comes out of springs that are pressed when a run begins is told as energy that came from nowhere."""
+        self.write("floor.json", json.dumps({"dashpot": 1, "axes": 2, "name": "soft_floor", "ports": [
+            {"name": "floor", "map": {"wall": {"through": [0, "110 mm"], "normal": [0, 1]}}, "network": {"spring": "150 N/m"}}]}))
+        # In the middle of the workspace the wall is pressed by 15 mm.
+        told = self.dashpot("run", "floor.json", "--device", PANTOGRAPH, "--fast", "--for", "1").stdout
+        lowest, held = re.search(r"never below (\S+) J: below zero, but the springs held (\S+) J when the run began", told).groups()
+        self.assertAlmostEqual(float(held), 0.5 * 150 * 0.015 ** 2, delta=1e-4)
+        self.assertLess(float(lowest), 0)
+        self.assertGreaterEqual(float(lowest), -float(held))
+
     # If this fails, what knows one axis alone takes two for one, or says something that helps nobody.
     def test_a_force_that_turns_at_once_is_refused(self):
         """Fails if a map may have its peak where the arm goes, but for a cavity that is touched on its inside only."""
@@ -317,6 +357,7 @@ class AxesTest(CommandTest):
         self.assertNotIn("[nothing-proved]", done.stderr)
         uncertified = self.dashpot("run", BALL, "--device", PANTOGRAPH, "--fast", "--for", "0.01")
         self.assertIn("[nothing-proved]", uncertified.stderr)
+        self.assertIn("note: ports that can be certified: ", uncertified.stderr)
         lines = (self.folder / "run.csv").read_text().splitlines()
         names = [name.split(" ")[0] for name in lines[0].split(",")]
         table = [dict(zip(names, line.split(","))) for line in lines[1:]]

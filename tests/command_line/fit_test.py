@@ -218,6 +218,21 @@ int main() {
         # No recording is known that six more columns do not certify.
         self.assertEqual({name.replace("_", "-") for name in every} - provoked, {"fit-floor-not-certified"})
 
+    def test_units_and_names_that_are_overruled(self):
+        """Fails if --columns overrules the unit of a header without a word, if a file's name that no law may have stops a fit, or if
+        such a --name is told only after the fit."""
+        rows = "\n".join(f"{i},{2 / (i + 1) + 1}" for i in range(40))
+        self.write("relax.csv", "time [s],stiffness [N/m]\n" + rows + "\n")
+        asked = ["relax.csv", "--relaxation", "--columns"]
+        told = self.fit(*asked, "time=time:s,modulus=stiffness:N/mm").stderr
+        self.assertIn("column 'stiffness [N/m]' is in 'N/m' by its header, and in 'N/mm' by --columns, which counts "
+                      "[recording-unit-overruled]", told)
+        self.assertNotIn("[recording-unit-overruled]", self.fit(*asked, "time=time:s,modulus=stiffness:N/m", "-o", "step.json").stderr)
+        self.assertEqual(json.loads((self.folder / "step.json").read_text())["name"], "step_1")
+        told = self.fit("absent.csv", "--name", "step", status=COMMAND_LINE_WRONG).stderr
+        self.assertIn("[name-is-member]", told)
+        self.assertIn("note: write 'step_1'", told)
+
     def test_material(self):
         """Fails if the geometry is not what turns stress and strain into force and displacement."""
         one = self.told(*TITIN, *MUSCLE)

@@ -183,8 +183,8 @@ class RefusedInput(CommandTest):
         self.write("rotary.json", network('{ "damper": 1 }', more='"motion": "rotation",'))
         self.write("linear.json", LINEAR_DEVICE)
         self.refused("check", "rotary.json", "--device", "linear.json", code="motion-mismatch")
-        self.dashpot("check", "rotary.json", "--device", PANTOGRAPH)
-        self.dashpot("check", FIG_5, "--device", "linear.json")
+        self.dashpot("explain", "rotary.json", "--device", PANTOGRAPH)
+        self.dashpot("explain", FIG_5, "--device", "linear.json")
 
     def test_all_problems_of_all_networks(self):
         """Fails if check stops at the first bad file, or lets a good one hide a bad one."""

@@ -35,8 +35,12 @@ std::string verdict(const Certificate& c, const std::string& unit) {
   if (c.certified)
     return fmt::format("{}{} {}: {}", grade_of(c), c.bound.constant_period_only ? ":" : " for", covered(c), numbers);
   const double missing = c.minimum_damping - c.added_damping;
-  return fmt::format("not certified for {}: {}, {:.6g} {} more is missing in the brake's command", covered(c), numbers,
-                     missing, unit);
+  const double sure = assured_share(c.loop).convert_to<double>();
+  const std::string of_it = sure < 1 ? fmt::format(": of a command no more than {:.4g} is sure{}", sure,
+                                                   c.loop.critical_speed > 0 ? " at the largest speed" : "")
+                                     : "";
+  return fmt::format("not certified for {}: {}, {:.6g} {} more is missing in the brake's command{}", covered(c),
+                     numbers, missing, unit, of_it);
 }
 
 // K against 2 f_c/Δ, and what friction leaves.

@@ -172,6 +172,7 @@ MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& cert
   MotorLimits limits;
   if (!tool.has_device || !(tool.max_force > 0 || tool.motor_slew > 0)) return limits;
   limits.rule = LimitRule::sheds;
+  limits.unbounded = Unbounded::curve;
   limits.needed = certificate.bound.needed;
   if (!certificate.certified) limits.reason = "nothing is proved of it within the limit either";
   else if (tool.delay_samples > 0 || tool.amplifier_lag > 0)

@@ -22,6 +22,7 @@ struct Gains {
   double estimate = 0;
   double dampers = 0;  // that cross the cut and are not the brake's [N·s/m]
   std::string hindrance;
+  bool follows_estimate = false;
 
   double all() const { return (position + estimate) * margin; }
 };
@@ -33,6 +34,7 @@ double position_stiffness(MotorConstants motor) {
 
 void add_estimate(double damping, const SampledLoop& loop, Gains& gains) {
   if (damping == 0) return;
+  gains.follows_estimate = true;
   const std::optional<double> gain = estimate_gain(loop);
   if (!gain) gains.hindrance = "nothing is known of the gain of its velocity estimator";
   else gains.estimate += damping * *gain / loop.sample_period;
@@ -40,7 +42,8 @@ void add_estimate(double damping, const SampledLoop& loop, Gains& gains) {
 
 Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
   Gains gains;
-  if (linear.estimate_drives_modes()) gains.hindrance = "the velocity estimate drives the states";
+  gains.follows_estimate = linear.estimate_drives_modes();
+  if (gains.follows_estimate) gains.hindrance = "the velocity estimate drives the states";
   const bool is_beside = !slips || !slips->behind_contact;
   if (is_beside && gains.hindrance.empty()) {
     gains.position = position_stiffness(linear);
@@ -58,10 +61,16 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   return gains;
 }
 
+// Of a linear law, with slips or without.
+Unbounded unbounded(const Gains& gains, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
+  if (!(loop.travel > 0)) return Unbounded::no_range;
+  if (!gains.follows_estimate && gains.hindrance.empty() && gains.dampers == 0) return Unbounded::nothing;
+  if (slips && slips->lets_go_by_estimate) return Unbounded::contact;
+  return gains.follows_estimate ? Unbounded::estimate : Unbounded::dampers;
+}
+
 // F_i = c_i (u − q_i), q_i an average of where the tool has been: within the travel R no more than c_i R.
-std::optional<double> largest_force(const Gains& gains, const MotorConstants& linear,
-                                    const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
-  if (!(loop.travel > 0) || gains.estimate > 0 || !gains.hindrance.empty() || gains.dampers > 0) return std::nullopt;
+double largest_force(const MotorConstants& linear, const std::optional<SlipMotor>& slips, const SampledLoop& loop) {
   double stiffness = slips ? 2 * slips->stiffness : 0;
   if (!slips || !slips->behind_contact) stiffness += linear.static_stiffness + linear.step_stiffness;
   return stiffness * loop.travel * margin;
@@ -153,7 +162,8 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
   if (!loop.has_device) return limits;
   const MotorConstants linear = linear_motor_constants(law);
   const Gains gains = gains_of(linear, slips, loop);
-  limits.largest_force = largest_force(gains, linear, slips, loop);
+  limits.unbounded = unbounded(gains, slips, loop);
+  if (limits.unbounded == Unbounded::nothing) limits.largest_force = largest_force(linear, slips, loop);
   if (!slips) limits.slew_needed = slew_needed(linear, loop);
   if (loop.motor_slew > 0)
     limits.largest_discontinuity = covered_discontinuity(loop.motor_slew, assured.convert_to<double>() - needed,
@@ -185,6 +195,7 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
   MotorLimits limits;
   if (!loop.has_device || !(loop.max_force > 0 || loop.motor_slew > 0)) return limits;
   limits.rule = LimitRule::sheds;
+  limits.unbounded = Unbounded::tunables;
   const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
   if (!needed) limits.reason = "nothing is proved of it within the limit either";
   else if (loop.motor_slew > 0) limits.reason = "its force may have to fall faster than the motor's slew";
@@ -197,16 +208,23 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
 
 std::string why_not_covered(const MotorLimits& limits, const std::string& unit) {
   if (!limits.available) return limits.reason;
-  return fmt::format("it needs {:.6g} {} of damping in all, and {:.6g} is there", limits.needed, unit,
-                     *limits.available);
+  return fmt::format("counted sample by sample it needs {:.6g} {} of damping in all, and {:.6g} is there",
+                     limits.needed, unit, *limits.available);
 }
 
 namespace {
 
-std::string why_not_bounded(const SampledLoop& loop) {
-  if (!(loop.travel > 0)) return "the device file states no \"range\" of its encoder";
-  return "no bound is known for a law that uses the velocity's estimate ('velocity-free' does not), for dampers behind "
-         "slips, or for parameters that change";
+std::string_view in_words(Unbounded why) {
+  switch (why) {
+    case Unbounded::nothing: return "";
+    case Unbounded::no_range: return "the device file states no \"range\" of its encoder";
+    case Unbounded::estimate: return "it uses the velocity's estimate, which 'velocity-free' does not";
+    case Unbounded::contact: return "its contact lets go by the velocity's estimate";
+    case Unbounded::dampers: return "dampers are behind its slips";
+    case Unbounded::tunables: return "its parameters change while it runs";
+    case Unbounded::curve: return "it lies behind a static curve";
+  }
+  return "";
 }
 
 }  // namespace
@@ -219,7 +237,7 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
                                                          *limits.largest_force, units.force)
                                            : std::string("has no proved bound on the force it asks for");
   if (loop.max_force > 0) asked += fmt::format(", the motor gives {:.6g} {}", loop.max_force, units.force);
-  if (!limits.largest_force) asked += "; " + why_not_bounded(loop);
+  if (limits.unbounded != Unbounded::nothing) asked += fmt::format(", because {}", in_words(limits.unbounded));
   if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: the law " + asked);
   if (limits.slew_needed || loop.motor_slew > 0)
     lines.push_back("slew: " +

@@ -39,9 +39,21 @@ enum class LimitRule {
 
 std::string_view name_of(LimitRule rule);  // "none", "clamps", "sheds"
 
+// Why no bound is known of the force that a law asks for.
+enum class Unbounded : unsigned char {
+  nothing,   // one is known
+  no_range,  // the encoder's range is not stated
+  estimate,  // the motor follows the velocity's estimate
+  contact,   // so does the contact, to let go
+  dampers,   // are behind slips
+  tunables,  // change while it runs
+  curve,     // a static one lies in front of it
+};
+
 struct MotorLimits {
   LimitRule rule = LimitRule::none;
-  bool is_covered = true;               // with the damping that is there, whatever the motor clips or the law sheds
+  bool is_covered = true;  // with the damping that is there, whatever the motor clips or the law sheds
+  Unbounded unbounded = Unbounded::nothing;
   double needed = 0;                    // for that, all in all [N·s/m]; 0 where none is, or where nothing is known
   std::optional<double> available;      // of the damping, where that is less than needed [N·s/m]
   std::string reason;                   // why it is not covered whatever damping there is; else empty
@@ -66,7 +78,8 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
 std::optional<double> needed_sample_by_sample(const MotorConstants& linear, const std::optional<SlipMotor>& slips,
                                               const SampledLoop& loop);
 
-// In words, with the unit of damping; empty where it is covered.
+// In words, with the unit of damping; empty where it is covered. Sample by sample, which may be another number than the
+// certificate's: that one may be of all frequencies together.
 std::string why_not_covered(const MotorLimits& limits, const std::string& unit);
 
 // (k0 + Σ c_i) v T/(h − j) + Σ |F_i| (1 − a_i)/(h − j), not below it, of a linear law; empty where it is not bounded.

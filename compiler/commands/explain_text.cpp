@@ -44,7 +44,9 @@ std::string kelvin_text(const Compilation& c, const PortUnits& units) {
 std::string pace_text(const Compilation& c) {
   const double rate = fastest_rate(c);
   if (rate == 0) return "";
-  return fmt::format("fastest relaxation    {:.6g} s, {:.6g} samples at {} Hz\n", 1 / rate, c.rate / rate, c.rate);
+  const std::string samples = fmt::format("{:.6g}", c.rate / rate);
+  return fmt::format("fastest relaxation    {:.6g} s, {} sample{} at {} Hz\n", 1 / rate, samples,
+                     samples == "1" ? "" : "s", c.rate);
 }
 
 // What reaches from the tool to ground without a slip.
@@ -223,7 +225,10 @@ std::string legend_of_lines(const std::string& text) {
       {"quasi-linear law",
        "QLV: f = ∫ G(t − s) df_e(s), passive along one line, whose damping goes with the curve's slope"},
       {"valid", "where the file says that its numbers were measured"},
-      {"generalised Kelvin form", "the same network as elements in series, as creep is written"},
+      {"generalised Kelvin form",
+       "the same network as elements in series, as creep is written: how far it gives at once under a unit force "
+       "(glass compliance), how fast it flows on in the end (fluidity), and in between Kelvin elements, each a spring "
+       "and a damper side by side"},
       {"static stiffness", "of the spring that is left when everything has relaxed"},
       {"feedthrough damping", "of the damper that is felt at once, however fast the motion"},
       {"mode", "a spring and a damper in series that relax together, and the elements that make them"},
@@ -242,9 +247,17 @@ std::string legend_of_lines(const std::string& text) {
       {"currents", "what the device file's limits and constants come to"},
       {"slew", "how fast the motor's force has to change, and how fast it can"},
       {"sudden loss", "of what force the motor may lag behind without giving energy"},
-      {"at the limit", "what happens where the motor cannot follow, and whether energy comes of it"},
+      {"at the limit",
+       "what happens where the motor cannot follow, and whether energy comes of it. Its damping is counted sample by "
+       "sample; that of 'passivity' may be counted over all frequencies, and is another number then. With a contact "
+       "only the device's own damping counts for both, since the brake leaves a free tool alone"},
       {"quantisation", "what the encoder's steps do: friction has to take what they give"},
-      {"cost",
+      {"tunable", "a value that the program may change while it runs, as it is in the file, and its range"},
+      {"damping follows",
+       "of the parameters as they are now: the rule by which set() chooses b; all above is of the file's own values"},
+      {"backward Euler", "the elements whose states are stepped by it, since a tunable mixes their relaxations"},
+      {"cost at most", "of one sample before and after the command leaves, and of a change of parameters"},
+      {"cost  ",
        "of one sample, beside each other: additions, multiplications, guards against subnormal numbers, and the "
        "numbers that are kept"}};
   std::string all;
@@ -261,9 +274,13 @@ std::string legend_of_slips(const std::string& text) {
     const char *table, *name, *meaning;
   };
   const Column columns[] = {
-      {"behind ", "behind …:", "of these slips: the law that was chosen, and why; below it how many regimes they have"},
+      {"behind ", "behind …:",
+       "of these slips: the law that was chosen, and why; below it how many regimes they have, and what the brake "
+       "makes in each. Where no table follows, the brake makes nothing of this part in any regime"},
       {"  stuck", "stuck", "the regime: the slips that hold in it; the others slide"},
-      {"  stuck", "b", "the damping that the brake makes in this regime; what is added for passivity is not in it"},
+      {"  stuck", "b",
+       "the damping that the brake makes of this part in this regime. It makes the b of the table above and, of each "
+       "part, the b of its regime; what is added for passivity is not in it"},
       {"  stuck", "its observer's", "what the rule in the last column asks of the brake, before limits lower it"},
       {"  stuck", "b∞", "the damping that is felt at once in this regime"},
       {"  stuck", "compensation", "what the motor takes back of the brake, by the velocity estimate"},
@@ -271,7 +288,7 @@ std::string legend_of_slips(const std::string& text) {
       {"  law ", "law", "what is done with the damping while slips slide or stick; the chosen one is named above"},
       {"  law ", "peak error", "the largest error of the felt force in a run, of the largest force in that run"},
       {"  law ", "rms error", "the same of root mean squares"},
-      {"  law ", "mean brake", "the damping that the brake makes on average"},
+      {"  law ", "mean brake", "the damping that the brake makes on average, without what is added for passivity"},
       {"  law ", "minimum damping", "what must be added so that the law is certified; -: nothing is proved"},
       {"  law ", "motor noise", "the rms force of the motor that comes from the encoder's steps alone"}};
   std::string all;

@@ -265,7 +265,12 @@ std::string candidate_row(const Candidate& c, const char* mark) {
 }
 
 std::string reason_line(const Candidate& c) {
-  return fmt::format("  {:<20}{}{}\n", c.name, c.capped() ? fmt::format("lowered from {:.5g}: ", c.wanted_damping) : "",
+  return fmt::format("  {:<20}{}{}\n", c.name,
+                     c.capped()
+                         ? fmt::format("lowered from {:.5g} to what the brake can give beside the damping that must be "
+                                       "added: ",
+                                       c.wanted_damping)
+                         : "",
                      c.reason);
 }
 
@@ -329,13 +334,30 @@ std::string legend(bool has_device) {
   return text;
 }
 
+namespace {
+
+// The gap at the tool behind whose map it is so much; 0 where the map does not go as far.
+double gap_at_tool(const MotionMap& map, double gap) {
+  double inside = 0, beyond = map.reach;
+  if (map.value_at(beyond) < gap) return 0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (inside + beyond) / 2;
+    (map.value_at(middle) < gap ? inside : beyond) = middle;
+  }
+  return beyond;
+}
+
+}  // namespace
+
 std::string contact_text(const Decomposition& decomposition, const Network& network) {
   if (!network.contact) return "";
   const std::string unit = port_units(network.port_motion).position;
   std::string text = fmt::format("at {} {}; brake and motor 0 while the tool is free", network.contact->at, unit);
-  if (decomposition.encoder_step > 0)
-    text += fmt::format(", from a gap of {:.6g} {} on, one step of the encoder, or as soon as they would pull",
-                        decomposition.encoder_step, unit);
+  const double step = decomposition.encoder_step, gap = network.map ? gap_at_tool(*network.map, step) : step;
+  if (gap > 0)
+    text += fmt::format(", from a gap of {:.6g} {} on, {}, or as soon as they would pull", gap, unit,
+                        network.map ? "as far behind the curve as one step of the encoder where it is steepest"
+                                    : "one step of the encoder");
   return text;
 }
 

@@ -55,7 +55,8 @@ std::string merits_text(const SlipDecomposition& slips, const Network& network) 
     return fmt::format("  {:<14}{:>12}{:>11}{:>12}{:>17}{:>11}{:>13}\n", cells...);
   };
   std::string text =
-      "laws behind slips in runs around yield: sines at both ends of the band and a drag with reversals\n";
+      "laws behind slips in runs around yield: sines at both ends of the band, no slower than rate/1200 and no faster "
+      "than rate/4, and a drag with reversals\n";
   text += row("law", "peak error", "rms error", "mean brake", "minimum damping", "certified", "motor noise");
   text += row("", "%", "%", units.damping, units.damping, "", units.force);
   for (const SlipLawMerit& merit : slips.merits)
@@ -119,7 +120,10 @@ std::string to_text(const SlipDecomposition& slips, const Network& network) {
   std::string text;
   for (const SlipLikes& likes : likes_of(slips, network)) {
     text += fmt::format("{}\n", to_text(likes));
-    text += fmt::format("  {} regimes{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "");
+    const bool is_silent = std::all_of(likes.first->shares.begin(), likes.first->shares.end(),
+                                       [](const BrakeShare& share) { return share.damping == 0; });
+    text += fmt::format("  {} regimes{}{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "",
+                        is_silent && !asks_the_brake(*likes.first) ? ", b = 0 in all of them" : "");
     if (asks_the_brake(*likes.first)) text += regimes_text(*likes.first, network);
     if (likes.first->regimes.regimes.empty() && likes.first->shares.front().damping > 0)
       text += fmt::format("  b = {:.8g} in every regime\n", likes.first->shares.front().damping);

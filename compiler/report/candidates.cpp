@@ -51,15 +51,16 @@ std::string cell(double value) { return "<td>" + (value == value ? number_text(v
 
 std::string reason(const Candidate& candidate) {
   if (!candidate.capped()) return candidate.reason;
-  return fmt::format("{} (capped from {} at what the brake can give)", candidate.reason,
-                     number_text(candidate.wanted_damping));
+  return fmt::format("{} (lowered from {} to what the brake can give beside the damping that must be added)",
+                     candidate.reason, number_text(candidate.wanted_damping));
 }
 
 // The figures, and under them why this damping.
-std::string rows(const Candidate& candidate, bool chosen, const std::vector<FigureOfMerit>& figures) {
+// `mark` follows the name.
+std::string rows(const Candidate& candidate, bool chosen, const char* mark, const std::vector<FigureOfMerit>& figures) {
   std::string html =
-      fmt::format("<tbody{}>\n<tr><th scope=\"row\">{}</th><td class=\"word\">{}</td>",
-                  chosen ? " class=\"chosen\"" : "", escaped(candidate.name), name_of(candidate.state_input));
+      fmt::format("<tbody{}>\n<tr><th scope=\"row\">{}{}</th><td class=\"word\">{}</td>",
+                  chosen ? " class=\"chosen\"" : "", escaped(candidate.name), mark, name_of(candidate.state_input));
   for (const FigureOfMerit& figure : figures) html += cell(figure.value(candidate));
   return html + fmt::format("</tr>\n<tr class=\"why\"><td colspan=\"{}\"><span>{}</span></td></tr>\n</tbody>\n",
                             figures.size() + 2, escaped(in_four_digits(reason(candidate))));
@@ -74,9 +75,19 @@ std::string candidates_table_html(const Compilation& c) {
       "by</th>";
   for (const FigureOfMerit& figure : figures) html += fmt::format("<th>{} [{}]</th>", figure.label, figure.unit);
   html += "</tr></thead>\n";
-  for (const Candidate& candidate : c.decomposition.candidates)
-    html += rows(candidate, &candidate == &c.decomposition.choice(), figures);
-  return html + "</table></div>\n";
+  // As `explain` has them.
+  const bool has_marks = has_tunables(c.network) && c.decomposition.candidates.size() > 1;
+  for (const Candidate& candidate : c.decomposition.candidates) {
+    const bool is_chosen = &candidate == &c.decomposition.choice();
+    html += rows(candidate, is_chosen, has_marks && !is_chosen ? "*" : "", figures);
+  }
+  html += "</table></div>\n";
+  if (has_marks)
+    html +=
+        "<p class=\"note\">* of the network with its parameters held at the values of its file; only the chosen row "
+        "needs its minimum "
+        "damping for every value within their ranges, and errs with that added</p>\n";
+  return html;
 }
 
 std::string candidates_json(const Compilation& c) {

@@ -38,6 +38,21 @@ class StaticCurvesTest(CommandTest):
         self.assertAlmostEqual(told["largest_scale"], 1.25 * c * math.sqrt(0.006) / 400, places=6)
         self.assertIsNone(json.loads(self.dashpot("explain", SOURCE / "networks/paper/kelvin.json", "--json").stdout)["static"])
 
+    def test_a_contact_lets_go_where_it_says(self):
+        """Fails if the gap behind which a contact lets go is told as it is behind the curve's map, and not as it is at the tool; or if
+        another reason than the curve is given for a force without a bound."""
+        flat = {"dashpot": 1, "name": "flat", "network": {"spring": "100 N/m"}, "contact": {"at": "0 mm"}}
+        hertz = {**flat, "name": "hertz", "static": {"power": 1.5, "force": "1 N", "at": "5 mm"}}
+        gaps = []
+        for network, words in ((flat, "one step of the encoder"), (hertz, "as far behind the curve as one step of the encoder")):
+            self.write("network.json", json.dumps(network))
+            told = " ".join(self.dashpot("explain", "network.json", "--device", TRAINER).stdout.split())
+            gaps.append(float(re.search(rf"from a gap of (\S+) m on, {words}", told)[1]))
+        # w is a multiple of u^5/4, and so steepest at 5 mm; of which the first cubic is a rough picture.
+        self.assertAlmostEqual(math.log2(gaps[1] / (1.25 * 5e-3 ** 0.25 * gaps[0]) ** 0.8), 0, delta=1)
+        self.assertIn("no proved bound on the force it asks for", told)
+        self.assertIn("because it lies behind a static curve", told)
+
     # If this fails, a law behind a curve is not certified where it was, or verify does not know it again.
     def test_certified_laws_are_verified(self):
         for network, device, name in [(SKIN, TRAINER, "skin_in_contact"), (SPHERE, TRAINER, "sphere_on_gel"), (LIGAMENT, KNEE, "ligament")]:

@@ -26,9 +26,10 @@ using Command = ExitStatus (*)(const Options&, SourceFiles&, Diagnostics&);
 
 const std::string command_of_completion = "completion", command_of_manual = "manual";
 
+// Of two axes alone are the last two; 'virtual' is of both.
 const std::vector<std::string> decompositions = {
-    "diagonal",      "non-injecting",    "faithful", "paper",  "zero-frequency", "quietest-passive",
-    "velocity-free", "largest-observer", "steady",   "ramped", "gated",          "virtual"};
+    "faithful", "paper",  "zero-frequency", "quietest-passive", "velocity-free", "largest-observer",
+    "steady",   "ramped", "gated",          "virtual",          "diagonal",      "non-injecting"};
 const std::string old_name_of_paper = "most-dissipative";
 
 struct CommandLine {
@@ -139,7 +140,8 @@ void add_choices(CLI::App& command, CommandLine& line) {
       ->option_text("auto|position|velocity|nodal");
   command
       .add_option("--decomposition", line.decomposition,
-                  "What the brake takes over, default faithful on a device and with slips, else paper")
+                  "What the brake takes over, default faithful on a device and with slips, else paper. With two axes "
+                  "diagonal, the default there, non-injecting or virtual, and nothing else")
       ->check(check_decomposition)
       ->option_text("NAME|DAMPING (" + CLI::detail::join(decompositions) + ", or a number in SI)");
   command.add_option("--tolerance", line.tolerance, "What 'faithful' may let the felt force err by, default 5 %")
@@ -379,6 +381,11 @@ void describe(CLI::App& app, CommandLine& line) {
                    "Motion: columns time, position, perhaps velocity, with or without units, at a uniform period")
       ->required()
       ->option_text("FILE.csv");
+  simulate->footer(
+      "Columns of the output, in SI:\n"
+      "  force        on the tool, against its motion: what brake and motor make together\n"
+      "  damping      what the brake is told\n"
+      "  motor_force  what the motor is told: force - damping * velocity");
   simulate->add_flag("--batch", options.emission.batch,
                      "As what compile --batch writes, which keeps out of the subnormals at each sample");
   simulate->add_option("-o,--output", options.output, "File to write to, default standard output")

@@ -400,8 +400,8 @@ std::pair<int, std::string> verdict(const std::string& header, const std::string
                          : "not proved: that as much damping is there\n");
   if (spare > 0)  // e u̇ ≤ e²/4x + x u̇², x of the damping being left over
     words << "proved: " << double(spare)
-          << " more than that is there; if rounding puts the held force off by e, that brings in at most "
-          << double(Rational(1 / (4 * spare))) << " e^2 a second\n";
+          << " more than that is there; if rounding puts the held force off by e [N, N m], that brings in at most "
+          << double(Rational(1 / (4 * spare))) << " e^2 watts\n";
   words
       << R"(assumed: exact arithmetic in output(), update() and step(), no state that is flushed to zero, and a motor within its
   limits; delay, lag, estimator and damping of the device as the certificate states them

@@ -353,7 +353,8 @@ std::string contact_text(const Decomposition& decomposition, const Network& netw
   if (!network.contact) return "";
   const std::string unit = port_units(network.port_motion).position;
   std::string text = fmt::format("at {} {}; brake and motor 0 while the tool is free", network.contact->at, unit);
-  const double step = decomposition.encoder_step, gap = network.map ? gap_at_tool(*network.map, step) : step;
+  const double step = decomposition.encoder_step;
+  const double gap = network.map && step > 0 ? gap_at_tool(*network.map, step) : step;
   if (gap > 0)
     text += fmt::format(", from a gap of {:.6g} {} on, {}, or as soon as they would pull", gap, unit,
                         network.map ? "as far behind the curve as one step of the encoder where it is steepest"

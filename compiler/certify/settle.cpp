@@ -21,7 +21,7 @@ constexpr std::size_t search_terms = most_terms / 10;
 // for the search for that function, which is a search.
 constexpr double proof_reserve = 2 * most_storage_excess;
 
-constexpr double gap_tolerance = 1e-3;  // of what jitter asks for
+constexpr double gap_tolerance = 2e-4;  // of what jitter asks for
 
 constexpr int most_looks = 4;  // at what jitter asks for, where a search went by too little or too much
 

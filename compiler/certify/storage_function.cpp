@@ -563,7 +563,7 @@ std::optional<StorageProof> proof_for_all_holds(const MotorConstants& motor, con
 
 std::optional<double> estimate_for_all_holds(const MotorConstants& motor, const SampledLoop& loop) {
   const std::optional<StorageProof> found =
-      found_proof(motor, loop, false, [](const StorageSearch& search) { return jittered_proof(search, true); });
+      found_proof(motor, loop, false, [](const StorageSearch& search) { return jittered_proof(search, false); });
   return found ? std::optional(found->damping) : std::nullopt;
 }
 

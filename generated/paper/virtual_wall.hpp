@@ -8,8 +8,8 @@
 // states: what is kept of the past follows the measured position (position driven by definition)
 // contact: at 0 m; brake and motor 0 while the tool is free
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
-// passivity: not certified: a free tool, which the brake leaves alone, touches late, and the device itself has
-//   less damping than that needs: 10.25 N·s/m
+// passivity: not certified: a free tool, which the brake leaves alone, touches late; in the sample of the touch
+//   only the device's own damping is there, and less than that needs: 10.25 N·s/m
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 1.1e-15 of the sum of the force's terms

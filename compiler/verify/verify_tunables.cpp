@@ -77,8 +77,8 @@ void TunableVerification::compare_with_pool(const HeaderConstant& constant, cons
       diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, constant.name, i + 1, constant.values[i]);
 }
 
-// What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has, beside its
-// own.
+// What is needed may be what is left of the brake's damping, whose rounding, and that of b∞ − b, it then has, beside
+// its own.
 bool TunableVerification::covers(double stated, const ReferenceBox& box, const Reference& share) const {
   const bool is_double = header_.scalar == ScalarType::float64;
   const Reference found = box.needed(share), size = found + share * box.least_brake + box.largest_brake;

@@ -159,9 +159,14 @@ TEST(BoardStart, starts_again_with_a_board_that_forgot_everything) {
   before.reset();
   in_process_board<> after(std::move(ends.far));
   ASSERT_TRUE(after.while_serving([&] { return device.start(error); })) << error;
-  device.write({1, 2});
-  after.serve();
-  ASSERT_EQ(device.read(sample), device_status::ok);
+  // Where a slow machine asked a question twice, the second answer makes the first sample stale.
+  device_status status = device_status::stale;
+  for (int i = 0; i < 3 && status == device_status::stale; ++i) {
+    device.write({1, 2});
+    after.serve();
+    status = device.read(sample);
+  }
+  ASSERT_EQ(status, device_status::ok);
   EXPECT_EQ(after.hardware().driven().motor_torque, 1.0F);
 }
 

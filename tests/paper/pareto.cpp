@@ -26,8 +26,8 @@ constexpr NetworkFile networks[] = {
     {"Fig. 6", R"({ "dashpot": 1, "name": "fig6", "motion": "translation", "network": { "series": [
        { "damper": 5 }, { "spring": 50 } ] } })"}};
 
-// The rig, with a brake that reaches as far as it is asked to: its own end is drawn as a line. The bounds that are drawn
-// are those for samples on time; jitter would only add a search for every damping.
+// The rig, with a brake that reaches as far as it is asked to: its own end is drawn as a line. The bounds that are
+// drawn are those for samples on time; jitter would only add a search for every damping.
 compiler::Device rig_with(const velocity_description& velocity, double brake_error) {
   compiler::Device device = rig();
   device.description.velocity = velocity;

@@ -69,32 +69,26 @@ double settle_choice(Compilation& c, const Network& present, const Choices& choi
   const bool is_tunable = has_tunables(c.network), is_faithful = c.decomposition.choice().name == "faithful";
   if (is_tunable && !is_faithful) return 1;
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
-  std::vector<Candidate>& candidates = c.decomposition.candidates;
-  settler.settle(candidates[c.decomposition.chosen]);
-  const double gap = settler.last_jitter_gap();
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (i != c.decomposition.chosen && is_compared(candidates[i])) settler.settle(candidates[i]);
-  if (!is_faithful) {
-    const std::string unit = port_units(c.network.port_motion).damping;
-    c.decomposition.reason = reason_for_input(c.decomposition.choice(), choices, false, unit);
-    return gap;
+  settler.settle(c.decomposition.candidates[c.decomposition.chosen]);
+  if (is_faithful) {
+    if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, device, c.rate);
+    c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
   }
-  if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, device, c.rate);
-  c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
-  return gap;
+  return settler.last_jitter_gap();
 }
 
-// What is compared with the choice, again with what is chosen behind the slips.
+// What is compared with the choice, with what is chosen behind the slips.
 void settle_compared(Compilation& c, const Network& present, const Choices& choices, const PortDevice& device) {
-  if (device.is_ideal() || has_tunables(c.network)) return;
+  const bool is_faithful = c.decomposition.choice().name == "faithful";
+  if (device.is_ideal() || (has_tunables(c.network) && !is_faithful)) return;
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
   for (Candidate& candidate : c.decomposition.candidates)
     if (&candidate != &c.decomposition.choice() && is_compared(candidate)) settler.settle(candidate);
-  if (c.decomposition.choice().name == "faithful") return;
-  Candidate again = c.decomposition.choice();
-  settler.settle(again);
-  again.state_input = c.decomposition.choice().state_input;
-  c.decomposition.reason = reason_for_input(again, choices, false, port_units(c.network.port_motion).damping);
+  if (is_faithful) return;
+  Candidate choice = c.decomposition.choice();
+  if (c.form.has_slips()) settler.settle(choice);
+  choice.state_input = c.decomposition.choice().state_input;
+  c.decomposition.reason = reason_for_input(choice, choices, false, port_units(c.network.port_motion).damping);
 }
 
 Beside what_is_beside_slips(const NormalForm& form) {
@@ -245,10 +239,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   const double gap = settle_choice(result, present, choices, result.port);
   // With tunable parameters nothing has to be run, but `faithful` leaves the slips another share of the brake.
   const bool slips_are_as_split = is_tunable && result.decomposition.choice().name != "faithful";
-  if (result.form.has_slips() && !slips_are_as_split) {
-    choose_slip_law(result, choices, result.port);
-    settle_compared(result, present, choices, result.port);
-  }
+  if (result.form.has_slips() && !slips_are_as_split) choose_slip_law(result, choices, result.port);
+  settle_compared(result, present, choices, result.port);
   if (result.decomposition.choice().faithful && choices.varies_assumed)
     result.decomposition.moves = moves_of(result, present, choices, gap);
   warn_about_choice(result.decomposition, result.network, result.form.linear, diagnostics);

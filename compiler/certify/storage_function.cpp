@@ -277,7 +277,7 @@ std::pair<double, double> largest_need(const Recursion<Scalar>& r, const OneHold
 
 class StorageSearch {
  public:
-  // Not `is_proved`: what is found is so as doubles tell.
+  // Without `is_proved` the exact check is left out: what is found is an estimate.
   StorageSearch(const checker::Program& program, const checker::LoopForm& loop, const checker::Device& device,
                 const SampledBound& bound, bool is_proved)
       : program_(program),

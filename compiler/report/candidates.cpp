@@ -55,8 +55,7 @@ std::string reason(const Candidate& candidate) {
                      candidate.reason, number_text(candidate.wanted_damping));
 }
 
-// The figures, and under them why this damping.
-// `mark` follows the name.
+// The figures, and under them why this damping. `mark` follows the name.
 std::string rows(const Candidate& candidate, bool chosen, const char* mark, const std::vector<FigureOfMerit>& figures) {
   std::string html =
       fmt::format("<tbody{}>\n<tr><th scope=\"row\">{}{}</th><td class=\"word\">{}</td>",

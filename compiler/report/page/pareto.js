@@ -100,8 +100,8 @@ function set_up_pareto(figures, candidates) {
     ctx.stroke();
   }
 
-  // Beside its point, where no other name is, with a line to it from further away: the chosen one first. A name that finds no
-  // room is told by pointing at its point.
+  // Beside its point, where no other name is, with a line to it from further away: the chosen one first. A name that
+  // finds no room is told by pointing at its point.
   function paint_names(u, ctx, placed, scale) {
     const reach = 5 * scale;
     const taken = placed.map(([, [px, py]]) => ({ left: px - reach, right: px + reach, top: py - reach, bottom: py + reach }));
@@ -114,7 +114,9 @@ function set_up_pareto(figures, candidates) {
       const boxes = [];
       for (const down of [0, -15, 15, -30, 30, -45, 45, -60, 60, -75, 75])
         for (const left of [px + 9 * scale, px - width - 9 * scale, px - width / 2])
-          boxes.push({ left, right: left + width, top: py + down * scale - height / 2, bottom: py + down * scale + height / 2 });
+          boxes.push({
+            left, right: left + width, top: py + down * scale - height / 2, bottom: py + down * scale + height / 2,
+          });
       const box = boxes.find(is_free);
       if (!box) continue;
       taken.push(box);

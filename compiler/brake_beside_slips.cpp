@@ -101,11 +101,12 @@ class BesideSearch {
   }
 
   // Between two neighbouring places, by interpolation.
-  double error(const Line& line, std::size_t i, double share) {
-    const Place &low = line.places[i], &high = line.places[i + 1];
-    const double damping = low.beside.damping + share * (high.beside.damping - low.beside.damping);
-    const double band = band_error(line, damping, low.added + share * (high.added - low.added));
-    return std::max(band, trial_error_between(runs_.trial(), low.felt, high.felt, share).worst());
+  auto error_after(const Line& line, std::size_t i) {
+    return [&, i, in_runs = ErrorBetween(runs_.trial(), line.places[i].felt, line.places[i + 1].felt)](double share) {
+      const Place &low = line.places[i], &high = line.places[i + 1];
+      const double band = band_error(line, damping_at(line, i, share), low.added + share * (high.added - low.added));
+      return std::max(band, in_runs.at(share));
+    };
   }
 
   // On either side of the best place so far: the error is convex.
@@ -116,7 +117,7 @@ class BesideSearch {
     double best = at->beside.damping, least = at->option.error;
     const auto here = static_cast<std::size_t>(at - line.places.begin());
     for (std::size_t i = here > 0 ? here - 1 : 0; i <= here && i + 1 < line.places.size(); ++i) {
-      const LeastPlace found = golden_section([&](double share) { return error(line, i, share); }, 0, 1, 0, closely);
+      const LeastPlace found = golden_section(error_after(line, i), 0, 1, 0, closely);
       if (found.value >= least) continue;
       least = found.value;
       best = damping_at(line, i, found.place);
@@ -139,7 +140,7 @@ class BesideSearch {
     const double allowed = choice.allowed_error;
     for (std::size_t i = line.places.size() - 1; i-- > 0;) {
       if (is_allowed(line.places[i + 1].option, choice)) return;
-      const auto here = [&](double share) { return error(line, i, share); };
+      const auto here = error_after(line, i);
       const LeastPlace least = golden_section(here, 0, 1, allowed, closely);
       const bool is_inside = least.value <= allowed;
       if (!is_inside && line.places[i].option.error > allowed) continue;

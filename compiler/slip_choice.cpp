@@ -61,11 +61,11 @@ class SlipChooser {
     SlipOption& whole = *std::find_if(options_.begin(), options_.end(),
                                       [](const SlipOption& option) { return option.plan.law == SlipLaw::steady; });
     if (whole.merit.error() <= limit_ || floor.merit.error() > limit_) return;
+    const ErrorBetween error(runs_.trial(), floor.felt, whole.felt);
     double fits = 0, fails = 1;
     for (int i = 0; i < 30; ++i) {
       const double middle = (fits + fails) / 2;
-      const double error = trial_error_between(runs_.trial(), floor.felt, whole.felt, middle).worst();
-      (error <= limit_ ? fits : fails) = middle;
+      (error.at(middle) <= limit_ ? fits : fails) = middle;
     }
     for (int i = 0; i < 8 && fits > 0; ++i, fits *= 0.9) {
       SlipOption option = runs_.run(beside_, runs_.plan(SlipLaw::steady, fits));

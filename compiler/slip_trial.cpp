@@ -107,10 +107,13 @@ double stuck_amplitude(const Network& network, double angular_frequency) {
 // The commands' way to the tool.
 class Drives {
  public:
-  explicit Drives(const PortDevice& device)
-      : device_(device), late_(device.is_ideal() ? 0 : device.description().loop.delay_samples, command<double>{0, 0}) {
-    if (!device.is_ideal()) coil_ = brake_coil<double>(device.description().brake);
-  }
+  Drives(const PortDevice& device, double instant)
+      : device_(device),
+        instant_(instant),
+        lacking_(device.amplifier_lag() > 0 ? std::exp(-instant / device.amplifier_lag()) : 0),
+        most_(std::sqrt(device.max_damping().value_or(0) / device.damping_scale())),
+        late_(device.description().loop.delay_samples, command<double>{0, 0}),
+        coil_(device.description().brake) {}
 
   // The brake is on, and the motor at rest, before a motion begins.
   void begin(const command<double>& first) {
@@ -124,12 +127,10 @@ class Drives {
     late_.pop_front();
   }
 
-  void advance(double duration) {
-    const double lag = device_.amplifier_lag(),
-                 wanted = std::sqrt(std::max(told_.damping, 0.0) / device_.damping_scale());
-    force_ = lag > 0 ? told_.force + (force_ - told_.force) * std::exp(-duration / lag) : told_.force;
-    const double most = std::sqrt(device_.max_damping().value_or(0) / device_.damping_scale());
-    coil_.advance(std::clamp(coil_.demand_to_reach(wanted, duration), 0.0, std::max(most, wanted)), duration);
+  void advance() {
+    const double wanted = std::sqrt(std::max(told_.damping, 0.0) / device_.damping_scale());
+    force_ = told_.force + (force_ - told_.force) * lacking_;
+    coil_.advance(std::clamp(coil_.demand_to_reach(wanted, instant_), 0.0, std::max(most_, wanted)), instant_);
   }
 
   double force() const { return force_; }
@@ -137,6 +138,9 @@ class Drives {
 
  private:
   const PortDevice& device_;
+  double instant_;  // [s]
+  double lacking_;  // of a change of the force after an instant [1]
+  double most_;     // of the coil's current, as the root of the damping at the brake
   std::deque<command<double>> late_;
   command<double> told_{0, 0};
   brake_coil<double> coil_;
@@ -194,11 +198,11 @@ FeltForce felt_on_device(const UpdateLaw& law, const std::vector<double>& positi
                          const PortDevice& device, int instants) {
   AnyEvaluation run(law);
   Sensing sensing(device, at);
-  Drives drives(device);
+  const double instant = law.sample_period / instants, residual = device.residual_damping();
+  Drives drives(device, instant);
   run.reset(sensing.position(at));
   drives.begin({law.damping, 0});
   FeltForce felt;
-  const double instant = law.sample_period / instants, residual = device.residual_damping();
   for (std::size_t i = 0; i + std::size_t(instants) <= positions.size(); i += std::size_t(instants)) {
     const double here = i == 0 ? at : positions[i - 1], velocity = (positions[i] - here) / instant;
     const command<double> now =
@@ -206,7 +210,7 @@ FeltForce felt_on_device(const UpdateLaw& law, const std::vector<double>& positi
     drives.take(now);
     for (std::size_t j = i; j < i + std::size_t(instants); ++j) {
       const double moved = positions[j] - (j == 0 ? at : positions[j - 1]), speed = moved / instant;
-      drives.advance(instant);
+      drives.advance();
       const double brake = drives.damping();
       felt.weak.push_back(drives.force() + (brake * (1 - device.tolerance()) + residual) * speed);
       felt.strong.push_back(drives.force() + (brake * (1 + device.tolerance()) + residual) * speed);
@@ -275,28 +279,91 @@ FeltForce SlipTrial::felt(const UpdateLaw& law, std::size_t motion) const {
 }
 
 TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt) {
-  return trial_error_between(trial, felt, felt, 0);
-}
-
-TrialError trial_error_between(const SlipTrial& trial, const std::vector<FeltForce>& none,
-                               const std::vector<FeltForce>& all, double share) {
   using Samples = Eigen::Map<const Eigen::ArrayXd>;
   TrialError worst;
-  for (std::size_t m = 0; m < none.size(); ++m) {
+  for (std::size_t m = 0; m < felt.size(); ++m) {
     const std::vector<double>& truth = trial.network_force(m);
     const double peak = trial.largest_network_force(m), rms = trial.rms_network_force(m);
     TrialError of_motion;
-    for (const std::vector<double> FeltForce::*end : {&FeltForce::weak, &FeltForce::strong}) {
-      const auto size = static_cast<Eigen::Index>(std::min((none[m].*end).size(), truth.size()));
+    for (const std::vector<double>* end : {&felt[m].weak, &felt[m].strong}) {
+      const auto size = static_cast<Eigen::Index>(std::min(end->size(), truth.size()));
       if (size == 0) continue;
-      const Samples low((none[m].*end).data(), size), high((all[m].*end).data(), size), network(truth.data(), size);
-      const auto error = (1 - share) * low + share * high - network;
+      const auto error = Samples(end->data(), size) - Samples(truth.data(), size);
       if (peak > 0) of_motion.peak = std::max(of_motion.peak, error.abs().maxCoeff() / peak);
       if (rms > 0) of_motion.rms = std::max(of_motion.rms, std::sqrt(error.square().mean()) / rms);
     }
     worst.peak = std::max(worst.peak, of_motion.peak);
     worst.rms = std::max(worst.rms, of_motion.rms);
     worst.by_motion.push_back(of_motion.worst());
+  }
+  return worst;
+}
+
+ErrorBetween::ErrorBetween(const SlipTrial& trial, const std::vector<FeltForce>& first,
+                           const std::vector<FeltForce>& second) {
+  for (std::size_t m = 0; m < first.size(); ++m)
+    for (const std::vector<double> FeltForce::*end : {&FeltForce::weak, &FeltForce::strong}) {
+      const std::vector<double>&low = first[m].*end, &high = second[m].*end, &truth = trial.network_force(m);
+      const std::size_t size = std::min({low.size(), high.size(), truth.size()});
+      if (size == 0) continue;
+      Run run;
+      std::vector<Ends> errors(size);
+      for (std::size_t i = 0; i < size; ++i) {
+        const Ends error = errors[i] = {low[i] - truth[i], high[i] - truth[i]};
+        run.first_square += error.first * error.first / double(size);
+        run.product += error.first * error.second / double(size);
+        run.second_square += error.second * error.second / double(size);
+      }
+      run.peaks = peaks_of(errors);
+      run.network_peak = trial.largest_network_force(m);
+      run.network_rms = trial.rms_network_force(m);
+      runs_.push_back(std::move(run));
+    }
+}
+
+// First with few shares, so that most samples are gone soon.
+std::vector<ErrorBetween::Ends> ErrorBetween::peaks_of(std::vector<Ends> errors) {
+  for (const int parts : {1, 4, 16}) keep_largest(errors, parts);
+  return errors;
+}
+
+// Keeps what is the largest at some share. At `parts` + 1 shares the largest is looked for, with its sign: a line. All
+// errors' sizes are convex, so one that is below two neighbouring lines where they meet is below the larger of both
+// everywhere between.
+void ErrorBetween::keep_largest(std::vector<Ends>& errors, int parts) {
+  std::vector<Ends> lines;
+  for (int k = 0; k <= parts; ++k) {
+    const auto smaller = [share = double(k) / parts](const Ends& one, const Ends& other) {
+      return std::abs(one.at(share)) < std::abs(other.at(share));
+    };
+    const Ends largest = *std::max_element(errors.begin(), errors.end(), smaller);
+    const double sign = largest.at(double(k) / parts) < 0 ? -1 : 1;
+    lines.push_back({sign * largest.first, sign * largest.second});
+  }
+  std::vector<std::pair<double, double>> meetings;  // a share, and the size there
+  for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+    const Ends &one = lines[k], &other = lines[k + 1];
+    const double at_first = one.first - other.first, at_second = one.second - other.second;
+    const bool cross = (at_first > 0) != (at_second > 0) && at_first != at_second;
+    const double share = cross ? at_first / (at_first - at_second) : double(k) / parts;
+    meetings.emplace_back(share, std::max(one.at(share), other.at(share)));
+  }
+  std::erase_if(errors, [&](const Ends& error) {
+    return std::all_of(meetings.begin(), meetings.end(),
+                       [&](const auto& met) { return std::abs(error.at(met.first)) < met.second; });
+  });
+  for (const Ends& line : lines) errors.push_back(line);
+}
+
+double ErrorBetween::at(double share) const {
+  double worst = 0;
+  for (const Run& run : runs_) {
+    double peak = 0;
+    for (const Ends& error : run.peaks) peak = std::max(peak, std::abs(error.at(share)));
+    const double square = (1 - share) * (1 - share) * run.first_square + 2 * share * (1 - share) * run.product +
+                          share * share * run.second_square;
+    if (run.network_peak > 0) worst = std::max(worst, peak / run.network_peak);
+    if (run.network_rms > 0) worst = std::max(worst, std::sqrt(std::max(square, 0.0)) / run.network_rms);
   }
   return worst;
 }

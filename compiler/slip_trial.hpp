@@ -68,8 +68,31 @@ struct TrialError {
 };
 TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt);
 
-// The same of what is felt of a law between two others, as far as it is affine in what tells them apart.
-TrialError trial_error_between(const SlipTrial& trial, const std::vector<FeltForce>& none,
-                               const std::vector<FeltForce>& all, double share);
+// The worst error of laws between two others, as far as what is felt is affine in the share of the second.
+class ErrorBetween {
+ public:
+  ErrorBetween(const SlipTrial& trial, const std::vector<FeltForce>& first, const std::vector<FeltForce>& second);
+
+  double at(double share) const;  // [1]
+
+ private:
+  // A sample's error in the force, at a share of 0 and of 1.
+  struct Ends {
+    double at(double share) const { return (1 - share) * first + share * second; }
+
+    double first = 0, second = 0;
+  };
+  // Of one motion, with the brake at one end of its tolerance.
+  struct Run {
+    std::vector<Ends> peaks;                                  // all that are the largest at some share
+    double first_square = 0, product = 0, second_square = 0;  // means over the samples
+    double network_peak = 0, network_rms = 0;
+  };
+
+  static std::vector<Ends> peaks_of(std::vector<Ends> errors);
+  static void keep_largest(std::vector<Ends>& errors, int parts);
+
+  std::vector<Run> runs_;
+};
 
 }  // namespace dashpot::compiler

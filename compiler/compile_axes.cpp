@@ -42,7 +42,6 @@ Choices choices_of_ports(const Choices& asked, double rate) {
   choices.decomposition = "";
   choices.state_input = StateInput::position;
   choices.rate = rate;
-  choices.varies_assumed = false;
   return choices;
 }
 

@@ -80,12 +80,10 @@ void check(const std::string& path, const Options& options, const fitting::ReadC
     if (const auto axes = compile_axes(*file, options, device, diagnostics))
       insist_on_certificate(*axes, options, diagnostics);
   } else if (as_many_axes(*file, device, diagnostics)) {
-    Choices choices = options.choices;
-    choices.varies_assumed = false;  // nothing is told of it
-    const auto compilation = compile(*file, choices, device.device, diagnostics);
+    const auto compilation = compile(*file, options.choices, device.device, diagnostics);
     if (!compilation) return;
-    warn_of_felt_error(*compilation, choices, diagnostics);
-    insist_on_certificate(*compilation, choices, diagnostics);  // as `compile` does
+    warn_of_felt_error(*compilation, options.choices, diagnostics);
+    insist_on_certificate(*compilation, options.choices, diagnostics);  // as `compile` does
   }
 }
 

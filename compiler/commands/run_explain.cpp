@@ -44,15 +44,17 @@ ExitStatus run_explain(const Options& options, SourceFiles& files, Diagnostics& 
     return write_standard_output(explain_axes(*axes, options.json, options.legend), diagnostics);
   }
   if (!as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
-  std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
+  Choices choices = options.choices;
+  choices.varies_assumed = !options.as;
+  std::optional<Compilation> compilation = compile(*file, choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.as) {
     const std::optional<std::string> text = network_as(*options.as, *compilation, diagnostics);
     return text ? write_standard_output(*text, diagnostics) : ExitStatus::input_refused;
   }
-  warn_of_felt_error(*compilation, options.choices, diagnostics);
-  tell_what_is_proved_at_the_limit(*compilation, options.choices, diagnostics);
-  weigh_all_candidates(*compilation, options.choices);
+  warn_of_felt_error(*compilation, choices, diagnostics);
+  tell_what_is_proved_at_the_limit(*compilation, choices, diagnostics);
+  weigh_all_candidates(*compilation, choices);
   return write_standard_output(options.json ? explain_json(*compilation) : explain_text(*compilation, options.legend),
                                diagnostics);
 }

@@ -13,10 +13,12 @@ ExitStatus run_report(const Options& options, SourceFiles& files, Diagnostics& d
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = open_network(options.networks.front(), options, files, diagnostics);
   if (file == nullptr) return ExitStatus::input_refused;
-  std::optional<Compilation> compilation = compile(*file, options.choices, device.device, diagnostics);
+  Choices choices = options.choices;
+  choices.varies_assumed = true;
+  std::optional<Compilation> compilation = compile(*file, choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
-  warn_of_felt_error(*compilation, options.choices, diagnostics);
-  weigh_all_candidates(*compilation, options.choices);
+  warn_of_felt_error(*compilation, choices, diagnostics);
+  weigh_all_candidates(*compilation, choices);
   const std::optional<std::string> page = report(*compilation, web_module(*compilation, diagnostics), diagnostics);
   if (!page || diagnostics.has_errors()) return ExitStatus::input_refused;
   return write_files("", {{*options.output, *page}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;

@@ -146,13 +146,11 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   if (file && has_two_axes(*file))
     return run_axes(options, hands.at(options.hand.value_or("relaxed"))(), *file, device, diagnostics);
   if (file && !as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
-  Choices choices = options.choices;
-  choices.varies_assumed = false;  // nothing is told of it
   const std::optional<Compilation> compilation =
-      file ? compile(*file, choices, device.device, diagnostics) : std::nullopt;
+      file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
-  warn_of_driving_uncertified(*compilation, choices, diagnostics);
-  warn_of_felt_error(*compilation, choices, diagnostics);
+  warn_of_driving_uncertified(*compilation, options.choices, diagnostics);
+  warn_of_felt_error(*compilation, options.choices, diagnostics);
   if (options.motion) return play_motion(options, *compilation, files, diagnostics);
   std::optional<LoadedModel> model = load_model(*compilation, options.emission, diagnostics);
   if (!model) return ExitStatus::input_refused;

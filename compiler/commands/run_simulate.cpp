@@ -134,7 +134,6 @@ ExitStatus run_simulate(const Options& options, SourceFiles& files, Diagnostics&
   const std::optional<Motion> motion = input ? parse_motion(*input, diagnostics) : std::nullopt;
   if (network == nullptr || !motion) return ExitStatus::input_refused;
   Choices choices = options.choices;
-  choices.varies_assumed = false;  // nothing is told of it
   if (!settle_rate(*motion, rate_of(device), choices, *input, diagnostics)) return ExitStatus::command_line_wrong;
   const std::optional<Compilation> compilation = compile(*network, choices, device.device, diagnostics);
   if (!compilation || diagnostics.has_errors() || !suits(*motion, compilation->network.port_motion, diagnostics))

@@ -47,7 +47,6 @@ Device slow_stage() {
 
 std::optional<Compilation> by_default(const Network& network, const Device& device) {
   Choices choices;
-  choices.varies_assumed = false;
   Diagnostics unheard;
   StageTimes unseen;
   return compile(network, choices, device, unheard, unseen);

@@ -218,10 +218,9 @@ Rational above(const Rational& value, unsigned digits = 90) { return -below(-val
 std::pair<Rational, Rational> enclosed_decay(const Rational& time, const Rational& lag) {
   if (lag == 0) return {0, 0};
   const Rational part = time / lag / (Integer(1) << 110);
-  const Integer one = Integer(1) << 220;
   Integer low = whole(std::max(Rational(1 - part), Rational(0)), 220), high = -whole(-1 / (1 + part), 220);
-  for (int squarings = 0; squarings < 110; ++squarings) low = low * low / one, high = (high * high + one - 1) / one;
-  return {below({low, one}), above({high, one})};
+  for (int squarings = 0; squarings < 110; ++squarings) low = low * low >> 220, high = (high * high >> 220) + 1;
+  return {below({low, Integer(1) << 220}), above({high, Integer(1) << 220})};
 }
 
 // The inequality's matrix for one hold, over the states, w and ρ, on and below the diagonal: whole, because scaled by

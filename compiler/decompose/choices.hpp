@@ -28,7 +28,7 @@ struct Choices {
   // A name of theory, section 4, or a damping [SI]; empty: `faithful` on a device and with slips, else `paper`.
   std::variant<std::string, double> decomposition = "";
   double tolerance = 0.05;  // of what is felt, that `faithful` may err by [1]
-  // Whether `faithful` looks how it moves over what the device file assumes. It takes as long as all else: for who asks.
+  // Whether `faithful` looks how it moves over what the device file assumes, which takes as long as all else.
   bool varies_assumed = false;
   ScalarType scalar = ScalarType::float64;
   VectorRegisters registers = VectorRegisters::sse2;  // sixteen bytes: what every x86-64 and every AArch64 has

@@ -7,6 +7,7 @@
 
 #include "commanded.hpp"
 #include "slip_trial.hpp"
+#include "support/random.hpp"
 #include "support/written_network.hpp"
 
 namespace dashpot::testing {
@@ -108,6 +109,41 @@ TEST(RunError, SteadyTakesWhatTheToleranceAllows) {
   ASSERT_NE(steady, slips.merits.end());
   EXPECT_LE(steady->error(), slips.limit);
   EXPECT_GT(steady->mean_damping, 0);
+}
+
+// Fails if the error between two runs is not that of all samples in between, at its ends included: runs of other noise,
+// of the same, and of none.
+TEST(RunError, BetweenTwoRunsIsThatOfEverySample) {
+  const compiler::Network network = written_network(
+      R"({"parallel": [{"damper": 1}, {"series": [{"spring": 500}, {"parallel": [{"slip": 0.4}, {"damper": 5}]}]}]})");
+  const compiler::Compilation c = by_default(network, "virtual");
+  const compiler::PortDevice ideal = compiler::PortDevice::ideal();
+  const compiler::SlipTrial trial(network, c.law, c.law, ideal, 0);
+  Random random(7);
+  const auto felt_with = [&](double noise, double beyond) {
+    std::vector<compiler::FeltForce> felt;
+    for (std::size_t m = 0; m < trial.motions().size(); ++m) {
+      felt.push_back({trial.network_force(m), trial.network_force(m)});
+      for (std::vector<double>* end : {&felt.back().weak, &felt.back().strong})
+        for (double& force : *end) force += noise * random.uniform(-1, 1) + beyond;
+    }
+    return felt;
+  };
+  const std::pair<double, double> kinds[] = {{0, 0}, {0, 0.2}, {0.3, 0}, {0.3, 0.2}, {2, -0.5}};
+  for (const auto& [noise, beyond] : kinds)
+    for (const auto& [other_noise, other_beyond] : kinds) {
+      const auto first = felt_with(noise, beyond), second = felt_with(other_noise, other_beyond);
+      const compiler::ErrorBetween error(trial, first, second);
+      for (double share = 0; share <= 1; share += 1.0 / 64) {
+        std::vector<compiler::FeltForce> between = first;
+        for (std::size_t m = 0; m < between.size(); ++m)
+          for (const auto end : {&compiler::FeltForce::weak, &compiler::FeltForce::strong})
+            for (std::size_t i = 0; i < (between[m].*end).size(); ++i)
+              (between[m].*end)[i] += share * ((second[m].*end)[i] - (first[m].*end)[i]);
+        const double expected = trial_error(trial, between).worst();
+        EXPECT_NEAR(error.at(share), expected, 1e-12 + 1e-9 * expected) << "at " << share;
+      }
+    }
 }
 
 // Fails if a loop whose rate is far above the band plays a part of a motion only, or works through millions of samples.

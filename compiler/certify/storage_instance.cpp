@@ -17,8 +17,8 @@ using RationalMatrix = std::vector<std::vector<Rational>>;
 
 std::string list_of(const std::vector<std::string>& items) { return fmt::format("[{}]", fmt::join(items, "; ")); }
 
-// Binary digits that Coq computes with: of A, of the share of V that pays for the others, and of witnesses, which have
-// no more than Real.
+// Binary digits that Coq computes with: of A, of the share of V that pays for the others, and of witnesses, at most,
+// which have no more than Real.
 struct Precision {
   unsigned kept, slack;
   int witness;
@@ -74,8 +74,21 @@ Rational power_of_two(int exponent) {
   return exponent >= 0 ? Rational(Integer(1) << exponent) : Rational(1, Integer(1) << -exponent);
 }
 
-// Columns of L and k with M − k L Lᵀ diagonally dominant, tried with smaller and smaller margins.
-std::optional<std::string> witness(const IntegerMatrix& M, int fraction) {
+// Whether what is left of M is diagonally dominant.
+bool is_dominant(const IntegerMatrix& M, const IntegerMatrix& squared) {
+  for (std::size_t i = 0; i < M.size(); ++i) {
+    Integer spare = M[i][i] - squared[i][i];
+    for (std::size_t j = 0; j < M.size(); ++j)
+      if (j != i) spare -= abs(M[i][j] - squared[i][j]);
+    if (spare < 0) return false;
+  }
+  return true;
+}
+
+// Columns of L and k with M − k L Lᵀ diagonally dominant for every M, which differ by little; tried with smaller and
+// smaller margins, down to what is rounded.
+std::optional<std::string> witness_of(const std::vector<IntegerMatrix>& all, int fraction) {
+  const IntegerMatrix& M = all.front();
   const std::size_t n = M.size();
   Integer largest = 0;
   for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, M[i][i]);
@@ -85,7 +98,7 @@ std::optional<std::string> witness(const IntegerMatrix& M, int fraction) {
   std::vector<std::vector<Real>> unit(n, std::vector<Real>(n));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) unit[i][j] = Real(M[i][j]) / Real(k);
-  for (int margin = 20; margin <= 120; margin += 4) {
+  for (int margin = 12; margin <= fraction; margin += 4) {
     std::vector<std::vector<Real>> L(n, std::vector<Real>(n, Real(0)));
     bool runs = true;
     for (std::size_t i = 0; runs && i < n; ++i)
@@ -100,17 +113,14 @@ std::optional<std::string> witness(const IntegerMatrix& M, int fraction) {
     IntegerMatrix columns(n, std::vector<Integer>(n));
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j <= i; ++j) columns[j][i] = Integer(round(L[i][j]));
-    bool dominant = true;
-    for (std::size_t i = 0; i < n && dominant; ++i) {
-      Integer off = 0, own = 0;
-      for (std::size_t j = 0; j < n; ++j) {
-        Integer rest = M[i][j];
-        for (std::size_t q = 0; q < n; ++q) rest -= k * columns[q][i] * columns[q][j];
-        (i == j ? own : off) += i == j ? rest : abs(rest);
+    IntegerMatrix squared(n, std::vector<Integer>(n));
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j <= i; ++j) {
+        Integer sum = 0;
+        for (std::size_t q = 0; q <= j; ++q) sum += columns[q][i] * columns[q][j];
+        squared[i][j] = squared[j][i] = k * sum;
       }
-      dominant = own >= off;
-    }
-    if (!dominant) continue;
+    if (!std::ranges::all_of(all, [&](const IntegerMatrix& one) { return is_dominant(one, squared); })) continue;
     std::vector<std::string> items;  // columns from their diagonal entry on
     for (std::size_t j = 0; j < n; ++j)
       items.push_back(row_text({columns[j].begin() + std::ptrdiff_t(j), columns[j].end()}));
@@ -119,9 +129,12 @@ std::optional<std::string> witness(const IntegerMatrix& M, int fraction) {
   return std::nullopt;
 }
 
-}  // namespace
-
-namespace {
+// With as few digits as do: Coq's time is the square of them.
+std::optional<std::string> witness(const std::vector<IntegerMatrix>& all, int most) {
+  for (const int fraction : {most / 2, most * 3 / 4, most})
+    if (auto found = witness_of(all, fraction)) return found;
+  return std::nullopt;
+}
 
 std::optional<std::string> coq_instance(const std::string& name, const dashpot_check::LoopForm& loop,
                                         const dashpot_check::Device& device, const StorageProof& proof,
@@ -130,36 +143,47 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   const std::vector<dashpot_check::Hold> holds = dashpot_check::holds(device);
   const bool lags = device.amplifier_lag > 0;
   const std::size_t corners = lags ? 4 : 1;  // of each part of the holds
-  const Rational stiffest = Rational(proof.damping) / holds.back().longest;
-  // States in units in which P has a diagonal like that of b/T.
+  const std::size_t lacking_at = 0;  // what an amplifier's lag keeps back, if anything: Coq's holds differ there
   std::vector<int> unit(n);
-  const double middle = stiffest.convert_to<double>();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double own = proof.storage[i][i];
-    unit[i] = own > 0 && middle > 0 ? int(std::lround(std::log2(middle / own) / 2)) : 0;
-  }
+  std::map<std::string, std::size_t> place = {{"w", n}};
+  for (std::size_t i = 0; i < n; ++i) place[loop.states[i]] = lags ? (i + 1) % n : i;
   RationalMatrix P(n, std::vector<Rational>(n));
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j <= i; ++j)
-      P[i][j] = P[j][i] = Rational(proof.storage[i][j]) * power_of_two(unit[i] + unit[j]);
-  std::map<std::string, std::size_t> place = {{"w", n}};
-  for (std::size_t i = 0; i < n; ++i) place[loop.states[i]] = i;
+    for (std::size_t j = 0; j <= i; ++j) {
+      const std::size_t row = place.at(loop.states[i]), column = place.at(loop.states[j]);
+      P[row][column] = P[column][row] = proof.storage[i][j];
+    }
   const auto recursion = [&](const Rational& decay) {
     RationalMatrix A(n, std::vector<Rational>(n + 1));
-    for (std::size_t i = 0; i < n; ++i)
-      for (const auto& [state, value] : loop.next.at(loop.states[i]))
-        A[i][place.at(state)] = value * power_of_two((place.at(state) < n ? unit[place.at(state)] : 0) - unit[i]);
-    if (lags) A[n - 1][n - 1] += decay;
+    for (const std::string& next : loop.states)
+      for (const auto& [state, value] : loop.next.at(next)) {
+        const std::size_t row = place.at(next), column = place.at(state);
+        A[row][column] = value * power_of_two((column < n ? unit[column] : 0) - unit[row]);
+      }
+    if (lags) A[lacking_at][lacking_at] += decay;
     return A;
   };
   const auto answer = [&](const Rational& share) {
     RationalMatrix C(1, std::vector<Rational>(n));
     for (const auto& [state, value] : loop.force) C[0][place.at(state)] = value * power_of_two(unit[place.at(state)]);
-    if (lags) C[0][n - 1] += share * power_of_two(unit[n - 1]);
+    if (lags) C[0][lacking_at] += share * power_of_two(unit[lacking_at]);
     return C;
   };
+  // States in units in which the longest hold leaves as much of each one's square as of that of w: few digits of the
+  // witnesses are then enough.
+  const double middle = Rational(Rational(proof.damping) / holds.back().longest).convert_to<double>();
+  const RationalMatrix of_longest = recursion(holds[holds.size() - corners].decay);
+  for (std::size_t i = 0; i < n; ++i) {
+    Rational left = P[i][i];
+    for (std::size_t k = 0; k < n; ++k)
+      for (std::size_t l = 0; l < n && of_longest[k][i] != 0; ++l)
+        if (of_longest[l][i] != 0) left -= of_longest[k][i] * P[k][l] * of_longest[l][i];
+    if (left > 0 && middle > 0) unit[i] = int(std::lround(std::log2(middle / left.convert_to<double>()) / 2));
+  }
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) P[i][j] *= power_of_two(unit[i] + unit[j]);
   RationalMatrix E(1, std::vector<Rational>(lags ? n : 0));
-  if (lags) E[0][n - 1] = power_of_two(unit[n - 1]);
+  if (lags) E[0][lacking_at] = power_of_two(unit[lacking_at]);
   unsigned A_digits = precision.kept, S_digits = std::max(digits_of(E), 200u);
   for (const dashpot_check::Hold& hold : holds) {
     A_digits = std::max(A_digits, digits_of(recursion(hold.decay)));
@@ -173,6 +197,11 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   Integer magnitude = 0;  // of all of P
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) magnitude += abs(stored[i][j]);
+  // β and γ of Loop.v.
+  const auto dissipation = [&](const dashpot_check::Hold& longest) {
+    const Rational beta = Rational(proof.damping) / longest.longest;
+    return std::pair(scaled(beta, S_digits), lags ? scaled(beta / longest.spread, S_digits) : Integer(0));
+  };
   // What goes in + V − V⁺ by the leading digits of A, less what the others may take: `near` of Loop.v.
   const auto balance = [&](const IntegerMatrix& whole, const std::vector<Integer>& C, const Integer& beta,
                            const Integer& gamma) {
@@ -206,30 +235,46 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   IntegerMatrix fine = stored;
   for (std::vector<Integer>& row : fine)
     for (Integer& value : row) value <<= S_digits;
-  const std::optional<std::string> of_P = witness(fine, precision.witness);
-  std::vector<std::string> part_texts, witness_texts;
-  for (std::size_t part = 0; part < holds.size(); part += corners) {
-    const dashpot_check::Hold &first = holds[part], &last = holds[part + corners - 1];
-    const Integer beta = scaled(Rational(proof.damping) / first.longest, S_digits);
-    const Integer gamma = lags ? scaled(Rational(proof.damping) / first.longest / first.spread, S_digits) : Integer(0);
-    std::vector<std::string> witnesses;
-    for (std::size_t corner = part; corner < part + corners; ++corner) {
-      const auto found = witness(balance(scaled(recursion(holds[corner].decay), A_digits),
-                                         scaled(answer(holds[corner].share), S_digits)[0], beta, gamma),
-                                 precision.witness);
-      if (!found) return std::nullopt;
-      witnesses.push_back(*found);
+  const std::optional<std::string> of_P = witness({fine}, precision.witness);
+  // Of the holds from the shortest of part `from` to the longest of part `to`: by one witness for all corners, or for
+  // those of each decay.
+  const auto witnesses = [&](std::size_t from, std::size_t to) -> std::optional<std::string> {
+    const dashpot_check::Hold& longest = holds[to * corners];
+    const auto [beta, gamma] = dissipation(longest);
+    std::vector<std::vector<IntegerMatrix>> groups(1);
+    for (std::size_t corner = 0; corner < corners; ++corner) {
+      if (corner == 2 && device.jitter > 0) groups.emplace_back();
+      const Rational& decay = holds[corner < 2 ? to * corners : from * corners + 2].decay;
+      const Rational& share = holds[to * corners + corner % 2].share;
+      groups.back().push_back(
+          balance(scaled(recursion(decay), A_digits), scaled(answer(share), S_digits)[0], beta, gamma));
     }
-    witness_texts.push_back(list_of(witnesses));
-    const auto of = [&](const dashpot_check::Hold& hold) {
-      return lags ? std::pair{fmt::format("recursion ({})",
-                                          number_text(scaled(recursion(hold.decay), A_digits)[n - 1][n - 1])),
-                              fmt::format("command ({})", number_text(scaled(answer(hold.share), S_digits)[0][n - 1]))}
-                  : std::pair{std::string("recursion"), std::string("command")};
+    std::vector<std::string> texts;
+    for (const std::vector<IntegerMatrix>& group : groups)
+      if (auto found = witness(group, precision.witness)) texts.push_back(std::move(*found));
+      else return std::nullopt;
+    return list_of(texts);
+  };
+  // Coq takes as long as there are parts: short holds, of which less is asked, are as many in one as have a witness.
+  std::vector<std::string> part_texts, witness_texts;
+  for (std::size_t from = 0, to = 0; from * corners < holds.size(); from = to + 1) {
+    std::optional<std::string> found;
+    for (to = holds.size() / corners - 1; !(found = witnesses(from, to)); --to)
+      if (to == from) return std::nullopt;
+    witness_texts.push_back(*found);
+    const dashpot_check::Hold *first = &holds[to * corners], *last = &holds[from * corners + corners - 1];
+    const auto [beta, gamma] = dissipation(*first);
+    const auto A = [&](const dashpot_check::Hold& hold) {
+      const Integer decay = scaled(recursion(hold.decay), A_digits)[lacking_at][lacking_at];
+      return lags ? fmt::format("recursion ({})", number_text(decay)) : std::string("recursion");
     };
-    part_texts.push_back(fmt::format(
-        "{{| A1 := {}; A2 := {};\n     C1 := {}; C2 := {};\n     beta := {}; gamma := {} |}}", of(first).first,
-        of(last).first, of(first).second, of(last).second, number_text(beta), number_text(gamma)));
+    const auto C = [&](const dashpot_check::Hold& hold) {
+      const Integer share = scaled(answer(hold.share), S_digits)[0][lacking_at];
+      return lags ? fmt::format("command ({})", number_text(share)) : std::string("command");
+    };
+    part_texts.push_back(
+        fmt::format("{{| A1 := {}; A2 := {};\n     C1 := {}; C2 := {};\n     beta := {}; gamma := {} |}}", A(*first),
+                    A(*last), C(*first), C(*(first + corners - 1)), number_text(beta), number_text(gamma)));
   }
   if (!of_P) return std::nullopt;
   const auto power = [](unsigned digits) { return number_text(Integer(1) << digits); };
@@ -237,10 +282,10 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   std::vector<std::string> A_rows, C_row = texts(scaled(answer(0), S_digits)[0]);
   for (const std::vector<Integer>& row : scaled(recursion(0), A_digits)) {
     std::vector<std::string> items = texts(row);
-    if (lags && A_rows.size() + 1 == n) items[n - 1] = "decay";
+    if (lags && A_rows.size() == lacking_at) items[lacking_at] = "decay";
     A_rows.push_back(list_of(items));
   }
-  if (lags) C_row[n - 1] = "share";
+  if (lags) C_row[lacking_at] = "share";
   // Behind a lag the theorem is of the holds that there are, punctual or jittering; else of all shorter ones too.
   const std::string lengths = !lags               ? "up to "
                               : device.jitter > 0 ? fmt::format("{} to ", device.sample_period - device.jitter)
@@ -282,7 +327,7 @@ std::optional<std::string> coq_instance(const std::string& name, const Passivity
   if (!proof) return std::nullopt;
   const dashpot_check::Device device = checked_device(loop);
   const dashpot_check::LoopForm form = dashpot_check::loop_form(checked_program(*motor), device);
-  for (const Precision& precision : {Precision{80, 48, 56}, Precision{112, 64, 72}, Precision{240, 120, 160}})
+  for (const Precision& precision : {Precision{64, 40, 56}, Precision{112, 64, 72}, Precision{240, 120, 160}})
     if (auto instance = coq_instance(name, form, device, *proof, precision)) return instance;
   return std::nullopt;
 }

@@ -53,7 +53,8 @@ class TheoryTest(CommandTest):
             with self.subTest(law=law):
                 self.dashpot("compile", *law, "--proof", "law.v")
                 text = (self.folder / "law.v").read_text()
-                self.assertEqual(text.count("gamma :="), 6 if "late.json" in law else 1)
+                # Of the six parts that the holds are taken in, those of which least is asked are one here.
+                self.assertEqual(text.count("gamma :="), 2 if "late.json" in law else 1)
                 self.assert_no_more_axioms(self.coqc(f"Law{number}.v", text), AXIOMS)
                 if number > 0: continue
                 lowered = re.sub(r"beta := 0x([0-9a-f]+)", lambda beta: f"beta := {int(beta[1], 16) * 99999 // 100000}", text)

@@ -87,6 +87,23 @@ Proof.
   rewrite quad_mix, quad_cross, dot_comb, dot_lincomb, IH. ring.
 Qed.
 
+(* Of several A that differ in their first rows: what the others have in common is paid once. *)
+Definition after_first (P : sym) (A : list (list Z)) : list Z * sym :=
+  match P, A with (_, v) :: P', _ :: A' => (lincomb v A', pull P' A') | _, _ => ([], []) end.
+Definition shared := (list (list Z) * (list Z * sym))%type.
+Definition shared_by (P : sym) (A : list (list Z)) : shared := (tl A, after_first P A).
+Definition pull_sharing (P : sym) (s : shared) (A : list (list Z)) : sym :=
+  if list_eq_dec (list_eq_dec Z.eq_dec) (tl A) (fst s) then
+    match P, A with (d, _) :: _, r :: _ => mix 1 (cross r (comb d r 2 (fst (snd s)))) 1 (snd (snd s)) | _, _ => [] end
+  else pull P A.
+Lemma pull_sharing_is_pull : forall P A B, pull_sharing P (shared_by P B) A = pull P A.
+Proof.
+  intros P A B. unfold pull_sharing, shared_by. cbn [fst snd].
+  destruct (list_eq_dec (list_eq_dec Z.eq_dec) (tl A) (tl B)) as [T|]; [|reflexivity].
+  destruct P as [|[d v] P], A as [|r A]; try reflexivity. cbn [tl] in T. subst A.
+  destruct B as [|b B]; cbn [after_first tl pull fst snd]; [|reflexivity]. destruct v, P as [|[? ?] ?]; reflexivity.
+Qed.
+
 (* ---------- the witness ---------- *)
 Fixpoint size (v : list Z) : Z := match v with [] => 0%Z | a :: v' => (Z.abs a + size v')%Z end.
 Fixpoint sub_diagonal (M : sym) (v : list Z) : sym :=   (* M less diag |v| *)
@@ -138,11 +155,13 @@ Proof.
   rewrite quad_mix, quad_self. pose proof (Rle_0_sqr (dot c x)) as S. unfold Rsqr in S.
   destruct x as [|y x]; cbn [quad]; rewrite ?dot_nil; [lra|]. pose proof (IH x). lra.
 Qed.
-Definition psd_by (L : list (list Z)) (k : positive) (M : sym) : bool :=
-  let R := mix 1 M (- Zpos k) (gram L) in dominant (length R) R.
-Lemma psd_by_sound : forall L k M, psd_by L k M = true -> forall x, 0 <= quad M x.
+(* Of several forms by one L: what it costs to square it is paid once. *)
+Definition psd_by (L : list (list Z)) (k : positive) (Ms : list sym) : bool :=
+  let G := gram L in forallb (fun M => let R := mix 1 M (- Zpos k) G in dominant (length R) R) Ms.
+Lemma psd_by_sound : forall L k Ms, psd_by L k Ms = true -> Forall (fun M => forall x, 0 <= quad M x) Ms.
 Proof.
-  intros L k M H x. unfold psd_by in H. pose proof (dominant_sound _ _ H x) as Q. rewrite quad_mix, opp_IZR in Q.
+  intros L k Ms H. unfold psd_by in H. rewrite forallb_forall in H. apply Forall_forall. intros M I x. specialize (H M I).
+  pose proof (dominant_sound _ _ H x) as Q. rewrite quad_mix, opp_IZR in Q.
   assert (P : 0 <= IZR (Zpos k)) by (apply (IZR_le 0); lia). pose proof (Rmult_le_pos _ _ P (gram_psd L x)). lra.
 Qed.
 

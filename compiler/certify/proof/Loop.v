@@ -94,53 +94,78 @@ Proof.
   apply Rmult_le_reg_l with (1 := PN). rewrite Rmult_0_r. apply Rle_trans with (1 := H). lra.
 Qed.
 Definition witness := (list (list Z) * positive)%type.
-Definition accepts_form (f : sym * witness) : bool := psd_by (fst (snd f)) (snd (snd f)) (fst f).
+Definition accepts_forms (Ms : list sym) (w : witness) : bool := psd_by (fst w) (snd w) Ms.
 (* Where nothing lies between, one corner is all four. *)
 Definition is_exact (p : part) : bool :=
   if list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p) then if list_eq_dec Z.eq_dec (C1 p) (C2 p) then true else false else false.
-Definition near_corners (c : loop) (r : digits) (p : part) : list sym :=
-  let M1 := near_pull c r (A1 p) in
-  let M2 := near_pull c r (A2 p) in
-  [near c r M1 (C1 p) (beta p) (gamma p); near c r M1 (C2 p) (beta p) (gamma p);
-   near c r M2 (C1 p) (beta p) (gamma p); near c r M2 (C2 p) (beta p) (gamma p)].
-Definition accepts_part (c : loop) (r : digits) (f : part * list witness) : bool :=
-  if is_exact (fst f) then
+(* The A of all parts differ in their first rows, if the first state is what an amplifier's lag keeps back. *)
+Definition shared_of (c : loop) (r : digits) : shared :=
+  shared_by (P c) (match parts c with p :: _ => shorter (Z.of_nat (dropped r)) (A1 p) | [] => [] end).
+Definition near_pull_sharing (c : loop) (r : digits) (s : shared) (A : list (list Z)) : sym :=
+  mix 1 (pull_sharing (P c) s (shorter (Z.of_nat (dropped r)) A))
+      (2 * (Zpos (slack r) * magnitude (P c) * Z.of_nat (width A))) (ones (width A)).
+(* The corners of one A. *)
+Definition near_corners (c : loop) (r : digits) (s : shared) (p : part) (A : list (list Z)) : list sym :=
+  let M := near_pull_sharing c r s A in
+  [near c r M (C1 p) (beta p) (gamma p); near c r M (C2 p) (beta p) (gamma p)].
+(* By one witness for all corners, or by one for each A: between C1 and C2 there is hardly anything. *)
+Definition accepts_part (c : loop) (r : digits) (s : shared) (f : part * list witness) : bool :=
+  let p := fst f in
+  if is_exact p then
     match snd f with
-    | w :: _ => accepts_form (near c r (near_pull c r (A1 (fst f))) (C1 (fst f)) (beta (fst f)) (gamma (fst f)), w)
-    | [] => false
+    | [w] => accepts_forms [near c r (near_pull_sharing c r s (A1 p)) (C1 p) (beta p) (gamma p)] w
+    | _ => false
     end
-  else Nat.leb 4 (length (snd f)) && forallb accepts_form (combine (near_corners c r (fst f)) (snd f)).
+  else
+    match snd f with
+    | [w] => accepts_forms (near_corners c r s p (A1 p) ++ near_corners c r s p (A2 p)) w
+    | [w1; w2] => accepts_forms (near_corners c r s p (A1 p)) w1 && accepts_forms (near_corners c r s p (A2 p)) w2
+    | _ => false
+    end.
 Definition accepts (c : loop) (r : digits) (of_P : witness) (of_parts : list (list witness)) : bool :=
-  shape c && keeps c r && accepts_form (times (Zpos (eS c)) (P c), of_P)
-  && Nat.eqb (length (parts c)) (length of_parts) && forallb (accepts_part c r) (combine (parts c) of_parts).
+  let s := shared_of c r in
+  shape c && keeps c r && accepts_forms [times (Zpos (eS c)) (P c)] of_P
+  && Nat.eqb (length (parts c)) (length of_parts) && forallb (accepts_part c r s) (combine (parts c) of_parts).
 
-Lemma accepted_form : forall M w, accepts_form (M, w) = true -> never_negative M.
-Proof. intros M [L k] H x. exact (psd_by_sound L k M H x). Qed.
-Lemma accepted_forms : forall Ms ws, (length Ms <= length ws)%nat -> forallb accepts_form (combine Ms ws) = true ->
-  Forall never_negative Ms.
+Lemma accepted_forms : forall Ms w, accepts_forms Ms w = true -> Forall never_negative Ms.
+Proof. intros Ms [L k] H. exact (psd_by_sound L k Ms H). Qed.
+Lemma near_pull_shared : forall c r A, near_pull_sharing c r (shared_of c r) A = near_pull c r A.
+Proof. intros. unfold near_pull_sharing, shared_of. rewrite pull_sharing_is_pull. reflexivity. Qed.
+Lemma near_corners_are_enough : forall c r p A, never_negative (P c) -> keeps c r = true ->
+  Forall never_negative (near_corners c r (shared_of c r) p A) ->
+  Forall never_negative [balance c A (C1 p) (beta p) (gamma p); balance c A (C2 p) (beta p) (gamma p)].
 Proof.
-  induction Ms as [|M Ms IH]; intros [|w ws] L H; cbn [combine forallb length] in *; try lia; constructor.
-  - apply andb_prop in H as [H _]. exact (accepted_form M w H).
-  - apply andb_prop in H as [_ H]. exact (IH ws (le_S_n _ _ L) H).
+  intros c r p A HP HK F. unfold near_corners in F. rewrite near_pull_shared in F.
+  inversion F as [|? ? M1 F2]; inversion F2 as [|? ? M2 F3]; subst.
+  repeat apply Forall_cons; try apply Forall_nil; apply (near_is_enough c r _ _ _ _ HP HK); assumption.
+Qed.
+Lemma accepted_part : forall c r p ws, never_negative (P c) -> keeps c r = true ->
+  accepts_part c r (shared_of c r) (p, ws) = true -> Forall never_negative (corners c p).
+Proof.
+  intros c r p ws HP HK H. unfold accepts_part in H. cbn [fst snd] in H.
+  destruct (is_exact p) eqn:X.
+  - destruct ws as [|w0 [|? ?]]; try discriminate. apply accepted_forms in H. inversion H as [|? ? M _]; subst.
+    rewrite near_pull_shared in M. apply (near_is_enough c r _ _ _ _ HP HK) in M. unfold is_exact in X.
+    destruct (list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p)) as [EA|]; [|discriminate].
+    destruct (list_eq_dec Z.eq_dec (C1 p) (C2 p)) as [EC|]; [|discriminate].
+    unfold corners. rewrite <- EA, <- EC. repeat (apply Forall_cons; [exact M|]). apply Forall_nil.
+  - set (near_of := near_corners c r (shared_of c r) p) in *.
+    enough (G : Forall never_negative (near_of (A1 p)) /\ Forall never_negative (near_of (A2 p))).
+    { destruct G as [G1 G2]. apply (near_corners_are_enough c r p _ HP HK) in G1, G2.
+      exact (proj2 (Forall_app _ [_; _] [_; _]) (conj G1 G2)). }
+    destruct ws as [|w1 [|w2 [|? ?]]]; try discriminate.
+    + apply accepted_forms, Forall_app in H. exact H.
+    + apply andb_prop in H as [H1 H2]. split; [exact (accepted_forms _ _ H1) | exact (accepted_forms _ _ H2)].
 Qed.
 Lemma accepted_parts : forall c r, never_negative (P c) -> keeps c r = true ->
-  forall ps ws, length ps = length ws -> forallb (accepts_part c r) (combine ps ws) = true ->
+  forall ps ws, length ps = length ws -> forallb (accepts_part c r (shared_of c r)) (combine ps ws) = true ->
   Forall (fun p => Forall never_negative (corners c p)) ps.
 Proof.
   intros c r HP HK.
-  induction ps as [|p ps IH]; intros [|w ws] L H; cbn [combine forallb length] in *; try discriminate; constructor.
-  - apply andb_prop in H as [H _]. unfold accepts_part in H. cbn [fst snd] in H.
-    unfold corners. destruct (is_exact p) eqn:X.
-    { destruct w as [|w0 w]; [discriminate|]. apply accepted_form, (near_is_enough c r _ _ _ _ HP HK) in H.
-      unfold is_exact in X.
-      destruct (list_eq_dec (list_eq_dec Z.eq_dec) (A1 p) (A2 p)) as [EA|]; [|discriminate].
-      destruct (list_eq_dec Z.eq_dec (C1 p) (C2 p)) as [EC|]; [|discriminate].
-      rewrite <- EA, <- EC. repeat (apply Forall_cons; [exact H|]). apply Forall_nil. }
-    apply andb_prop in H as [H1 H2]. apply Nat.leb_le in H1. pose proof (accepted_forms (near_corners c r p) w H1 H2) as F.
-    unfold near_corners in F. inversion F as [|? ? M11 R1]; inversion R1 as [|? ? M12 R2]; inversion R2 as [|? ? M21 R3];
-      inversion R3 as [|? ? M22 R4]; subst.
-    repeat apply Forall_cons; try apply Forall_nil; apply (near_is_enough c r _ _ _ _ HP HK); assumption.
-  - apply andb_prop in H as [_ H]. apply (IH ws); [lia | exact H].
+  induction ps as [|p ps IH]; intros [|w ws] L H; cbn [combine forallb length] in *; try discriminate; constructor;
+    apply andb_prop in H as [H1 H2].
+  - exact (accepted_part c r p w HP HK H1).
+  - apply (IH ws); [lia | exact H2].
 Qed.
 Lemma sound_if_accepted : forall c r of_P of_parts, accepts c r of_P of_parts = true -> sound c.
 Proof.
@@ -148,7 +173,7 @@ Proof.
   apply andb_prop in H as [H H0]. apply andb_prop in H as [H H1].
   apply andb_prop in H as [H H2]. apply andb_prop in H as [H H3].
   apply Nat.eqb_eq in H1. assert (HP : never_negative (P c)).
-  { intros x. pose proof (accepted_form _ _ H2 x) as Q. rewrite quad_times in Q.
+  { intros x. pose proof (Forall_inv (accepted_forms _ _ H2) x) as Q. rewrite quad_times in Q.
     apply Rmult_le_reg_l with (IZR (Zpos (eS c))); [apply (IZR_lt 0); lia | lra]. }
   split; [exact H | split; [exact HP | exact (accepted_parts c r HP H3 _ _ H1 H0)]].
 Qed.

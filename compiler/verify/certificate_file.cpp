@@ -5,37 +5,12 @@
 
 #include "certify/storage_function.hpp"
 #include "verify/header_constants.hpp"
+#include "verify/network_json.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json digits(const Real& value) { return value.str(50, std::ios_base::scientific); }
-
-Json json_of(const Network& network) {
-  Json elements = Json::array();
-  for (const Element& e : network.elements) {
-    if (!e.has_effect) continue;
-    Json element = {{"name", e.name}, {"nodes", {network.nodes[e.a], network.nodes[e.b]}}};
-    if (const Spring* spring = std::get_if<Spring>(&e.law)) element["spring"] = spring->stiffness;
-    if (const Damper* damper = std::get_if<Damper>(&e.law)) element["damper"] = damper->damping;
-    if (const Slip* slip = std::get_if<Slip>(&e.law)) element["slip"] = slip->yield_force;
-    elements.push_back(std::move(element));
-  }
-  return elements;
-}
-
-Json json_of(const LinearForm& form) {
-  Json modes = Json::array();
-  for (const Mode& mode : form.modes)
-    modes.push_back({{"stiffness", digits(mode.stiffness)},
-                     {"relaxation_rate", digits(mode.relaxation_rate)},
-                     {"spring_share", digits(mode.spring_share)}});
-  return {{"static_stiffness", digits(form.static_stiffness)},
-          {"feedthrough_damping", digits(form.feedthrough_damping)},
-          {"modes", modes}};
-}
 
 Json json_of(const SampledLoop& loop) {
   const velocity_description& v = loop.velocity;
@@ -145,8 +120,8 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
       {"name", c.network.name},
       {"motion", c.network.port_motion == motion::rotation ? "rotation" : "translation"},
       {"law", json_of_choices(c, choices)},
-      {"elements", json_of(c.network)},
-      {"canonical_form", json_of(nodal ? c.decomposition.realisation : c.form.linear)},
+      {"elements", json_of_elements(c.network)},
+      {"canonical_form", json_of_form(nodal ? c.decomposition.realisation : c.form.linear)},
       {"constants", constants},
       {"loop", json_of(c.certificate.loop)},
       {"passivity", json_of(c.certificate)},

@@ -78,16 +78,7 @@ class Verification {
   Verification(const CertificateFile& certificate, const HeaderConstants& header, Diagnostics& diagnostics)
       : certificate_(certificate), header_(header), groups_(grouped(header)), diagnostics_(diagnostics) {}
 
-  void compare_with_certificate() {
-    std::map<std::string, std::vector<double>> found;
-    for (const HeaderConstant& constant : header_.all) found[constant.name] = constant.values;
-    for (const auto& [name, values] : certificate_.constants)
-      if (found[name] != values)
-        diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "header", name);
-    for (const HeaderConstant& constant : header_.all)
-      if (certificate_.constants.count(constant.name) == 0)
-        diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
-  }
+  void compare_with_certificate() { compare_constants(certificate_.constants, header_, diagnostics_); }
 
   void recompute_constants(const Network& network) {
     const LawFacts facts = {*certificate_.choices.rate, certificate_.choices.scheme, certificate_.choices.scalar,
@@ -182,6 +173,17 @@ bool is_plainly_linear(const Network& network) {
   const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
   return !network.contact && !network.static_curve && !has_tunables(network) &&
          std::none_of(network.elements.begin(), network.elements.end(), is_slip);
+}
+
+void compare_constants(const std::map<std::string, std::vector<double>>& stated, const HeaderConstants& header,
+                       Diagnostics& diagnostics) {
+  std::map<std::string, std::vector<double>> found;
+  for (const HeaderConstant& constant : header.all) found[constant.name] = constant.values;
+  for (const auto& [name, values] : stated)
+    if (found[name] != values)
+      diagnostics.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "header", name);
+  for (const HeaderConstant& constant : header.all)
+    if (stated.count(constant.name) == 0) diagnostics.report<DiagnosticCode::unknown_constant>({}, constant.name);
 }
 
 std::size_t verify_linear_constants(const CertificateFile& certificate, const Network& network,

@@ -1,0 +1,64 @@
+#include "verify/compare_headers.hpp"
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "source/excerpt.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr std::string_view opening_of_code = "#pragma once";
+
+// Where a header names the version of the dashpot that wrote it; nothing where there is none.
+std::pair<std::size_t, std::size_t> version_in(std::string_view header) {
+  constexpr std::string_view before = "\n// Written by dashpot ", behind = " from a network with digest";
+  const std::size_t line = header.find(before), start = line == header.npos ? 0 : line + before.size();
+  const std::size_t end = start == 0 ? 0 : header.find_first_not_of("0123456789.", start);
+  const bool is_one = end != header.npos && end > start && header.substr(end).starts_with(behind);
+  return is_one ? std::pair(start, end) : std::pair<std::size_t, std::size_t>(0, 0);
+}
+
+// As another dashpot would have written it that wrote `header`: its version is all of it that may be another one.
+std::string with_version_of(std::string_view header, std::string text) {
+  const auto [start, end] = version_in(header);
+  const auto [from, to] = version_in(text);
+  return to == 0 || end == 0 ? text : text.replace(from, to - from, header.substr(start, end - start));
+}
+
+// What stands there, with some words of its line in front of it.
+std::string excerpt_at(std::string_view text, std::size_t at) {
+  constexpr std::size_t most_in_front = 30;
+  const std::size_t line = at == 0 ? 0 : text.rfind('\n', at - 1) + 1;
+  std::size_t start = std::max(line, at - std::min(at, most_in_front));
+  const std::size_t blank = start > line && text[start - 1] != ' ' ? text.find(' ', start) : text.npos;
+  if (blank < at) start = blank + 1;
+  while (start > line && (text[start] & 0xC0) == 0x80) --start;  // within a character
+  return excerpt(text.substr(start, std::min(text.find('\n', at), text.size()) - start));
+}
+
+}  // namespace
+
+void compare_headers(const std::vector<std::string>& written, const SourceFile& header, Diagnostics& diagnostics) {
+  const std::string_view found = header.text();
+  std::size_t furthest = 0;
+  bool in_banner = false;
+  std::string expected_there;
+  for (const std::string& text : written) {
+    const std::string expected = with_version_of(found, text);
+    if (found == expected) return;
+    const auto same =
+        std::size_t(std::mismatch(found.begin(), found.end(), expected.begin(), expected.end()).first - found.begin());
+    if (!expected_there.empty() && same <= furthest) continue;
+    expected_there = excerpt_at(expected, same);
+    in_banner = same < expected.find(opening_of_code);
+    furthest = same;
+  }
+  const Span place = {&header, furthest, std::min(header.text().find('\n', furthest), header.text().size())};
+  if (in_banner) diagnostics.report<DiagnosticCode::banner_differs>(place, excerpt_at(found, furthest));
+  else diagnostics.report<DiagnosticCode::code_differs>(place, excerpt_at(found, furthest));
+  if (!written.empty()) diagnostics.note<DiagnosticCode::code_expected>({}, expected_there);
+}
+
+}  // namespace dashpot::compiler

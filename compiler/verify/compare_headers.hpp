@@ -1,0 +1,15 @@
+// The banner of an emitted header and the code around its constants, against what is written of the same network.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "source/diagnostic.hpp"
+
+namespace dashpot::compiler {
+
+// In: every form in which the header may have been written. Reports the first difference from the form that the header
+// follows furthest. The version of the dashpot that wrote it may be another one.
+void compare_headers(const std::vector<std::string>& written, const SourceFile& header, Diagnostics& diagnostics);
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,37 @@
+#include "verify/network_json.hpp"
+
+namespace dashpot::compiler {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json digits(const Real& value) { return value.str(50, std::ios_base::scientific); }
+
+}  // namespace
+
+Json json_of_elements(const Network& network) {
+  Json elements = Json::array();
+  for (const Element& e : network.elements) {
+    if (!e.has_effect) continue;
+    Json element = {{"name", e.name}, {"nodes", {network.nodes[e.a], network.nodes[e.b]}}};
+    if (const Spring* spring = std::get_if<Spring>(&e.law)) element["spring"] = spring->stiffness;
+    if (const Damper* damper = std::get_if<Damper>(&e.law)) element["damper"] = damper->damping;
+    if (const Slip* slip = std::get_if<Slip>(&e.law)) element["slip"] = slip->yield_force;
+    elements.push_back(std::move(element));
+  }
+  return elements;
+}
+
+Json json_of_form(const LinearForm& form) {
+  Json modes = Json::array();
+  for (const Mode& mode : form.modes)
+    modes.push_back({{"stiffness", digits(mode.stiffness)},
+                     {"relaxation_rate", digits(mode.relaxation_rate)},
+                     {"spring_share", digits(mode.spring_share)}});
+  return {{"static_stiffness", digits(form.static_stiffness)},
+          {"feedthrough_damping", digits(form.feedthrough_damping)},
+          {"modes", modes}};
+}
+
+}  // namespace dashpot::compiler

@@ -25,7 +25,6 @@ const char* option_of_one_axis(const Options& options) {
   if (options.emission.constant_time) return "--constant-time";
   if (options.emission.batch) return "--batch";
   if (options.emission.with_test) return "--with-test";
-  if (options.certificate) return "--certificate";
   if (options.proof) return "--proof";
   return nullptr;
 }

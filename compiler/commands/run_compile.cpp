@@ -17,6 +17,7 @@
 #include "insist.hpp"
 #include "network/law.hpp"
 #include "network/tree.hpp"
+#include "verify/axes_certificate_file.hpp"
 #include "verify/certificate_file.hpp"
 #include "law/law_text.hpp"
 
@@ -158,8 +159,11 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       const auto axes = compile_axes(*file, options, device, diagnostics);
       times.enter("emission");
       if (axes && options.print) shown += axes_stage_text(*axes, *options.print);
-      else if (const auto emitted = axes ? emit_axes(*axes, options, diagnostics) : std::nullopt)
+      else if (const auto emitted = axes ? emit_axes(*axes, options, diagnostics) : std::nullopt) {
         outputs.insert(outputs.end(), emitted->begin(), emitted->end());
+        if (options.certificate)
+          certificate = axes_certificate_text(*axes, file->text(), device.text, emitted->front().text);
+      }
       continue;
     }
     if (file && !as_many_axes(*file, device, diagnostics)) continue;

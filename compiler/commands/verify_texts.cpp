@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include "check/check.hpp"
+#include "commands/verify_axes_texts.hpp"
 #include "compile.hpp"
 #include "linear/reach.hpp"
 #include "source/excerpt.hpp"
+#include "syntax/parse_axes.hpp"
 #include "verify/compare_certificates.hpp"
 #include "verify/compare_headers.hpp"
 #include "verify/read_certificate.hpp"
@@ -140,6 +142,8 @@ class TextsVerification {
 
 std::optional<std::string> verify_texts(const SourceFile& certificate_file, const SourceFile& header,
                                         bool allow_uncertified, SourceFiles& files, Diagnostics& diagnostics) {
+  if (axes_of(certificate_file) > 1)
+    return verify_axes_texts(certificate_file, header, allow_uncertified, files, diagnostics);
   const std::optional<CertificateFile> certificate = read_certificate(certificate_file, diagnostics);
   if (!certificate) return std::nullopt;
   TextsVerification verification(certificate_file, *certificate, files, diagnostics);

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <array>
+#include <limits>
 
 #include "discretise/rounding.hpp"
 #include "network/rate_limits.hpp"
@@ -106,14 +107,24 @@ std::vector<double> numbers_of(const std::string& name, const JsonValue& list, D
   return numbers;
 }
 
-CertificateFile file_of(const JsonValue& root, Diagnostics& faults) {
-  const Section all(root, "the file", faults);
-  CertificateFile file;
+// What both kinds of certificates have.
+template <class File>
+File with_subject(const Section& all, Diagnostics& faults) {
+  File file;
   if (const JsonValue* format = all.of_kind("dashpot_certificate", Kind::number, "a number");
       format && number_in(*format) != 1)
     faults.report<DiagnosticCode::unknown_format>(format->span, format->text);
   file.network_text = all.text("network_file");
   if (!all.is_of("device_file", Kind::null)) file.device_text = all.text("device_file");
+  const JsonValue constants = all.object("constants");
+  for (const JsonMember& constant : constants.members)
+    file.constants[constant.key] = numbers_of(constant.key, constant.value, faults);
+  return file;
+}
+
+CertificateFile file_of(const JsonValue& root, Diagnostics& faults) {
+  const Section all(root, "the file", faults);
+  CertificateFile file = with_subject<CertificateFile>(all, faults);
   const JsonValue law_object = all.object("law"), passivity_object = all.object("passivity");
   const Section law(law_object, "'law'", faults), passivity(passivity_object, "'passivity'", faults);
   file.choices = choices_of(law);
@@ -126,26 +137,70 @@ CertificateFile file_of(const JsonValue& root, Diagnostics& faults) {
   file.assured_damping = passivity.number("assured_damping");
   file.certified = passivity.flag("certified");
   if (!passivity.is_of("quantisation_gain", Kind::null)) file.quantisation_gain = passivity.number("quantisation_gain");
-  const JsonValue constants = all.object("constants");
-  for (const JsonMember& constant : constants.members)
-    file.constants[constant.key] = numbers_of(constant.key, constant.value, faults);
   return file;
 }
 
-}  // namespace
+// Null where no damping is enough.
+double damping_of(const Section& passivity, const char* key) {
+  return passivity.is_of(key, Kind::null) ? std::numeric_limits<double>::infinity() : passivity.number(key);
+}
 
-std::optional<CertificateFile> read_certificate(const SourceFile& file, Diagnostics& diagnostics) {
+std::vector<double> dampings_of(const Section& all, Diagnostics& faults) {
+  std::vector<double> dampings;
+  const JsonValue* const ports = all.of_kind("ports", Kind::array, "a list");
+  for (const JsonValue& port : ports == nullptr ? std::vector<JsonValue>() : ports->items) {
+    if (port.kind != Kind::object) report_wrong_type("ports", port, "an object", faults);
+    else dampings.push_back(Section(port, "a port", faults).number("damping", 0, largest));
+  }
+  return dampings;
+}
+
+AxesCertificateFile axes_file_of(const JsonValue& root, Diagnostics& faults) {
+  const Section all(root, "the file", faults);
+  AxesCertificateFile file = with_subject<AxesCertificateFile>(all, faults);
+  const JsonValue law_object = all.object("law"), passivity_object = all.object("passivity");
+  const Section law(law_object, "'law'", faults), passivity(passivity_object, "'passivity'", faults);
+  file.choices.rate = law.number("rate", lowest_rate, highest_rate);
+  file.choices.scheme = law.named("scheme", {Scheme::exact, Scheme::backward_euler});
+  file.choices.scalar = law.named("scalar", {ScalarType::float64, ScalarType::float32});
+  file.choices.decomposition = law.text("decomposition");
+  file.port_dampings = dampings_of(all, faults);
+  if (const JsonValue* added = passivity.of_kind("added_damping", Kind::array, "a list"))
+    file.added_damping = numbers_of("added_damping", *added, faults);
+  file.is_proved = passivity.flag("proved");
+  file.needed_damping = damping_of(passivity, "needed_damping");
+  file.for_estimates = damping_of(passivity, "for_estimates");
+  file.for_lag = damping_of(passivity, "for_lag");
+  file.missing_damping = damping_of(passivity, "missing_damping");
+  file.certified = passivity.flag("certified");
+  return file;
+}
+
+// What `read` makes of the text; nothing, with the first fault reported, where there is one.
+template <class Read>
+auto faultless(const SourceFile& file, Diagnostics& diagnostics, const Read& read)
+    -> std::optional<decltype(read(JsonValue(), diagnostics))> {
   Diagnostics faults;
-  CertificateFile certificate;
+  decltype(read(JsonValue(), diagnostics)) certificate;
   if (const std::optional<JsonValue> root = parse_json(file, faults)) {
     if (root->kind != Kind::object) report_wrong_type(file.path(), *root, "an object", faults);
-    else certificate = file_of(*root, faults);
+    else certificate = read(*root, faults);
   }
   if (!faults.has_errors()) return certificate;
   const Diagnostic first = faults.in_file_order().front();
   diagnostics.report<DiagnosticCode::no_certificate>(first.span, file.path(), first.text);
   diagnostics.note<DiagnosticCode::write_certificate>({});
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CertificateFile> read_certificate(const SourceFile& file, Diagnostics& diagnostics) {
+  return faultless(file, diagnostics, file_of);
+}
+
+std::optional<AxesCertificateFile> read_axes_certificate(const SourceFile& file, Diagnostics& diagnostics) {
+  return faultless(file, diagnostics, axes_file_of);
 }
 
 }  // namespace dashpot::compiler

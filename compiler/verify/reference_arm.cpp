@@ -1,0 +1,250 @@
+#include "verify/reference_arm.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "certify/slip_motor.hpp"
+#include "verify/reference_constants.hpp"
+#include "verify/reference_slips.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr int places_a_side = 10;
+constexpr std::size_t most_combined_ports = 6;  // beyond, all ports are at the same end of their forces
+
+// Central differences of order h² of what is smooth over lengths of 1 mm: in 100 digits good to about 45.
+const Reference difference_step{"1e-25"};
+
+ReferencePair plus(const ReferencePair& a, const ReferencePair& b) { return {a[0] + b[0], a[1] + b[1]}; }
+ReferencePair link(double length, const Reference& angle) {
+  return {Reference(length) * cos(angle), Reference(length) * sin(angle)};
+}
+
+// Around the left elbow by the angle to the right one and that of the triangle of the elbows and the tip.
+ReferencePair five_bar_tip(const axes::Arm& arm, const ReferencePair& q) {
+  const Reference side = Reference(arm.base) / 2;
+  const ReferencePair left = plus({-side, 0}, link(arm.proximal, q[0]));
+  const ReferencePair right = plus({side, 0}, link(arm.proximal, q[1]));
+  const Reference dx = right[0] - left[0], dy = right[1] - left[1];
+  const Reference apart = sqrt(Reference(dx * dx + dy * dy));
+  const Reference to_tip = atan2(dy, dx) + acos(Reference(apart / (2 * Reference(arm.distal))));
+  return plus(left, link(arm.distal, to_tip));
+}
+
+Reference depth_at(const axes::PortMap& map, const ReferencePair& tip) {
+  const Reference blunt = Reference(axes::blunting) * Reference(axes::blunting);
+  const auto from = [&](const axes::Pair<double>& point) {
+    return ReferencePair{tip[0] - Reference(point[0]), tip[1] - Reference(point[1])};
+  };
+  if (const auto* plane = std::get_if<axes::Plane>(&map))
+    return Reference(plane->offset) + Reference(plane->slope[0]) * tip[0] + Reference(plane->slope[1]) * tip[1];
+  if (const auto* circle = std::get_if<axes::Circle>(&map)) {
+    const auto [x, y] = from(circle->centre);
+    return Reference(circle->sign) * (Reference(circle->radius) - sqrt(Reference(x * x + y * y + blunt)));
+  }
+  const auto& band = std::get<axes::Band>(map);
+  const auto [x, y] = from(band.through);
+  const Reference across = Reference(band.normal[0]) * x + Reference(band.normal[1]) * y;
+  return Reference(band.radius) - sqrt(Reference(across * across + blunt));
+}
+
+struct SymmetricReference {
+  Reference xx = 0, xy = 0, yy = 0;
+
+  void add(const Reference& share, const SymmetricReference& other) {
+    xx += share * other.xx, xy += share * other.xy, yy += share * other.yy;
+  }
+};
+
+// λ of m v = λ W v, the least and the largest.
+ReferencePair eigenvalues(const SymmetricReference& m, const axes::Pair<double>& weight) {
+  const Reference first = m.xx / Reference(weight[0]), second = m.yy / Reference(weight[1]);
+  const Reference coupled = m.xy * m.xy / (Reference(weight[0]) * Reference(weight[1]));
+  const Reference middle = (first + second) / 2, half = (first - second) / 2;
+  const Reference out = sqrt(Reference(half * half + coupled));
+  return {middle - out, middle + out};
+}
+
+// A function of the joints, its gradient and its Hessian.
+struct Differences {
+  Reference value;
+  ReferencePair gradient;
+  SymmetricReference hessian;
+};
+
+Differences differences(const std::function<Reference(const ReferencePair&)>& f, const ReferencePair& q) {
+  const Reference& h = difference_step;
+  const auto at = [&](int first, int second) { return f({q[0] + h * Reference(first), q[1] + h * Reference(second)}); };
+  const Reference here = at(0, 0), ahead = at(1, 0), behind = at(-1, 0), above = at(0, 1), below = at(0, -1);
+  const Reference crossed = at(1, 1) - at(1, -1) - at(-1, 1) + at(-1, -1);
+  return {here,
+          {(ahead - behind) / (2 * h), (above - below) / (2 * h)},
+          {(ahead - 2 * here + behind) / (h * h), crossed / (4 * h * h), (above - 2 * here + below) / (h * h)}};
+}
+
+// What a port asks of the motors.
+struct PortForce {
+  const Port* port;
+  Reference held = 0;             // S [N/m]
+  Reference grounded = 0;         // k0 [N/m]
+  Reference relaxing = 0;         // Σ k of the modes [N/m]
+  Reference yields = 0;           // of the slips, ± [N]
+  Reference least = 0, most = 0;  // w at the places [m]
+};
+
+// S of springs and dampers: k0/2 + Σ c/(1 + a).
+Reference held_of_linear(const ReferenceForm& form, const LawFacts& facts) {
+  Reference held = form.static_stiffness / 2;
+  for (const ReferenceMode& mode : form.modes) {
+    const ModeFactors factors = mode_factors(mode, facts);
+    held += factors.gain / (1 + factors.decay);
+  }
+  return held;
+}
+
+// S of slips and contacts: a motor that has to make a damper's force holds it for a period.
+Reference held_behind_slips(const ReferenceCut& cut, const LawFacts& facts) {
+  return cut.stiffness + cut.of_motor() * Reference(facts.rate);
+}
+
+PortForce force_of(const AxesCompilation& c, std::size_t i) {
+  const Compilation& compiled = c.ports[i];
+  const Network& network = compiled.network;
+  const double prompt = lateness(compiled.certificate.loop);  // on an ideal device
+  const LawFacts facts{c.rate, c.law.scheme, c.law.scalar, StateInput::position,
+                       compiled.decomposition.choice().damping};
+  PortForce force{&c.network.ports[i]};
+  const SlipDecomposition& slips = compiled.decomposition.slips;
+  const ReferenceTree tree = rendered_tree(reference_tree(network), network, slips);
+  force.grounded = tree.linear.static_stiffness;
+  for (const ReferenceMode& mode : tree.linear.modes) force.relaxing += mode.stiffness;
+  for (const Element& element : network.elements)
+    if (const auto* slip = std::get_if<Slip>(&element.law)) force.yields += Reference(slip->yield_force);
+  force.held = tree.has_slips() || network.contact
+                   ? held_behind_slips(reference_cut(tree, network, slips, facts, prompt), facts)
+                   : held_of_linear(tree.linear, facts);
+  return force;
+}
+
+// Both ends of M where the port is pushed; none where it is not.
+std::vector<Reference> ends_of(const PortForce& force, const Reference& depth) {
+  if (const std::optional<Contact>& contact = force.port->network.contact) {
+    const Reference pressed = depth - Reference(contact->at);
+    if (pressed <= 0) return {};
+    return {0, (force.grounded + force.relaxing) * pressed + force.yields};
+  }
+  const Reference spring = force.grounded * depth;
+  return {spring + force.relaxing * (depth - force.most) - force.yields,
+          spring + force.relaxing * (depth - force.least) + force.yields};
+}
+
+class Places {
+ public:
+  explicit Places(const AxesCompilation& c) : c_(c) {
+    const axes::Box& workspace = c.device.workspace;
+    for (int i = 0; i < places_a_side; ++i)
+      for (int k = 0; k < places_a_side; ++k)
+        add({share(workspace[0], double(i) / (places_a_side - 1)),
+             share(workspace[1], double(k) / (places_a_side - 1))});
+    add(c.certificate.worst);
+    for (std::size_t i = 0; i < c.ports.size(); ++i) {
+      forces_.push_back(force_of(c, i));
+      PortForce& force = forces_.back();
+      for (std::size_t k = 0; k < joints_.size(); ++k) {
+        const Reference depth = depth_at(force.port->map, reference_tip(c.device.arm, joints_[k]));
+        force.least = k == 0 ? depth : std::min(force.least, depth);
+        force.most = k == 0 ? depth : std::max(force.most, depth);
+      }
+    }
+  }
+
+  NeedAtPlaces need() const {
+    NeedAtPlaces result{joints_.size()};
+    for (const ReferencePair& joints : joints_) {
+      const Reference here = need_at(joints);
+      if (here > result.most) result.most = here, result.tip = reference_tip(c_.device.arm, joints);
+    }
+    return result;
+  }
+
+ private:
+  // A little inside, so that what the search for joints rounds leads to no place outside.
+  static double share(const axes::Interval& range, double along) {
+    constexpr double inset = 1e-6;
+    return range.low + range.width() * (inset + along * (1 - 2 * inset));
+  }
+
+  // Joints come from the compiler, and count where they put the tip into the workspace.
+  void add(const axes::Pair<double>& tip) {
+    const std::optional<axes::Pair<double>> joints = axes::joints_at(c_.device.arm, tip);
+    if (!joints) return;
+    const ReferencePair exact{(*joints)[0], (*joints)[1]}, there = reference_tip(c_.device.arm, exact);
+    for (std::size_t i = 0; i < 2; ++i)
+      if (there[i] < c_.device.workspace[i].low || there[i] > c_.device.workspace[i].high) return;
+    joints_.push_back(exact);
+  }
+
+  // Of T_max Σ [S (1 + 2n) g gᵀ + ½ M H + n |M| ‖H‖ W], whichever ends the ports' forces are at.
+  Reference need_at(const ReferencePair& joints) const {
+    const int delay = int(c_.device.loop().delay_samples);
+    SymmetricReference sum;
+    std::vector<std::vector<SymmetricReference>> turned;  // of each pushed port, by the end of its force
+    for (const PortForce& force : forces_) {
+      const Differences w = differences(
+          [&](const ReferencePair& q) { return depth_at(force.port->map, reference_tip(c_.device.arm, q)); }, joints);
+      const std::vector<Reference> ends = ends_of(force, w.value);
+      if (ends.empty()) continue;
+      const auto& [first, second] = w.gradient;
+      sum.add(force.held * Reference(1 + 2 * delay), {first * first, first * second, second * second});
+      const ReferencePair turning = eigenvalues(w.hessian, c_.certificate.weight);
+      const Reference size = std::max(abs(turning[0]), abs(turning[1]));
+      turned.emplace_back();
+      for (const Reference& end : ends) {
+        SymmetricReference one;
+        one.add(end / 2, w.hessian);
+        const Reference late = Reference(delay) * abs(end) * size;
+        one.add(late, {c_.certificate.weight[0], 0, c_.certificate.weight[1]});
+        turned.back().push_back(one);
+      }
+    }
+    const Reference longest = Reference(c_.device.loop().sample_period) + Reference(c_.device.loop().jitter);
+    return longest * largest_sum(sum, turned);
+  }
+
+  Reference largest_sum(const SymmetricReference& sum,
+                        const std::vector<std::vector<SymmetricReference>>& turned) const {
+    const bool each = turned.size() <= most_combined_ports;
+    Reference most = 0;
+    for (std::size_t pattern = 0; pattern < (each ? std::size_t(1) << turned.size() : 2); ++pattern) {
+      SymmetricReference all = sum;
+      for (std::size_t i = 0; i < turned.size(); ++i) all.add(1, turned[i][each ? pattern >> i & 1 : pattern]);
+      most = std::max(most, eigenvalues(all, c_.certificate.weight)[1]);
+    }
+    return most;
+  }
+
+  const AxesCompilation& c_;
+  std::vector<ReferencePair> joints_;
+  std::vector<PortForce> forces_;
+};
+
+}  // namespace
+
+ReferencePair reference_tip(const axes::Arm& arm, const ReferencePair& q) {
+  switch (arm.kind) {
+    case axes::Kinematics::serial: return plus(link(arm.proximal, q[0]), link(arm.distal, q[0] + q[1]));
+    case axes::Kinematics::parallelogram: return plus(link(arm.proximal, q[0]), link(arm.distal, q[1]));
+    case axes::Kinematics::five_bar: return five_bar_tip(arm, q);
+    case axes::Kinematics::cartesian: break;
+  }
+  return q;
+}
+
+std::optional<NeedAtPlaces> need_at_places(const AxesCompilation& c) {
+  if (c.device.workspace[0].width() == 0) return std::nullopt;
+  return Places(c).need();
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,165 @@
+#include "verify/verify_axes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "verify/recompiled.hpp"
+#include "verify/reference_constants.hpp"
+#include "verify/reference_geometry.hpp"
+#include "verify/verify_header.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+class AxesVerification {
+ public:
+  AxesVerification(const AxesCertificateFile& certificate, const HeaderConstants& header,
+                   const AxesCompilation& compiled, Diagnostics& diagnostics)
+      : certificate_(certificate),
+        header_(header),
+        c_(compiled),
+        diagnostics_(diagnostics),
+        named_(reference_geometry(compiled)),
+        of_ports_(compiled.ports.size()) {
+    for (const auto& [name, values] : reference_constants({}, facts_of_port(0)))
+      if (name == "sample_period" || name == "threshold") named_[name] = values.front();
+  }
+
+  std::size_t recompute_constants() {
+    compare_constants(certificate_.constants, header_, diagnostics_);
+    std::size_t count = 0;
+    for (const HeaderConstant& constant : header_.all) look_at(constant), count += constant.values.size();
+    for (std::size_t i = 0; i < of_ports_.size(); ++i) recompute_port(i);
+    return count;
+  }
+
+ private:
+  LawFacts facts_of_port(std::size_t i) const {
+    return {c_.rate, c_.law.scheme, c_.law.scalar, StateInput::position, c_.ports[i].decomposition.choice().damping};
+  }
+
+  void look_at(const HeaderConstant& constant) {
+    if (constant.name == literals_in_code) return look_at_literals(constant);
+    if (constant.name == "added_damping") return compare_additions(constant);
+    const auto known = named_.find(constant.name);
+    if (known != named_.end() && constant.values.size() == 1) {
+      if (!is_correctly_rounded(constant.values.front(), known->second, header_.scalar))
+        diagnostics_.report<DiagnosticCode::constant_wrong>({}, constant.name, 1, constant.values.front(),
+                                                            known->second.str(20));
+      return;
+    }
+    const std::optional<std::size_t> port = port_of(constant.name);
+    if (!port) return compare_with_written(constant);
+    HeaderConstant own = constant;
+    own.name = name_in_port(*port, constant.name);
+    of_ports_[*port].push_back(std::move(own));
+  }
+
+  // The longest name that it begins with.
+  std::optional<std::size_t> port_of(const std::string& name) const {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < c_.network.ports.size(); ++i) {
+      const std::string& port = c_.network.ports[i].name;
+      if (name.starts_with(port + "_") && (!best || port.size() > c_.network.ports[*best].name.size())) best = i;
+    }
+    return best;
+  }
+
+  // As the port's own law calls it: without the port's name, and without the number that keeps apart what would be
+  // called alike.
+  std::string name_in_port(std::size_t port, const std::string& name) const {
+    const std::string own = name.substr(c_.network.ports[port].name.size() + 1);
+    const std::size_t end = own.find_last_not_of("0123456789");
+    const auto is_one = [&](const std::string& told) {
+      return std::any_of(c_.port_laws[port].coefficients.begin(), c_.port_laws[port].coefficients.end(),
+                         [&](const Coefficient& c) {
+                           const std::vector<std::string>& names = c.element_names;
+                           return c.name == told || std::find(names.begin(), names.end(), told) != names.end();
+                         });
+    };
+    if (is_one(own) || end == own.npos || end + 1 == own.size() || own[end] != '_') return own;
+    return is_one(own.substr(0, end)) ? own.substr(0, end) : own;
+  }
+
+  // What states begin with.
+  void look_at_literals(const HeaderConstant& literals) {
+    for (std::size_t i = 0; i < literals.values.size(); ++i)
+      if (std::none_of(c_.law.variables.begin(), c_.law.variables.end(),
+                       [&](const Variable& variable) { return variable.rest_value == literals.values[i]; }))
+        diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, literals.values[i]);
+  }
+
+  void compare_additions(const HeaderConstant& constant) {
+    const std::vector<double>& added = c_.certificate.added;
+    bool alike = constant.values.size() == added.size();
+    for (std::size_t k = 0; alike && k < added.size(); ++k)
+      alike = is_correctly_rounded(constant.values[k], Reference(added[k]), header_.scalar);
+    if (!alike)
+      diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "header", "recomputed bound", constant.name);
+  }
+
+  void compare_with_written(const HeaderConstant& constant) {
+    const auto& all = c_.law.coefficients;
+    const bool is_one = std::any_of(all.begin(), all.end(), [&](const Coefficient& c) {
+      return c.name == constant.name && c.values == constant.values;
+    });
+    if (!is_one) diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
+  }
+
+  // As those of a law of one axis on an ideal device.
+  void recompute_port(std::size_t i) {
+    Compilation compiled = c_.ports[i];
+    compiled.law = c_.port_laws[i];
+    CertificateFile certificate;
+    certificate.choices = c_.choices_of_ports;
+    certificate.damping = compiled.decomposition.choice().damping;
+    const HeaderConstants header{header_.scalar, of_ports_[i]};
+    for (const HeaderConstant& constant : header.all) certificate.constants[constant.name] = constant.values;
+    if (is_plainly_linear(compiled.network))
+      verify_linear_constants(certificate, compiled.network, PortDevice::ideal(), header, diagnostics_);
+    else verify_constants(certificate, PortDevice::ideal(), header, compiled, diagnostics_);
+  }
+
+  const AxesCertificateFile& certificate_;
+  const HeaderConstants& header_;
+  const AxesCompilation& c_;
+  Diagnostics& diagnostics_;
+  std::map<std::string, Reference> named_;
+  std::vector<std::vector<HeaderConstant>> of_ports_;  // without the ports' names
+};
+
+}  // namespace
+
+std::size_t verify_axes_constants(const AxesCertificateFile& certificate, const HeaderConstants& header,
+                                  const AxesCompilation& compiled, Diagnostics& diagnostics) {
+  return AxesVerification(certificate, header, compiled, diagnostics).recompute_constants();
+}
+
+std::optional<NeedAtPlaces> verify_axes_bounds(const AxesCertificateFile& certificate, const AxesCompilation& compiled,
+                                               Diagnostics& diagnostics) {
+  const AxesCertificate& again = compiled.certificate;
+  expect_bound("needed damping", certificate.needed_damping, again.needed, diagnostics);
+  expect_bound("damping for estimates", certificate.for_estimates, again.for_estimates, diagnostics);
+  expect_bound("damping for the amplifiers' lag", certificate.for_lag, again.for_lag, diagnostics);
+  expect_bound("missing damping", certificate.missing_damping, again.missing, diagnostics);
+  for (std::size_t k = 0; k < again.added.size(); ++k)
+    expect_bound("added damping", k < certificate.added_damping.size() ? certificate.added_damping[k] : 0,
+                 again.added[k], diagnostics);
+  for (std::size_t i = 0; i < compiled.ports.size(); ++i)
+    expect_bound("damping of a port", i < certificate.port_dampings.size() ? certificate.port_dampings[i] : 0,
+                 compiled.ports[i].decomposition.choice().damping, diagnostics);
+  if (certificate.is_proved != again.is_proved || certificate.certified != again.certified)
+    diagnostics.report<DiagnosticCode::certificate_disagrees>({}, "certificate", "recomputed bound", "certified");
+  if (!again.is_proved || !std::isfinite(again.needed)) return std::nullopt;
+  const std::optional<NeedAtPlaces> there = need_at_places(compiled);
+  // Sums in double precision round by less than this share of the whole.
+  const Reference for_forces = Reference(certificate.needed_damping) - Reference(certificate.for_estimates) -
+                               Reference(certificate.for_lag) +
+                               Reference(certificate.needed_damping) * Reference(1e-15);
+  if (there && there->most > for_forces)
+    expect_bound("needed damping", certificate.needed_damping,
+                 certificate.needed_damping + Reference(there->most - for_forces).convert_to<double>(), diagnostics);
+  return there;
+}
+
+}  // namespace dashpot::compiler

@@ -11,7 +11,7 @@ namespace dashpot::compiler::axes {
 
 Interval motor_force(const PortLoad& load, const Interval& depth, const Interval& over_workspace) {
   const Interval more = Interval(-load.estimated, load.estimated) + Interval(-load.yields, load.yields);
-  const Interval springs(load.grounded), relaxing(load.relaxing), pressed = max(depth, Interval(0));
+  const Interval springs(load.grounded), relaxing(load.relaxing), pressed = max(depth - Interval(load.surface), Interval(0));
   const Interval force = load.unilateral ? (springs + relaxing) * pressed + more
                                          : springs * depth + relaxing * (depth - over_workspace) + more;
   if (load.unilateral && pressed.high == 0) return Interval(0);
@@ -43,7 +43,8 @@ Pair<ForceForm> force_ends(const PortLoad& load, const Interval& depth, const In
       return {ForceForm{stiffness, -(relaxing * Interval(range.high) + more)},
               ForceForm{stiffness, more - relaxing * Interval(range.low)}};
     }
-    if (depth.low >= 0) return {ForceForm{0, Interval(0)}, ForceForm{stiffness, more}};
+    if (depth.low >= load.surface)
+      return {ForceForm{0, Interval(0)}, ForceForm{stiffness, more - Interval(stiffness) * Interval(load.surface)}};
   }
   return {ForceForm{0, Interval(force.low)}, ForceForm{0, Interval(force.high)}};
 }
@@ -114,7 +115,7 @@ class PortNeed {
 
   Ends over(const TipMotion& there, int delay, const Pair<double>& weight) const {
     const Depth<Sloped> depth = axes::depth(load_.map, there.pose.tip);
-    if (load_.unilateral && depth.value.value.high <= 0) return {};
+    if (load_.unilateral && depth.value.value.high <= load_.surface) return {};
     const Interval force = motor_force(load_, depth.value.value, range_);
     const Symmetric<Sloped> carried = depth.gradient[0] * there.bends[0] + depth.gradient[1] * there.bends[1];
     const Symmetric<Sloped> own = at_joints(there.pose, bend(load_.map, there.pose.tip));

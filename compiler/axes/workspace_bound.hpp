@@ -26,7 +26,8 @@ struct PortLoad {
   double yields = 0;     // of the slips, ± [N]
   double estimated = 0;  // what comes of an estimate at most, ± [N]
   double clamp = unlimited;  // what the port's force is clamped to, ± [N]
-  bool unilateral = false;   // 0 ≤ M ≤ (k0 + Σ c_i) w + yields + estimated, nothing where w < 0
+  bool unilateral = false;  // 0 ≤ M ≤ (k0 + Σ c_i) (w − surface) + yields + estimated, nothing where w < surface
+  double surface = 0;       // of a unilateral port [m]
 };
 
 struct SampledLoop {

@@ -46,6 +46,7 @@ axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
   for (const Mode& mode : port.form->linear.modes) load.relaxing += to_double(mode.stiffness);
   load.yields = sum_of_yields(port.port->network);
   load.unilateral = port.port->network.contact.has_value();
+  if (load.unilateral) load.surface = port.port->network.contact->at;
   return load;
 }
 

@@ -164,6 +164,19 @@ class AxesVerify(CommandTest):
         self.assertAlmostEqual(float(share), 100 * most / whole, delta=0.06)
         self.assertLessEqual(float(share), 100)
 
+    # If this fails, a contact that begins in front of where its map does is certified as if it pushed later.
+    def test_surfaces_elsewhere(self):
+        wall = lambda name, y, at: self.write(f"{name}.json", json.dumps({"dashpot": 1, "axes": 2, "name": name, "ports": [{
+            "name": "wall", "map": {"wall": {"through": [0, f"{y} mm"], "normal": [0, -1]}}, "network": {"spring": "300 N/m"},
+            "contact": {"at": f"{at} mm"}}]}))
+        needed = []
+        for name, y, at in (("there", 80, 0), ("early", 110, -30), ("late", 70, 10)):
+            header, certificate = self.compiled(wall(name, y, at), "--device", PANTOGRAPH)
+            self.verified(header, certificate)
+            needed.append(json.loads(certificate)["passivity"]["needed_damping"])
+        for one in needed:
+            self.assertAlmostEqual(one, needed[0], delta=0.02 * needed[0])  # each is searched to 1 %
+
     # If this fails, texts that do not belong together are taken for a certificate and its header.
     def test_what_is_of_one_axis(self):
         header, certificate = self.compiled(FIELD, "--device", PANTOGRAPH)

@@ -240,6 +240,21 @@ TEST(MotorForce, IsBoundedByTheWorkspace) {
   EXPECT_EQ(motor_force(load, Interval(0.02), all).high, 2.5);
 }
 
+// A surface in front of where the map begins is pressed earlier, as one that the map itself puts there.
+TEST(WorkspaceBound, SurfacesElsewhere) {
+  const Arm arm{Kinematics::serial, 80e-3, 70e-3};
+  const Box workspace{Interval(-20e-3, 20e-3), Interval(90e-3, 110e-3)};
+  PortLoad early = touched(wall({0, 105e-3}, {0, -1}), 300);
+  early.surface = -30e-3;
+  PortLoad late = touched(wall({0, 55e-3}, {0, -1}), 300);
+  late.surface = 20e-3;
+  const double there = needed(arm, {touched(wall({0, 75e-3}, {0, -1}), 300)}, alike, prompt, workspace);
+  EXPECT_NEAR(needed(arm, {early}, alike, prompt, workspace), there, 0.01 * there);
+  EXPECT_NEAR(needed(arm, {late}, alike, prompt, workspace), there, 0.01 * there);
+  EXPECT_NEAR(motor_force(early, Interval(-0.01), Interval(-1, 1)).high, 300 * 0.02, 1e-14);
+  EXPECT_EQ(motor_force(late, Interval(0.01), Interval(-1, 1)).high, 0);
+}
+
 TEST(RangeOf, IsWhatTheMapTakes) {
   const Interval depth =
       range_of(ball({0, 90e-3}, 30e-3), inner_desk);  // farthest at the corners below, nearest at the centre

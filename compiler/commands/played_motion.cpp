@@ -95,8 +95,8 @@ class ClosedForm {
   std::size_t next_row_ = 1;
 };
 
-// The force of a network with slips, a contact or tunables, by its own steps in quick succession, all of it made by the
-// motor: no brake and no estimate take part. Between two steps it is straight.
+// The force of a network with slips, a contact, a static curve or tunables, by its own steps in quick succession, all
+// of it made by the motor: no brake and no estimate take part. Between two steps it is straight.
 class OwnSteps {
  public:
   OwnSteps(const Compilation& fine, const Motion& motion, const Path& path, Diagnostics& diagnostics)
@@ -133,7 +133,9 @@ class OwnSteps {
   std::uint64_t steps_ = 0;
 };
 
-bool has_closed_form(const Compilation& c) { return !c.form.has_slips() && !c.network.contact && !c.law.tunable; }
+bool has_closed_form(const Compilation& c) {
+  return !c.form.has_slips() && !c.network.contact && !c.network.map && !c.law.tunable;
+}
 
 std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   Choices fine = choices;
@@ -160,7 +162,7 @@ class DevicePlayer {
         path_(path),
         values_(c, motion, diagnostics),
         lead_in_(lead_in_samples(description_) * description_.loop.sample_period),
-        device_(description_, scene(seed)),
+        device_(description_, scene(c.network.port_motion, seed)),
         estimator_(description_.velocity, description_.loop.sample_period, description_.encoder.step),
         actuator_(description_, c.network.port_motion),
         law_(c.law) {
@@ -170,8 +172,9 @@ class DevicePlayer {
     estimator_.reset(actuator_.gear().joint_motion(start));
   }
 
-  static const char* refusal(const device_description& description) {
+  static const char* refusal(const device_description& description, motion network) {
     simulated::scenario scene;
+    scene.network = network;
     scene.prescribed = true;
     scene.intended = simulated::hold_at(0);
     return simulated_device::refusal(description, scene);
@@ -212,8 +215,9 @@ class DevicePlayer {
   double energy() const { return energy_; }                    // taken from the tool since the motion began [J]
 
  private:
-  simulated::scenario scene(std::uint64_t seed) const {
+  simulated::scenario scene(motion network, std::uint64_t seed) const {
     simulated::scenario scene;
+    scene.network = network;
     scene.prescribed = true;
     scene.intended = [path = &path_, lead_in = lead_in_](double time) { return path->point(time - lead_in); };
     scene.initial_position = path_.position_at(0);
@@ -276,7 +280,7 @@ double share(double part, double whole) { return whole > 0 ? 100 * part / whole 
 std::optional<PlayedMotion> play(const Compilation& c, const Choices& choices, const Motion& motion, std::uint64_t seed,
                                  Diagnostics& diagnostics) {
   const device_description& device = c.device->description;
-  if (const char* refusal = DevicePlayer<double>::refusal(device)) {
+  if (const char* refusal = DevicePlayer<double>::refusal(device, c.network.port_motion)) {
     diagnostics.report<DiagnosticCode::cannot_start_device>({}, c.device->name, std::string(refusal));
     return std::nullopt;
   }

@@ -31,6 +31,7 @@ const std::map<std::string, simulated::hand (*)()> hands = {{"none", simulated::
 simulated::scenario scene_of(const Options& options, const Compilation& compilation) {
   const device_description& device = compilation.device->description;
   simulated::scenario scene;
+  scene.network = compilation.network.port_motion;
   scene.user = hands.at(options.hand.value_or("relaxed"))();
   const HandMotion motion = hand_motion(device, compilation.network.port_motion == motion::rotation);
   scene.initial_position = motion.start;

@@ -135,6 +135,40 @@ class Motion(CommandTest):
         changed, _ = self.played(TUNABLE, self.device(), table(recorded, f"time,position,{name}"))
         self.assertNotEqual([row["closed_form"] for row in still], [row["closed_form"] for row in changed])
 
+    def test_a_static_curve(self):
+        """Fails if a network behind a static curve is compared with the straight one that stands in its file."""
+        net = self.write("curve.json", network(SOLID, "curve", '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, '
+                                                               '"valid": { "displacement": "10 mm", "rate": "50 mm/s" },'))
+        seconds, depth = 20, 0.008
+        held = [(k / 100, depth * min(k / 100, 1)) for k in range(100 * seconds + 1)]
+        rows, told = self.played(net, self.device(), table(held))
+        # Held for longer than any relaxation it answers with its curve, to the 1e-3 of the map's cubics.
+        self.assertAlmostEqual(rows[-1]["closed_form"], 2 * 0.8 ** 1.5, delta=2e-3)
+        self.assertAlmostEqual(rows[-1]["felt_force"], rows[-1]["closed_form"], delta=0.02)
+        self.assertLess(told["error"]["rms_share"], 0.1)
+
+    def test_a_rotation_on_a_device_with_an_arm(self):
+        """Fails if a network that rotates is led by the arm of a device that has one: the joint is then its tool."""
+        knob = self.write("knob.json", json.dumps({"dashpot": 1, "name": "knob", "motion": "rotation", "network": {"parallel": [
+            {"spring": "20 mN m/rad"}, {"damper": "0.5 mN m s/rad"}]}}))
+        swing = table([(k / 500, 0.3 * (1 - math.cos(4 * math.pi * k / 500))) for k in range(501)])
+        told = {"dashpot_device": 1, "name": "rig", "motion": "rotation", "loop": {"rate": "2 kHz"},
+                "encoder": {"counts_per_turn": 16000, "range": ["-60 deg", "60 deg"]},
+                "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {"max_torque": "0.25 N m"},
+                "brake": {"kind": "eddy_current", "max_damping": "10 mN m s/rad"}, "mechanics": {"inertia": "0.15 g m^2"}}
+        bare = self.write("bare.json", json.dumps(told))
+        arm = self.write("arm.json", json.dumps({**told, "arm_radius": "60 mm"}))
+        rows, without = self.played(knob, bare, swing)
+        same, with_arm = self.played(knob, arm, swing)
+        self.assertEqual(rows, same)
+        self.assertEqual(with_arm["error"], without["error"])
+        self.assertAlmostEqual(max(row["position"] for row in same), 0.6, delta=1e-6)
+        # A hand, too: it holds the joint.
+        runs = [self.dashpot("run", knob, "--device", device, "--fast", "--for", "1", "--hand", "firm", "-o", f"{name}.csv").stdout
+                for name, device in (("bare_run", bare), ("arm_run", arm))]
+        self.assertEqual(*[(self.folder / f"{name}.csv").read_text().split("\n", 1)[1:] for name in ("bare_run", "arm_run")])
+        self.assertIn("left safe", runs[1])
+
     def test_another_rate(self):
         """Fails if a motion's rate has to be the device's, or changes what is felt of the same straight lines."""
         net = self.write("kelvin.json", KELVIN)

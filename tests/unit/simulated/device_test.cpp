@@ -23,6 +23,23 @@ TEST(Device, TimeGoesOnByOnePeriodARead) {
   }
 }
 
+// A network that rotates would be led by the arm, which only one that moves the tool has to do with; or one that does
+// not move as the joint would be simulated without an arm.
+TEST(Device, TheNetworkSaysWhetherTheArmIsBetween) {
+  device_description arm = imperfect_arm();
+  scenario scene;
+  scene.initial_position = 0.01;
+  for (const auto& [network, angle] :
+       {std::pair(motion::translation, 0.01 / 0.05), std::pair(motion::rotation, 0.01)}) {
+    scene.network = network;
+    EXPECT_DOUBLE_EQ(simulated_device(arm, scene).truth().position, angle);
+  }
+  arm.arm_radius = 0;
+  EXPECT_EQ(simulated_device::refusal(arm, scene), nullptr);
+  scene.network = motion::translation;
+  EXPECT_NE(simulated_device::refusal(arm, scene), nullptr);
+}
+
 // Jitter would exceed its bound, add up from sample to sample, or not be there at all.
 TEST(Device, JitterDelaysEachSampleByItself) {
   device_description description = plain_device();

@@ -12,10 +12,6 @@ namespace {
 
 constexpr double turn = 2 * 3.14159265358979323846;
 
-double tool_over_joint(const device_description& device) {
-  return device.motion == motion::rotation && device.arm_radius > 0 ? device.arm_radius : 1;
-}
-
 double reduced_mass(const mechanics_description& mechanics) {
   return mechanics.mode.mass * (mechanics.inertia - mechanics.mode.mass) / mechanics.inertia;
 }
@@ -45,7 +41,7 @@ void solve(double (&matrix)[4][4], double (&right)[4]) {
 compliant_plant::compliant_plant(const device_description& device, const scenario& scene)
     : mechanics_(device.mechanics),
       drives_(device, scene),
-      ratio_(tool_over_joint(device)),
+      ratio_(tool_over_joint(device, scene)),
       user_(at_joint(scene.user, ratio_)),
       intended_(scene.intended),
       low_(scene.low, -1, ratio_),

@@ -7,18 +7,10 @@
 #include <dashpot/simulated/longest_step.hpp>
 
 namespace dashpot::simulated {
-namespace {
-
-double tool_over_joint(const device_description& device) {
-  return device.motion == motion::rotation && device.arm_radius > 0 ? device.arm_radius : 1;
-}
-
-}  // namespace
-
 plant::plant(const device_description& device, const scenario& scene)
     : mechanics_(device.mechanics),
       drives_(device, scene),
-      ratio_(tool_over_joint(device)),
+      ratio_(tool_over_joint(device, scene)),
       user_(scene.prescribed ? no_hand() : at_joint(scene.user, ratio_)),
       intended_(scene.intended),
       prescribed_(scene.prescribed),

@@ -51,6 +51,8 @@ const char* simulated_device::refusal(const device_description& device, const sc
   if (!(device.mechanics.inertia > 0)) {
     return "a simulation needs its inertia: \"inertia\" in \"mechanics\" of the device file";
   }
+  if (!can_drive(device, tool_motion(device, scene)))
+    return "the network does not move as the joint, and no arm radius relates them";
   if (scene.prescribed && !scene.intended) return "a prescribed motion is not given";
   if (scene.prescribed && (scene.low || scene.high)) return "a prescribed motion does not heed end-stops";
   if (scene.low && scene.initial_position < scene.low->position) return "the tool starts below the lower end-stop";

@@ -5,18 +5,23 @@
 #include <optional>
 #include <vector>
 
+#include <dashpot/device_description.hpp>
 #include <dashpot/simulated/end_stop.hpp>
 #include <dashpot/simulated/hand.hpp>
 #include <dashpot/simulated/sample_fault.hpp>
 #include <dashpot/simulated/trajectory.hpp>
+#include <dashpot/transmission.hpp>
 
 namespace dashpot::simulated {
 
 // Where the brake's true gain lies within 1 ± tolerance.
 enum class brake_gain : unsigned char { nominal, lowest, highest, drawn };
 
-// Everything in the tool's coordinate: [m], [N] where an arm radius relates it to a rotary joint, else the joint's own.
+// Everything in the tool's coordinate, in which the network acts.
 struct scenario {
+  // How the network moves, a law's `port_motion`. Empty: [m] where an arm radius relates the tool to a rotary joint,
+  // else as the joint.
+  std::optional<motion> network;
   hand user;                     // of the tool
   trajectory intended;           // of the user; empty: stays at 0
   bool prescribed = false;       // the tool itself follows `intended`, whatever force that takes; `user` is not used
@@ -29,5 +34,14 @@ struct scenario {
   unsigned substeps = 0;   // integration steps a period; 0: chosen so that every rate of the plant is resolved
   std::vector<sample_fault> faults;
 };
+
+inline motion tool_motion(const device_description& device, const scenario& scene) noexcept {
+  return scene.network.value_or(device.arm_radius > 0 ? motion::translation : device.motion);
+}
+
+// Requires can_drive(device, tool_motion(device, scene)).
+inline double tool_over_joint(const device_description& device, const scenario& scene) noexcept {
+  return transmission<double>(device, tool_motion(device, scene)).ratio();
+}
 
 }  // namespace dashpot::simulated

@@ -11,7 +11,8 @@ namespace dashpot::compiler::axes {
 
 Interval motor_force(const PortLoad& load, const Interval& depth, const Interval& over_workspace) {
   const Interval more = Interval(-load.estimated, load.estimated) + Interval(-load.yields, load.yields);
-  const Interval springs(load.grounded), relaxing(load.relaxing), pressed = max(depth - Interval(load.surface), Interval(0));
+  const Interval springs(load.grounded), relaxing(load.relaxing),
+      pressed = max(depth - Interval(load.surface), Interval(0));
   const Interval force = load.unilateral ? (springs + relaxing) * pressed + more
                                          : springs * depth + relaxing * (depth - over_workspace) + more;
   if (load.unilateral && pressed.high == 0) return Interval(0);

@@ -218,8 +218,13 @@ std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, con
   const std::optional<Dense<Scalar>> P = riccati<Scalar>(A, B, S, R);
   if (!P) return std::nullopt;
   checker::Storage storage(loop.states.size());
-  for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) storage[std::size_t(i)].push_back(double((*P)(i, j) / (by(i, 0) * by(j, 0))));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    std::vector<double>& row = storage[std::size_t(i)];
+    for (Eigen::Index j = 0; j <= i; ++j) row.push_back(double((*P)(i, j) / (by(i, 0) * by(j, 0))));
+    if constexpr (!std::is_same_v<Scalar, double>)
+      for (Eigen::Index j = 0; j <= i; ++j)
+        row.push_back(double((*P)(i, j) / (by(i, 0) * by(j, 0)) - Scalar(row[std::size_t(j)])));
+  }
   return storage;
 }
 
@@ -307,11 +312,15 @@ class StorageSearch {
 
   std::optional<StorageProof> at(double damping, bool in_doubles) const {
     if (!(damping > 0)) return std::nullopt;
-    const std::optional<checker::Storage> storage =
+    std::optional<checker::Storage> storage =
         in_doubles ? found_storage<double>(loop_, lag_, hold_, damping, scales_->at(damping))
                    : found_storage<Real>(loop_, lag_in_digits_, hold_, damping, scales_in_digits().at(damping));
-    if (!storage || !proves(*storage, damping)) return std::nullopt;
-    return StorageProof{damping, *storage, in_doubles};
+    if (!storage) return std::nullopt;
+    checker::Storage rounded = *storage;
+    for (std::size_t i = 0; i < rounded.size(); ++i) rounded[i].resize(i + 1);
+    if (proves(rounded, damping)) return StorageProof{damping, std::move(rounded), in_doubles};
+    if (in_doubles || !proves(*storage, damping)) return std::nullopt;
+    return StorageProof{damping, std::move(*storage), false};
   }
 
   // One for all holds that is next to the best, up to `excess`: from `damping`, where there is one.

@@ -4,8 +4,8 @@
 // The search works in coordinates in which every state's largest excursion, weighed by what the damping leaves over at
 // that frequency, is one, and asks for M ⪰ diag(Q, 0) with Q = I/(4n): at every frequency that costs at most a quarter
 // of what is left over, so there is always a P, with much room where states are slow. P is minus the stabilising
-// solution of a Riccati equation, by doubling. What is found is rounded to doubles and then checked with integers:
-// nothing here has to be believed.
+// solution of a Riccati equation, by doubling. What is found is rounded to doubles, or to two for each entry
+// where one is too coarse, and then checked with integers: nothing here has to be believed.
 #pragma once
 
 #include <optional>

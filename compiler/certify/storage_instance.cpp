@@ -151,7 +151,8 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       const std::size_t row = place.at(loop.states[i]), column = place.at(loop.states[j]);
-      P[row][column] = P[column][row] = proof.storage[i][j];
+      const std::vector<double>& stored = proof.storage[i];
+      P[row][column] = P[column][row] = Rational(stored[j]) + (stored.size() > i + 1 ? stored[i + 1 + j] : 0);
     }
   const auto recursion = [&](const Rational& decay) {
     RationalMatrix A(n, std::vector<Rational>(n + 1));

@@ -352,8 +352,9 @@ bool proves(const Program& program, Device device, const Storage& storage, const
     for (const auto& [state, form] : loop.next)
       for (const auto& [name, value] : form) digits = std::max(digits, msb(denominator(value)));
     Matrix P(n, std::vector<Integer>(n));
+    const auto left = [&](auto i, auto j) { return storage.at(i).size() > i + 1 ? storage[i].at(i + 1 + j) : 0; };
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = 0; j <= i; ++j) P[i][j] = P[j][i] = whole(storage.at(i).at(j), digits);
+      for (auto j = 0u; j <= i; ++j) P[i][j] = P[j][i] = whole(storage.at(i).at(j) + Rational(left(i, j)), digits);
     if (loop.stiffness < 0 || !is_nonnegative(P, digits - kept)) return false;
     for (const Hold& hold : holds(device))
       if (!is_nonnegative(matrix_of(loop, P, digits, damping, hold), 3 * digits - kept)) return false;
@@ -392,12 +393,11 @@ std::pair<int, std::string> verdict(const std::string& header, const std::string
   else if (!minimum.is_null() && spare + told * minimum.get<double>() < 0) refuted = "more would have to be added";
   if (refuted) return {1, std::string("not proved: ") + refuted + "\n"};
   std::ostringstream words;
-  words.precision(17);
-  words << "proved: with a damping of " << double(needed)
-        << " at the tool, no motion takes energy out of the loop, for holds of "
-        << (is_punctual ? "one length, " : "any lengths up to ") << double(longest) << " s\n"
-        << (is_certified ? "proved: brake and device surely give as much\n"
-                         : "not proved: that as much damping is there\n");
+  words.precision(17), words << "proved: with a damping of " << double(needed)
+                             << " at the tool, no motion takes energy out of the loop, for holds of "
+                             << (is_punctual ? "one length, " : "any lengths up to ") << double(longest) << " s\n"
+                             << (is_certified ? "proved: brake and device surely give as much\n"
+                                              : "not proved: that as much damping is there\n");
   if (spare > 0)  // e u̇ ≤ e²/4x + x u̇², x of the damping being left over
     words << "proved: " << double(spare)
           << " more than that is there; if rounding puts the held force off by e [N, N m], that brings in at most "

@@ -14,7 +14,7 @@ using Rational = boost::multiprecision::cpp_rational;
 using Form = std::map<std::string, Rational>;  // a sum: coefficients by quantity, the constant under the empty name
 using Forms = std::map<std::string, Form>;
 using Matrix = std::vector<std::vector<Integer>>;
-using Storage = std::vector<std::vector<double>>;  // P, by rows up to the diagonal
+using Storage = std::vector<std::vector<double>>;  // P, by rows up to the diagonal, behind which roundings may stand
 using Unknown = std::runtime_error;
 
 // What a header computes in a sample, in exact arithmetic, while samples arrive and the motor is within its limit.

@@ -291,6 +291,31 @@ TEST(Supremum, IsWhatStorageFunctionsProveNearHalfTheRate) {
   EXPECT_EQ(proved.nearly, std::size(seeds));
 }
 
+// P rounded to doubles would ask for more than 1e-8 beyond the supremum, where its roundings stand behind it and are
+// read with it; or a row of which some are missing would be read.
+TEST(Supremum, IsWhatStorageFunctionsProveOfMoreDigitsThanDoubleHas) {
+  Proved proved;
+  const std::uint64_t seeds[] = {162, 562, 563, 893, 1139, 1218, 2334};
+  for (const std::uint64_t seed : seeds) proved.take(seed);
+  EXPECT_EQ(proved.nearly, std::size(seeds));
+  Random random(162 + 17000);
+  const SampledLoop loop = extreme_loop(random);
+  const MotorConstants motor = extreme_motor(random, loop.sample_period);
+  const auto is_proved = [&](const dashpot_check::Storage& storage, double damping) {
+    return dashpot_check::proves(checked_program(motor), checked_device(loop), storage, damping);
+  };
+  const std::optional<StorageProof> proof = storage_proof(motor, loop);
+  ASSERT_TRUE(proof);
+  dashpot_check::Storage storage = proof->storage;
+  for (std::size_t i = 0; i < storage.size(); ++i) ASSERT_EQ(storage[i].size(), 2 * (i + 1));
+  EXPECT_TRUE(is_proved(storage, proof->damping));
+  EXPECT_FALSE(is_proved(storage, proof->damping * 0.999));
+  storage.back().pop_back();
+  EXPECT_THROW(is_proved(storage, proof->damping), std::out_of_range);
+  for (std::size_t i = 0; i < storage.size(); ++i) storage[i].resize(i + 1);
+  EXPECT_FALSE(is_proved(storage, proof->damping));
+}
+
 // A pole of the filter next to −1 would keep no digits, and the bound fall below the supremum.
 TEST(Supremum, OfAnEstimateThatFollowsEverySample) {
   for (const double manoeuvre : {1e6, 1e7, 3e7, 1e8, 1e10, 1e12}) {

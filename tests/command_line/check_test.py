@@ -8,7 +8,7 @@ import re
 import subprocess
 import unittest
 
-from dashpot_command import FIG_5, INPUT_REFUSED, PANTOGRAPH, SOURCE, CommandTest
+from dashpot_command import FIG_5, INPUT_REFUSED, PANTOGRAPH, SOURCE, CommandTest, network
 
 CHECK = os.environ["DASHPOT_CHECK"]
 PAPER = SOURCE / "networks/paper"
@@ -316,6 +316,14 @@ class CheckTest(CommandTest):
         files = self.write("law.json", json.dumps(certificate)), self.write("law.hpp", header)
         self.dashpot("verify", "--allow-uncertified", *files)
         self.refused("compile", *law, "--state-input", "velocity", code="velocity-input-drifts")
+
+    # Who asks about a law behind a static curve would be shown a piece of code in place of a reason.
+    def test_static_curve(self):
+        net = self.write("curve.json", network('{ "parallel": [ { "spring": 400 }, { "damper": 2 } ] }', "curve",
+                                               '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, "valid": { "displacement": "10 mm" },'))
+        words = self.said(*self.compiled([net, "--device", PANTOGRAPH]))[1]
+        self.assertEqual(self.status, 3)
+        self.assertIn("a static curve", words)
 
     # A law that lacks damping on its device would pass for one that has it.
     def test_lacking_damping(self):

@@ -72,7 +72,7 @@ double settle_choice(Compilation& c, const Network& present, const Choices& choi
   settler.settle(c.decomposition.candidates[c.decomposition.chosen]);
   if (is_faithful) {
     if (is_tunable) choose_over_box(c.network, c.form, c.decomposition, choices, device, c.rate);
-    c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), choices);
+    c.decomposition.reason = reason_for_faithful(c.decomposition.choice(), c.network, choices);
   }
   return settler.last_jitter_gap();
 }
@@ -88,7 +88,7 @@ void settle_compared(Compilation& c, const Network& present, const Choices& choi
   Candidate choice = c.decomposition.choice();
   if (c.form.has_slips()) settler.settle(choice);
   choice.state_input = c.decomposition.choice().state_input;
-  c.decomposition.reason = reason_for_input(choice, choices, false, port_units(c.network.port_motion).damping);
+  c.decomposition.reason = reason_for_input(choice, c.network, choices, false);
 }
 
 Beside what_is_beside_slips(const NormalForm& form) {
@@ -109,7 +109,7 @@ void tell_what_is_felt(Compilation& c, const Network& present, const Choices& ch
   CandidateSettler settler(present, c.form, c.decomposition, choices, device, c.rate);
   choice.largest_error = settler.largest_error(choice, added_at_tool(c));
   c.decomposition.in_words = choice_in_words(
-      c.decomposition, {port_units(c.network.port_motion), device.max_damping().value_or(0), c.network.map.has_value(),
+      c.decomposition, {port_units(c.network.port_motion), device.max_damping().value_or(0), device.steepest(),
                         has_tunables(c.network), to_double(zero_frequency_damping(c.form.linear)),
                         to_double(c.form.linear.feedthrough_damping), what_is_beside_slips(c.form)});
 }

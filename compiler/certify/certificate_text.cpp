@@ -17,19 +17,20 @@ std::string covered(const Certificate& c) {
   if (c.bound.proof == Proof::sampled)
     return fmt::format("any motion{}, samples at {:.6g} Hz{}", regimes, 1 / c.loop.sample_period, jitter);
   const char* brake = c.bound.any_regime || c.bound.any_value ? "least command" : "command";
-  return "any motion" + regimes + jitter + ", any switching of the brake above its " + brake;
+  return "any motion" + regimes + jitter + ", however the brake changes above its " + brake;
 }
 
 std::string requirement(const Certificate& c, const std::string& unit) {
   const std::string most = c.bound.frequency > 0 ? fmt::format(", most at {:.6g} Hz", c.bound.frequency) : "";
   const bool over_holds = c.bound.proof == Proof::hold || c.loop.jitter > 0;
-  const std::string hold = over_holds ? fmt::format(" over the longest hold of {:.6g} s", c.loop.longest_hold()) : "";
+  const std::string hold = over_holds ? fmt::format(" over a hold of up to {:.6g} s", c.loop.longest_hold()) : "";
   return fmt::format("needs {:.6g} {}{}{}", c.bound.needed, unit, hold, most);
 }
 
 std::string verdict(const Certificate& c, const std::string& unit) {
   if (c.bound.proof == Proof::none && c.bound.needed > 0)
-    return fmt::format("not certified: {}: {:.6g} {}", c.bound.reason, c.bound.needed, unit);
+    return fmt::format("not certified: {}; {:.6g} {} of damping are needed, at least {:.6g} is there", c.bound.reason,
+                       c.bound.needed, unit, c.assured);
   if (c.bound.proof == Proof::none) return "not certified: " + c.bound.reason;
   const std::string numbers = fmt::format("{}, at least {:.6g} {} is there", requirement(c, unit), c.assured, unit);
   if (c.certified)
@@ -45,17 +46,21 @@ std::string verdict(const Certificate& c, const std::string& unit) {
 
 // K against 2 f_c/Δ, and what friction leaves.
 std::string quantisation_text(const Certificate& c, const PortUnits& units) {
-  std::string text = "quantisation: ";
-  if (c.quantisation_gain)
-    text += fmt::format("an error of the encoder reaches the motor with at most {:.6g} {}; ", *c.quantisation_gain,
-                        units.stiffness);
-  else text += "what an error of the encoder does to the motor is not bounded; ";
+  std::string text =
+      c.quantisation_gain
+          ? fmt::format(
+                "quantisation: in the motor the encoder's steps act like a spring of at most {:.6g} {} that gives "
+                "energy; ",
+                *c.quantisation_gain, units.stiffness)
+          : std::string("quantisation: the energy that the encoder's steps bring in by the motor is not bounded; ");
   if (c.quantisation_stiffness > 0)
-    text += fmt::format("friction pays for up to {:.6g} {} (2 f_c/step), no brake does", c.quantisation_stiffness,
-                        units.stiffness);
-  else text += "no friction is stated that would pay for it, and no brake does";
+    text += fmt::format(
+        "the device's Coulomb friction f_c takes that of a spring of up to 2 f_c/step = {:.6g} {}, a brake none of it",
+        c.quantisation_stiffness, units.stiffness);
+  else text += "the device file states no Coulomb friction, which would take it; a brake does not";
   if (unpaid_force(c) > 0)
-    text += fmt::format("; up to {:.3g} J/{} of travel are unpaid", unpaid_force(c), units.position);
+    text +=
+        fmt::format("; what is beyond can give the hand {:.3g} J per {} of travel", unpaid_force(c), units.position);
   return text + "\n";
 }
 
@@ -100,8 +105,9 @@ std::vector<std::string> passivity_lines(const Certificate& c, const std::string
 std::string why_not_certified(const Certificate& c, motion port_motion) {
   const std::string unit = port_units(port_motion).damping;
   const double missing = c.bound.needed - c.assured;
-  const std::string numbers = fmt::format("it needs {:.6g} {} of damping, at least {:.6g} is there, {:.6g} is missing",
-                                          c.bound.needed, unit, c.assured, missing);
+  const std::string numbers =
+      fmt::format("{:.6g} {} of damping are needed, at least {:.6g} is there, {:.6g} is missing", c.bound.needed, unit,
+                  c.assured, missing);
   if (c.bound.proof != Proof::none) return numbers;
   return c.bound.needed > 0 ? c.bound.reason + "; " + numbers : c.bound.reason;
 }

@@ -23,9 +23,9 @@ const Candidate* named(const Decomposition& decomposition, const char* name) {
 
 std::string allowance(const FaithfulChoice& choice, double tolerance, bool is_tunable) {
   if (choice.allowed_error <= tolerance * (1 + 1e-9)) return fmt::format("{} % are allowed", in_percent(tolerance));
-  return fmt::format("no damping{} brings less than {} %, and up to {} % are taken",
+  return fmt::format("no damping{} brings less than {} %; a b that errs by up to {} %, {} times that, is accepted",
                      is_tunable ? " of those tried" : "", in_percent(choice.least_error),
-                     in_percent(choice.allowed_error));
+                     in_percent(choice.allowed_error), leeway);
 }
 
 // Of a damping that was chosen together with the law behind the slips.
@@ -82,11 +82,10 @@ std::string in_percent(double share) {
   return percent >= 100 && percent < 1e9 ? fmt::format("{:.0f}", percent) : fmt::format("{:.3g}", percent);
 }
 
-std::string reason_for_faithful(const Candidate& chosen, const Choices& choices) {
+std::string reason_for_faithful(const Candidate& chosen, const Network& network, const Choices& choices) {
   if (choices.state_input) return fmt::format("{} driven as asked", name_of(chosen.state_input));
-  if (chosen.state_inputs.size() == 1) return fmt::format("{} driven by definition", name_of(chosen.state_input));
-  return fmt::format("{} driven: of all pairs of damping and state input the one to be taken",
-                     name_of(chosen.state_input));
+  if (chosen.state_inputs.size() == 1) return reason_for_only_input(chosen, network);
+  return fmt::format("{} driven, chosen together with b", name_of(chosen.state_input));
 }
 
 std::string choice_in_words(const Decomposition& decomposition, const ChosenFor& what) {
@@ -94,19 +93,26 @@ std::string choice_in_words(const Decomposition& decomposition, const ChosenFor&
   if (!choice.faithful) return "";
   const FaithfulChoice& by = *choice.faithful;
   const PortUnits& units = what.units;
+  const bool is_behind_curve = what.steepest != 1;
+  const double weaker = what.steepest * what.steepest;
   const std::string taken =
-      fmt::format("'faithful' takes b = {:.4g} of the brake's {:.4g} {}", choice.damping, what.reach, units.damping) +
-      (what.is_behind_curve ? ", which is what it is worth behind the curve where that is steepest," : "");
+      is_behind_curve
+          ? fmt::format(
+                "'faithful' takes b = {:.4g} of {:.4g} {}: the brake's {:.4g} divided by {:.4g}, the square of "
+                "the steepest slope of the curve's map;",
+                choice.damping, what.reach, units.damping, what.reach * weaker, weaker)
+          : fmt::format("'faithful' takes b = {:.4g} of the brake's {:.4g} {}", choice.damping, what.reach,
+                        units.damping);
   const std::string by_runs = by.in_runs ? chosen_in_runs(by, decomposition.slips.error, what.is_tunable) : "";
   if (what.beside == Beside::nothing)
     return fmt::format(
         "All of the network is behind slips, and {} beside them.{} What is felt of the slips depends on the motion: "
         "'dashpot run --motion' measures it.",
         taken, by_runs);
-  std::string text = fmt::format(
-      "{} and the felt force{} errs by up to {} % in the band{}.", what.is_behind_curve ? taken : taken + ",",
-      what.beside == Beside::linear ? " of what is beside the slips" : "", in_percent(choice.largest_error),
-      by.in_runs ? "" : fmt::format(" ({})", allowance(by, decomposition.tolerance, what.is_tunable)));
+  std::string text =
+      fmt::format("{} and the felt force{} errs by up to {} % in the band{}.", is_behind_curve ? taken : taken + ",",
+                  what.beside == Beside::linear ? " of what is beside the slips" : "", in_percent(choice.largest_error),
+                  by.in_runs ? "" : fmt::format(" ({})", allowance(by, decomposition.tolerance, what.is_tunable)));
   text += by_runs;
   if (what.is_tunable && !is_within(choice.largest_error, by.allowed_error))
     text += " In the band it errs by more than that, because passivity adds more over the ranges of its parameters.";

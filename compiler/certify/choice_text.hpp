@@ -14,8 +14,8 @@ enum class Beside { no_slips, linear, nothing };
 // What `faithful` chose for.
 struct ChosenFor {
   PortUnits units;
-  double reach;  // of the brake, behind a static curve where that is steepest [N·s/m]
-  bool is_behind_curve;
+  double reach;                   // of the brake, behind a static curve where that is steepest [N·s/m]
+  double steepest;                // the largest slope of the map of a static curve; else 1
   bool is_tunable;                // what is certified holds over the ranges of its parameters
   double zero_frequency_damping;  // Z_d(0) [N·s/m]
   double feedthrough_damping;     // b∞ [N·s/m]
@@ -27,7 +27,7 @@ struct ChosenFor {
 std::string choice_in_words(const Decomposition& decomposition, const ChosenFor& what);
 
 // Which state input `faithful` came with.
-std::string reason_for_faithful(const Candidate& chosen, const Choices& choices);
+std::string reason_for_faithful(const Candidate& chosen, const Network& network, const Choices& choices);
 
 // A share in per cent, without an exponent: "1346", "5.65".
 std::string in_percent(double share);

@@ -233,12 +233,12 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
   std::vector<std::string> lines;
   if (!loop.has_device) return lines;
   const std::string rate = units.force + "/s";
-  std::string asked = limits.largest_force ? fmt::format("asks for up to {:.6g} {} within the encoder's range",
+  std::string asked = limits.largest_force ? fmt::format("the law asks for up to {:.6g} {} within the encoder's range",
                                                          *limits.largest_force, units.force)
-                                           : std::string("has no proved bound on the force it asks for");
-  if (loop.max_force > 0) asked += fmt::format(", the motor gives {:.6g} {}", loop.max_force, units.force);
+                                           : std::string("no bound is proved on the force that the law asks for");
   if (limits.unbounded != Unbounded::nothing) asked += fmt::format(", because {}", in_words(limits.unbounded));
-  if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: the law " + asked);
+  if (loop.max_force > 0) asked += fmt::format("; the motor gives {:.6g} {}", loop.max_force, units.force);
+  if (loop.max_force > 0 || limits.largest_force) lines.push_back("largest force: " + asked);
   if (limits.slew_needed || loop.motor_slew > 0)
     lines.push_back("slew: " +
                     (limits.slew_needed

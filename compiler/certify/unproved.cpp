@@ -19,8 +19,7 @@ std::string not_proved_for(const SampledLoop& loop) {
 PassivityBound of_a_free_tool(const PassivityBound& bound, const SampledLoop& loop) {
   if (Rational(bound.needed) <= assured_damping(loop, 0)) return bound;
   PassivityBound beyond = not_proved(
-      "a free tool, which the brake leaves alone, touches late; in the sample of the touch only the device's own "
-      "damping is there, and less than that needs");
+      "the brake leaves a free tool alone, so that in the sample of the touch only the device's own damping acts");
   beyond.needed = bound.needed;
   return beyond;
 }

@@ -60,8 +60,8 @@ class FitText {
     text += fmt::format(" at {:.6g} {}", file.largest_time, is_spectrum ? "rad/s" : "s");
     if (is_motion) text += fmt::format(", {}", quantity_text(file.largest_position, units_.position, 4));
     text += fmt::format(
-        "; neighbours correlate by {:.3f}, {:.4g} effective samples; {:.4f} times the network's forces "
-        "would leave least",
+        "; neighbours correlate by {:.3f}, {:.4g} effective samples; scaled by {:.4f} the network would fit "
+        "best",
         file.lag_one, file.effective_samples, file.best_gain);
     if (file.gain != 1) text += fmt::format("; gain {:.4f}", file.gain);
     if (file.offset != 0)
@@ -121,8 +121,8 @@ class FitText {
 
   std::string path() const {
     std::string text =
-        "\nsizes that were tried, before elements that the data do without are left out; the least criterion is taken "
-        "(*)\n  relaxations  slips  "
+        "\nsizes that were tried; afterwards elements that the data do not need are dropped. The size with the least "
+        "criterion is taken (*)\n  relaxations  slips  "
         "springpots  parameters         rms  criterion\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
       const PathEntry& entry = fit_.path[i];

@@ -37,7 +37,7 @@ class Decomposer {
     list.push_back(observed("paper", ObserverRule::most_dissipative));
     list.push_back({"zero-frequency", viscosity, "the network's own viscosity at low frequency", {}});
     list.push_back({"quietest-passive", std::max(half, feedthrough),
-                    "half the viscosity at low frequency: the least that is passive under any delay",
+                    "half the viscosity at low frequency, but no less than the feedthrough damping",
                     needs_no_estimate ? StateInput::position : StateInput::velocity});
     list.push_back({"velocity-free", feedthrough, "the feedthrough damping: no velocity estimate in the motor",
                     StateInput::position});
@@ -75,6 +75,9 @@ class Decomposer {
     candidate.state_input = best.state_input;
     candidate.largest_error = best.largest_error;
     candidate.extra_damping_any_delay = best.extra_damping_any_delay;
+    if (split.name == "quietest-passive" &&
+        best.extra_damping_any_delay <= 1e-9 * candidate.damping)  // but for rounding
+      candidate.reason += "; passive under any delay";
     candidate.velocity_gain = std::abs(to_double(form_.feedthrough_damping) - candidate.damping);
     if (const std::optional<double> noise = device_.velocity_noise())
       candidate.motor_noise = candidate.velocity_gain * *noise;
@@ -198,11 +201,23 @@ void warn_about_choice(const Decomposition& all, const Network& network, const L
   }
 }
 
-std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal,
-                             const std::string& damping_unit) {
+std::string reason_for_only_input(const Candidate& chosen, const Network& network) {
+  const auto always = [&](const std::string& who) {
+    return fmt::format("{} driven, as {} always is", name_of(chosen.state_input), who);
+  };
+  if (network.contact) return always("a network with a contact");
+  if (network.map) return always("a network with a static curve");
+  if (chosen.name == "quietest-passive" || chosen.name == "velocity-free") return always("'" + chosen.name + "'");
+  return fmt::format("{} driven, because the device's estimates do not sum to the displacement",
+                     name_of(chosen.state_input));
+}
+
+std::string reason_for_input(const Candidate& chosen, const Network& network, const Choices& choices,
+                             bool device_is_ideal) {
   if (choices.state_input) return fmt::format("{} driven as asked", name_of(chosen.state_input));
-  if (chosen.state_inputs.size() == 1) return fmt::format("{} driven by definition", name_of(chosen.state_input));
-  if (device_is_ideal) return "position driven: on an ideal device nothing tells the inputs apart";
+  if (chosen.state_inputs.size() == 1) return reason_for_only_input(chosen, network);
+  if (device_is_ideal) return "position driven: on an ideal device position and velocity do equally well";
+  const std::string damping_unit = port_units(network.port_motion).damping;
   std::string text =
       fmt::format("{} driven; minimum damping and largest error in the band:", name_of(chosen.state_input));
   for (const StateInputMerit& merit : chosen.state_inputs)
@@ -244,7 +259,7 @@ std::optional<Decomposition> decompose(const Network& network, const LinearForm&
   }
   result.encoder_step = port->encoder_step();
   result.tolerance = choices.tolerance;
-  result.reason = reason_for_input(result.choice(), choices, port->is_ideal(), port_units(network.port_motion).damping);
+  result.reason = reason_for_input(result.choice(), network, choices, port->is_ideal());
   warn_about_share(result.choice(), network, form, *port, diagnostics);
   return result;
 }
@@ -276,6 +291,12 @@ std::string reason_line(const Candidate& c) {
 
 }  // namespace
 
+std::string_view meaning_of_marks() {
+  return "hold for the values of the file; minimum damping and error hold for every value in the ranges in the row "
+         "that "
+         "was chosen alone";
+}
+
 std::string candidates_text(const Decomposition& decomposition, const Network& network) {
   const PortUnits units = port_units(network.port_motion);
   const auto heading = [](const auto&... cells) {
@@ -299,9 +320,7 @@ std::string candidates_text(const Decomposition& decomposition, const Network& n
   }
   if (!equals.empty()) text += fmt::format("the same              {}\n", equals);
   if (is_tunable && decomposition.candidates.size() > 1)
-    text +=
-        "rows with *           of the network with its parameters held at the values of its file; only the "
-        "chosen row needs its minimum damping for every value within their ranges, and errs with that added\n";
+    text += fmt::format("rows with *           {}\n", meaning_of_marks());
   return text + "reasons\n" + reasons;
 }
 
@@ -320,7 +339,7 @@ std::string legend(bool has_device) {
       {"states driven by",
        "what moves the motor's states: the measured position, the velocity estimate, or both as the network's nodes "
        "have it (nodal)"},
-      {"velocity gain", "how much force the motor makes of the velocity estimate; 0: it needs none"},
+      {"velocity gain", "how much force the motor makes of the velocity estimate, |b∞ − b|; 0: it needs none"},
       {"any-delay extra",
        "the damping to add so that the law is passive with an exact brake, however late the estimate is"},
       {"minimum damping",

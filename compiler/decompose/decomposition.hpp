@@ -76,12 +76,16 @@ void warn_about_choice(const Decomposition& decomposition, const Network& networ
                        Diagnostics& diagnostics);
 
 // What decided between position, velocity and nodal.
-std::string reason_for_input(const Candidate& chosen, const Choices& choices, bool device_is_ideal,
-                             const std::string& damping_unit);
+std::string reason_for_input(const Candidate& chosen, const Network& network, const Choices& choices,
+                             bool device_is_ideal);
+// Why there was only one.
+std::string reason_for_only_input(const Candidate& chosen, const Network& network);
 
 // True, with a diagnostic, for choices that no network can satisfy: nodal states with the exact scheme.
 bool contradicts_itself(const Choices& choices, Diagnostics& diagnostics);
 
+// What rows with * are, beside the chosen one, where a network has tunables.
+std::string_view meaning_of_marks();
 std::string candidates_text(const Decomposition& decomposition, const Network& network);
 std::string chosen_text(const Decomposition& decomposition);
 

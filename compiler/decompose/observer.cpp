@@ -91,7 +91,8 @@ class Observer {
     return visit_leaf(tree);
   }
 
-  std::string reason() const {
+  std::string reason(const Real& damping) const {
+    if (damping == 0) return "no damper acts";
     std::string text;
     const std::size_t shown = std::min<std::size_t>(clauses_.size(), 4);
     for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "" : "; ") + clauses_[i];
@@ -210,7 +211,7 @@ Network laid_out(const Tree& tree, Network network) {
 Observation observe(const Tree& tree, const Network& network, ObserverRule rule, double reference_frequency) {
   Observer observer(network, rule, reference_frequency);
   const Observed whole = observer.visit(tree);
-  return {whole.damping, observer.reason(), laid_out(whole.tree, network)};
+  return {whole.damping, observer.reason(whole.damping), laid_out(whole.tree, network)};
 }
 
 }  // namespace dashpot::compiler

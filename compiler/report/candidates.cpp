@@ -81,11 +81,7 @@ std::string candidates_table_html(const Compilation& c) {
     html += rows(candidate, is_chosen, has_marks && !is_chosen ? "*" : "", figures);
   }
   html += "</table></div>\n";
-  if (has_marks)
-    html +=
-        "<p class=\"note\">* of the network with its parameters held at the values of its file; only the chosen row "
-        "needs its minimum "
-        "damping for every value within their ranges, and errs with that added</p>\n";
+  if (has_marks) html += fmt::format("<p class=\"note\">rows with * {}</p>\n", meaning_of_marks());
   return html;
 }
 

@@ -38,11 +38,12 @@ std::string encoder_facts(const Certificate& c, const PortUnits& units) {
   if (c.loop.encoder_step == 0) return "";
   std::string html;
   if (c.quantisation_gain)
-    html += fact("an error of the encoder reaches the motor with", number_text(*c.quantisation_gain), units.stiffness);
-  html +=
-      fact("friction pays for up to 2<i>f</i><sub>c</sub>/Δ =", number_text(c.quantisation_stiffness), units.stiffness);
+    html += fact("the encoder's steps act in the motor like a spring of", number_text(*c.quantisation_gain),
+                 units.stiffness);
+  html += fact("friction takes its energy up to 2<i>f</i><sub>c</sub>/Δ =", number_text(c.quantisation_stiffness),
+               units.stiffness);
   if (unpaid_force(c) > 0)
-    html += fact("of the energy that it brings in are unpaid", number_text(unpaid_force(c)), "J/" + units.position);
+    html += fact("what is beyond can give the hand", number_text(unpaid_force(c)), "J/" + units.position);
   return html;
 }
 

@@ -4,8 +4,8 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 6.171597633136095 N·s/m of damping, and the motor the rest of the force; by the rule 'paper':
 //   no series-parallel tree, so the viscosity at low frequency
-// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-//   tells the inputs apart)
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 5.93552 N·s/m, most at 38.8226 Hz, at least
 //   6.1716 N·s/m is there

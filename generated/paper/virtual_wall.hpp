@@ -5,11 +5,12 @@
 //   samples in which a slip or a contact changes
 // brake: makes b = 5 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': dampers at the
 //   tool in parallel add
-// states: what is kept of the past follows the measured position (position driven by definition)
+// states: what is kept of the past follows the measured position (position driven, as a network with a contact
+//   always is)
 // contact: at 0 m; brake and motor 0 while the tool is free
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
-// passivity: not certified: a free tool, which the brake leaves alone, touches late; in the sample of the touch
-//   only the device's own damping is there, and less than that needs: 10.25 N·s/m
+// passivity: not certified: the brake leaves a free tool alone, so that in the sample of the touch only the
+//   device's own damping acts; 10.25 N·s/m of damping are needed, at least 0 is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 1.1e-15 of the sum of the force's terms

@@ -6,11 +6,11 @@
 // brake: makes the damping that follows of each slip, and the motor the rest of the force
 // behind Y: steady, the largest brake, 3.3 N s/m on average, of the laws that err by no more than 5 % in a run:
 //   7.69e-05 %; b = 3.3 N·s/m stuck, 3.3 sliding
-// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-//   tells the inputs apart)
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
-// passivity: certified for any motion, whatever slides, sticks, touches or lets go, any switching of the brake
-//   above its least command: needs 3.05676 N·s/m over the longest hold of 0.001 s, at least 3.3 N·s/m is there
+// passivity: certified for any motion, whatever slides, sticks, touches or lets go, however the brake changes
+//   above its least command: needs 3.05676 N·s/m over a hold of up to 0.001 s, at least 3.3 N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 1.9e-14 of the sum of the force's terms

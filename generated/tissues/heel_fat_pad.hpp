@@ -8,8 +8,8 @@
 //   series, B1 turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns
 //   100 % of the energy into heat at low frequency, and the brake follows it; in series, B3 turns 100 % of the
 //   energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-//   tells the inputs apart)
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 1224.62 N·s/m, most at 21.3386 Hz, at least
 //   1250.72 N·s/m is there

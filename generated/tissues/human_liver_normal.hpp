@@ -7,8 +7,8 @@
 // scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
 // brake: makes b = 0.292 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B2
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-//   tells the inputs apart)
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 0.251002 N·s/m, most at 93.9011 Hz, at least
 //   0.292 N·s/m is there

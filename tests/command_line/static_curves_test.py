@@ -50,7 +50,7 @@ class StaticCurvesTest(CommandTest):
             gaps.append(float(re.search(rf"from a gap of (\S+) m on, {words}", told)[1]))
         # w is a multiple of u^5/4, and so steepest at 5 mm; of which the first cubic is a rough picture.
         self.assertAlmostEqual(math.log2(gaps[1] / (1.25 * 5e-3 ** 0.25 * gaps[0]) ** 0.8), 0, delta=1)
-        self.assertIn("no proved bound on the force it asks for", told)
+        self.assertIn("no bound is proved on the force that the law asks for", told)
         self.assertIn("because it lies behind a static curve", told)
 
     # If this fails, a law behind a curve is not certified where it was, or verify does not know it again.

@@ -556,7 +556,7 @@ class Certified(CommandTest):
         single = SOURCE / "runtime/devices/phantom_single_motor.json"
         told = self.dashpot("compile", "spring.json").stderr
         self.assertIn("[lacks-damping]", told)
-        self.assertIn("on an ideal device: it needs 1.5 N s/m of damping, at least 0 is there, 1.5 is missing", told)
+        self.assertIn("on an ideal device: 1.5 N s/m of damping are needed, at least 0 is there, 1.5 is missing", told)
         told = self.dashpot("compile", "kelvin.json", "--device", single, "--uncertified", "--certificate", "c.json").stderr
         self.assertIn("[lacks-damping]", told)
         passivity = json.loads((self.folder / "c.json").read_text())["passivity"]
@@ -564,7 +564,7 @@ class Certified(CommandTest):
         self.assertAlmostEqual(missing / (passivity["needed_damping"] - passivity["assured_damping"]), 1, delta=1e-5)
         self.write("touch.json", network('{ "spring": 500 }', "touch", '"contact": { "at": 0 },'))
         told = self.dashpot("compile", "touch.json", "--device", BOARD).stderr
-        self.assertRegex(told, r"touches late.*; it needs \S+ N s/m of damping, at least \S+ is there, \S+ is missing \[nothing-proved\]")
+        self.assertRegex(told, r"leaves a free tool alone.*; \S+ N s/m of damping are needed, at least \S+ is there, \S+ is missing \[nothing-proved\]")
         self.assertEqual(self.dashpot("check", "touch.json", "--device", BOARD).stderr, told)
         self.assertEqual(self.dashpot("compile", "kelvin.json").stderr, "")
 

@@ -5,8 +5,8 @@
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
 //   the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-//   tells the inputs apart)
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 100000 Hz: needs 10.9998 N·s/m, most at 85.3621 Hz, at least 11
 //   N·s/m is there

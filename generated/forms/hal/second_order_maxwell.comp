@@ -24,8 +24,8 @@ brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by t
   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
   the energy into heat at low frequency, and the brake follows it
 .br
-states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-  tells the inputs apart)
+states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+  velocity do equally well)
 .br
 late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 .br
@@ -77,8 +77,8 @@ license "of whoever had it written; dashpot 0.1.0 claims nothing of its output";
 // brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, B2 turns 100 % of
 //   the energy into heat at low frequency, and the brake follows it
-// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-//   tells the inputs apart)
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 10.9819 N·s/m, most at 8.53085 Hz, at least 11
 //   N·s/m is there

@@ -6,8 +6,8 @@
 //   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_6 turns 100
 //   % of the energy into heat at low frequency, and the brake follows it; in series, damper_8 turns 100 % of the
 //   energy into heat at low frequency, and the brake follows it; and 16 more series connections likewise
-// states: what is kept of the past follows the measured position (position driven: on an ideal device nothing
-//   tells the inputs apart)
+// states: what is kept of the past follows the measured position (position driven: on an ideal device position and
+//   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, samples at 1000 Hz: needs 6.24683 N·s/m, most at 40.8013 Hz, at least 6.629
 //   N·s/m is there

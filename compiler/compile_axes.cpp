@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "compile.hpp"
@@ -118,6 +119,31 @@ std::string_view axes::name_of(BrakeRule rule) {
 
 std::optional<axes::ShareMap> share_by(const AxesCompilation& c, axes::BrakeRule rule) {
   return share_of(c.network, certified_ports(c), c.device, rule);
+}
+
+std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& c) {
+  if (!c.certificate.is_proved || !c.certificate.uncovered.empty()) return std::nullopt;
+  const std::vector<CertifiedPort> ports = certified_ports(c);
+  const auto stronger = [&](double factor) {
+    AxesDevice device = c.device;
+    for (AlongBrake& brake : device.brakes) {
+      const double wanted = factor * brake.brake.max_damping;
+      if (wanted > 0) brake.brake.max_damping = std::stod(fmt::format("{:.2g}", wanted));
+    }
+    return device;
+  };
+  const auto does = [&](double factor) { return certify_axes(c.network, ports, stronger(factor), c.rule).certified; };
+  constexpr int most_doublings = 8, halvings = 4;
+  double most = 2, least = 1;
+  for (int doubling = 1; !does(most); least = most, most *= 2)
+    if (doubling++ == most_doublings) return std::nullopt;
+  for (int halving = 0; halving < halvings; ++halving) {
+    const double middle = (least + most) / 2;
+    (does(middle) ? most : least) = middle;
+  }
+  std::vector<double> limits;
+  for (const AlongBrake& brake : stronger(most).brakes) limits.push_back(brake.brake.max_damping);
+  return limits;
 }
 
 std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choices& asked,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "decompose/choices.hpp"
 #include "emit/axes_emission.hpp"
@@ -13,5 +14,9 @@ namespace dashpot::compiler {
 // Refuses: what any stage refuses.
 std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choices& choices,
                                             const std::optional<AxesDevice>& device, Diagnostics& diagnostics);
+
+// For each brake a limit with which the network would be certified, all raised alike, in two digits; empty where
+// nothing is proved, or no brake is enough.
+std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& compilation);
 
 }  // namespace dashpot::compiler

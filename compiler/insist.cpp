@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <dashpot/estimators/estimator_names.hpp>
+#include <functional>
 #include <initializer_list>
 #include <set>
 #include <utility>
@@ -18,6 +19,13 @@
 
 namespace dashpot::compiler {
 namespace {
+
+constexpr double noticeably = 0.9;  // of an error, what is worth another choice [1]
+constexpr double ruinous = 0.5;     // of the network's force: what errs by so much feels like something else [1]
+
+constexpr const char* no_lag = "no \"amplifier_lag\"";
+constexpr const char* no_delay = "no \"delay_samples\"";
+constexpr const char* no_delay_and_lag = "no \"delay_samples\" and no \"amplifier_lag\"";
 
 // The network on another device, or another one on the same: what is told to people has been tried.
 std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
@@ -193,6 +201,28 @@ class Remedies {
     return std::nullopt;
   }
 
+  // In the words of the file, what makes the loop late and would do if it were left out; each errs noticeably less than
+  // the one before.
+  std::vector<std::pair<const char*, WorstError>> prompt_loops() const {
+    std::vector<std::pair<const char*, WorstError>> all;
+    const device_description& own = c_.device->description;
+    const bool has_lag = own.motor.amplifier_lag > 0, has_delay = own.loop.delay_samples > 0;
+    const auto attempt = [&](bool is_there, const char* words, double lag, unsigned delay) {
+      if (!is_there) return;
+      Device prompt = *c_.device;
+      prompt.description.motor.amplifier_lag = lag;
+      prompt.description.loop.delay_samples = delay;
+      if (!may_do(prompt)) return;
+      const std::optional<WorstError> error = error_where_certified(c_.network, choices_, prompt);
+      if (error && (all.empty() || error->share < noticeably * all.back().second.share))
+        all.emplace_back(words, *error);
+    };
+    attempt(has_lag, no_lag, 0, own.loop.delay_samples);
+    attempt(has_delay, no_delay, own.motor.amplifier_lag, 0);
+    attempt(has_lag && has_delay, no_delay_and_lag, 0, 0);
+    return all;
+  }
+
   // The first power of two times the device's own; empty where even a thousandfold does not help.
   std::optional<Remedy> rate() const {
     Device faster = *c_.device;
@@ -278,14 +308,13 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
     const auto damping = remedies.own_damping(loop, 0);
     if (!damping) return false;
     if (remedies.at_joint(damping->value) > own) tell(*damping, fmt::format(" with {}", lateness));
-    else diagnostics.note<DiagnosticCode::prompt_loop_that_would_do>({}, lateness);
+    else diagnostics.note<DiagnosticCode::prompt_loop_that_would_do>({}, lateness, in_words(damping->error));
     return true;
   };
   // The least change first: often the lag alone stands in the way.
-  if (device.motor.amplifier_lag > 0 && tell_without(device.loop, "no \"amplifier_lag\"")) return;
+  if (device.motor.amplifier_lag > 0 && tell_without(device.loop, no_lag)) return;
   if (device.loop.delay_samples == 0) return;
-  tell_without(prompt, device.motor.amplifier_lag > 0 ? "no \"delay_samples\" and no \"amplifier_lag\""
-                                                      : "no \"delay_samples\"");
+  tell_without(prompt, device.motor.amplifier_lag > 0 ? no_delay_and_lag : no_delay);
 }
 
 }  // namespace
@@ -303,8 +332,6 @@ void warn_of_uncertified(const Compilation& c, const Choices& choices, Diagnosti
 }
 
 namespace {
-
-constexpr double noticeably = 0.9;  // of an error, what is worth another choice [1]
 
 struct OtherChoices {
   Choices choices;
@@ -340,45 +367,80 @@ std::vector<OtherChoices> other_choices(const Compilation& c, const Choices& ask
 
 }  // namespace
 
+namespace {
+
+// Notes on what would do, told with what errs least first.
+class RemedyNotes {
+ public:
+  template <DiagnosticCode code, class... Arguments>
+  void add(const WorstError& error, Arguments... arguments) {
+    notes_.emplace_back(error.share,
+                        [=](Diagnostics& diagnostics) { diagnostics.note<code>({}, arguments..., in_words(error)); });
+  }
+
+  void tell(Diagnostics& diagnostics) {
+    std::stable_sort(notes_.begin(), notes_.end(),
+                     [](const auto& one, const auto& other) { return one.first < other.first; });
+    for (const auto& [error, tell_it] : notes_) tell_it(diagnostics);
+    if (!notes_.empty() && notes_.front().first > ruinous) diagnostics.note<DiagnosticCode::remedies_ruin_the_feel>({});
+  }
+
+ private:
+  std::vector<std::pair<double, std::function<void(Diagnostics&)>>> notes_;
+};
+
+RemedyNotes notes_on_remedies(const Compilation& c, const Choices& choices, double available, double of_regimes) {
+  RemedyNotes notes;
+  const Certificate& certificate = c.certificate;
+  const SampledLoop& loop = certificate.loop;
+  const std::string unit = port_units(c.network.port_motion).damping;
+  for (const OtherChoices& other : other_choices(c, choices)) {
+    const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
+    if (!again || !again->certificate.certified) continue;
+    notes.add<DiagnosticCode::choice_that_would_do>(felt_error(*again), other.options,
+                                                    again->decomposition.choice().damping, unit);
+    break;
+  }
+  const Remedies remedies(c, choices);
+  const std::optional<Remedy> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
+  if (brake)
+    notes.add<DiagnosticCode::brake_that_would_do>(brake->error, brake->value, unit, loop.max_damping,
+                                                   remedies.at_joint(brake->value),
+                                                   std::string(port_units(c.device->description.motion).damping));
+  const double by_loop = available / certificate.bound.needed, by_brake = brake ? loop.max_damping / brake->value : 0;
+  if (const auto share = remedies.share({std::max(by_loop, by_brake), std::min(by_loop, by_brake)}))
+    notes.add<DiagnosticCode::scale_that_would_do>(
+        share->error, share->value, std::string(c.form.has_slips() ? ", and its yield forces as they are," : ""));
+  if (const std::optional<Remedy> rate = remedies.rate())
+    notes.add<DiagnosticCode::rate_that_would_do>(rate->error, rate->value);
+  if (const std::optional<Remedy> jitter = remedies.jitter())
+    notes.add<DiagnosticCode::jitter_that_would_do>(jitter->error, jitter->value * 1e3,
+                                                    c.device->description.loop.jitter * 1e3, jitter->value * 1e3);
+  const bool follows = c.decomposition.choice().velocity_gain > 0;
+  if (const auto estimator = follows ? remedies.estimator() : std::nullopt)
+    notes.add<DiagnosticCode::estimator_that_would_do>(estimator->second, estimator->first);
+  for (const auto& [lateness, error] : remedies.prompt_loops())
+    notes.add<DiagnosticCode::prompt_loop_that_would_do>(error, std::string(lateness));
+  return notes;
+}
+
+}  // namespace
+
 bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   const Certificate& certificate = c.certificate;
   if (!c.device || certificate.certified || certificate.bound.proof == Proof::none) {
     warn_of_uncertified(c, choices, diagnostics);
     return true;
   }
-  const std::string& name = c.network.name;
-  const std::string unit = port_units(c.network.port_motion).damping;
   const SampledLoop& loop = certificate.loop;
   const double of_regimes = c.law.largest_damping - c.law.damping;  // what a brake that changes needs above its least
   const double available =
       c.law.tunable ? certificate.assured : assured_damping(loop, loop.max_damping - of_regimes).convert_to<double>();
-  const double needed = certificate.bound.needed;
-  const auto [needed_words, available_words] = told_apart(needed, available);
-  diagnostics.report<DiagnosticCode::not_certified>(c.network.name_span, name, needed_words, unit, c.device->name,
-                                                    available_words);
-  for (const OtherChoices& other : other_choices(c, choices)) {
-    const std::optional<Compilation> again = compiled(c.network, other.choices, *c.device);
-    if (!again || !again->certificate.certified) continue;
-    diagnostics.note<DiagnosticCode::choice_that_would_do>({}, other.options, again->decomposition.choice().damping,
-                                                           unit, in_words(felt_error(*again)));
-    break;
-  }
-  const Remedies remedies(c, choices);
-  const std::optional<Remedy> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
-  if (brake)
-    diagnostics.note<DiagnosticCode::brake_that_would_do>(
-        {}, brake->value, unit, loop.max_damping, remedies.at_joint(brake->value),
-        port_units(c.device->description.motion).damping, in_words(brake->error));
-  const double by_loop = available / needed, by_brake = brake ? loop.max_damping / brake->value : 0;
-  if (const auto share = remedies.share({std::max(by_loop, by_brake), std::min(by_loop, by_brake)}))
-    diagnostics.note<DiagnosticCode::scale_that_would_do>(
-        {}, share->value, c.form.has_slips() ? ", and its yield forces as they are," : "", in_words(share->error));
-  if (const std::optional<Remedy> rate = remedies.rate())
-    diagnostics.note<DiagnosticCode::rate_that_would_do>({}, rate->value, in_words(rate->error));
-  tell_of_jitter(c, remedies, diagnostics);
-  const bool follows = c.decomposition.choice().velocity_gain > 0;
-  if (const auto estimator = follows ? remedies.estimator() : std::nullopt)
-    diagnostics.note<DiagnosticCode::estimator_that_would_do>({}, estimator->first, in_words(estimator->second));
+  const auto [needed_words, available_words] = told_apart(certificate.bound.needed, available);
+  diagnostics.report<DiagnosticCode::not_certified>(
+      c.network.name_span, c.network.name, needed_words, port_units(c.network.port_motion).damping, c.device->name,
+      available_words, !c.law.tunable && loop.max_damping > 0 ? " with all of its brake" : "");
+  notes_on_remedies(c, choices, available, of_regimes).tell(diagnostics);
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;
 }

@@ -1,6 +1,7 @@
 #include "commands/axes_commands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -173,9 +174,15 @@ std::string explain_text(const AxesCompilation& c, bool with_legend) {
 }
 
 void note_what_would_do(const AxesCompilation& c, Diagnostics& diagnostics) {
+  const std::string unit = port_units(c.device.joint_motion()).damping;
+  if (const auto limits = brakes_that_would_do(c)) {
+    std::vector<double> there;
+    for (const AlongBrake& brake : c.device.brakes) there.push_back(brake.brake.max_damping);
+    diagnostics.note<DiagnosticCode::brakes_that_would_do>({}, fmt::format("{:.4g}", fmt::join(*limits, " and ")), unit,
+                                                           fmt::format("{:.4g}", fmt::join(there, " and ")));
+  }
   const auto own = own_damping_that_would_do(c.certificate, c.device);
   if (!own) return;
-  const std::string unit = port_units(c.device.joint_motion()).damping;
   const auto& there = c.device.mechanics.damping;
   diagnostics.note<DiagnosticCode::joints_that_would_do>({}, (*own)[0], (*own)[1], unit, there[0], there[1], (*own)[0],
                                                          unit, (*own)[1], unit);

@@ -267,6 +267,28 @@ class AxesTest(CommandTest):
         self.dashpot("compile", "thick.json", "--device", "stiff.json", "-o", "out")
         self.assertIn("N·m·s/rad of damping are missing at the joints, more than its brakes can give", refused)
 
+    def test_brakes_that_would_do(self):
+        """Fails if a refusal of two axes does not tell of stronger brakes that would do, or of some that would not, or of far more than
+        is needed."""
+        device = json.loads(PANTOGRAPH.read_text())
+        network = {"dashpot": 1, "axes": 2, "name": "groove", "ports": [
+            {"name": "across", "map": {"along": [1, 0]}, "network": {"parallel": [{"spring": "150 N/m"}, {"damper": "1 N s/m"}]}}]}
+        self.write("groove.json", json.dumps(network))
+
+        def compiled(limits=None, status=0):
+            for brake, limit in zip(device["brakes"], limits or []):
+                brake["max_damping"] = f"{limit} N m s/rad"
+            self.write("device.json", json.dumps(device))
+            return self.dashpot("compile", "groove.json", "--device", "device.json", "-o", "out", status=status).stderr
+
+        refused = compiled([2.5e-3] * len(device["brakes"]), INPUT_REFUSED)
+        self.assertIn("[axes-not-certified]", refused)
+        told = re.search(r"note: brakes of (.*) N m s/rad, in place of .*, would do: ", " ".join(refused.split()))
+        limits = [float(limit) for limit in told[1].split(" and ")]
+        compiled(limits)
+        # The search halves a factor of two four times, and two digits are told.
+        compiled([0.8 * limit for limit in limits], INPUT_REFUSED)
+
     def test_what_is_added_is_told_at_the_tip(self):
         """Fails if damping that is added to the brakes is not what the hand feels of it where it feels most."""
         text = " ".join(self.dashpot("explain", FIELD, "--device", PANTOGRAPH).stdout.split())

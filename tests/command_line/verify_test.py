@@ -652,7 +652,28 @@ class Certified(CommandTest):
         tip["mechanics"]["damping"] = damping
         self.assertEqual(codes(compiled(tip, wall)), ["felt-error"])
         tip["motor"]["amplifier_lag"] = "0.2 ms"
-        self.assertIn('note: the same device would do with no "amplifier_lag" in its file', compiled(tip, wall))
+        self.assertIn('note: the same device would do with no "amplifier_lag" in its file; what is felt would err by up to ',
+                      compiled(tip, wall))
+
+    def test_a_loop_that_is_not_late_as_a_remedy(self):
+        """Fails if a refusal does not say what a loop that is not late would do, in the order of what is felt, or does not say that all it
+        has to offer ruins the feel."""
+        net = self.write("late.json", network('{ "parallel": [ { "spring": 2500 }, { "damper": 4 } ] }', "late"))
+
+        def told(status=0, **loop):
+            device = {"dashpot_device": 1, "name": "rig", "motion": "translation", "loop": {"rate": "2 kHz"} | loop,
+                      "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {},
+                      "brake": {"kind": "eddy_current", "max_damping": "3 N s/m"}, "mechanics": {"inertia": "0.2 kg"}}
+            self.write("device.json", json.dumps(device))
+            return self.dashpot("compile", net, "--device", "device.json", "--decomposition", "virtual", "-o", "out", status=status).stderr
+
+        refused = told(INPUT_REFUSED, delay_samples=3)
+        self.assertIn('the same device would do with no "delay_samples" in its file', refused)
+        errors = [float(error) for error in re.findall(r"would err by up to (\S+) %", refused)]
+        self.assertGreater(len(errors), 1)
+        self.assertEqual(errors, sorted(errors))
+        self.assertEqual("would ruin the feel" in refused, errors[0] > 50)
+        told()
 
     def test_a_faster_loop_as_a_remedy(self):
         """Fails if a rate is not offered where it would do."""

@@ -240,10 +240,9 @@ std::string legend_of_lines(const std::string& text) {
       {"passivity",
        "the damping that the law needs so that no motion of the tool gets energy out of the loop, and what "
        "the device has for certain. A hold is the time over which the motor's force stays, from one sample to the "
-       "next; "
-       "'however the brake changes' means as long as it stays above the least one. Where 'what is rendered "
-       "is D + …' follows: D is the network's own answer to a "
-       "motion, and s the rate of change, so that so much damping is felt beside the network"},
+       "next; 'however the brake changes' means as long as it stays above the least one. Where 'what is rendered is "
+       "D + …' follows: D is the network's own answer to a motion, and s the rate of change, so that so much damping "
+       "is felt beside the network"},
       {"energy", "what the law itself can give back, and what rounding may add to it"},
       {"largest force", "what the law may ask of the motor, and what the motor can make"},
       {"over 'valid'", "the network's own force in such a motion, with its parameters as they are in the file"},
@@ -286,8 +285,7 @@ std::string legend_of_slips(const std::string& text) {
        "part, the b of its regime; what is added for passivity is not in it"},
       {"  stuck", "its observer's",
        "what the rule in the last column asks of the brake; the law `steady` takes the largest of all regimes instead, "
-       "and "
-       "limits may lower it"},
+       "and limits may lower it"},
       {"  stuck", "b∞", "the damping that is felt at once in this regime"},
       {"  stuck", "compensation", "what the motor takes back of the brake, by the velocity estimate"},
       {"  stuck", "observer", "the rule that gives the damping of this regime"},

@@ -293,8 +293,7 @@ std::string reason_line(const Candidate& c) {
 
 std::string_view meaning_of_marks() {
   return "hold for the values of the file; minimum damping and error hold for every value in the ranges in the row "
-         "that "
-         "was chosen alone";
+         "that was chosen alone";
 }
 
 std::string candidates_text(const Decomposition& decomposition, const Network& network) {

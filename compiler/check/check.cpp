@@ -29,9 +29,9 @@ Rational of(const Form& form, const std::string& name) { return form.count(name)
 const std::regex declaration(
     R"((?:scalar|(static constexpr )(?:scalar|unsigned(?= loop_delay = \d+;))) (\w+)(?:\[(\d+)\])? = \{?)");
 const std::regex assignment(R"((const (?:scalar|vector) )?(\w+(?:\[\d+\])?) = |return \{damping, )");
-const std::regex loop(R"(for \(int i = 0; i < (\d+); i \+= (\d+)\) )"
-                      R"(for \(int j = i; j < i \+ \2; j \+= vector::width\) \{ ([^{}]*)\} )");
-const std::regex name(R"([A-Za-z_]\w*(\[\d+\])?)");
+const std::regex rolled(R"(for \(int i = 0; i < (\d+); i \+= (\d+)\) )"
+                        R"(for \(int j = i; j < i \+ \2; j \+= vector::width\) \{ ([^{}]*)\} )");
+const std::regex word(R"([A-Za-z_]\w*(\[\d+\])?)");
 const std::regex number(R"(-?(?:0|[1-9]\d*)(?:(\.\d*(?:e[-+]?\d+)?|e[-+]?\d+)(f?))?)");
 // What computes nothing, nothing of a sample, or nothing while samples arrive and no state is small.
 const std::regex frame(
@@ -87,7 +87,7 @@ struct Header : Program {
   }
   void read_part() {
     if (take(frame) || (next["sampled_"] == Form{{"", 1}} && take("if (!sampled_) return; "))) return;
-    if (take(loop)) {
+    if (take(rolled)) {
       std::string all;
       for (int j = 0, step = std::stoi(found_[2]); j % step != 0 || j < std::stoi(found_[1]); ++j)
         all += std::regex_replace(found_[3].str(), std::regex(R"(\[j\])"), "[" + std::to_string(j) + "]");
@@ -125,7 +125,7 @@ struct Header : Program {
     return right.size() == right.count("") ? of(right, "") * left : (refuse(), Form());
   }
   Form factor() {
-    if (take(name)) return (next.contains(found_[0]) ? next : others_).at(found_[0]);
+    if (take(word)) return (next.contains(found_[0]) ? next : others_).at(found_[0]);
     if (!take("(")) return {{"", literal()}};
     const Form value = sum();
     return expect(")"), value;
@@ -352,9 +352,9 @@ bool proves(const Program& program, Device device, const Storage& storage, const
     for (const auto& [state, form] : loop.next)
       for (const auto& [name, value] : form) digits = std::max(digits, msb(denominator(value)));
     Matrix P(n, std::vector<Integer>(n));
-    const auto left = [&](auto i, auto j) { return storage.at(i).size() > i + 1 ? storage[i].at(i + 1 + j) : 0; };
+    const auto left = [&](auto i, auto j) { return i + 1 < storage.at(i).size() ? storage[i].at(i + 1 + j) : 0; };
     for (std::size_t i = 0; i < n; ++i)
-      for (auto j = 0u; j <= i; ++j) P[i][j] = P[j][i] = whole(storage.at(i).at(j) + Rational(left(i, j)), digits);
+      for (auto j = 0u; j <= i; ++j) P[i][j] = P[j][i] = whole(storage.at(i).at(j), digits) + whole(left(i, j), digits);
     if (loop.stiffness < 0 || !is_nonnegative(P, digits - kept)) return false;
     for (const Hold& hold : holds(device))
       if (!is_nonnegative(matrix_of(loop, P, digits, damping, hold), 3 * digits - kept)) return false;

@@ -128,6 +128,16 @@ class AxesTest(CommandTest):
                         told = [same(row[:4]) for row in self.answers(program, rows)[:-1]]
                         self.assertEqual([same(row) for row in self.simulated(network, rows, *device, "--scalar", scalar)], told)
 
+    # If this fails, a constant that reset() alone reads is not in the header: springs between two walls need no zero in a sample.
+    def test_two_walls_without_dampers(self):
+        walls = [{"name": name, "map": {"wall": {"through": [0, f"{at} mm"], "normal": [0, side]}}, "contact": {"at": "0 mm"},
+                  "network": {"spring": "150 N/m"}} for name, at, side in [("near", 94, 1), ("far", 96, -1)]]
+        network = self.write("walls.json", json.dumps({"dashpot": 1, "axes": 2, "name": "walls", "ports": walls}))
+        rows = self.rows(motion_in_joints(400, 3))
+        told = [row[:4] for row in self.answers(self.compile(network, "--device", PANTOGRAPH), rows)[:-1]]
+        self.assertTrue(any(abs(row[2]) > 1e-3 for row in told))
+        self.assertEqual(self.simulated(network, rows, "--device", PANTOGRAPH), told)
+
     # If this fails, forces or dampings are not those of springs and dampers at the tip of the arm.
     def test_a_kelvin_field_is_one(self):
         rows = [[*q, 0.3, -0.2] for q in motion_in_joints(200, 2)]

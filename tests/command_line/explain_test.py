@@ -578,7 +578,7 @@ class MotorLimits(CommandTest):
         self.assertAlmostEqual(limits["largest_force"], 50, delta=1e-9)
         self.assertAlmostEqual(limits["slew_needed"], 500, delta=1e-8)
         self.assertEqual((limits["rule"], limits["covered"], limits["needed_damping"]), ("none", True, None))
-        self.assertIn("largest force: the law asks for up to 50 N within the encoder's range, the motor gives 51 N\n", self.text)
+        self.assertIn("largest force: the law asks for up to 50 N within the encoder's range; the motor gives 51 N\n", self.text)
         self.assertNotIn("at the limit", self.text)
 
     def test_a_motor_that_clips(self):

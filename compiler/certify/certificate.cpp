@@ -145,7 +145,9 @@ PassivityBound with_slips(PassivityBound bound, const SlipMotor& slips, const Sa
   bound.storage.reset();
   if (bound.proof == Proof::none) return bound;
   const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
-  if (loop.motor_slew > 0) return not_proved("the motor's slew is limited, and its force behind slips jumps");
+  if (loop.motor_slew > 0)
+    return not_proved(
+        "the motor's slew is limited, and its force jumps where a slip gives way or a contact begins or ends");
   if (slips.lets_go_by_estimate && is_late)
     return not_proved("the contact lets go by a velocity estimate, and the loop is late");
   if (loop.amplifier_lag > 0) {

@@ -245,7 +245,7 @@ std::vector<std::string> to_lines(const MotorLimits& limits, const SampledLoop& 
                          ? fmt::format("{:.6g} {} follow any motion within range and speed", *limits.slew_needed, rate)
                          : std::string("what would follow any motion is not known beforehand")) +
                     (loop.motor_slew > 0 ? fmt::format(", the motor has {:.6g} {}", loop.motor_slew, rate) : ""));
-  if (limits.largest_discontinuity)
+  if (limits.largest_discontinuity.value_or(0) > 0)
     lines.push_back(
         fmt::format("sudden loss: where a force of up to {:.6g} {} is to vanish at once, as in a puncture, the motor "
                     "follows as fast as its slew lets it, and gives no energy",

@@ -208,7 +208,7 @@ std::string reason_for_only_input(const Candidate& chosen, const Network& networ
   if (network.contact) return always("a network with a contact");
   if (network.map) return always("a network with a static curve");
   if (chosen.name == "quietest-passive" || chosen.name == "velocity-free") return always("'" + chosen.name + "'");
-  return fmt::format("{} driven, because the device's estimates do not sum to the displacement",
+  return fmt::format("{} driven, because adding up this estimator's velocities does not give back the position",
                      name_of(chosen.state_input));
 }
 

@@ -167,8 +167,10 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       continue;
     }
     if (file && !as_many_axes(*file, device, diagnostics)) continue;
+    Choices choices = options.choices;
+    choices.varies_assumed = options.target->explains;  // as `explain` does
     const std::optional<Compilation> compilation =
-        file ? compile(*file, options.choices, device.device, diagnostics, times) : std::nullopt;
+        file ? compile(*file, choices, device.device, diagnostics, times) : std::nullopt;
     times.enter("emission");
     if (!compilation) continue;
     warn_of_felt_error(*compilation, options.choices, diagnostics);

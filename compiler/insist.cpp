@@ -278,14 +278,34 @@ class Remedies {
   double scale_;  // what a device's own unit of damping is worth at the tool
 };
 
-}  // namespace
+// Notes on what would do, told with what errs least first.
+class RemedyNotes {
+ public:
+  template <DiagnosticCode code, class... Arguments>
+  void add(const WorstError& error, Arguments... arguments) {
+    notes_.emplace_back(error.share,
+                        [=](Diagnostics& diagnostics) { diagnostics.note<code>({}, arguments..., in_words(error)); });
+  }
 
-namespace {
+  void tell_each(Diagnostics& diagnostics) {
+    std::stable_sort(notes_.begin(), notes_.end(),
+                     [](const auto& one, const auto& other) { return one.first < other.first; });
+    for (const auto& [error, tell_it] : notes_) tell_it(diagnostics);
+  }
 
-void tell_of_jitter(const Compilation& c, const Remedies& remedies, Diagnostics& diagnostics) {
+  void tell(Diagnostics& diagnostics) {
+    tell_each(diagnostics);
+    if (!notes_.empty() && notes_.front().first > ruinous) diagnostics.note<DiagnosticCode::remedies_ruin_the_feel>({});
+  }
+
+ private:
+  std::vector<std::pair<double, std::function<void(Diagnostics&)>>> notes_;
+};
+
+void add_jitter(const Compilation& c, const Remedies& remedies, RemedyNotes& notes) {
   if (const std::optional<Remedy> jitter = remedies.jitter())
-    diagnostics.note<DiagnosticCode::jitter_that_would_do>(
-        {}, jitter->value * 1e3, c.device->description.loop.jitter * 1e3, jitter->value * 1e3, in_words(jitter->error));
+    notes.add<DiagnosticCode::jitter_that_would_do>(jitter->error, jitter->value * 1e3,
+                                                    c.device->description.loop.jitter * 1e3, jitter->value * 1e3);
 }
 
 // What the device itself would have to be like: with more friction of the kind that a brake cannot replace, or a loop
@@ -297,7 +317,9 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   const double own = device.mechanics.damping;
   loop_description prompt = device.loop;
   prompt.delay_samples = 0;
-  if (c.certificate.loop.amplifier_lag > 0) tell_of_jitter(c, remedies, diagnostics);
+  RemedyNotes of_jitter;
+  if (c.certificate.loop.amplifier_lag > 0) add_jitter(c, remedies, of_jitter);
+  of_jitter.tell_each(diagnostics);
   const auto tell = [&](const Remedy& damping, const std::string& besides) {
     diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping.value, at_tool, remedies.at_tool(own),
                                                                 besides, remedies.at_joint(damping.value), at_joint,
@@ -365,30 +387,6 @@ std::vector<OtherChoices> other_choices(const Compilation& c, const Choices& ask
   return all;
 }
 
-}  // namespace
-
-namespace {
-
-// Notes on what would do, told with what errs least first.
-class RemedyNotes {
- public:
-  template <DiagnosticCode code, class... Arguments>
-  void add(const WorstError& error, Arguments... arguments) {
-    notes_.emplace_back(error.share,
-                        [=](Diagnostics& diagnostics) { diagnostics.note<code>({}, arguments..., in_words(error)); });
-  }
-
-  void tell(Diagnostics& diagnostics) {
-    std::stable_sort(notes_.begin(), notes_.end(),
-                     [](const auto& one, const auto& other) { return one.first < other.first; });
-    for (const auto& [error, tell_it] : notes_) tell_it(diagnostics);
-    if (!notes_.empty() && notes_.front().first > ruinous) diagnostics.note<DiagnosticCode::remedies_ruin_the_feel>({});
-  }
-
- private:
-  std::vector<std::pair<double, std::function<void(Diagnostics&)>>> notes_;
-};
-
 RemedyNotes notes_on_remedies(const Compilation& c, const Choices& choices, double available, double of_regimes) {
   RemedyNotes notes;
   const Certificate& certificate = c.certificate;
@@ -413,9 +411,7 @@ RemedyNotes notes_on_remedies(const Compilation& c, const Choices& choices, doub
         share->error, share->value, std::string(c.form.has_slips() ? ", and its yield forces as they are," : ""));
   if (const std::optional<Remedy> rate = remedies.rate())
     notes.add<DiagnosticCode::rate_that_would_do>(rate->error, rate->value);
-  if (const std::optional<Remedy> jitter = remedies.jitter())
-    notes.add<DiagnosticCode::jitter_that_would_do>(jitter->error, jitter->value * 1e3,
-                                                    c.device->description.loop.jitter * 1e3, jitter->value * 1e3);
+  add_jitter(c, remedies, notes);
   const bool follows = c.decomposition.choice().velocity_gain > 0;
   if (const auto estimator = follows ? remedies.estimator() : std::nullopt)
     notes.add<DiagnosticCode::estimator_that_would_do>(estimator->second, estimator->first);

@@ -292,8 +292,8 @@ std::string reason_line(const Candidate& c) {
 }  // namespace
 
 std::string_view meaning_of_marks() {
-  return "hold for the values of the file; minimum damping and error hold for every value in the ranges in the row "
-         "that was chosen alone";
+  return "hold for the values of the file; only in the row that was chosen do minimum damping and error hold for every "
+         "value in the ranges";
 }
 
 std::string candidates_text(const Decomposition& decomposition, const Network& network) {

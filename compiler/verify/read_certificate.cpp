@@ -81,11 +81,17 @@ class Section {
   Diagnostics& faults_;
 };
 
-Choices choices_of(const Section& law) {
+// What laws of one axis and of two have been asked for alike.
+Choices sampling_of(const Section& law) {
   Choices choices;
   choices.rate = law.number("rate", lowest_rate, highest_rate);
   choices.scheme = law.named("scheme", {Scheme::exact, Scheme::backward_euler});
   choices.scalar = law.named("scalar", {ScalarType::float64, ScalarType::float32});
+  return choices;
+}
+
+Choices choices_of(const Section& law) {
+  Choices choices = sampling_of(law);
   if (law.has("vector"))
     choices.registers = law.named("vector", {VectorRegisters::none, VectorRegisters::sse2, VectorRegisters::avx2,
                                              VectorRegisters::avx512, VectorRegisters::neon});
@@ -160,9 +166,7 @@ AxesCertificateFile axes_file_of(const JsonValue& root, Diagnostics& faults) {
   AxesCertificateFile file = with_subject<AxesCertificateFile>(all, faults);
   const JsonValue law_object = all.object("law"), passivity_object = all.object("passivity");
   const Section law(law_object, "'law'", faults), passivity(passivity_object, "'passivity'", faults);
-  file.choices.rate = law.number("rate", lowest_rate, highest_rate);
-  file.choices.scheme = law.named("scheme", {Scheme::exact, Scheme::backward_euler});
-  file.choices.scalar = law.named("scalar", {ScalarType::float64, ScalarType::float32});
+  file.choices = sampling_of(law);
   file.choices.decomposition = law.text("decomposition");
   file.port_dampings = dampings_of(all, faults);
   if (const JsonValue* added = passivity.of_kind("added_damping", Kind::array, "a list"))

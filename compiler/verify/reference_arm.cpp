@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "certify/slip_motor.hpp"
-#include "verify/reference_constants.hpp"
 #include "verify/reference_slips.hpp"
 
 namespace dashpot::compiler {
@@ -113,8 +112,7 @@ PortForce force_of(const AxesCompilation& c, std::size_t i) {
   const Compilation& compiled = c.ports[i];
   const Network& network = compiled.network;
   const double prompt = lateness(compiled.certificate.loop);  // on an ideal device
-  const LawFacts facts{c.rate, c.law.scheme, c.law.scalar, StateInput::position,
-                       compiled.decomposition.choice().damping};
+  const LawFacts facts = facts_of_port(c, i);
   PortForce force{&c.network.ports[i]};
   const SlipDecomposition& slips = compiled.decomposition.slips;
   const ReferenceTree tree = rendered_tree(reference_tree(network), network, slips);
@@ -240,6 +238,10 @@ ReferencePair reference_tip(const axes::Arm& arm, const ReferencePair& q) {
     case axes::Kinematics::cartesian: break;
   }
   return q;
+}
+
+LawFacts facts_of_port(const AxesCompilation& c, std::size_t port) {
+  return {c.rate, c.law.scheme, c.law.scalar, StateInput::position, c.ports[port].decomposition.choice().damping};
 }
 
 std::optional<NeedAtPlaces> need_at_places(const AxesCompilation& c) {

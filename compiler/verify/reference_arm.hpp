@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "emit/axes_emission.hpp"
+#include "verify/reference_constants.hpp"
 #include "verify/reference_form.hpp"
 
 namespace dashpot::compiler {
@@ -15,6 +16,9 @@ using ReferencePair = std::array<Reference, 2>;
 
 // Where the tip of an arm is (axes/kinematics.hpp) [m].
 ReferencePair reference_tip(const axes::Arm& arm, const ReferencePair& joints);
+
+// Of a port's own law.
+LawFacts facts_of_port(const AxesCompilation& compilation, std::size_t port);
 
 struct NeedAtPlaces {
   std::size_t places = 0;

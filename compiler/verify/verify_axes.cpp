@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "verify/recompiled.hpp"
-#include "verify/reference_constants.hpp"
 #include "verify/reference_geometry.hpp"
 #include "verify/verify_header.hpp"
 
@@ -21,7 +20,7 @@ class AxesVerification {
         diagnostics_(diagnostics),
         named_(reference_geometry(compiled)),
         of_ports_(compiled.ports.size()) {
-    for (const auto& [name, values] : reference_constants({}, facts_of_port(0)))
+    for (const auto& [name, values] : reference_constants({}, facts_of_port(compiled, 0)))
       if (name == "sample_period" || name == "threshold") named_[name] = values.front();
   }
 
@@ -34,10 +33,6 @@ class AxesVerification {
   }
 
  private:
-  LawFacts facts_of_port(std::size_t i) const {
-    return {c_.rate, c_.law.scheme, c_.law.scalar, StateInput::position, c_.ports[i].decomposition.choice().damping};
-  }
-
   void look_at(const HeaderConstant& constant) {
     if (constant.name == literals_in_code) return look_at_literals(constant);
     if (constant.name == "added_damping") return compare_additions(constant);

@@ -11,7 +11,8 @@ import unittest
 from dashpot_command import DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, SOURCE, CommandTest, codes, network
 
 SEED = 20090911
-IS_LONG = os.environ.get("DASHPOT_LONG") == "1"  # else a quarter of the cases, still some of each law
+IS_LONG = os.environ.get("DASHPOT_LONG") == "1"  # else a part of the cases, still some of each law
+MOST_HEADERS, MOST_CONSTANTS = (200, 100) if IS_LONG else (50, 40)  # of which a digit is changed
 BOARD = SOURCE / "runtime/devices/board_mps2.json"
 TWENTY = SOURCE / "tests/responses/networks/twenty_branches.json"
 BRIDGE = SOURCE / "networks/paper/bridge.json"
@@ -390,28 +391,28 @@ class Verify(CommandTest):
 
     def test_single_digits_of_headers(self):
         """Fails if a header with a single digit changed passes for the one that was emitted."""
-        self.expect_all_found(self.mutants(200 if IS_LONG else 50, random.Random(SEED), consistently=False))
+        self.expect_all_found(self.mutants(MOST_HEADERS, random.Random(SEED), consistently=False))
 
     def test_single_digits_of_header_and_certificate(self):
         """Fails if a wrong constant passes because the certificate has the same mistake."""
-        self.expect_all_found(self.mutants(100 if IS_LONG else 40, random.Random(SEED + 1), consistently=True))
+        self.expect_all_found(self.mutants(MOST_CONSTANTS, random.Random(SEED + 1), consistently=True))
 
     def test_single_digits_of_headers_with_slips(self):
         """Fails if a header of a law with slips or a contact with a single digit changed passes."""
-        self.expect_all_found(self.mutants(200 if IS_LONG else 50, random.Random(SEED + 2), False, SLIP_LAWS))
+        self.expect_all_found(self.mutants(MOST_HEADERS, random.Random(SEED + 2), False, SLIP_LAWS))
 
     def test_single_digits_of_header_and_certificate_with_slips(self):
         """Fails if a wrong constant of such a law passes because the certificate has the same mistake."""
-        self.expect_all_found(self.mutants(100 if IS_LONG else 40, random.Random(SEED + 3), True, SLIP_LAWS))
+        self.expect_all_found(self.mutants(MOST_CONSTANTS, random.Random(SEED + 3), True, SLIP_LAWS))
 
     def test_single_digits_of_headers_with_loops_and_tunables(self):
         """Fails if a header with a single digit changed passes, of slips in no tree, of nodal states beside slips, or of
         tunable parameters."""
-        self.expect_all_found(self.mutants(200 if IS_LONG else 50, random.Random(SEED + 4), False, OTHER_LAWS))
+        self.expect_all_found(self.mutants(MOST_HEADERS, random.Random(SEED + 4), False, OTHER_LAWS))
 
     def test_single_digits_of_header_and_certificate_with_loops_and_tunables(self):
         """Fails if a wrong constant of such a law passes because the certificate has the same mistake."""
-        self.expect_all_found(self.mutants(100 if IS_LONG else 40, random.Random(SEED + 5), True, OTHER_LAWS))
+        self.expect_all_found(self.mutants(MOST_CONSTANTS, random.Random(SEED + 5), True, OTHER_LAWS))
 
     def test_constants_are_recomputed_apart_from_the_code(self):
         """Fails if wrong constants of any law are found only because compiling once more gives others."""

@@ -7,6 +7,7 @@
 #include <dashpot/simulated/longest_step.hpp>
 
 namespace dashpot::simulated {
+
 plant::plant(const device_description& device, const scenario& scene)
     : mechanics_(device.mechanics),
       drives_(device, scene),

@@ -217,7 +217,7 @@ void describe_fit(CLI::App& app, CommandLine& line) {
       ->option_text("none|power|exponential|table|auto");
   command->add_flag("--elastic", fit.elastic, "One spring, and nothing that relaxes");
   command->add_flag("--gain-per-file", fit.gain_per_file, "Specimens that differ by a factor");
-  command->add_option("--modes", fit.modes, "So many relaxations, instead of what the criterion says")
+  command->add_option("--modes", fit.modes, "So many relaxations, instead of those with the least BIC")
       ->check(CLI::Range(0, 1000))
       ->option_text("N");
   command->add_option("--tolerance", fit.tolerance, "The fewest elements that leave so little, relative")

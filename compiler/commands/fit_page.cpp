@@ -268,7 +268,7 @@ class FitPage {
     std::string text =
         "<p>Sizes that were tried, before elements that the data do without are left out.</p>\n<div "
         "class=\"wide\"><table><thead><tr><th>relaxations</th><th>slips</th><th>springpots</th><th>parameters</"
-        "th><th>rms</th><th>criterion</th></tr></thead><tbody>\n";
+        "th><th>rms</th><th>BIC</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
       const PathEntry& entry = fit_.path[i];
       text += fmt::format("<tr><td>{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}</td></tr>\n",

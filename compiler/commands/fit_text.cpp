@@ -29,7 +29,7 @@ class FitText {
                         error(fit_.floor_rms));
     if (fit_.noise && fit_.choices.weighting == Weighting::uniform)
       text += fmt::format("; the noise is about {}", error(*fit_.noise));
-    text += fmt::format("\n{:.4g} effective samples in all, by which intervals and criterion go; condition {:.3g}\n",
+    text += fmt::format("\n{:.4g} effective samples in all, by which intervals and BIC go; condition {:.3g}\n",
                         fit_.effective_samples, fit_.condition);
     if (fit_.choices.contact)
       text += fmt::format("surface {} at {}\n", fit_.choices.contact_is_found ? "found" : "given",
@@ -110,7 +110,7 @@ class FitText {
   std::string shapes() const {
     if (fit_.shapes.empty()) return "";
     std::string text =
-        "\nshapes that were tried, each at its best size\n  shape        parameters         rms  criterion\n";
+        "\nshapes that were tried, each at its best size\n  shape        parameters         rms        BIC\n";
     for (const ShapeTried& one : fit_.shapes) {
       const bool is_chosen = one.kind == (fit_.model.curve ? std::optional(fit_.model.curve->kind()) : std::nullopt);
       text += fmt::format("{} {:<11}  {:>10}  {:>10}  {:>9.2f}\n", is_chosen ? "*" : " ",
@@ -122,8 +122,8 @@ class FitText {
   std::string path() const {
     std::string text =
         "\nsizes that were tried; afterwards elements that the data do not need are dropped. The size with the least "
-        "criterion is taken (*)\n  relaxations  slips  "
-        "springpots  parameters         rms  criterion\n";
+        "BIC (Bayesian information criterion) is taken (*)\n  relaxations  slips  "
+        "springpots  parameters         rms        BIC\n";
     for (std::size_t i = 0; i < fit_.path.size(); ++i) {
       const PathEntry& entry = fit_.path[i];
       const std::size_t slips = entry.model.count(TermKind::stop) + entry.model.count(TermKind::sliding);

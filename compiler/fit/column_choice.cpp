@@ -406,11 +406,17 @@ class Chooser {
     Role role;
     std::size_t index;
     std::string text;
+    bool guesses_unit = false;
+  };
+
+  struct Answer {
+    std::string command;
+    const char* condition;  // what has to be right of it
   };
 
   // The command line that would do, with what is known and, elsewhere, the likeliest: columns that are there, and none
   // in a unit that the header contradicts. Empty where no column is left for a role.
-  std::string answer() const {
+  std::optional<Answer> answer() const {
     const std::vector<std::vector<Role>> groups = needed();
     std::vector<std::optional<Offer>> offers(groups.size());
     std::vector<bool> is_used(shape_.width);
@@ -421,14 +427,18 @@ class Chooser {
       for (std::size_t i = 0; i < groups.size(); ++i)
         if (!offers[i] && (offers[i] = likely_offer(groups[i], is_used, by_unit))) is_used[offers[i]->index] = true;
     std::vector<std::string> parts;
+    bool guesses_unit = false;
     for (const std::optional<Offer>& offer : offers) {
-      if (!offer) return {};
+      if (!offer) return std::nullopt;
+      guesses_unit = guesses_unit || offer->guesses_unit;
       parts.push_back(std::string(rule_of(offer->role).word) + "=" + offer->text);
     }
     const std::string columns = fmt::format("{}", fmt::join(parts, ","));
     const bool has_primes = columns.find('\'') != std::string::npos;  // better to read between double quotes
     const bool is_plain = columns.find_first_of("\"$`\\!") == std::string::npos;
-    return search_.command + " --columns " + (has_primes && is_plain ? '"' + columns + '"' : shell_word(columns));
+    return Answer{
+        search_.command + " --columns " + (has_primes && is_plain ? '"' + columns + '"' : shell_word(columns)),
+        guesses_unit ? "where the units are right" : "where the columns are right"};
   }
 
   std::optional<Offer> named_offer(const std::vector<Role>& group) const {
@@ -461,7 +471,8 @@ class Chooser {
     const bool has_unit = index < columns_.size() && columns_[index].unit;
     const std::string likely = rule_of(role).likely_unit;
     const std::string name = index < columns_.size() ? columns_[index].name : "";
-    return {role, index, spelt(index, name) + (has_unit || likely == "1" ? "" : ":" + likely)};
+    const bool guesses_unit = !has_unit && likely != "1";
+    return {role, index, spelt(index, name) + (guesses_unit ? ":" + likely : ""), guesses_unit};
   }
 
   // The column's name; its number where the name has none, or would be read as something else.
@@ -471,7 +482,8 @@ class Chooser {
   }
 
   void note_answer() {
-    if (const std::string line = answer(); !line.empty()) diagnostics_.note<DiagnosticCode::recording_answer>({}, line);
+    if (const std::optional<Answer> line = answer())
+      diagnostics_.note<DiagnosticCode::recording_answer>({}, line->condition, line->command);
     else if (shape_.width < needed().size())
       diagnostics_.note<DiagnosticCode::recording_too_few_columns>({}, shape_.width, words_of_needed());
     else diagnostics_.note<DiagnosticCode::recording_columns_remedy>({}, words_of_columns(), words_of_needed());

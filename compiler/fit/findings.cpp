@@ -134,8 +134,13 @@ class Findings {
     const bool is_linear =
         !fit_.model.curve && fit_.model.count(TermKind::stop) + fit_.model.count(TermKind::sliding) == 0;
     const double neighbours = lag_one_of_floor();
-    if (is_linear && fit_.noise && fit_.floor_rms > 3 * *fit_.noise && neighbours > 0.5)
+    if (is_linear && fit_.noise && is_felt(fit_.floor_rms) && fit_.floor_rms > 3 * *fit_.noise && neighbours > 0.5)
       add(Finding::Kind::floor_above_noise, "", {fit_.floor_rms, *fit_.noise});
+  }
+
+  // Beside the force itself. What is smaller comes of the digits of the file, or of how a motion between rows is taken.
+  bool is_felt(double left) const {
+    return left > 1e-3 * problem_.target().norm() / std::sqrt(problem_.weighed_rows());
   }
 
   double lag_one_of_floor() const {

@@ -85,8 +85,9 @@ class RecordingReader {
       diagnostics_.report<DiagnosticCode::recording_without_geometry>({}, lines_.path(), material->title,
                                                                       name_of(material->role));
       diagnostics_.note<DiagnosticCode::recording_answer>(
-          {}, choices_.columns.command + (choices_.columns.requests.empty() ? "" : " --columns …") +
-                  " --geometry column:area=1mm^2,length=10mm");
+          {}, "with your specimen's numbers",
+          choices_.columns.command + (choices_.columns.requests.empty() ? "" : " --columns …") +
+              " --geometry column:area=1mm^2,length=10mm");
       diagnostics_.note<DiagnosticCode::geometry_known>({});
       if (!shape_.metadata.empty())
         diagnostics_.note<DiagnosticCode::recording_metadata>(
@@ -397,7 +398,10 @@ class RecordingReader {
     const double first = r.position[0], step = r.position[1] - first;
     const bool is_moving = std::abs(step) > 1e-3 * (*high - *low);
     const bool comes_from_zero = first != 0 && first * step > 0 && std::abs(first) <= 3 * std::abs(step);
-    result_.begins_in_motion = is_moving && first != 0 && !comes_from_zero && std::abs(first) > 0.05 * (*high - *low);
+    // At rest before its first row, the tool would have been where positions and forces begin to count.
+    const auto [least, most] = std::minmax_element(r.force.begin(), r.force.end());
+    const bool is_elsewhere = std::abs(first) > 0.05 * (*high - *low) || std::abs(r.force[0]) > 0.1 * (*most - *least);
+    result_.begins_in_motion = is_moving && !comes_from_zero && is_elsewhere;
     if (choices_.start == Start::moving) {
       result_.begins_in_motion = true;
       return set_origin(first);

@@ -159,6 +159,10 @@ int main() {
         self.assertIn("[fit-assumed-start]", done.stderr)
         self.assertIn("[fit-floor-above-noise]", self.fit(*ADHESIVE).stderr)
         self.assertIn("no linear network leaves less", done.stdout)
+        # Forces late by half a row: 2e-4 of the force cannot be fitted, far above the noise, and mean nothing.
+        header, *rows = recording(rows=12000, period=0.00025, motion=lambda t: 2e-3 * math.sin(2 * t), late=2).splitlines()
+        self.write("nearly_exact.csv", "\n".join([header, *rows[::4]]) + "\n")
+        self.assertNotIn("[fit-floor-above-noise]", self.fit("nearly_exact.csv").stderr)
         ramp = "time [s],position [mm],force [N]\n" + "".join(f"{i},{i / 10},{i / 10 + (i % 3) / 100}\n" for i in range(200))
         self.write("ramp.csv", ramp)
         done = self.fit("ramp.csv")

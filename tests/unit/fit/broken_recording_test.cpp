@@ -248,5 +248,16 @@ TEST(SoundRecording, BeginsAtRest) {
   EXPECT_TRUE(late->begins_in_motion);
 }
 
+// Fails if a sine that is cut out where it passes 0 is taken for a motion from rest, or a ramp from rest for a cut.
+TEST(SoundRecording, TellsACutFromAStart) {
+  Diagnostics diagnostics;
+  const auto cut = read(head + "0,0,3\n1,4,6\n2,6,5\n3,4,1\n4,0,-3\n", "", true, diagnostics);
+  ASSERT_TRUE(cut);
+  EXPECT_TRUE(cut->begins_in_motion);
+  const auto ramp = read(head + "0,0,0.1\n1,4,3\n2,6,5\n3,4,2\n4,0,-1\n", "", true, diagnostics);
+  ASSERT_TRUE(ramp);
+  EXPECT_FALSE(ramp->begins_in_motion);
+}
+
 }  // namespace
 }  // namespace dashpot::compiler::fitting

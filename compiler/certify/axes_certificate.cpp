@@ -424,8 +424,9 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints, {} beyond "
-      "what their own damping and the brakes' share of the network's surely give; most is missing at ({:.4g}, {:.4g}) "
+      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints, of which "
+      "their own damping and the brakes' share of the network's surely give all but {}; most is missing at ({:.4g}, "
+      "{:.4g}) "
       "mm",
       c.certified ? "certified for any motion in the workspace, while the motors make their torques"
                   : "not certified, since " + why_not_certified(c, device),

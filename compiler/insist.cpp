@@ -25,6 +25,7 @@ constexpr double ruinous = 0.5;     // of the network's force: what errs by so m
 
 constexpr const char* no_lag = "no \"amplifier_lag\"";
 constexpr const char* no_delay = "no \"delay_samples\"";
+constexpr const char* no_slew = "no \"slew\"";
 constexpr const char* no_delay_and_lag = "no \"delay_samples\" and no \"amplifier_lag\"";
 
 // The network on another device, or another one on the same: what is told to people has been tried.
@@ -223,6 +224,29 @@ class Remedies {
     return all;
   }
 
+  // Of the motor, in its own unit and four digits: what the law's force surely asks for, or the first power of two
+  // times that; empty where none is stated and where even a thousandfold does not help.
+  std::optional<Remedy> slew() const {
+    Device quicker = *c_.device;
+    double& slew = quicker.description.motor.slew;
+    const double own = slew, needed = c_.certificate.limits.slew_needed.value_or(0);
+    constexpr double some_more = 1 + 1e-9;
+    double told = own > 0 ? std::max(own, needed * some_more * own / c_.certificate.loop.motor_slew) : 0;
+    for (int doubling = 0; doubling <= 10 && told > 0; ++doubling, told *= 2) {
+      slew = rounded_up(told, 4);
+      if (!(slew > own) || !may_do(quicker)) continue;
+      if (const auto error = error_where_certified(c_.network, choices_, quicker)) return Remedy{slew, *error};
+    }
+    return std::nullopt;
+  }
+
+  // Of the same device, if its motor's force could follow at once.
+  std::optional<WorstError> without_slew() const {
+    Device prompt = *c_.device;
+    if (std::exchange(prompt.description.motor.slew, 0) == 0 || !may_do(prompt)) return std::nullopt;
+    return error_where_certified(c_.network, choices_, prompt);
+  }
+
   // The first power of two times the device's own; empty where even a thousandfold does not help.
   std::optional<Remedy> rate() const {
     Device faster = *c_.device;
@@ -308,6 +332,16 @@ void add_jitter(const Compilation& c, const Remedies& remedies, RemedyNotes& not
                                                     c.device->description.loop.jitter * 1e3, jitter->value * 1e3);
 }
 
+// A slew that would do, else that none would have to be stated.
+void add_slew(const Compilation& c, const Remedies& remedies, RemedyNotes& notes) {
+  const motor_description& motor = c.device->description.motor;
+  if (const std::optional<Remedy> slew = remedies.slew())
+    notes.add<DiagnosticCode::slew_that_would_do>(
+        slew->error, slew->value, std::string(port_units(c.device->description.motion).force), motor.slew);
+  else if (const auto error = remedies.without_slew())
+    notes.add<DiagnosticCode::prompt_loop_that_would_do>(*error, std::string(no_slew));
+}
+
 // What the device itself would have to be like: with more friction of the kind that a brake cannot replace, or a loop
 // that is not late.
 void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
@@ -317,9 +351,10 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   const double own = device.mechanics.damping;
   loop_description prompt = device.loop;
   prompt.delay_samples = 0;
-  RemedyNotes of_jitter;
-  if (c.certificate.loop.amplifier_lag > 0) add_jitter(c, remedies, of_jitter);
-  of_jitter.tell_each(diagnostics);
+  RemedyNotes of_the_file;
+  if (c.certificate.loop.amplifier_lag > 0) add_jitter(c, remedies, of_the_file);
+  add_slew(c, remedies, of_the_file);
+  of_the_file.tell_each(diagnostics);
   const auto tell = [&](const Remedy& damping, const std::string& besides) {
     diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping.value, at_tool, remedies.at_tool(own),
                                                                 besides, remedies.at_joint(damping.value), at_joint,
@@ -412,6 +447,7 @@ RemedyNotes notes_on_remedies(const Compilation& c, const Choices& choices, doub
   if (const std::optional<Remedy> rate = remedies.rate())
     notes.add<DiagnosticCode::rate_that_would_do>(rate->error, rate->value);
   add_jitter(c, remedies, notes);
+  add_slew(c, remedies, notes);
   const bool follows = c.decomposition.choice().velocity_gain > 0;
   if (const auto estimator = follows ? remedies.estimator() : std::nullopt)
     notes.add<DiagnosticCode::estimator_that_would_do>(estimator->second, estimator->first);
@@ -540,6 +576,13 @@ class Improvement {
   double limit_;
 };
 
+// In the unit of a device without any: an eighth of the most damping that a candidate asks for.
+double smallest_brake_worth_having(const Compilation& c) {
+  double most = 0;
+  for (const Candidate& candidate : c.decomposition.candidates) most = std::max(most, candidate.wanted_damping);
+  return most / 8 / c.port.at_tool().replaced_by(with_brake(*c.device, 1)).max_damping().value_or(1);
+}
+
 // What would err less: another choice, else another device.
 void tell_what_errs_less(const Compilation& c, const Choices& choices, const FeltError& error,
                          Diagnostics& diagnostics) {
@@ -575,14 +618,16 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
       return diagnostics.note<DiagnosticCode::errs_less_at_another_rate>({}, 1 / faster.description.loop.sample_period,
                                                                          in_percent(*error.of(*again)));
   }
+  const double own = c.device->description.brake.max_damping;
   for (int doubling = 1; doubling <= 4; ++doubling) {
-    const double most = std::ldexp(c.device->description.brake.max_damping, doubling);
+    const double most = std::ldexp(own > 0 ? own : smallest_brake_worth_having(c), doubling);
+    if (most == 0) break;
     if (const auto again = improvement.by(choices, with_brake(*c.device, most)))
       return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>(
           {}, again->port.max_damping().value_or(0), units.damping, most,
           port_units(c.device->description.motion).damping, in_percent(*error.of(*again)));
   }
-  diagnostics.note<DiagnosticCode::errs_less_nowhere>({});
+  diagnostics.note<DiagnosticCode::errs_less_nowhere>({}, own > 0 ? "up to 16 times its brake" : "a brake");
 }
 
 }  // namespace
@@ -603,7 +648,9 @@ void warn_of_felt_error(const Compilation& c, const Choices& choices, Diagnostic
   if (!(noticeably * choice.largest_error > choices.tolerance)) return;
   diagnostics.report<DiagnosticCode::felt_error>(c.network.name_span, choice.name, in_percent(choice.largest_error),
                                                  c.device->name, in_percent(choices.tolerance));
-  if (c.certificate.certified) tell_what_errs_less(c, choices, in_the_band, diagnostics);  // else what it lacks is told
+  // Where damping is missing, what would do is told with the error that is felt then.
+  if (c.certificate.certified || c.certificate.bound.proof == Proof::none)
+    tell_what_errs_less(c, choices, in_the_band, diagnostics);
 }
 
 void tell_what_is_proved_at_the_limit(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

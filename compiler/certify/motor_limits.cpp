@@ -218,7 +218,7 @@ std::string_view in_words(Unbounded why) {
   switch (why) {
     case Unbounded::nothing: return "";
     case Unbounded::no_range: return "the device file states no \"range\" of its encoder";
-    case Unbounded::estimate: return "it uses the velocity's estimate, which 'velocity-free' does not";
+    case Unbounded::estimate: return "it uses the velocity's estimate";
     case Unbounded::contact: return "its contact lets go by the velocity's estimate";
     case Unbounded::dampers: return "dampers are behind its slips";
     case Unbounded::tunables: return "its parameters change while it runs";

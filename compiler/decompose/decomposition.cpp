@@ -286,10 +286,17 @@ std::string reason_line(const Candidate& c) {
                                        "added: ",
                                        c.wanted_damping)
                          : "",
-                     c.reason);
+                     c.why());
 }
 
 }  // namespace
+
+std::string Candidate::why() const {
+  const bool follows_estimate = name == "velocity-free" && velocity_gain > 0;
+  return follows_estimate ? "the feedthrough damping; what the brake does not give of it the motor makes from the "
+                            "velocity estimate"
+                          : reason;
+}
 
 std::string_view meaning_of_marks() {
   return "hold for the values of the file; only in the row that was chosen do minimum damping and error hold for every "

@@ -42,6 +42,7 @@ struct Candidate {
   std::vector<double> error_over_band = {};     // of what is felt, at Decomposition::error_frequencies [1]
 
   bool capped() const { return damping < wanted_damping; }
+  std::string why() const;  // `reason`, or what has become of it where the damping was lowered
 };
 
 // Where the chosen b lies while the values that the device file assumes are varied one by one.

@@ -183,7 +183,7 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
     facts.push_back(
         fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
                     choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what follows", choice.name,
-                    choice.reason));
+                    choice.why()));
   for (const SlipLikes& likes : slips) facts.push_back(brake_line(likes, unit));
   facts.push_back(fmt::format("states: what is kept of the past follows {} ({})", in_words(choice.state_input),
                               c.decomposition.reason));

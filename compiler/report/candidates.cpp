@@ -50,9 +50,9 @@ std::vector<FigureOfMerit> figures_of_merit(const Compilation& c) {
 std::string cell(double value) { return "<td>" + (value == value ? number_text(value) : std::string("–")) + "</td>"; }
 
 std::string reason(const Candidate& candidate) {
-  if (!candidate.capped()) return candidate.reason;
+  if (!candidate.capped()) return candidate.why();
   return fmt::format("{} (lowered from {} to what the brake can give beside the damping that must be added)",
-                     candidate.reason, number_text(candidate.wanted_damping));
+                     candidate.why(), number_text(candidate.wanted_damping));
 }
 
 // The figures, and under them why this damping. `mark` follows the name.

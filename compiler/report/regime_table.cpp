@@ -142,7 +142,7 @@ std::string regimes_html(const Compilation& c) {
   std::string html;
   if (c.law.tunable)
     html = fmt::format("<p>Chosen: <b>{}</b>; {}.</p>\n", escaped(c.decomposition.choice().name),
-                       escaped(c.decomposition.choice().reason));
+                       escaped(c.decomposition.choice().why()));
   for (const Group& group : groups_of(c.decomposition.slips)) {
     html += decided(group, c.network);
     html += candidates(*group.parts.front());

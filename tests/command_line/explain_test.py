@@ -618,6 +618,17 @@ class MotorLimits(CommandTest):
         self.assertFalse(found["certificate"]["certified"])
         self.assertIn("may have to change by 500 a second, and slews by 499", found["certificate"]["reason"])
 
+    def test_a_slew_that_would_do_is_told(self):
+        """Fails if the slew that is told is not enough, or if nothing is said where only a motor without one would do."""
+        compiled = ["compile", "wall.json", "--device", "slewing.json", "--decomposition", "velocity-free", "-o", "out"]
+        self.explained(slew="499 N/s")
+        slew = re.search(r'"slew": "(\S+ N/s)" in "motor" of the device file, in place of 499;', self.dashpot(*compiled).stderr).group(1)
+        self.assertLess(float(slew.split()[0]), 510)
+        self.assertTrue(self.explained(slew=slew)["certificate"]["certified"])
+        self.explained(slew="2 kN/s", amplifier_lag="0.2 ms")
+        self.assertIn('the same device would do with no "slew" in its file', self.dashpot(*compiled).stderr)
+        self.assertTrue(self.explained(amplifier_lag="0.2 ms")["certificate"]["certified"])
+
     def test_slips_shed(self):
         """Fails if a network with slips clips where its motor gives less than they hold, or its header does not tell."""
         limits = self.explained("slip.json", max_torque="8 N")["motor_limits"]

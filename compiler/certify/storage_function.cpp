@@ -129,9 +129,20 @@ Scalar needed_at(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double 
   return Scalar(hold) * (answer + sqrt(answer * answer + lag.spread * std::norm(x.back()))) / 2;
 }
 
-std::vector<double> angles_of_interest(double binding) {
+// Of all states, the least share that is lost in a sample; none where that is below what Scalar can tell from 1.
+template <class Scalar>
+double least_leak(const Recursion<Scalar>& r) {
+  double least = 1;
+  for (Eigen::Index i = 0; i < r.A.rows(); ++i)
+    if (const double leak = double(1 - r.A(i, i)); leak > 0) least = std::min(least, leak);
+  return least;
+}
+
+// Down to where the slowest state, which is largest next to rest, grows no further.
+std::vector<double> angles_of_interest(double binding, double least_leak) {
   std::vector<double> angles = {std::numbers::pi};
   for (int i = 0; i < 420; ++i) angles.push_back(std::numbers::pi * std::pow(10.0, -13.5 * i / 420));
+  for (double angle = 1e-14; angle > least_leak / 100; angle /= 2) angles.push_back(angle);
   for (int i = 0; i <= 80; ++i) angles.push_back(std::numbers::pi * i / 80);
   for (int i = 0; i < 120; ++i) angles.push_back(std::numbers::pi * (1 - std::pow(10.0, -8.0 * i / 120) / 2));
   for (int i = -100; i <= 100; ++i) {
@@ -147,7 +158,7 @@ class StateScales {
  public:
   StateScales(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double hold, double binding) : hold_(hold) {
     const Response<Scalar> response(r);
-    for (const double angle : angles_of_interest(binding)) {
+    for (const double angle : angles_of_interest(binding, least_leak(r))) {
       const std::vector<Complex<Scalar>> x = response.at(angle);
       places_.push_back({double(needed_at(r, lag, hold, x)), {}});
       for (const Complex<Scalar>& state : x) places_.back().squares.push_back(double(std::norm(state)));
@@ -183,7 +194,7 @@ std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>
   const Matrix inverse = R.inverse(), one = Matrix::Identity(n, n);
   Matrix step = A - B * inverse * S.transpose(), G = B * inverse * B.transpose();
   Matrix H = -one / Scalar(4 * double(n)) - S * inverse * S.transpose();
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 120; ++i) {  // losses down to 2⁻¹⁰⁰ have died away by then
     const Eigen::PartialPivLU<Matrix> W(Matrix(one + G * H));
     const Matrix onward = W.solve(step), change = step.transpose() * (H * onward);
     G += step * W.solve(G) * step.transpose();
@@ -264,7 +275,7 @@ std::pair<double, double> largest_need(const Recursion<Scalar>& r, const OneHold
                                        double attained, double angle) {
   const Response<Scalar> response(r);
   const auto need = [&](double at) { return double(needed_at(r, lag, hold, response.at(at))); };
-  std::vector<double> angles = angles_of_interest(angle > 0 ? angle : 1);
+  std::vector<double> angles = angles_of_interest(angle > 0 ? angle : 1, least_leak(r));
   std::sort(angles.begin(), angles.end());
   std::size_t best = 0;
   double most = -1;

@@ -100,6 +100,25 @@ TEST(StorageFunction, SlowMode) {
   EXPECT_NEAR(proof->damping / 0.14131997, 1, 4e-8);
 }
 
+// A mode that loses less in a sample than a double can tell from 1, as those of a polymer over 21 decades of time,
+// would leave the law without a storage function.
+TEST(StorageFunction, ModeThatOutlastsDoubles) {
+  MotorConstants motor = spring_motor(500);
+  motor.velocity_gain = 5;
+  motor.loss_is_emitted = true;
+  motor.step_stiffness = 500;
+  motor.modes = {{1, 1e-22, 300, 0, 0}, {1, 3e-16, 200, 0, 0}};
+  SampledLoop loop = differencing_loop(punctual_period, 3);
+  loop.delay_samples = 1;
+  MotorConstants spring = motor;
+  spring.modes.clear();
+  spring.step_stiffness = 0;
+  spring.static_stiffness = 1000;
+  const std::optional<StorageProof> proof = storage_proof(motor, loop), limit = storage_proof(spring, loop);
+  ASSERT_TRUE(proof && limit);
+  EXPECT_NEAR(proof->damping / limit->damping, 1, 1e-8);  // a spring, but for what relaxes
+}
+
 // Under jitter: without a lag exactly in proportion to the longest hold; behind one, between what is necessary and what
 // one P for all holds is known to need.
 TEST(StorageFunction, Jitter) {

@@ -21,6 +21,9 @@ constexpr std::size_t most_states_in_digits = 30;  // beyond, 50 digits take sec
 // Beyond, so does the search of one P for all holds, which rounding ends early besides: it is left for laws of which
 // nothing else is known.
 constexpr std::size_t most_states_in_common = 18, most_states_in_common_at_all = 30;
+// Of what the damping exceeds S(θ) by, the share that is kept for strictness, so that rounding P does not spoil it;
+// hardly any where the states' scales miss a narrow peak and the usual share is more than there is.
+constexpr double usual_strictness = 0.25, least_strictness = 0.25e-3;
 constexpr double most_off_in_doubles = 1e-10;  // relative, of a supremum; beyond, it is taken in 50 digits
 
 template <class Scalar>
@@ -185,15 +188,16 @@ class StateScales {
   std::vector<Place> places_;
 };
 
+// `strictness` is of each state's square over its scale, shared out among all of them.
 // P = −X, X the stabilising solution of AᵀXA − X − (AᵀXB + S)(R + BᵀXB)⁻¹(·)ᵀ − Q = 0 (Chu, Fan & Lin 2005).
 template <class Scalar>
 std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>& B, const Dense<Scalar>& S,
-                                     const Dense<Scalar>& R) {
+                                     const Dense<Scalar>& R, double strictness) {
   using Matrix = Dense<Scalar>;
   const Eigen::Index n = A.rows();
   const Matrix inverse = R.inverse(), one = Matrix::Identity(n, n);
   Matrix step = A - B * inverse * S.transpose(), G = B * inverse * B.transpose();
-  Matrix H = -one / Scalar(4 * double(n)) - S * inverse * S.transpose();
+  Matrix H = -one * (Scalar(strictness) / Scalar(double(n))) - S * inverse * S.transpose();
   for (int i = 0; i < 120; ++i) {  // losses down to 2⁻¹⁰⁰ have died away by then
     const Eigen::PartialPivLU<Matrix> W(Matrix(one + G * H));
     const Matrix onward = W.solve(step), change = step.transpose() * (H * onward);
@@ -211,7 +215,8 @@ std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>
 
 template <class Scalar>
 std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, const OneHold<Scalar>& lag, double hold,
-                                              double damping, const std::vector<double>& scale) {
+                                              double damping, const std::vector<double>& scale,
+                                              double strictness = usual_strictness) {
   const Recursion<Scalar> r = recursion<Scalar>(loop, lag);
   const Eigen::Index n = r.A.rows(), inputs = lag.spread == 0 ? 1 : 2;
   Dense<Scalar> by(n, 1);
@@ -226,7 +231,7 @@ std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, con
   }
   R(0, 0) -= r.stiffness * unit * unit / Scalar(2);
   if (inputs == 2) S(n - 1, 1) = by(n - 1, 0) * unit * sqrt(lag.spread) / Scalar(2);
-  const std::optional<Dense<Scalar>> P = riccati<Scalar>(A, B, S, R);
+  const std::optional<Dense<Scalar>> P = riccati<Scalar>(A, B, S, R, strictness);
   if (!P) return std::nullopt;
   checker::Storage storage(loop.states.size());
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -321,11 +326,12 @@ class StorageSearch {
 
   std::size_t states() const { return loop_.states.size(); }
 
-  std::optional<StorageProof> at(double damping, bool in_doubles) const {
+  std::optional<StorageProof> at(double damping, bool in_doubles, double strictness = usual_strictness) const {
     if (!(damping > 0)) return std::nullopt;
     std::optional<checker::Storage> storage =
-        in_doubles ? found_storage<double>(loop_, lag_, hold_, damping, scales_->at(damping))
-                   : found_storage<Real>(loop_, lag_in_digits_, hold_, damping, scales_in_digits().at(damping));
+        in_doubles
+            ? found_storage<double>(loop_, lag_, hold_, damping, scales_->at(damping), strictness)
+            : found_storage<Real>(loop_, lag_in_digits_, hold_, damping, scales_in_digits().at(damping), strictness);
     if (!storage) return std::nullopt;
     checker::Storage rounded = *storage;
     for (std::size_t i = 0; i < rounded.size(); ++i) rounded[i].resize(i + 1);
@@ -462,9 +468,10 @@ std::optional<checker::LoopForm> loop_form_of(const checker::Program& program, c
 std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::size_t states) {
   for (const double slack : {4e-9, 9e-9, 4e-8, 4e-7, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2}) {
     const double damping = search.supremum() * (1 + slack);
-    for (const bool in_doubles : {true, false})
-      if (in_doubles || states <= most_states_in_digits)
-        if (std::optional<StorageProof> proof = search.at(damping, in_doubles)) return proof;
+    for (const double strictness : {usual_strictness, least_strictness})
+      for (const bool in_doubles : {true, false})
+        if (in_doubles || states <= most_states_in_digits)
+          if (std::optional<StorageProof> proof = search.at(damping, in_doubles, strictness)) return proof;
   }
   return std::nullopt;
 }

@@ -125,12 +125,13 @@ class Drives {
     late_.push_back(now);
     told_ = late_.front();
     late_.pop_front();
+    wanted_ = std::sqrt(std::max(told_.damping, 0.0) / device_.damping_scale());
   }
 
   void advance() {
-    const double wanted = std::sqrt(std::max(told_.damping, 0.0) / device_.damping_scale());
     force_ = told_.force + (force_ - told_.force) * lacking_;
-    coil_.advance(std::clamp(coil_.demand_to_reach(wanted, instant_), 0.0, std::max(most_, wanted)), instant_);
+    if (coil_.root_damping() == wanted_) return;  // it stays there
+    coil_.advance(std::clamp(coil_.demand_to_reach(wanted_, instant_), 0.0, std::max(most_, wanted_)), instant_);
   }
 
   double force() const { return force_; }
@@ -143,6 +144,7 @@ class Drives {
   double most_;     // of the coil's current, as the root of the damping at the brake
   std::deque<command<double>> late_;
   command<double> told_{0, 0};
+  double wanted_ = 0;  // of the coil's current, as the root of the damping at the brake
   brake_coil<double> coil_;
   double force_ = 0;
 };
@@ -194,26 +196,42 @@ FeltForce felt_on_ideal(const UpdateLaw& law, const std::vector<double>& positio
   return felt;
 }
 
-FeltForce felt_on_device(const UpdateLaw& law, const std::vector<double>& positions, double at,
-                         const PortDevice& device, int instants) {
-  AnyEvaluation run(law);
+// Whatever the law: the device's part of a run that all laws share.
+SensedMotion sensed(const TrialMotion& motion, double at, const PortDevice& device, int instants, double period) {
+  const std::vector<double>& positions = motion.position;
+  const double instant = period / instants;
   Sensing sensing(device, at);
-  const double instant = law.sample_period / instants, residual = device.residual_damping();
-  Drives drives(device, instant);
-  run.reset(sensing.position(at));
-  drives.begin({law.damping, 0});
-  FeltForce felt;
+  SensedMotion seen;
+  seen.rest = sensing.position(at);
   for (std::size_t i = 0; i + std::size_t(instants) <= positions.size(); i += std::size_t(instants)) {
     const double here = i == 0 ? at : positions[i - 1], velocity = (positions[i] - here) / instant;
-    const command<double> now =
-        run.step(sensing.position(here), sensing.velocity(here, velocity, i / std::size_t(instants)));
+    seen.samples.push_back({sensing.position(here), sensing.velocity(here, velocity, i / std::size_t(instants))});
+    for (std::size_t j = i; j < i + std::size_t(instants); ++j)
+      seen.speed.push_back((positions[j] - (j == 0 ? at : positions[j - 1])) / instant);
+  }
+  return seen;
+}
+
+FeltForce felt_on_device(const UpdateLaw& law, const SensedMotion& seen, const PortDevice& device, int instants) {
+  AnyEvaluation run(law);
+  const double residual = device.residual_damping(), weakest = 1 - device.tolerance(),
+               strongest = 1 + device.tolerance();
+  Drives drives(device, law.sample_period / instants);
+  run.reset(seen.rest);
+  drives.begin({law.damping, 0});
+  FeltForce felt;
+  felt.weak.reserve(seen.speed.size());
+  felt.strong.reserve(seen.speed.size());
+  std::size_t j = 0;
+  for (const SensedMotion::Sample& sample : seen.samples) {
+    const command<double> now = run.step(sample.position, sample.velocity);
     drives.take(now);
-    for (std::size_t j = i; j < i + std::size_t(instants); ++j) {
-      const double moved = positions[j] - (j == 0 ? at : positions[j - 1]), speed = moved / instant;
+    for (const std::size_t next = j + std::size_t(instants); j < next; ++j) {
+      const double speed = seen.speed[j];
       drives.advance();
       const double brake = drives.damping();
-      felt.weak.push_back(drives.force() + (brake * (1 - device.tolerance()) + residual) * speed);
-      felt.strong.push_back(drives.force() + (brake * (1 + device.tolerance()) + residual) * speed);
+      felt.weak.push_back(drives.force() + (brake * weakest + residual) * speed);
+      felt.strong.push_back(drives.force() + (brake * strongest + residual) * speed);
       felt.dissipated += now.damping * speed * speed;
       felt.square_velocity += speed * speed;
     }
@@ -245,6 +263,7 @@ SlipTrial::SlipTrial(const Network& network, const UpdateLaw& coarse, const Upda
   motions_.back().name =
       fmt::format("a drag to and fro at {:.3g} {}/s over ±{:.3g} {}", 4 * way * middle, unit, way, unit);
   for (const TrialMotion& motion : motions_) {
+    if (!device.is_ideal()) sensed_.push_back(sensed(motion, at, device, instants, period));
     std::vector<double> force = whole_force(fine, motion.position, at);
     const double largest = largest_size(force), rms = root_mean_square(force);
     forces_.push_back({std::move(force), largest, rms});
@@ -273,9 +292,8 @@ double SlipTrial::displacement_at_yield(const Network& network, const UpdateLaw&
 }
 
 FeltForce SlipTrial::felt(const UpdateLaw& law, std::size_t motion) const {
-  const std::vector<double>& positions = motions_[motion].position;
-  return device_.is_ideal() ? felt_on_ideal(law, positions, at_)
-                            : felt_on_device(law, positions, at_, device_, instants_a_sample(device_));
+  return device_.is_ideal() ? felt_on_ideal(law, motions_[motion].position, at_)
+                            : felt_on_device(law, sensed_[motion], device_, instants_a_sample(device_));
 }
 
 TrialError trial_error(const SlipTrial& trial, const std::vector<FeltForce>& felt) {
@@ -314,7 +332,7 @@ ErrorBetween::ErrorBetween(const SlipTrial& trial, const std::vector<FeltForce>&
         run.product += error.first * error.second / double(size);
         run.second_square += error.second * error.second / double(size);
       }
-      run.peaks = peaks_of(errors);
+      run.peaks = peaks_of(std::move(errors));
       run.network_peak = trial.largest_network_force(m);
       run.network_rms = trial.rms_network_force(m);
       runs_.push_back(std::move(run));
@@ -333,11 +351,12 @@ std::vector<ErrorBetween::Ends> ErrorBetween::peaks_of(std::vector<Ends> errors)
 void ErrorBetween::keep_largest(std::vector<Ends>& errors, int parts) {
   std::vector<Ends> lines;
   for (int k = 0; k <= parts; ++k) {
-    const auto smaller = [share = double(k) / parts](const Ends& one, const Ends& other) {
-      return std::abs(one.at(share)) < std::abs(other.at(share));
-    };
-    const Ends largest = *std::max_element(errors.begin(), errors.end(), smaller);
-    const double sign = largest.at(double(k) / parts) < 0 ? -1 : 1;
+    const double share = double(k) / parts;
+    Ends largest = errors.front();
+    double size = std::abs(largest.at(share));
+    for (const Ends& error : errors)
+      if (const double other = std::abs(error.at(share)); size < other) size = other, largest = error;
+    const double sign = largest.at(share) < 0 ? -1 : 1;
     lines.push_back({sign * largest.first, sign * largest.second});
   }
   std::vector<std::pair<double, double>> meetings;  // a share, and the size there
@@ -349,8 +368,9 @@ void ErrorBetween::keep_largest(std::vector<Ends>& errors, int parts) {
     meetings.emplace_back(share, std::max(one.at(share), other.at(share)));
   }
   std::erase_if(errors, [&](const Ends& error) {
-    return std::all_of(meetings.begin(), meetings.end(),
-                       [&](const auto& met) { return std::abs(error.at(met.first)) < met.second; });
+    for (const auto& [share, size] : meetings)
+      if (!(std::abs(error.at(share)) < size)) return false;
+    return true;
   });
   for (const Ends& line : lines) errors.push_back(line);
 }

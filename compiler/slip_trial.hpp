@@ -21,6 +21,17 @@ struct TrialMotion {
   std::vector<double> position;  // [m] or [rad]
 };
 
+// What a device tells the law of a motion.
+struct SensedMotion {
+  struct Sample {
+    double position, velocity;  // [m], [m/s] or [rad], [rad/s]
+  };
+
+  double rest = 0;              // the position before the motion begins
+  std::vector<Sample> samples;  // one each time that the law is run
+  std::vector<double> speed;    // of the tool up to each instant [m/s] or [rad/s]
+};
+
 // What is felt at those instants, with the brake at the lower and, one after the other, at the upper end of its
 // tolerance.
 struct FeltForce {
@@ -55,6 +66,7 @@ class SlipTrial {
   const PortDevice& device_;
   double at_;
   std::vector<TrialMotion> motions_;
+  std::vector<SensedMotion> sensed_;  // one a motion, on a device
   std::vector<NetworkForce> forces_;  // one a motion
 };
 

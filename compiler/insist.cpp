@@ -97,6 +97,14 @@ Device with_brake(Device device, double damping) {
   return device;
 }
 
+// As the device file has it, in the device's own unit.
+std::string brake_as_written(const Device& device, double damping) {
+  const std::string value = fmt::format("{:.6g} {}", damping, port_units(device.description.motion).damping);
+  return device.description.brake.kind == brake_kind::none
+             ? fmt::format(R"("brake": {{ "kind": "eddy_current", "max_damping": "{}" }})", value)
+             : fmt::format(R"("max_damping": "{}" in "brake")", value);
+}
+
 class Remedies {
  public:
   Remedies(const Compilation& c, const Choices& choices)
@@ -122,8 +130,13 @@ class Remedies {
     device.description.motor.amplifier_lag = amplifier_lag;
     mechanics_description& mechanics = device.description.mechanics;
     const double own = mechanics.damping;
+    const loop_description& is = c_.device->description.loop;
+    const bool is_other =
+        loop.delay_samples != is.delay_samples || amplifier_lag != c_.device->description.motor.amplifier_lag;
+    std::optional<Compilation> again = is_other ? compiled(c_.network, choices_, device) : std::nullopt;
+    if (again && again->certificate.certified) return Remedy{own * scale_, felt_error(*again)};  // needs no more
     mechanics.damping = own + 1e9;  // more than any network needs
-    std::optional<Compilation> again = compiled(c_.network, choices_, device);
+    again = compiled(c_.network, choices_, device);
     if (!again || !again->certificate.certified) return std::nullopt;
     mechanics.damping = own;
     constexpr double some_more = 1 + 1e-9;
@@ -224,8 +237,8 @@ class Remedies {
     return all;
   }
 
-  // Of the motor, in its own unit and four digits: what the law's force surely asks for, or the first power of two
-  // times that; empty where none is stated and where even a thousandfold does not help.
+  // Of the motor, in its own unit and four digits: what the force of the law that is chosen then surely asks for; empty
+  // where none is stated and where even a thousandfold does not help.
   std::optional<Remedy> slew() const {
     Device quicker = *c_.device;
     double& slew = quicker.description.motor.slew;
@@ -235,7 +248,14 @@ class Remedies {
     for (int doubling = 0; doubling <= 10 && told > 0; ++doubling, told *= 2) {
       slew = rounded_up(told, 4);
       if (!(slew > own) || !may_do(quicker)) continue;
-      if (const auto error = error_where_certified(c_.network, choices_, quicker)) return Remedy{slew, *error};
+      const std::optional<Compilation> again = compiled(c_.network, choices_, quicker);
+      if (!again || !again->certificate.certified) continue;
+      const Remedy enough{slew, felt_error(*again)};
+      const double asked = again->certificate.limits.slew_needed.value_or(0) / again->certificate.loop.motor_slew;
+      slew = std::max(own, rounded_up(enough.value * asked * some_more, 4));
+      if (!(slew > own && slew < enough.value)) return enough;
+      const std::optional<WorstError> error = error_where_certified(c_.network, choices_, quicker);
+      return error ? Remedy{slew, *error} : enough;
     }
     return std::nullopt;
   }
@@ -438,8 +458,7 @@ RemedyNotes notes_on_remedies(const Compilation& c, const Choices& choices, doub
   const std::optional<Remedy> brake = remedies.brake(missing_damping(certificate.bound, loop, 0) + of_regimes);
   if (brake)
     notes.add<DiagnosticCode::brake_that_would_do>(brake->error, brake->value, unit, loop.max_damping,
-                                                   remedies.at_joint(brake->value),
-                                                   std::string(port_units(c.device->description.motion).damping));
+                                                   brake_as_written(*c.device, remedies.at_joint(brake->value)));
   const double by_loop = available / certificate.bound.needed, by_brake = brake ? loop.max_damping / brake->value : 0;
   if (const auto share = remedies.share({std::max(by_loop, by_brake), std::min(by_loop, by_brake)}))
     notes.add<DiagnosticCode::scale_that_would_do>(
@@ -507,6 +526,7 @@ std::vector<MendedDevice> mended(const Device& device) {
   for (MendedDevice& other : all) other.is_of_estimator = true;
   mend(is.encoder.step > 0, "with a 16th of the encoder's step", [](device_description& d) { d.encoder.step /= 16; });
   mend(is.loop.delay_samples > 0, "without the loop's delay", [](device_description& d) { d.loop.delay_samples = 0; });
+  mend(is.motor.slew > 0, "without the motor's slew", [](device_description& d) { d.motor.slew = 0; });
   mend(is.motor.amplifier_lag > 0, "without the amplifier's lag",
        [](device_description& d) { d.motor.amplifier_lag = 0; });
   mend(is.brake.coil_lag > 0, "without the lag of the brake's coil",
@@ -623,9 +643,9 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
     const double most = std::ldexp(own > 0 ? own : smallest_brake_worth_having(c), doubling);
     if (most == 0) break;
     if (const auto again = improvement.by(choices, with_brake(*c.device, most)))
-      return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>(
-          {}, again->port.max_damping().value_or(0), units.damping, most,
-          port_units(c.device->description.motion).damping, in_percent(*error.of(*again)));
+      return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>({}, again->port.max_damping().value_or(0),
+                                                                      units.damping, brake_as_written(*c.device, most),
+                                                                      in_percent(*error.of(*again)));
   }
   diagnostics.note<DiagnosticCode::errs_less_nowhere>({}, own > 0 ? "up to 16 times its brake" : "a brake");
 }

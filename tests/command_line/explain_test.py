@@ -459,6 +459,30 @@ class Json(CommandTest):
         self.assertGreater(chosen["largest_error"], 0.06)
         self.assertIn("[felt-error]", self.dashpot("explain", "pad.json", "--device", "late.json").stderr)
 
+    def test_a_brake_that_would_do_is_written_whole(self):
+        """Fails if the brake that is told for a device without one is refused, or does not do, when it is written as it is told."""
+        device = {key: value for key, value in self.LATE.items() if key not in ("brake", "mechanics")}
+        self.write("late.json", json.dumps(device))
+        self.write("pad.json", self.PAD)
+        told = self.refused("compile", "pad.json", "--device", "late.json", code="not-certified").stderr
+        device |= json.loads("{" + re.search(r'would do: ("brake": \{.*?\}) of the device file', told).group(1) + "}")
+        self.write("braked.json", json.dumps(device))
+        self.assertTrue(self.explained("pad.json", "--device", "braked.json")["certificate"]["certified"])
+
+    def test_the_lag_alone_is_left_out_where_that_is_enough(self):
+        """Fails if more own damping is asked for than a device needs that is as prompt as the note says."""
+        device = {"dashpot_device": 1, "name": "rig", "motion": "translation", "loop": {"rate": "2 kHz", "delay_samples": 1},
+                  "encoder": {"resolution": "2 um", "range": ["-30 mm", "30 mm"], "max_speed": "0.5 m/s"},
+                  "velocity": {"estimator": "backward_difference", "window": 8},
+                  "motor": {"max_torque": "12 N", "amplifier_lag": "0.3 ms", "slew": "3 kN/s"},
+                  "brake": {"kind": "eddy_current", "max_damping": "8 N s/m", "tolerance": "8 %"}, "mechanics": {"damping": "0.05 N s/m"}}
+        self.write("rig.json", json.dumps(device))
+        told = self.dashpot("compile", SOURCE / "networks/paper/bridge.json", "--device", "rig.json", "-o", "out").stderr
+        self.assertIn('the same device would do with no "amplifier_lag" in its file', told)
+        del device["motor"]["amplifier_lag"]
+        self.write("prompt.json", json.dumps(device))
+        self.assertTrue(self.explained(SOURCE / "networks/paper/bridge.json", "--device", "prompt.json")["certificate"]["certified"])
+
     def test_slips_leave_the_brake_room_for_passivity(self):
         """Fails if a law behind slips takes all of the brake, so that the default is refused or certified only without it."""
         brake = self.skin_on_paddle()

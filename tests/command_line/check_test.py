@@ -325,6 +325,12 @@ class CheckTest(CommandTest):
         self.assertEqual(self.status, 3)
         self.assertIn("a static curve", words)
 
+    # Who asks about a law of two axes would be shown what a library says of a missing key.
+    def test_two_axes(self):
+        words = self.said(*self.compiled([SOURCE / "networks/axes/kelvin_field.json", "--device", SOURCE / "runtime/devices/pantograph_2dof.json"]))[1]
+        self.assertEqual(self.status, 3)
+        self.assertIn("two axes", words)
+
     # A law that lacks damping on its device would pass for one that has it.
     def test_lacking_damping(self):
         header, certificate = self.compiled([FIG_5, "--device", SOURCE / "runtime/devices/phantom_single_motor.json"])

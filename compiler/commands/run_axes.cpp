@@ -78,9 +78,11 @@ std::string range_of(const arm_servo_summary& summary, unsigned brakes, const Po
 
 void warn_of_uncertified_axes(const AxesCompilation& c, Diagnostics& diagnostics) {
   if (c.certificate.certified) return;
-  diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name,
-                                                     fmt::format("device '{}'", c.device.name),
-                                                     why_not_certified(c.certificate, c.device));
+  const std::string device = fmt::format("device '{}'", c.device.name),
+                    why = why_not_certified(c.certificate, c.device);
+  if (!c.certificate.is_proved || !c.certificate.uncovered.empty())
+    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, why);
+  else diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, why);
   if (c.certificate.lies_in_port) diagnostics.note<DiagnosticCode::ports_that_can_be_certified>({});
 }
 

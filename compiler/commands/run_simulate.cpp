@@ -32,12 +32,14 @@ double rate_meant(const Motion& motion) {
 // What the motion's rate is held against.
 struct DeviceRate {
   std::string name;
-  double rate;  // [Hz]
+  double rate;         // [Hz]
+  bool plays_motions;  // by `run --motion`
 };
 
 std::optional<DeviceRate> rate_of(const DeviceChoice& device) {
-  if (device.device) return DeviceRate{device.device->name, 1 / device.device->description.loop.sample_period};
-  if (device.axes_device) return DeviceRate{device.axes_device->name, 1 / device.axes_device->loop().sample_period};
+  if (device.device) return DeviceRate{device.device->name, 1 / device.device->description.loop.sample_period, true};
+  if (device.axes_device)
+    return DeviceRate{device.axes_device->name, 1 / device.axes_device->loop().sample_period, false};
   return std::nullopt;
 }
 
@@ -49,7 +51,7 @@ bool settle_rate(const Motion& motion, const std::optional<DeviceRate>& device, 
   if (!choices.rate) choices.rate = rate_meant(motion);
   if (std::abs(*choices.rate * *motion.period - 1) <= same_rate_of(motion)) return true;
   diagnostics.report<DiagnosticCode::csv_rate_contradicts>({&file, 0, 0}, 1 / *motion.period, *choices.rate);
-  if (device) diagnostics.note<DiagnosticCode::played_at_any_rate>({}, device->name);
+  if (device && device->plays_motions) diagnostics.note<DiagnosticCode::played_at_any_rate>({}, device->name);
   return false;
 }
 

@@ -390,6 +390,15 @@ class AxesTest(CommandTest):
         uncertified = self.dashpot("run", BALL, "--device", PANTOGRAPH, "--fast", "--for", "0.01")
         self.assertIn("[nothing-proved]", uncertified.stderr)
         self.assertIn("note: ports that can be certified: ", uncertified.stderr)
+        weak = json.loads(PANTOGRAPH.read_text())
+        for brake in weak["brakes"]:
+            brake.update(max_damping="3 mN m s/rad")
+        self.write("weak.json", json.dumps(weak))
+        self.assertIn("[lacks-damping]", self.dashpot("run", FIELD, "--device", "weak.json", "--fast", "--for", "0.01").stderr)
+        self.write("slow.csv", "time,q1,q2\n" + "".join(f"{i / 1000},1,1\n" for i in range(5)))
+        told = self.refused("simulate", FIELD, "--device", PANTOGRAPH, "--input", "slow.csv", code="csv-rate-contradicts",
+                            status=COMMAND_LINE_WRONG).stderr
+        self.assertNotIn("--motion", told)  # which takes no network of two axes
         lines = (self.folder / "run.csv").read_text().splitlines()
         names = [name.split(" ")[0] for name in lines[0].split(",")]
         table = [dict(zip(names, line.split(","))) for line in lines[1:]]

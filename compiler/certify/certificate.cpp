@@ -70,9 +70,11 @@ PassivityBound with_slew(PassivityBound bound, const MotorConstants& motor, cons
   if (loop.amplifier_lag > 0) return not_proved("the amplifier lags, and its slew is limited");
   const std::optional<double> used = slew_needed(motor, loop);
   if (!used)
-    return not_proved(
-        "how fast the motor's force has to change is not bounded: it follows the velocity estimate, or the encoder's "
-        "range and largest speed are not stated");
+    return not_proved(motor.follows_estimate()
+                          ? "how fast the motor's force has to change is not bounded, because it follows the velocity "
+                            "estimate"
+                          : "how fast the motor's force has to change is not bounded, because the encoder's range or "
+                            "largest speed is not stated");
   if (*used > loop.motor_slew)
     return not_proved(fmt::format("the motor's force may have to change by {:.6g} a second, and slews by {:.6g}", *used,
                                   loop.motor_slew));

@@ -256,7 +256,8 @@ std::string legend_of_lines(const std::string& text) {
       {"quantisation", "what the encoder's steps do: friction has to take what they give"},
       {"tunable", "a value that the program may change while it runs, as it is in the file, and its range"},
       {"damping follows",
-       "of the parameters as they are now: the rule by which set() chooses b; all above is of the file's own values"},
+       "of the parameters as they are now: the rule by which set() chooses b; the rows above are of the file's own "
+       "values"},
       {"backward Euler", "the elements whose states are stepped by it, since a tunable mixes their relaxations"},
       {"cost at most", "of one sample before and after the command leaves, and of a change of parameters"},
       {"cost  ",
@@ -325,7 +326,8 @@ std::string explain_text(const Compilation& c, bool with_legend) {
   text += slips;
   if (with_legend && !slips.empty()) text += "\n" + legend_of_slips(slips) + "\n";
   text += fmt::format(
-      "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate\n",
+      "any delay             {:.6g} {} of extra damping keep an exact brake passive under any delay of the estimate, "
+      "sampling aside\n",
       choice.extra_damping_any_delay.value_or(0), units.damping);
   if (c.network.contact)
     text += "contact               " + contact_text(c.decomposition, c.network) + "\n" + why_no_brake(c, units);

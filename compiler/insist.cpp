@@ -20,8 +20,9 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr double noticeably = 0.9;  // of an error, what is worth another choice [1]
-constexpr double ruinous = 0.5;     // of the network's force: what errs by so much feels like something else [1]
+constexpr double some_more = 1 + 1e-9;  // than what is needed, which is rounded
+constexpr double noticeably = 0.9;      // of an error, what is worth another choice [1]
+constexpr double ruinous = 0.5;         // of the network's force: what errs by so much feels like something else [1]
 
 constexpr const char* no_lag = "no \"amplifier_lag\"";
 constexpr const char* no_delay = "no \"delay_samples\"";
@@ -130,16 +131,14 @@ class Remedies {
     device.description.motor.amplifier_lag = amplifier_lag;
     mechanics_description& mechanics = device.description.mechanics;
     const double own = mechanics.damping;
-    const loop_description& is = c_.device->description.loop;
-    const bool is_other =
-        loop.delay_samples != is.delay_samples || amplifier_lag != c_.device->description.motor.amplifier_lag;
+    const device_description& is = c_.device->description;
+    const bool is_other = loop.delay_samples != is.loop.delay_samples || amplifier_lag != is.motor.amplifier_lag;
     std::optional<Compilation> again = is_other ? compiled(c_.network, choices_, device) : std::nullopt;
-    if (again && again->certificate.certified) return Remedy{own * scale_, felt_error(*again)};  // needs no more
+    if (again && again->certificate.certified) return Remedy{own * scale_, felt_error(*again)};  // the loop is enough
     mechanics.damping = own + 1e9;  // more than any network needs
     again = compiled(c_.network, choices_, device);
     if (!again || !again->certificate.certified) return std::nullopt;
     mechanics.damping = own;
-    constexpr double some_more = 1 + 1e-9;
     // With less damping another b may be chosen, which needs more.
     for (int attempt = 0; attempt < 4; ++attempt) {
       mechanics.damping =
@@ -243,7 +242,6 @@ class Remedies {
     Device quicker = *c_.device;
     double& slew = quicker.description.motor.slew;
     const double own = slew, needed = c_.certificate.limits.slew_needed.value_or(0);
-    constexpr double some_more = 1 + 1e-9;
     double told = own > 0 ? std::max(own, needed * some_more * own / c_.certificate.loop.motor_slew) : 0;
     for (int doubling = 0; doubling <= 10 && told > 0; ++doubling, told *= 2) {
       slew = rounded_up(told, 4);
@@ -597,10 +595,10 @@ class Improvement {
 };
 
 // In the unit of a device without any: an eighth of the most damping that a candidate asks for.
-double smallest_brake_worth_having(const Compilation& c) {
+double smallest_brake_worth_having(const Compilation& c, const Remedies& remedies) {
   double most = 0;
   for (const Candidate& candidate : c.decomposition.candidates) most = std::max(most, candidate.wanted_damping);
-  return most / 8 / c.port.at_tool().replaced_by(with_brake(*c.device, 1)).max_damping().value_or(1);
+  return remedies.at_joint(most / 8);
 }
 
 // What would err less: another choice, else another device.
@@ -640,7 +638,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   }
   const double own = c.device->description.brake.max_damping;
   for (int doubling = 1; doubling <= 4; ++doubling) {
-    const double most = std::ldexp(own > 0 ? own : smallest_brake_worth_having(c), doubling);
+    const double most = std::ldexp(own > 0 ? own : smallest_brake_worth_having(c, Remedies(c, choices)), doubling);
     if (most == 0) break;
     if (const auto again = improvement.by(choices, with_brake(*c.device, most)))
       return diagnostics.note<DiagnosticCode::errs_less_with_a_brake>({}, again->port.max_damping().value_or(0),

@@ -233,19 +233,34 @@ std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) 
   return text;
 }
 
+namespace {
+
+bool lacks_only_damping(const AxesCertificate& certificate) {
+  return certificate.is_proved && certificate.uncovered.empty();
+}
+
+std::string device_of(const AxesCompilation& c) {
+  return c.has_device ? fmt::format("device '{}'", c.device.name) : "an ideal device";
+}
+
+}  // namespace
+
+void warn_of_uncertified(const AxesCompilation& c, Diagnostics& diagnostics) {
+  const std::string why = why_not_certified(c.certificate, c.device);
+  if (lacks_only_damping(c.certificate))
+    return diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device_of(c), why);
+  diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device_of(c), why);
+  if (c.certificate.lies_in_port) diagnostics.note<DiagnosticCode::ports_that_can_be_certified>({});
+}
+
 bool insist_on_certificate(const AxesCompilation& c, const Options& options, Diagnostics& diagnostics) {
-  const AxesCertificate& certificate = c.certificate;
-  if (certificate.certified) return true;
-  const std::string device = c.has_device ? fmt::format("device '{}'", c.device.name) : "an ideal device";
-  const std::string why = why_not_certified(certificate, c.device);
-  if (!certificate.is_proved || !certificate.uncovered.empty()) {
-    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, why);
-    if (certificate.lies_in_port) diagnostics.note<DiagnosticCode::ports_that_can_be_certified>({});
-    return true;
-  }
-  if (options.uncertified)
-    diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, why);
-  else diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device, why);
+  if (c.certificate.certified) return true;
+  const bool is_refused = lacks_only_damping(c.certificate) && !options.uncertified;
+  if (is_refused)
+    diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device_of(c),
+                                                           why_not_certified(c.certificate, c.device));
+  else warn_of_uncertified(c, diagnostics);
+  if (!lacks_only_damping(c.certificate)) return true;
   note_what_would_do(c, diagnostics);
   if (!options.uncertified) diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return options.uncertified;

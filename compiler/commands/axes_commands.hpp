@@ -25,6 +25,9 @@ std::string explain_axes(const AxesCompilation& compilation, bool as_json, bool 
 // What `compile --print` shows of a stage.
 std::string axes_stage_text(const AxesCompilation& compilation, const std::string& stage);
 
+// Of one that is not certified: that nothing is proved, with what could be, or what damping is missing.
+void warn_of_uncertified(const AxesCompilation& compilation, Diagnostics& diagnostics);
+
 // Warns of what is not certified, with what could be; true but on a device that lacks damping, which is refused unless
 // --uncertified is given.
 bool insist_on_certificate(const AxesCompilation& compilation, const Options& options, Diagnostics& diagnostics);

@@ -76,16 +76,6 @@ std::string range_of(const arm_servo_summary& summary, unsigned brakes, const Po
       list_of(summary.largest_dampings, brakes), units.damping);
 }
 
-void warn_of_uncertified_axes(const AxesCompilation& c, Diagnostics& diagnostics) {
-  if (c.certificate.certified) return;
-  const std::string device = fmt::format("device '{}'", c.device.name),
-                    why = why_not_certified(c.certificate, c.device);
-  if (!c.certificate.is_proved || !c.certificate.uncovered.empty())
-    diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device, why);
-  else diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device, why);
-  if (c.certificate.lies_in_port) diagnostics.note<DiagnosticCode::ports_that_can_be_certified>({});
-}
-
 }  // namespace
 
 ExitStatus run_axes(const Options& options, const simulated::hand& user, const SourceFile& network,
@@ -96,7 +86,7 @@ ExitStatus run_axes(const Options& options, const simulated::hand& user, const S
     diagnostics.report<DiagnosticCode::option_on_two_axes>(compilation->network.name_span, option);
     return ExitStatus::command_line_wrong;
   }
-  warn_of_uncertified_axes(*compilation, diagnostics);
+  if (!compilation->certificate.certified) warn_of_uncertified(*compilation, diagnostics);
   const arm_description arm = arm_description_of(compilation->device);
   simulated::arm_scenario scene;
   scene.user = simulated::planar(user.mass, user.damping, user.input[0] * user.output[0]);  // alike in all directions

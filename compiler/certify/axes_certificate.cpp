@@ -424,20 +424,20 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints, of which "
-      "their own damping and the brakes' share of the network's surely give all but {}; most is missing at ({:.4g}, "
-      "{:.4g}) "
-      "mm",
+      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints; {} of it "
+      "is missing there, beside their own damping and the brakes' share of the network's; most is missing at ({:.4g}, "
+      "{:.4g}) mm",
       c.certified ? "certified for any motion in the workspace, while the motors make their torques"
                   : "not certified, since " + why_not_certified(c, device),
       at_joints(c.needed, c, device), at_joints(c.missing, c, device), in_millimetres(c.worst[0]),
       in_millimetres(c.worst[1])));
   if (c.for_estimates > 0)
-    lines.push_back(fmt::format("  of which {} are for what the motors make of estimated velocities, however late",
-                                at_joints(c.for_estimates, c, device)));
-  if (c.for_lag > 0)
     lines.push_back(
-        fmt::format("  of which {} are for the lag of the motors' amplifiers", at_joints(c.for_lag, c, device)));
+        fmt::format("  of what is needed, {} are for what the motors make of estimated velocities, however late",
+                    at_joints(c.for_estimates, c, device)));
+  if (c.for_lag > 0)
+    lines.push_back(fmt::format("  of what is needed, {} are for the lag of the motors' amplifiers",
+                                at_joints(c.for_lag, c, device)));
   const std::string unit = port_units(device.joint_motion()).damping;
   std::string added;
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);

@@ -188,8 +188,8 @@ class StateScales {
   std::vector<Place> places_;
 };
 
-// `strictness` is of each state's square over its scale, shared out among all of them.
-// P = −X, X the stabilising solution of AᵀXA − X − (AᵀXB + S)(R + BᵀXB)⁻¹(·)ᵀ − Q = 0 (Chu, Fan & Lin 2005).
+// P = −X, X the stabilising solution of AᵀXA − X − (AᵀXB + S)(R + BᵀXB)⁻¹(·)ᵀ − Q = 0 (Chu, Fan & Lin 2005), Q the
+// strictness: the same share for the square of each state, and `strictness` for all of them.
 template <class Scalar>
 std::optional<Dense<Scalar>> riccati(const Dense<Scalar>& A, const Dense<Scalar>& B, const Dense<Scalar>& S,
                                      const Dense<Scalar>& R, double strictness) {

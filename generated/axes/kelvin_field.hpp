@@ -9,12 +9,12 @@
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
 //   100.6) mm, in motions alike in all directions
 // passivity: certified for any motion in the workspace, while the motors make their torques: what the motors hold
-//   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints, of which their
-//   own damping and the brakes' share of the network's surely give all but 0.00421038 and 0.00421038 N·m·s/rad;
+//   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints; 0.00421038 and
+//   0.00421038 N·m·s/rad of it is missing there, beside their own damping and the brakes' share of the network's;
 //   most is missing at (0.9375, 70) mm
-//   of which 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities, however
-//   late
-//   of which 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers
+//   of what is needed, 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities,
+//   however late
+//   of what is needed, 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
 //   added to the brakes' commands for it: 0.00446137, 0.00446137 N m s/rad; felt at the tip: up to 3.62 N s/m more

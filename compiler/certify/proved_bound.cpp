@@ -29,10 +29,11 @@ PassivityBound proved_bound(const std::optional<MotorConstants>& motor, const Sa
   if (!spoken_of) return bound;
   const bool adapts = motor->follows_estimate() && adaptive_window_gain(loop);
   const bool divides = motor->follows_estimate() && divides_by_varying_interval(*spoken_of);
-  std::optional<StorageProof> proof = adapts ? std::nullopt : storage_proof(*motor, *spoken_of);
+  const double most = bound.needed * (1 + most_storage_excess);
+  std::optional<StorageProof> proof = adapts ? std::nullopt : storage_proof(*motor, *spoken_of, most);
   if (adapts || (divides && (!proof || proof->damping > bound.needed)))
     proof = adaptive_storage_proof(*motor, *spoken_of);
-  if (!proof || proof->damping > bound.needed * (1 + most_storage_excess)) return bound;
+  if (!proof || proof->damping > most) return bound;
   bound.needed = proof->damping;
   bound.storage = std::move(proof->storage);
   return bound;

@@ -464,16 +464,29 @@ std::optional<checker::LoopForm> loop_form_of(const checker::Program& program, c
   }
 }
 
-// As near above the supremum as one of the steps allows.
-std::optional<StorageProof> punctual_proof(const StorageSearch& search, std::size_t states) {
-  for (const double slack : {4e-9, 9e-9, 4e-8, 4e-7, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2}) {
-    const double damping = search.supremum() * (1 + slack);
+// As near above the supremum as one of the steps allows, and not above `most`. Where one allows it, those beyond are
+// taken to.
+std::optional<StorageProof> punctual_proof(const StorageSearch& search, double most) {
+  std::vector<double> slacks = {4e-9, 9e-9, 4e-8, 4e-7, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2};
+  while (slacks.size() > 1 && search.supremum() * (1 + slacks.back()) > most) slacks.pop_back();
+  const auto at = [&](std::size_t step) -> std::optional<StorageProof> {
+    const double damping = search.supremum() * (1 + slacks[step]);
     for (const double strictness : {usual_strictness, least_strictness})
       for (const bool in_doubles : {true, false})
-        if (in_doubles || states <= most_states_in_digits)
+        if (search.states() <= most_states_in_digits || (in_doubles && strictness == usual_strictness))
           if (std::optional<StorageProof> proof = search.at(damping, in_doubles, strictness)) return proof;
+    return std::nullopt;
+  };
+  std::size_t fails = 0, serves = slacks.size() - 1;
+  std::optional<StorageProof> best = at(fails);
+  if (best || serves == fails) return best;
+  best = at(serves);
+  while (best && serves - fails > 1) {
+    const std::size_t middle = (fails + serves) / 2;
+    if (std::optional<StorageProof> nearer = at(middle)) best = std::move(nearer), serves = middle;
+    else fails = middle;
   }
-  return std::nullopt;
+  return best;
 }
 
 // One P for holds of all lengths, behind an amplifier's lag or of intervals that vary. The P of the longest may serve
@@ -569,13 +582,10 @@ bool needs_one_for_all_holds(const MotorConstants& motor, const SampledLoop& loo
 }
 
 std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
-                                          std::optional<double> stated) {
+                                          std::optional<double> most) {
   return found_proof(motor, loop, true, [&](const StorageSearch& search) {
-    for (const bool in_doubles : {true, false})
-      if (stated && *stated > search.supremum() && (in_doubles || search.states() <= most_states_in_digits))
-        if (std::optional<StorageProof> proof = search.at(*stated, in_doubles)) return proof;
     return needs_one_for_all_holds(motor, loop) ? jittered_proof(search, false)
-                                                : punctual_proof(search, search.states());
+                                                : punctual_proof(search, most.value_or(HUGE_VAL));
   });
 }
 

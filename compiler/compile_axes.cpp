@@ -1,8 +1,9 @@
 #include "compile_axes.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -121,8 +122,42 @@ std::optional<axes::ShareMap> share_by(const AxesCompilation& c, axes::BrakeRule
   return share_of(c.network, certified_ports(c), c.device, rule);
 }
 
+namespace {
+
+// Above `least` the least factor that does, as doublings from `most` and a few halvings tell.
+template <class Does>
+std::optional<double> least_factor(double least, double most, Does does) {
+  constexpr int most_doublings = 8, halvings = 4;
+  for (int doubling = 1; !does(most); least = most, most *= 2)
+    if (doubling++ == most_doublings) return std::nullopt;
+  for (int halving = 0; halving < halvings; ++halving) {
+    const double middle = (least + most) / 2;
+    (does(middle) ? most : least) = middle;
+  }
+  return most;
+}
+
+}  // namespace
+
+std::optional<axes::Pair<double>> own_damping_that_would_do(const AxesCompilation& c) {
+  if (!c.certificate.lacks_only_damping() || !std::isfinite(c.certificate.missing)) return std::nullopt;
+  const std::vector<CertifiedPort> ports = certified_ports(c);
+  const auto with_more = [&](double factor) {
+    AxesDevice device = c.device;
+    for (std::size_t joint = 0; joint < 2; ++joint) {
+      double& own = device.mechanics.damping[joint];
+      own += factor * c.certificate.missing * c.certificate.weight[joint];
+      if (own > 0) own = std::stod(fmt::format("{:.3g}", own * (1 + 5e-3)));  // rounded up to what is told
+    }
+    return device;
+  };
+  const std::optional<double> factor = least_factor(
+      0, 1, [&](double more) { return certify_axes(c.network, ports, with_more(more), c.rule).certified; });
+  return factor ? std::optional(with_more(*factor).mechanics.damping) : std::nullopt;
+}
+
 std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& c) {
-  if (!c.certificate.is_proved || !c.certificate.uncovered.empty()) return std::nullopt;
+  if (!c.certificate.lacks_only_damping()) return std::nullopt;
   const std::vector<CertifiedPort> ports = certified_ports(c);
   const auto stronger = [&](double factor) {
     AxesDevice device = c.device;
@@ -132,17 +167,11 @@ std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& c
     }
     return device;
   };
-  const auto does = [&](double factor) { return certify_axes(c.network, ports, stronger(factor), c.rule).certified; };
-  constexpr int most_doublings = 8, halvings = 4;
-  double most = 2, least = 1;
-  for (int doubling = 1; !does(most); least = most, most *= 2)
-    if (doubling++ == most_doublings) return std::nullopt;
-  for (int halving = 0; halving < halvings; ++halving) {
-    const double middle = (least + most) / 2;
-    (does(middle) ? most : least) = middle;
-  }
+  const std::optional<double> factor = least_factor(
+      1, 2, [&](double times) { return certify_axes(c.network, ports, stronger(times), c.rule).certified; });
+  if (!factor) return std::nullopt;
   std::vector<double> limits;
-  for (const AlongBrake& brake : stronger(most).brakes) limits.push_back(brake.brake.max_damping);
+  for (const AlongBrake& brake : stronger(*factor).brakes) limits.push_back(brake.brake.max_damping);
   return limits;
 }
 

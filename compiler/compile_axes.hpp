@@ -19,4 +19,9 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
 // nothing is proved, or no brake is enough.
 std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& compilation);
 
+// Damping of the joints' own with which the network would be certified, in three digits [N·m·s/rad or N·s/m]; empty
+// where nothing is proved, or no damping is enough. What the joints have of their own the brakes leave out of theirs,
+// so that more may be needed than is missing.
+std::optional<axes::Pair<double>> own_damping_that_would_do(const AxesCompilation& compilation);
+
 }  // namespace dashpot::compiler

@@ -113,11 +113,19 @@ class Remedies {
         choices_(choices),
         scale_(c.port.at_tool().replaced_by(with_brake(*c.device, 1)).max_damping().value_or(0)) {}
 
-  // At the tool, in four digits: what is missing for the law as it is, or room for all that it would be told.
+  // At the tool, in four digits: what is missing for the law as it is, else room for all that it would be told, or for
+  // half or less of that where it does.
   std::optional<Remedy> brake(double enough) const {
     if (const std::optional<Remedy> told = brake_as_told(enough)) return told;
     const std::optional<Compilation> unlimited = compiled(c_.network, choices_, with_brake_at_tool(1e30));
-    return unlimited && unlimited->certificate.certified ? brake_as_told(unlimited->law.largest_damping) : std::nullopt;
+    if (!unlimited || !unlimited->certificate.certified) return std::nullopt;
+    std::optional<Remedy> least = brake_as_told(unlimited->law.largest_damping);
+    for (int halving = 0; halving < 6 && least; ++halving) {
+      const std::optional<Remedy> less = brake_as_told(least->value / 2);
+      if (!less) break;
+      least = less;
+    }
+    return least;
   }
 
   // In the device's own unit, of a damping at the tool.
@@ -261,7 +269,8 @@ class Remedies {
   // Of the same device, if its motor's force could follow at once.
   std::optional<WorstError> without_slew() const {
     Device prompt = *c_.device;
-    if (std::exchange(prompt.description.motor.slew, 0) == 0 || !may_do(prompt)) return std::nullopt;
+    if (std::exchange(prompt.description.motor.slew, 0) == 0) return std::nullopt;
+    if (!c_.network.contact && !may_do(prompt)) return std::nullopt;
     return error_where_certified(c_.network, choices_, prompt);
   }
 
@@ -329,14 +338,10 @@ class RemedyNotes {
                         [=](Diagnostics& diagnostics) { diagnostics.note<code>({}, arguments..., in_words(error)); });
   }
 
-  void tell_each(Diagnostics& diagnostics) {
+  void tell(Diagnostics& diagnostics) {
     std::stable_sort(notes_.begin(), notes_.end(),
                      [](const auto& one, const auto& other) { return one.first < other.first; });
     for (const auto& [error, tell_it] : notes_) tell_it(diagnostics);
-  }
-
-  void tell(Diagnostics& diagnostics) {
-    tell_each(diagnostics);
     if (!notes_.empty() && notes_.front().first > ruinous) diagnostics.note<DiagnosticCode::remedies_ruin_the_feel>({});
   }
 
@@ -369,27 +374,27 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   const double own = device.mechanics.damping;
   loop_description prompt = device.loop;
   prompt.delay_samples = 0;
-  RemedyNotes of_the_file;
-  if (c.certificate.loop.amplifier_lag > 0) add_jitter(c, remedies, of_the_file);
-  add_slew(c, remedies, of_the_file);
-  of_the_file.tell_each(diagnostics);
-  const auto tell = [&](const Remedy& damping, const std::string& besides) {
-    diagnostics.note<DiagnosticCode::own_damping_that_would_do>({}, damping.value, at_tool, remedies.at_tool(own),
-                                                                besides, remedies.at_joint(damping.value), at_joint,
-                                                                in_words(damping.error));
+  RemedyNotes notes;
+  if (c.certificate.loop.amplifier_lag > 0) add_jitter(c, remedies, notes);
+  add_slew(c, remedies, notes);
+  const auto add = [&](const Remedy& damping, const std::string& besides) {
+    notes.add<DiagnosticCode::own_damping_that_would_do>(damping.error, damping.value, at_tool, remedies.at_tool(own),
+                                                         besides, remedies.at_joint(damping.value), at_joint);
+    return true;
   };
-  if (const auto damping = remedies.own_damping(device.loop, device.motor.amplifier_lag)) return tell(*damping, "");
-  const auto tell_without = [&](const loop_description& loop, const char* lateness) {
+  const auto add_without = [&](const loop_description& loop, const char* lateness) {
     const auto damping = remedies.own_damping(loop, 0);
     if (!damping) return false;
-    if (remedies.at_joint(damping->value) > own) tell(*damping, fmt::format(" with {}", lateness));
-    else diagnostics.note<DiagnosticCode::prompt_loop_that_would_do>({}, lateness, in_words(damping->error));
+    if (remedies.at_joint(damping->value) > own) return add(*damping, fmt::format(" with {}", lateness));
+    notes.add<DiagnosticCode::prompt_loop_that_would_do>(damping->error, std::string(lateness));
     return true;
   };
   // The least change first: often the lag alone stands in the way.
-  if (device.motor.amplifier_lag > 0 && tell_without(device.loop, no_lag)) return;
-  if (device.loop.delay_samples == 0) return;
-  tell_without(prompt, device.motor.amplifier_lag > 0 ? no_delay_and_lag : no_delay);
+  const auto as_is = remedies.own_damping(device.loop, device.motor.amplifier_lag);
+  const bool does = as_is ? add(*as_is, "") : device.motor.amplifier_lag > 0 && add_without(device.loop, no_lag);
+  if (!does && device.loop.delay_samples > 0)
+    add_without(prompt, device.motor.amplifier_lag > 0 ? no_delay_and_lag : no_delay);
+  notes.tell(diagnostics);
 }
 
 }  // namespace
@@ -552,7 +557,7 @@ std::string changes_text(std::vector<MendedDevice> changes, const Candidate& cho
 // An error that is felt: of which kind, and what is said of a choice that errs less.
 struct FeltError {
   std::optional<double> (*of)(const Compilation&);  // [1]; empty where it has not been looked at
-  void (*tell_choice)(const Compilation& better, const std::string& options, Diagnostics&);
+  void (*tell_choice)(const Compilation& is, const Compilation& better, const std::string& options, Diagnostics&);
   bool is_soon_tried;  // else no devices for tunables, where each trial takes long
 };
 
@@ -561,21 +566,23 @@ const FeltError where_slips_give_way{
       const SlipDecomposition& slips = c.decomposition.slips;
       return slips.merits.empty() ? std::nullopt : std::optional(slips.error);
     },
-    [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
+    [](const Compilation&, const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
       diagnostics.note<DiagnosticCode::errs_less_in_runs>({}, options, in_percent(better.decomposition.slips.error));
     },
     false};
 
-const FeltError in_the_band{[](const Compilation& c) { return std::optional(c.decomposition.choice().largest_error); },
-                            [](const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
-                              const Candidate& choice = better.decomposition.choice();
-                              diagnostics.note<DiagnosticCode::errs_less>(
-                                  {}, options, in_percent(choice.largest_error), choice.damping,
-                                  port_units(better.network.port_motion).damping);
-                            },
-                            true};
+const FeltError in_the_band{
+    [](const Compilation& c) { return std::optional(c.decomposition.choice().largest_error); },
+    [](const Compilation& is, const Compilation& better, const std::string& options, Diagnostics& diagnostics) {
+      const Candidate& choice = better.decomposition.choice();
+      diagnostics.note<DiagnosticCode::errs_less>({}, options, in_percent(choice.largest_error), choice.damping,
+                                                  port_units(better.network.port_motion).damping,
+                                                  is.decomposition.choice().damping);
+    },
+    true};
 
-// Of the network compiled for this device or another: the error, if it is noticeably less than that of `c`.
+// Of the network compiled for this device or another: the error, if it is noticeably less than that of `c`, and what is
+// felt errs nowhere by more than it does anywhere with `c`.
 class Improvement {
  public:
   Improvement(const Compilation& c, const FeltError& error) : c_(c), error_(error), limit_(noticeably * *error.of(c)) {}
@@ -584,7 +591,7 @@ class Improvement {
     std::optional<Compilation> again = compiled(c_.network, choices, device);
     if (!again || (c_.certificate.certified && !again->certificate.certified)) return std::nullopt;
     const std::optional<double> error = error_.of(*again);
-    if (!error || !(*error < limit_)) return std::nullopt;
+    if (!error || !(*error < limit_) || felt_error(*again).share > felt_error(c_).share) return std::nullopt;
     return again;
   }
 
@@ -612,7 +619,7 @@ void tell_what_errs_less(const Compilation& c, const Choices& choices, const Fel
   }
   for (const OtherChoices& other : others)
     if (const auto again = improvement.by(other.choices, *c.device))
-      return error.tell_choice(*again, other.options, diagnostics);
+      return error.tell_choice(c, *again, other.options, diagnostics);
   if (c.law.tunable && !error.is_soon_tried) return;
   const PortUnits units = port_units(c.network.port_motion);
   Device faster = *c.device;

@@ -405,15 +405,6 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   return c;
 }
 
-std::optional<Pair<double>> own_damping_that_would_do(const AxesCertificate& c, const AxesDevice& device) {
-  if (!c.is_proved || !c.uncovered.empty() || !std::isfinite(c.missing)) return std::nullopt;
-  Pair<double> own{};
-  // Rounded up to the digits that are told.
-  for (std::size_t joint = 0; joint < 2; ++joint)
-    own[joint] = (device.mechanics.damping[joint] + c.missing * c.weight[joint]) * (1 + 1e-3);
-  return own;
-}
-
 std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return c.reason;
   if (!c.uncovered.empty()) return c.uncovered;

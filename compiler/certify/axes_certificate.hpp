@@ -43,6 +43,9 @@ struct AxesCertificate {
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
 
   bool adds() const;
+
+  // Nothing else stands in the way, if anything does.
+  bool lacks_only_damping() const { return is_proved && uncovered.empty(); }
 };
 
 std::vector<axes::Brake> brakes_of(const AxesDevice& device);
@@ -56,10 +59,6 @@ std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::ve
 // added to the brakes' commands, as far as they reach.
 AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                              const AxesDevice& device, axes::BrakeRule rule);
-
-// Damping of their own with which the joints would do; empty where nothing is proved, or no damping is enough.
-std::optional<axes::Pair<double>> own_damping_that_would_do(const AxesCertificate& certificate,
-                                                            const AxesDevice& device);
 
 // Why not, as one clause.
 std::string why_not_certified(const AxesCertificate& certificate, const AxesDevice& device);

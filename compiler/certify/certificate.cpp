@@ -76,8 +76,8 @@ PassivityBound with_slew(PassivityBound bound, const MotorConstants& motor, cons
                           : "how fast the motor's force has to change is not bounded, because the encoder's range or "
                             "largest speed is not stated");
   if (*used > loop.motor_slew)
-    return not_proved(fmt::format("the motor's force may have to change by {:.6g} a second, and slews by {:.6g}", *used,
-                                  loop.motor_slew));
+    return not_proved(fmt::format("the motor's force may have to change {:.6g} times as fast as its slew lets it",
+                                  *used / loop.motor_slew));
   const std::optional<double> besides = damping_for_slew(motor, *used, loop);
   if (!besides) return not_proved(not_proved_for(loop));
   bound.needed = (bound.needed + *besides) * (1 + 1e-15);

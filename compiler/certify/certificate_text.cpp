@@ -22,8 +22,11 @@ std::string covered(const Certificate& c) {
 
 std::string requirement(const Certificate& c, const std::string& unit) {
   const std::string most = c.bound.frequency > 0 ? fmt::format(", most at {:.6g} Hz", c.bound.frequency) : "";
-  const bool over_holds = c.bound.proof == Proof::hold || c.loop.jitter > 0;
-  const std::string hold = over_holds ? fmt::format(" over a hold of up to {:.6g} s", c.loop.longest_hold()) : "";
+  const bool by_sample = c.bound.proof == Proof::hold;
+  const std::string hold = by_sample || c.loop.jitter > 0
+                               ? fmt::format("{} over a hold of up to {:.6g} s",
+                                             by_sample ? ", counted sample by sample" : "", c.loop.longest_hold())
+                               : "";
   return fmt::format("needs {:.6g} {}{}{}", c.bound.needed, unit, hold, most);
 }
 

@@ -181,7 +181,7 @@ void note_what_would_do(const AxesCompilation& c, Diagnostics& diagnostics) {
     diagnostics.note<DiagnosticCode::brakes_that_would_do>({}, fmt::format("{:.4g}", fmt::join(*limits, " and ")), unit,
                                                            fmt::format("{:.4g}", fmt::join(there, " and ")));
   }
-  const auto own = own_damping_that_would_do(c.certificate, c.device);
+  const auto own = own_damping_that_would_do(c);
   if (!own) return;
   const auto& there = c.device.mechanics.damping;
   diagnostics.note<DiagnosticCode::joints_that_would_do>({}, (*own)[0], (*own)[1], unit, there[0], there[1], (*own)[0],
@@ -235,10 +235,6 @@ std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) 
 
 namespace {
 
-bool lacks_only_damping(const AxesCertificate& certificate) {
-  return certificate.is_proved && certificate.uncovered.empty();
-}
-
 std::string device_of(const AxesCompilation& c) {
   return c.has_device ? fmt::format("device '{}'", c.device.name) : "an ideal device";
 }
@@ -247,7 +243,7 @@ std::string device_of(const AxesCompilation& c) {
 
 void warn_of_uncertified(const AxesCompilation& c, Diagnostics& diagnostics) {
   const std::string why = why_not_certified(c.certificate, c.device);
-  if (lacks_only_damping(c.certificate))
+  if (c.certificate.lacks_only_damping())
     return diagnostics.report<DiagnosticCode::lacks_damping>(c.network.name_span, c.network.name, device_of(c), why);
   diagnostics.report<DiagnosticCode::nothing_proved>(c.network.name_span, c.network.name, device_of(c), why);
   if (c.certificate.lies_in_port) diagnostics.note<DiagnosticCode::ports_that_can_be_certified>({});
@@ -255,12 +251,12 @@ void warn_of_uncertified(const AxesCompilation& c, Diagnostics& diagnostics) {
 
 bool insist_on_certificate(const AxesCompilation& c, const Options& options, Diagnostics& diagnostics) {
   if (c.certificate.certified) return true;
-  const bool is_refused = lacks_only_damping(c.certificate) && !options.uncertified;
+  const bool is_refused = c.certificate.lacks_only_damping() && !options.uncertified;
   if (is_refused)
     diagnostics.report<DiagnosticCode::axes_not_certified>(c.network.name_span, c.network.name, device_of(c),
                                                            why_not_certified(c.certificate, c.device));
   else warn_of_uncertified(c, diagnostics);
-  if (!lacks_only_damping(c.certificate)) return true;
+  if (!c.certificate.lacks_only_damping()) return true;
   note_what_would_do(c, diagnostics);
   if (!options.uncertified) diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return options.uncertified;

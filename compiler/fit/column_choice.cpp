@@ -511,9 +511,13 @@ class Chooser {
   }
 
   void ask_for_columns() {
+    bool is_misfit = false;  // every unit that is wrong is told
+    for (const std::vector<Role>& group : needed())
+      if (std::none_of(group.begin(), group.end(), [&](Role role) { return has(role); }) && report_misfit(group))
+        is_misfit = true;
+    if (is_misfit) return note_answer();
     for (const std::vector<Role>& group : needed()) {
       if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
-      if (report_misfit(group)) return note_answer();
       diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_, words_of(group));
       const bool has_spare = columns_.size() >= needed().size();
       if (is_force_after_a_step(group, has_spare)) diagnostics_.note<DiagnosticCode::recording_force_after_step>({});

@@ -27,6 +27,8 @@ constexpr NamedDimension named_dimensions[] = {
     {dimensions::angular_acceleration, "an angular acceleration", "rad/s^2"},
     {dimensions::force, "a force", "N"},
     {dimensions::torque, "a torque", "N m"},
+    {dimensions::force_rate, "a force over time", "N/s"},
+    {dimensions::torque_rate, "a torque over time", "N m/s"},
     {dimensions::stiffness, "a stiffness", "N/m"},
     {dimensions::rotational_stiffness, "a rotational stiffness", "N m/rad"},
     {dimensions::damping, "a damping", "N s/m"},

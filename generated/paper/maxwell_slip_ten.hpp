@@ -10,8 +10,8 @@
 //   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, however the brake changes
-//   above its least command: needs 0.775 N·s/m over a hold of up to 0.001 s, at least 0 N·s/m is there, 0.775
-//   N·s/m more is missing in the brake's command
+//   above its least command: needs 0.775 N·s/m, counted sample by sample over a hold of up to 0.001 s, at least 0
+//   N·s/m is there, 0.775 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 3.9e-15 of the sum of the force's terms

@@ -11,7 +11,8 @@
 //   velocity do equally well)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: certified for any motion, whatever slides, sticks, touches or lets go, however the brake changes
-//   above its least command: needs 1.3 N·s/m over a hold of up to 0.001 s, at least 3.3 N·s/m is there
+//   above its least command: needs 1.3 N·s/m, counted sample by sample over a hold of up to 0.001 s, at least 3.3
+//   N·s/m is there
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: no motion gets more work out of any part than the part has stored, and what slips or touches only takes;
 //   rounding adds at most 1.4e-15 of the sum of the force's terms

@@ -10,8 +10,9 @@
 //   injects no energy)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: not certified for any motion, whatever slides, sticks, touches or lets go, any values within their
-//   ranges between changes, however the brake changes above its least command: needs 2.5 N·s/m over a hold of up
-//   to 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's command
+//   ranges between changes, however the brake changes above its least command: needs 2.5 N·s/m, counted sample by
+//   sample over a hold of up to 0.001 s, at least 0 N·s/m is there, 2.5 N·s/m more is missing in the brake's
+//   command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 1.1e-14 of the sum of the force's terms

@@ -7,8 +7,8 @@
 //   injects no energy)
 // late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
 // passivity: not certified for any motion, any values within their ranges between changes, however the brake
-//   changes above its least command: needs 16.4 N·s/m over a hold of up to 0.001 s, at least 8 N·s/m is there, 8.4
-//   N·s/m more is missing in the brake's command
+//   changes above its least command: needs 16.4 N·s/m, counted sample by sample over a hold of up to 0.001 s, at
+//   least 8 N·s/m is there, 8.4 N·s/m more is missing in the brake's command
 //   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
 // energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
 //   falls; rounding adds at most 5.7e-15 of the sum of the force's terms

@@ -640,7 +640,7 @@ class MotorLimits(CommandTest):
         found = self.explained(slew="499 N/s")
         self.assertEqual((found["motor_limits"]["rule"], found["motor_limits"]["covered"]), ("sheds", False))
         self.assertFalse(found["certificate"]["certified"])
-        self.assertIn("may have to change by 500 a second, and slews by 499", found["certificate"]["reason"])
+        self.assertIn("may have to change 1.002 times as fast as its slew lets it", found["certificate"]["reason"])
 
     def test_a_slew_that_would_do_is_told(self):
         """Fails if the slew that is told is not enough, or if nothing is said where only a motor without one would do."""
@@ -652,6 +652,14 @@ class MotorLimits(CommandTest):
         self.explained(slew="2 kN/s", amplifier_lag="0.2 ms")
         self.assertIn('the same device would do with no "slew" in its file', self.dashpot(*compiled).stderr)
         self.assertTrue(self.explained(amplifier_lag="0.2 ms")["certificate"]["certified"])
+        # A contact, whose force jumps; `explain` says who tells.
+        self.write("touch.json", json.dumps({"dashpot": 1, "name": "touch", "contact": {"at": "0 mm"}, "network": {"spring": "200 N/m"}}))
+        self.explained("touch.json", slew="2 kN/s")
+        asked = ["touch.json", "--device", "slewing.json"]
+        self.assertIn('the same device would do with no "slew" in its file', self.dashpot("compile", *asked, "-o", "out").stderr)
+        self.assertIn("'dashpot compile' and 'dashpot check' say what would do", self.dashpot("explain", *asked).stderr)
+        self.assertTrue(self.explained("touch.json")["certificate"]["certified"])
+        self.assertNotIn("would do", self.dashpot("explain", *asked).stderr)
 
     def test_slips_shed(self):
         """Fails if a network with slips clips where its motor gives less than they hold, or its header does not tell."""

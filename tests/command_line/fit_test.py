@@ -372,6 +372,10 @@ int main() {
             self.assertIn(f"column '{column}' in '{unit}'", done.stderr)
             for made_up in ("=mm", "=mN", "=min", "=gf", "=fortnights", "[recording-answer]"):
                 self.assertNotIn(made_up, done.stderr)
+        # All of them at once.
+        self.write("units.csv", "\n".join(["time [s],position [foo],force [stones]", *rows]) + "\n")
+        told = self.refused("fit", "units.csv", "-o", "not.json", code="recording-wrong-unit").stderr
+        for unit in ("foo", "stones"): self.assertIn(f"in '{unit}'", told)
 
     def test_an_empty_last_field(self):
         """Fails if a row whose last field is empty is said to be short of it; or a row that only ends with a comma is refused."""

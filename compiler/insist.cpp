@@ -1,6 +1,6 @@
 #include "insist.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,6 @@ constexpr double ruinous = 0.5;         // of the network's force: what errs by 
 constexpr const char* no_lag = "no \"amplifier_lag\"";
 constexpr const char* no_delay = "no \"delay_samples\"";
 constexpr const char* no_slew = "no \"slew\"";
-constexpr const char* no_delay_and_lag = "no \"delay_samples\" and no \"amplifier_lag\"";
 
 // The network on another device, or another one on the same: what is told to people has been tried.
 std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
@@ -113,35 +112,26 @@ class Remedies {
         choices_(choices),
         scale_(c.port.at_tool().replaced_by(with_brake(*c.device, 1)).max_damping().value_or(0)) {}
 
-  // At the tool, in four digits: what is missing for the law as it is, else room for all that it would be told, or for
-  // half or less of that where it does.
+  // At the tool, in four digits: what is missing for the law as it is, or some more, since with a brake another b may
+  // be chosen; else room for all that the law would be told.
   std::optional<Remedy> brake(double enough) const {
-    if (const std::optional<Remedy> told = brake_as_told(enough)) return told;
+    for (const double more : {1.0, 1.02, 1.2, 2.0, 4.0, 8.0, 16.0})
+      if (const std::optional<Remedy> told = brake_as_told(more * enough)) return told;
     const std::optional<Compilation> unlimited = compiled(c_.network, choices_, with_brake_at_tool(1e30));
-    if (!unlimited || !unlimited->certificate.certified) return std::nullopt;
-    std::optional<Remedy> least = brake_as_told(unlimited->law.largest_damping);
-    for (int halving = 0; halving < 6 && least; ++halving) {
-      const std::optional<Remedy> less = brake_as_told(least->value / 2);
-      if (!less) break;
-      least = less;
-    }
-    return least;
+    return unlimited && unlimited->certificate.certified ? brake_as_told(unlimited->law.largest_damping) : std::nullopt;
   }
 
   // In the device's own unit, of a damping at the tool.
   double at_joint(double damping) const { return damping / scale_; }
   double at_tool(double damping) const { return damping * scale_; }
 
-  // At the tool, in four digits: of the device itself, whatever the brake does; `loop` in place of the device's own.
-  std::optional<Remedy> own_damping(const loop_description& loop, double amplifier_lag) const {
-    Device device = *c_.device;
-    device.description.loop = loop;
-    device.description.motor.amplifier_lag = amplifier_lag;
+  // At the tool, in four digits: of the device itself, whatever the brake does, without what makes its loop late, in
+  // the words of the file.
+  std::optional<Remedy> own_damping(const std::vector<const char*>& left_out) const {
+    Device device = without(left_out);
     mechanics_description& mechanics = device.description.mechanics;
     const double own = mechanics.damping;
-    const device_description& is = c_.device->description;
-    const bool is_other = loop.delay_samples != is.loop.delay_samples || amplifier_lag != is.motor.amplifier_lag;
-    std::optional<Compilation> again = is_other ? compiled(c_.network, choices_, device) : std::nullopt;
+    std::optional<Compilation> again = left_out.empty() ? std::nullopt : compiled(c_.network, choices_, device);
     if (again && again->certificate.certified) return Remedy{own * scale_, felt_error(*again)};  // the loop is enough
     mechanics.damping = own + 1e9;  // more than any network needs
     again = compiled(c_.network, choices_, device);
@@ -224,23 +214,21 @@ class Remedies {
 
   // In the words of the file, what makes the loop late and would do if it were left out; each errs noticeably less than
   // the one before.
-  std::vector<std::pair<const char*, WorstError>> prompt_loops() const {
-    std::vector<std::pair<const char*, WorstError>> all;
+  std::vector<std::pair<std::string, WorstError>> prompt_loops() const {
+    std::vector<std::pair<std::string, WorstError>> all;
     const device_description& own = c_.device->description;
     const bool has_lag = own.motor.amplifier_lag > 0, has_delay = own.loop.delay_samples > 0;
-    const auto attempt = [&](bool is_there, const char* words, double lag, unsigned delay) {
+    const auto attempt = [&](bool is_there, const std::vector<const char*>& left_out) {
       if (!is_there) return;
-      Device prompt = *c_.device;
-      prompt.description.motor.amplifier_lag = lag;
-      prompt.description.loop.delay_samples = delay;
+      const Device prompt = without(left_out);
       if (!may_do(prompt)) return;
       const std::optional<WorstError> error = error_where_certified(c_.network, choices_, prompt);
       if (error && (all.empty() || error->share < noticeably * all.back().second.share))
-        all.emplace_back(words, *error);
+        all.emplace_back(joined(left_out), *error);
     };
-    attempt(has_lag, no_lag, 0, own.loop.delay_samples);
-    attempt(has_delay, no_delay, own.motor.amplifier_lag, 0);
-    attempt(has_lag && has_delay, no_delay_and_lag, 0, 0);
+    attempt(has_lag, {no_lag});
+    attempt(has_delay, {no_delay});
+    attempt(has_lag && has_delay, {no_delay, no_lag});
     return all;
   }
 
@@ -268,8 +256,8 @@ class Remedies {
 
   // Of the same device, if its motor's force could follow at once.
   std::optional<WorstError> without_slew() const {
-    Device prompt = *c_.device;
-    if (std::exchange(prompt.description.motor.slew, 0) == 0) return std::nullopt;
+    if (c_.device->description.motor.slew == 0) return std::nullopt;
+    const Device prompt = without({no_slew});
     if (!c_.network.contact && !may_do(prompt)) return std::nullopt;
     return error_where_certified(c_.network, choices_, prompt);
   }
@@ -286,7 +274,21 @@ class Remedies {
     return std::nullopt;
   }
 
+  static std::string joined(const std::vector<const char*>& left_out) {
+    return fmt::format("{}", fmt::join(left_out, " and "));
+  }
+
  private:
+  Device without(const std::vector<const char*>& left_out) const {
+    Device device = *c_.device;
+    for (const char* const words : left_out) {
+      if (words == no_lag) device.description.motor.amplifier_lag = 0;
+      if (words == no_delay) device.description.loop.delay_samples = 0;
+      if (words == no_slew) device.description.motor.slew = 0;
+    }
+    return device;
+  }
+
   Device with_brake_at_tool(double damping) const { return with_brake(*c_.device, damping / scale_); }
 
   std::optional<Remedy> brake_as_told(double damping) const {
@@ -355,14 +357,16 @@ void add_jitter(const Compilation& c, const Remedies& remedies, RemedyNotes& not
                                                     c.device->description.loop.jitter * 1e3, jitter->value * 1e3);
 }
 
-// A slew that would do, else that none would have to be stated.
-void add_slew(const Compilation& c, const Remedies& remedies, RemedyNotes& notes) {
+// A slew that would do, else that none would have to be stated; whether there is anything to tell.
+bool add_slew(const Compilation& c, const Remedies& remedies, RemedyNotes& notes) {
   const motor_description& motor = c.device->description.motor;
-  if (const std::optional<Remedy> slew = remedies.slew())
+  const std::optional<Remedy> slew = remedies.slew();
+  const std::optional<WorstError> without = slew ? std::nullopt : remedies.without_slew();
+  if (slew)
     notes.add<DiagnosticCode::slew_that_would_do>(
         slew->error, slew->value, std::string(port_units(c.device->description.motion).force), motor.slew);
-  else if (const auto error = remedies.without_slew())
-    notes.add<DiagnosticCode::prompt_loop_that_would_do>(*error, std::string(no_slew));
+  if (without) notes.add<DiagnosticCode::prompt_loop_that_would_do>(*without, std::string(no_slew));
+  return slew || without;
 }
 
 // What the device itself would have to be like: with more friction of the kind that a brake cannot replace, or a loop
@@ -372,28 +376,33 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   const Remedies remedies(c, choices);
   const std::string at_tool = port_units(c.network.port_motion).damping, at_joint = port_units(device.motion).damping;
   const double own = device.mechanics.damping;
-  loop_description prompt = device.loop;
-  prompt.delay_samples = 0;
   RemedyNotes notes;
   if (c.certificate.loop.amplifier_lag > 0) add_jitter(c, remedies, notes);
-  add_slew(c, remedies, notes);
-  const auto add = [&](const Remedy& damping, const std::string& besides) {
-    notes.add<DiagnosticCode::own_damping_that_would_do>(damping.error, damping.value, at_tool, remedies.at_tool(own),
-                                                         besides, remedies.at_joint(damping.value), at_joint);
-    return true;
-  };
-  const auto add_without = [&](const loop_description& loop, const char* lateness) {
-    const auto damping = remedies.own_damping(loop, 0);
+  const bool is_slew_told = add_slew(c, remedies, notes);
+  const auto add_without = [&](const std::vector<const char*>& left_out) {
+    const auto damping = remedies.own_damping(left_out);
     if (!damping) return false;
-    if (remedies.at_joint(damping->value) > own) return add(*damping, fmt::format(" with {}", lateness));
-    notes.add<DiagnosticCode::prompt_loop_that_would_do>(damping->error, std::string(lateness));
+    const std::string besides = left_out.empty() ? "" : " with " + Remedies::joined(left_out);
+    if (remedies.at_joint(damping->value) > own)
+      notes.add<DiagnosticCode::own_damping_that_would_do>(damping->error, damping->value, at_tool,
+                                                           remedies.at_tool(own), besides,
+                                                           remedies.at_joint(damping->value), at_joint);
+    else notes.add<DiagnosticCode::prompt_loop_that_would_do>(damping->error, Remedies::joined(left_out));
     return true;
   };
   // The least change first: often the lag alone stands in the way.
-  const auto as_is = remedies.own_damping(device.loop, device.motor.amplifier_lag);
-  const bool does = as_is ? add(*as_is, "") : device.motor.amplifier_lag > 0 && add_without(device.loop, no_lag);
-  if (!does && device.loop.delay_samples > 0)
-    add_without(prompt, device.motor.amplifier_lag > 0 ? no_delay_and_lag : no_delay);
+  std::vector<std::vector<const char*>> attempts = {{}};
+  std::vector<const char*> all;
+  const auto attempt = [&](bool is_there, const char* words) {
+    if (!is_there) return;
+    attempts.push_back({words});
+    all.push_back(words);
+  };
+  attempt(device.motor.amplifier_lag > 0, no_lag);
+  attempt(device.motor.slew > 0 && !is_slew_told, no_slew);
+  attempt(device.loop.delay_samples > 0, no_delay);
+  if (all.size() > 1) attempts.push_back(all);
+  std::any_of(attempts.begin(), attempts.end(), add_without);
   notes.tell(diagnostics);
 }
 
@@ -493,7 +502,10 @@ bool insist_on_certificate(const Compilation& c, const Choices& choices, Diagnos
   const auto [needed_words, available_words] = told_apart(certificate.bound.needed, available);
   diagnostics.report<DiagnosticCode::not_certified>(
       c.network.name_span, c.network.name, needed_words, port_units(c.network.port_motion).damping, c.device->name,
-      available_words, !c.law.tunable && loop.max_damping > 0 ? " with all of its brake" : "");
+      c.law.tunable
+          ? fmt::format("where at least {} is sure with the values that ask least of the brake", available_words)
+          : fmt::format("which gives at least {}{}", available_words,
+                        loop.max_damping > 0 ? " with all of its brake" : ""));
   notes_on_remedies(c, choices, available, of_regimes).tell(diagnostics);
   diagnostics.note<DiagnosticCode::compile_uncertified>({});
   return false;

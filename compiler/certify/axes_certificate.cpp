@@ -415,9 +415,8 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
-      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints; {} of it "
-      "is missing there, beside their own damping and the brakes' share of the network's; most is missing at ({:.4g}, "
-      "{:.4g}) mm",
+      "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints; their own "
+      "damping and the brakes' share of the network's leave {} of it to be added, most at ({:.4g}, {:.4g}) mm",
       c.certified ? "certified for any motion in the workspace, while the motors make their torques"
                   : "not certified, since " + why_not_certified(c, device),
       at_joints(c.needed, c, device), at_joints(c.missing, c, device), in_millimetres(c.worst[0]),

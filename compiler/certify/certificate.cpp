@@ -231,7 +231,8 @@ PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   return bound;
 }
 
-// Part by part, or, behind an amplifier's lag, of all parts together sample by sample, where that asks for less.
+// Part by part, or, behind an amplifier's lag, of all parts together sample by sample, where that asks for no more: it
+// holds at the motor's limit too.
 PassivityBound bound_with_slips(const PassivityBound& beside, const MotorConstants& linear, const SlipMotor& slips,
                                 const SampledLoop& loop) {
   PassivityBound bound = with_slips(beside, slips, loop);
@@ -239,7 +240,7 @@ PassivityBound bound_with_slips(const PassivityBound& beside, const MotorConstan
   const std::optional<double> together = needed_sample_by_sample(linear, slips, loop);
   // Behind a contact the brake leaves a free tool alone, which touches late.
   const bool is_enough = !slips.behind_contact || (together && Rational(*together) <= assured_damping(loop, 0));
-  if (!together || !is_enough || bound.needed <= *together) return bound;
+  if (!together || !is_enough || bound.needed < *together * hardly_less) return bound;
   bound.proof = Proof::hold;
   bound.needed = *together;
   bound.frequency = 0;

@@ -23,9 +23,9 @@ const Candidate* named(const Decomposition& decomposition, const char* name) {
 
 std::string allowance(const FaithfulChoice& choice, double tolerance, bool is_tunable) {
   if (choice.allowed_error <= tolerance * (1 + 1e-9)) return fmt::format("{} % are allowed", in_percent(tolerance));
-  return fmt::format("no damping{} brings less than {} %; a b that errs by up to {} %, {} times that, is accepted",
-                     is_tunable ? " of those tried" : "", in_percent(choice.least_error),
-                     in_percent(choice.allowed_error), leeway);
+  return fmt::format(
+      "no damping{} brings less than {} %; a b that errs by up to about {} %, {} times that, is accepted",
+      is_tunable ? " of those tried" : "", in_percent(choice.least_error), in_percent(choice.allowed_error), leeway);
 }
 
 // Of a damping that was chosen together with the law behind the slips.

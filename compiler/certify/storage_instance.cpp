@@ -138,7 +138,7 @@ std::optional<std::string> witness(const std::vector<IntegerMatrix>& all, int mo
 
 std::optional<std::string> coq_instance(const std::string& name, const dashpot_check::LoopForm& loop,
                                         const dashpot_check::Device& device, const StorageProof& proof,
-                                        const Precision& precision) {
+                                        const Precision& precision, bool joins_holds) {
   const std::size_t n = loop.states.size();
   const std::vector<dashpot_check::Hold> holds = dashpot_check::holds(device);
   const bool lags = device.amplifier_lag > 0;
@@ -260,7 +260,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   std::vector<std::string> part_texts, witness_texts;
   for (std::size_t from = 0, to = 0; from * corners < holds.size(); from = to + 1) {
     std::optional<std::string> found;
-    for (to = holds.size() / corners - 1; !(found = witnesses(from, to)); --to)
+    for (to = joins_holds ? holds.size() / corners - 1 : from; !(found = witnesses(from, to)); --to)
       if (to == from) return std::nullopt;
     witness_texts.push_back(*found);
     const dashpot_check::Hold *first = &holds[to * corners], *last = &holds[from * corners + corners - 1];
@@ -316,7 +316,8 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
 }  // namespace
 
 std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
-                                        const std::optional<MotorConstants>& motor, SampledLoop loop) {
+                                        const std::optional<MotorConstants>& motor, SampledLoop loop,
+                                        bool joins_holds) {
   if (!motor || bound.proof == Proof::none || loop.motor_slew > 0) return std::nullopt;
   const bool is_one_recursion =
       !adaptive_window_gain(loop) && loop.velocity.estimator != estimator_kind::interval_difference;
@@ -329,7 +330,7 @@ std::optional<std::string> coq_instance(const std::string& name, const Passivity
   const dashpot_check::Device device = checked_device(loop);
   const dashpot_check::LoopForm form = dashpot_check::loop_form(checked_program(*motor), device);
   for (const Precision& precision : {Precision{64, 40, 56}, Precision{112, 64, 72}, Precision{240, 120, 160}})
-    if (auto instance = coq_instance(name, form, device, *proof, precision)) return instance;
+    if (auto instance = coq_instance(name, form, device, *proof, precision, joins_holds)) return instance;
   return std::nullopt;
 }
 

@@ -48,7 +48,7 @@ void write_instances(int laws, int most_states, const std::string& folder) {
       const dashpot_check::Device device = compiler::checked_device(loop);
       const bool is_proved =
           dashpot_check::proves(compiler::checked_program(*motor), device, proof.storage, proof.damping);
-      const auto instance = compiler::coq_instance("law", bound, motor, loop);
+      const auto instance = compiler::coq_instance("law", bound, motor, loop, false);
       if (instance) std::ofstream(folder + "/" + std::to_string(number) + ".v") << *instance;
       std::cout.precision(17);
       std::cout << number++ << ' ' << whole << ' ' << share << ' ' << is_proved << ' ' << instance.has_value() << '\n';

@@ -239,7 +239,13 @@ template <class Scalar>
 Scalar Evaluation<Scalar>::value(ExpressionId id, std::size_t place) const {
   const auto there = [place](const std::vector<Scalar>& vector) { return vector[vector.size() == 1 ? 0 : place]; };
   const Expression& e = law_.expressions[id];
-  const auto operand = [&](std::size_t i) { return value(e.operands[i], place); };
+  // Most operands are leaves, and those need no call.
+  const auto operand = [&](std::size_t i) {
+    const Expression& inner = law_.expressions[e.operands[i]];
+    if (inner.operation == Operation::read) return there(at(inner.variable));
+    if (inner.operation == Operation::constant) return there(at(inner.coefficient));
+    return value(e.operands[i], place);
+  };
   const auto flushed = [&](Scalar number) { return flush_below(static_cast<Scalar>(law_.flush_threshold), number); };
   switch (e.operation) {
     case Operation::read: return there(at(e.variable));

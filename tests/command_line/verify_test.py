@@ -12,7 +12,7 @@ from dashpot_command import DASHPOT, FIG_5, INPUT_REFUSED, KELVIN, PANTOGRAPH, S
 
 SEED = 20090911
 IS_LONG = os.environ.get("DASHPOT_LONG") == "1"  # else a part of the cases, still some of each law
-MOST_HEADERS, MOST_CONSTANTS = (200, 100) if IS_LONG else (50, 40)  # of which a digit is changed
+MOST_HEADERS, MOST_CONSTANTS = (200, 100) if IS_LONG else (25, 25)  # of which a digit is changed
 BOARD = SOURCE / "runtime/devices/board_mps2.json"
 TWENTY = SOURCE / "tests/responses/networks/twenty_branches.json"
 BRIDGE = SOURCE / "networks/paper/bridge.json"
@@ -184,6 +184,7 @@ class Verify(CommandTest):
         chance = random.Random(SEED + 20)
         laws = [[FIG_5], [FIG_5, "--device", BOARD], [FIG_5, "--device", PANTOGRAPH], [PAPER / "visco_elasto_plastic_organ.json", "--device", BOARD],
                 [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD]]
+        told_before = set()  # sentences but for their numbers: each kind is forged in one law at least
         for i, law in enumerate(laws):
             header, certificate = self.emitted(law, f"law_{i}")
             self.verify(header, certificate, "sound")
@@ -191,11 +192,16 @@ class Verify(CommandTest):
             banner = header[:code]
             version = re.search(r"Written by dashpot (\S+) from", banner)
             sentences = [line for line in banner.splitlines() if line.strip("/ ")]
-            forged = [header.replace(sentence + "\n", "", 1) for sentence in sentences]
-            forged += [re.sub("(not )?certified( for a[^:]*)?:", "certified for any device:", header, count=1), header[code:],
-                       "// Another banner.\n\n// Of two remarks.\n" + header[code:], header.replace("// scheme: ", "// scheme:  ", 1), "\n" + header]
+            kinds = [re.sub(r"[0-9][0-9.e+-]*", "0", sentence) for sentence in sentences]
+            forged = [header.replace(sentence + "\n", "", 1) for sentence, kind in zip(sentences, kinds)
+                      if IS_LONG or kind not in told_before]
+            told_before.update(kinds)
+            forged.append(re.sub("(not )?certified( for a[^:]*)?:", "certified for any device:", header, count=1))
+            if IS_LONG or i == 0:
+                forged += [header[code:], "// Another banner.\n\n// Of two remarks.\n" + header[code:],
+                           header.replace("// scheme: ", "// scheme:  ", 1), "\n" + header]
             digits = [at for at in range(code) if banner[at].isdigit() and not version.start(1) <= at < version.end(1)]
-            forged += [changed_digit(header, at, chance) for at in chance.sample(digits, 20 if IS_LONG else 8)]
+            forged += [changed_digit(header, at, chance) for at in chance.sample(digits, 20 if IS_LONG else 4)]
             for number, text in enumerate(forged):
                 with self.subTest(law=law, number=number):
                     told = self.verify(text, certificate, f"forged_{i}_{number}", status=INPUT_REFUSED).stderr
@@ -416,12 +422,13 @@ class Verify(CommandTest):
 
     def test_constants_are_recomputed_apart_from_the_code(self):
         """Fails if wrong constants of any law are found only because compiling once more gives others."""
+        count = 40 if IS_LONG else 25
         for laws in (SLIP_LAWS, OTHER_LAWS):
             found = 0
-            for number, header, certificate in self.mutants(40, random.Random(SEED + 6), True, laws):
+            for number, header, certificate in self.mutants(count, random.Random(SEED + 6), True, laws):
                 told = self.verify(header, certificate, f"apart_{number}", INPUT_REFUSED).stderr
                 found += any(code in told for code in ["constant-of-nothing", "constant-wrong", "unknown-constant"])
-            self.assertGreaterEqual(found, 36)  # a digit may make it another of the network's own constants
+            self.assertGreaterEqual(found, 0.9 * count)  # a digit may make it another of the network's own constants
 
     def test_what_slips_and_blocks_keep_at_least(self):
         """Fails if one unit in the last place more or less passes for what a block or a slip keeps at least while parameters change."""

@@ -44,10 +44,13 @@ class HeldNetwork {
 
   HeldSlips gains(const std::vector<Real>& feedthroughs) {
     join_slips();
-    eliminate();
-    HeldSlips result{gain_of(side_of_tool(), feedthroughs), -1, {}};
-    for (std::size_t i = 0; i < slips_.size(); ++i) {
-      const Real gain = is_in_forest_[i] ? gain_of(side_of(i), {Real(0)}) : Real(0);
+    std::vector<Pull> pulls{pull_of(side_of_tool())};
+    for (std::size_t i = 0; i < slips_.size(); ++i)
+      if (is_in_forest_[i]) pulls.push_back(pull_of(side_of(i)));
+    eliminate_inner(pulls);
+    HeldSlips result{gain_of(pulls[0], feedthroughs), -1, {}};
+    for (std::size_t i = 0, place = 1; i < slips_.size(); ++i) {
+      const Real gain = is_in_forest_[i] ? gain_of(pulls[place++], {Real(0)}) : Real(0);
       result.slips.push_back({gain, slips_[i].yield_force});
     }
     return result;
@@ -57,6 +60,13 @@ class HeldNetwork {
   struct Term {
     std::vector<std::pair<std::size_t, Real>> weights;
     Real value;
+  };
+
+  // What springs and dampers pull a set of ends with, for displacements of the inner places, or later of the modes, and
+  // of the tool.
+  struct Pull {
+    RealVector springs, dampers;
+    Real springs_at_tool, dampers_at_tool;
   };
 
   static void add(std::vector<Term>& terms, std::vector<std::pair<std::size_t, Real>> weights, const Real& value) {
@@ -120,12 +130,26 @@ class HeldNetwork {
     return sum;
   }
 
-  void eliminate() {
+  Pull pull_of(const std::vector<bool>& set) const {
+    const RealVector k = pull(springs_, set), b = pull(dampers_, set);
+    return {k.head(inner_), b.head(inner_), k(inner_), b(inner_)};
+  }
+
+  void eliminate_inner(std::vector<Pull>& pulls) {
     const RealMatrix k = matrix(springs_), b = matrix(dampers_);
-    if (inner_ == 0) return;
-    pencil_ = solve_pencil(k.topLeftCorner(inner_, inner_), b.topLeftCorner(inner_, inner_));
-    p_ = pencil_.vectors.transpose() * k.col(inner_).head(inner_);
-    q_ = pencil_.vectors.transpose() * b.col(inner_).head(inner_);
+    RealMatrix drives(inner_, 2 + 2 * static_cast<Eigen::Index>(pulls.size()));
+    drives.leftCols(2) << k.col(inner_).head(inner_), b.col(inner_).head(inner_);
+    Eigen::Index column = 2;
+    for (const Pull& pull : pulls) {
+      drives.col(column++) = pull.springs;
+      drives.col(column++) = pull.dampers;
+    }
+    pencil_ = solve_pencil(k.topLeftCorner(inner_, inner_), b.topLeftCorner(inner_, inner_), drives);
+    column = 2;
+    for (Pull& pull : pulls) {
+      pull.springs = pencil_.drives.col(column++);
+      pull.dampers = pencil_.drives.col(column++);
+    }
   }
 
   std::vector<bool> side_of_tool() const {
@@ -152,21 +176,20 @@ class HeldNetwork {
   }
 
   // (K + sB) of the set less Σ (p′ + s q′)(p + s q)/(m + s d), with m = μ, d = (1 − μ)/ω0 (theory, section 2).
-  Real gain_of(const std::vector<bool>& set, const std::vector<Real>& feedthroughs) const {
-    const RealVector k = pull(springs_, set), b = pull(dampers_, set);
-    Real stiffness = k(inner_), damping = b(inner_), relaxing = 0;
+  Real gain_of(const Pull& pull, const std::vector<Real>& feedthroughs) const {
+    Real stiffness = pull.springs_at_tool, damping = pull.dampers_at_tool, relaxing = 0;
     for (Eigen::Index i = 0; i < inner_; ++i) {
-      const Real pull_p = k.head(inner_).dot(pencil_.vectors.col(i)),
-                 pull_q = b.head(inner_).dot(pencil_.vectors.col(i));
+      const Real &pull_p = pull.springs(i), &pull_q = pull.dampers(i);
+      const Real &p = pencil_.drives(i, 0), &q = pencil_.drives(i, 1);
       const Real m = pencil_.mu(i), d = (1 - m) / pencil_.shift;
       if (m < negligible) {
-        damping -= pull_q * q_(i) / d;
+        damping -= pull_q * q / d;
       } else if (1 - m < negligible) {
-        stiffness -= pull_p * p_(i) / m;
+        stiffness -= pull_p * p / m;
       } else {
-        const Real rate = m / d, residue = (pull_p - pull_q * rate) * (p_(i) - q_(i) * rate) / m;
-        damping -= pull_q * q_(i) / d;
-        stiffness -= (pull_p * q_(i) + pull_q * p_(i) - pull_q * q_(i) * rate) / d + residue;
+        const Real rate = m / d, residue = (pull_p - pull_q * rate) * (p - q * rate) / m;
+        damping -= pull_q * q / d;
+        stiffness -= (pull_p * q + pull_q * p - pull_q * q * rate) / d + residue;
         relaxing += abs(residue) / (1 + rate * settings_.sample_period);
       }
     }
@@ -184,7 +207,6 @@ class HeldNetwork {
   std::vector<Eigen::Index> place_;
   Eigen::Index inner_ = 0;
   Pencil pencil_;
-  RealVector p_, q_;
 };
 
 void lay(const NormalTree& tree, std::size_t from, std::size_t to, HeldNetwork& network) {

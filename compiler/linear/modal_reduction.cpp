@@ -108,11 +108,12 @@ void add_relaxing_mode(LinearForm& form, const Real& p, const Real& q, const Rea
 }
 
 void add_modes(LinearForm& form, const Part& part, const Network& network, const NodalEquations& equations) {
-  const Pencil pencil = solve_pencil(equations.stiffness, equations.damping);
+  Matrix drives(equations.stiffness.rows(), 2);
+  drives << equations.port_stiffness, equations.port_damping;
+  const Pencil pencil = solve_pencil(equations.stiffness, equations.damping, drives);
   const auto held_by_dampers = static_cast<Eigen::Index>(floating_clusters(part, network, stiffness_of));
   const auto held_by_springs = static_cast<Eigen::Index>(floating_clusters(part, network, damping_of));
-  const Vector p = pencil.vectors.transpose() * equations.port_stiffness;
-  const Vector q = pencil.vectors.transpose() * equations.port_damping;
+  const Vector p = pencil.drives.col(0), q = pencil.drives.col(1);
   const Eigen::Index size = p.size();
   for (Eigen::Index i = 0; i < size; ++i) {
     if (i < held_by_dampers) form.feedthrough_damping -= q(i) * q(i) * pencil.shift;

@@ -114,13 +114,15 @@ class Block {
 
   // Theory, section 2, with vectors: −(p + s q)(p + s q)ᵀ/(m + s d) of each mode.
   void add_modes(MultiportForm& form) {
-    const Pencil pencil = solve_pencil(inner_stiffness_, inner_damping_);
+    const Eigen::Index outer = drive_stiffness_.cols();
+    RealMatrix drives(inner_count(), 2 * outer);
+    drives << drive_stiffness_, drive_damping_;
+    const Pencil pencil = solve_pencil(inner_stiffness_, inner_damping_, drives);
     const Eigen::Index by_dampers = floating_groups([](const Values& values) { return values.stiffness > 0; });
     const Eigen::Index by_springs = floating_groups([](const Values& values) { return values.damping > 0; });
     std::vector<Relaxation> relaxations;
     for (Eigen::Index i = 0; i < inner_count(); ++i) {
-      const RealVector p = drive_stiffness_.transpose() * pencil.vectors.col(i),
-                       q = drive_damping_.transpose() * pencil.vectors.col(i);
+      const RealVector p = pencil.drives.row(i).head(outer), q = pencil.drives.row(i).tail(outer);
       if (i < by_dampers) {
         damping_ -= q * q.transpose() * pencil.shift;
       } else if (i >= inner_count() - by_springs) {

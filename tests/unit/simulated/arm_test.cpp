@@ -363,6 +363,39 @@ TEST_P(Arm, GivesNothingAwayUnderAPassiveLaw) {
   EXPECT_LT(least_without, -1e-7);
 }
 
+// Joints that are led along a prescribed motion would be elsewhere, or the work of leading them would be miscounted.
+TEST(SimulatedArm, FollowsAPrescribedMotionAndPaysForIt) {
+  arm_description arm = arm_of(arm_kind::five_bar);
+  for (device_description& joint : arm.joints) joint.mechanics.coulomb_friction = 1e-3, joint.motor.amplifier_lag = 0;
+  for (arm_brake& one : arm.brakes) one.brake.coil_lag = 0;
+  arm_scenario scene;
+  const double start[2] = {2.2, 0.9}, speed[2] = {0.2, -0.3};
+  scene.prescribed = [&](double time) -> simulated::joints_motion {
+    return {{start[0] + speed[0] * time, start[1] + speed[1] * time}, {speed[0], speed[1]}};
+  };
+  simulated_arm device(arm, scene);
+  arm_sample sample;
+  const arm_actuation demand{{held_torque[0], held_torque[1]}, {demanded_damping[0], demanded_damping[1]}};
+  for (int k = 0; k < 501; ++k) device.read(sample), device.write(demand);
+  double brakes = 0, motors = 0, joints = 0;  // power, which is constant [W]
+  for (unsigned j = 0; j < 2; ++j) {
+    EXPECT_NEAR(device.truth().position[j], start[j] + speed[j] * 0.5, 1e-12);
+    EXPECT_EQ(device.truth().velocity[j], speed[j]);
+    const double rate = along[j][0] * speed[0] + along[j][1] * speed[1];
+    brakes += demanded_damping[j] * rate * rate;
+    motors += held_torque[j] * speed[j];
+    joints += 3e-5 * speed[j] * speed[j] + 1e-3 * std::abs(speed[j]);
+  }
+  EXPECT_NEAR(device.ledger().brake, 0.5 * brakes, 1e-15);
+  EXPECT_NEAR(device.ledger().motor, 0.5 * motors, 1e-15);
+  EXPECT_NEAR(device.ledger().hand, 0.5 * (brakes - motors + joints) + device.ledger().kinetic, 1e-15);
+  EXPECT_EQ(device.truth_from_now_on().motor_torque[0], held_torque[0]);
+  device.write({{0.01, 0}, {0, 3e-4}});
+  EXPECT_EQ(device.truth().motor_torque[0], held_torque[0]);
+  EXPECT_EQ(device.truth_from_now_on().motor_torque[0], 0.01);
+  EXPECT_NEAR(device.truth_from_now_on().brake_damping[1], 3e-4, 1e-18);
+}
+
 TEST(SimulatedArm, QuantisesEachJointAndTellsWhatItApplies) {
   arm_description arm = arm_of(arm_kind::five_bar);
   arm.joints[0].encoder.step = 1e-4;

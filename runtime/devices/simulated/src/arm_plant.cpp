@@ -80,6 +80,7 @@ arm_plant::arm_plant(const arm_description& arm, const arm_scenario& scene)
     : arm_(arm),
       user_(scene.user),
       intended_(scene.intended),
+      prescribed_(scene.prescribed),
       stated_step_(scene.substeps > 0 ? arm.loop().sample_period / scene.substeps : 0),
       period_(arm.loop().sample_period) {
   for (unsigned j = 0; j < arm_axes; ++j) {
@@ -87,6 +88,7 @@ arm_plant::arm_plant(const arm_description& arm, const arm_scenario& scene)
     now_.q[j] = scene.initial_position[j];
     now_.v[j] = scene.initial_velocity[j];
   }
+  if (prescribed_) now_ = prescribed_at(0), user_ = {};
   for (unsigned i = 0; i < arm.brake_count; ++i) brakes_.emplace_back(brake_of(arm, i), actuators_of(scene, i));
   if (!intended_) {
     const arm_point tip = pose_of(arm.geometry, now_.q, now_.v).tip;
@@ -210,7 +212,32 @@ arm_plant::forces arm_plant::balance(double ahead, const state& at, const drive&
   return result;
 }
 
+arm_plant::state arm_plant::prescribed_at(double time) const noexcept {
+  const joints_motion meant = prescribed_(time);
+  state at;
+  std::copy_n(meant.position, arm_axes, at.q);
+  std::copy_n(meant.velocity, arm_axes, at.v);
+  return at;
+}
+
+arm_plant::step arm_plant::follow(double h) const noexcept {
+  step done{};
+  done.end = prescribed_at(time_ + h);
+  for (const double c : gauss::c) {
+    const state at = prescribed_at(time_ + c * h);
+    const energy_ledger power = balance(c * h, at, drive_after(c * h)).power;
+    done.work.motor += h / 2 * power.motor;
+    done.work.brake += h / 2 * power.brake;
+    done.work.damping += h / 2 * power.damping;
+    for (unsigned j = 0; j < arm_axes; ++j) done.work.friction += h / 2 * friction(j) * std::abs(at.v[j]);
+  }
+  done.work.hand =
+      done.work.brake + done.work.damping + done.work.friction - done.work.motor + kinetic(done.end) - kinetic(now_);
+  return done;
+}
+
 arm_plant::step arm_plant::attempt(double h) const noexcept {
+  if (prescribed_) return follow(h);
   const drive driven[2] = {drive_after(gauss::c[0] * h), drive_after(gauss::c[1] * h)};
   forces stage[2] = {balance(0, now_, drive_after(0)), {}};
   stage[1] = stage[0];
@@ -254,10 +281,13 @@ arm_plant::step arm_plant::attempt(double h) const noexcept {
   return done;
 }
 
-bool arm_plant::is_stuck(unsigned joint) const noexcept { return friction(joint) > 0 && direction_[joint] == 0; }
+bool arm_plant::is_stuck(unsigned joint) const noexcept {
+  return !prescribed_ && friction(joint) > 0 && direction_[joint] == 0;
+}
 
 // Which joints cannot have gone on as they were until the end of a step.
 bool arm_plant::violates(const step& candidate, double duration, bool (&joints)[arm_axes]) const noexcept {
+  if (prescribed_) return false;
   const bool any_stuck = is_stuck(0) || is_stuck(1);
   const forces there = any_stuck ? balance(duration, candidate.end, drive_after(duration)) : forces{};
   for (unsigned j = 0; j < arm_axes; ++j)
@@ -278,6 +308,7 @@ bool arm_plant::is_consistent(const bool (&rests)[arm_axes]) const noexcept {
 
 // Which joints at rest stick is the one consistent choice: the inertia is positive definite.
 void arm_plant::settle() noexcept {
+  if (prescribed_) return;
   bool rests[arm_axes];
   for (unsigned j = 0; j < arm_axes; ++j) {
     rests[j] = friction(j) > 0 && now_.v[j] == 0;
@@ -341,6 +372,22 @@ arm_view arm_plant::view() const noexcept {
     seen.brake_damping[i] = brakes_[i].at_speed(brakes_[i].damping(), along[0] * now_.v[0] + along[1] * now_.v[1]);
   }
   return seen;
+}
+
+arm_view arm_plant::view_under(const arm_actuation& demand) const noexcept {
+  arm_view now = view();
+  for (unsigned j = 0; j < arm_axes; ++j) {
+    drives next = motors_[j];
+    next.demand({demand.motor_torque[j], 0});
+    now.motor_torque[j] = next.torque();
+  }
+  for (unsigned i = 0; i < arm_.brake_count; ++i) {
+    drives next = brakes_[i];
+    next.demand({0, demand.brake_damping[i]});
+    const double(&along)[arm_axes] = arm_.brakes[i].along;
+    now.brake_damping[i] = next.at_speed(next.damping_after(0), along[0] * now_.v[0] + along[1] * now_.v[1]);
+  }
+  return now;
 }
 
 }  // namespace dashpot::simulated

@@ -62,7 +62,10 @@ const char* simulated_arm::refusal(const arm_description& arm, const arm_scenari
                ? "a simulation needs its inertia: \"inertia\" in \"mechanics\" of the device file"
                : "a simulation needs its inertia: \"inertia\" or \"link_masses\" in \"mechanics\" of the device file";
   if (!is_passive(scene.user)) return "the hand is not passive";
-  const arm_point tip = pose_of(arm.geometry, scene.initial_position, scene.initial_velocity).tip;
+  simulated::joints_motion start;
+  std::copy_n(scene.initial_position, arm_axes, start.position);
+  if (scene.prescribed) start = scene.prescribed(0);
+  const arm_point tip = pose_of(arm.geometry, start.position, start.velocity).tip;
   if (!all_finite(tip.position[0], tip.position[1])) return "the arm does not reach where it starts";
   return has_early_sample(scene.faults) ? "a late sample cannot come early" : nullptr;
 }

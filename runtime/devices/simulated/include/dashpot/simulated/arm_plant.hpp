@@ -5,6 +5,7 @@
 // rounding; the actuators are exact (drives.hpp). Each joint either slides or is stuck, with a velocity of exactly
 // zero; every change between the two is located within a step and ends it. Over steps h the motion and the ledger's
 // imbalance are wrong by O(h⁴): M turns with the arm, and then no collocation keeps the kinetic energy to rounding.
+// Where the joints' motion is prescribed, the hand does what that takes.
 #pragma once
 
 #include <vector>
@@ -43,6 +44,7 @@ class arm_plant {
   shaft_motion shaft(unsigned joint) const noexcept { return {time_, now_.q[joint], now_.v[joint]}; }
   const energy_ledger& ledger() const noexcept { return ledger_; }
   arm_view view() const noexcept;
+  arm_view view_under(const arm_actuation& demand) const noexcept;  // as if that took effect now
 
  private:
   struct state {
@@ -66,6 +68,8 @@ class arm_plant {
   };
 
   step attempt(double duration) const noexcept;
+  step follow(double duration) const noexcept;
+  state prescribed_at(double time) const noexcept;
   forces balance(double ahead, const state& at, const drive& driven) const noexcept;
   drive drive_after(double ahead) const noexcept;
   bool is_stuck(unsigned joint) const noexcept;
@@ -82,6 +86,7 @@ class arm_plant {
   arm_description arm_;
   planar_hand user_;
   tip_path intended_;
+  joints_path prescribed_;
   std::vector<drives> motors_;
   std::vector<drives> brakes_;
   double stated_step_;  // [s]; 0: to be chosen

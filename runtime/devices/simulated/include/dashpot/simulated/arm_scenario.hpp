@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include <dashpot/arm_description.hpp>
 #include <dashpot/simulated/sample_fault.hpp>
 #include <dashpot/simulated/scenario.hpp>
 
@@ -18,6 +19,12 @@ struct tip_motion {
 
 // Must neither throw nor allocate when called. `time` ≥ 0 [s].
 using tip_path = std::function<tip_motion(double time)>;
+
+struct joints_motion {
+  double position[arm_axes] = {};  // [rad] or [m]
+  double velocity[arm_axes] = {};  // [rad/s] or [m/s]
+};
+using joints_path = std::function<joints_motion(double time)>;  // as tip_path
 
 // A mass at the tip, and stiffness and damping towards where the user means to be; both symmetric, in x and y, and
 // positive semidefinite, so that the hand is passive.
@@ -34,7 +41,8 @@ bool is_passive(const planar_hand& user);
 struct arm_scenario {
   planar_hand user;
   tip_path intended;                      // of the user; empty: stays where the tip starts
-  double initial_position[2] = {};        // of the joints [rad] or [m]
+  joints_path prescribed;                 // the joints follow it, whatever that takes; nothing else moves them
+  double initial_position[2] = {};        // of the joints [rad] or [m]; a prescribed motion has its own
   double initial_velocity[2] = {};        // [rad/s] or [m/s]
   brake_gain gain = brake_gain::nominal;  // of all brakes; drawn: each for itself
   std::uint64_t seed = 0;                 // of jitter, drawn gains, sensor and amplifier noise

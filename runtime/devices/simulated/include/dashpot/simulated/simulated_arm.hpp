@@ -30,6 +30,8 @@ class simulated_arm {
 
   // What only a simulation can know: the truth at the newest sample, and all energy until then.
   simulated::arm_view truth() const noexcept { return plant_.view(); }
+  // The same instant seen from its other side: under what write() has put into effect.
+  simulated::arm_view truth_from_now_on() const noexcept { return plant_.view_under(line_.back().command); }
   const simulated::energy_ledger& ledger() const noexcept { return plant_.ledger(); }
 
  private:

@@ -431,8 +431,8 @@ void describe(CLI::App& app, CommandLine& line) {
   run->add_option("-o,--log", options.output, "Telemetry, or what is felt of a motion, default NAME_run.csv")
       ->option_text("FILE.csv");
   run->add_option("--motion", options.motion,
-                  "Lead the simulated device along a recorded motion, time,position at any uniform period, and compare "
-                  "what is felt with the network")
+                  "Lead the simulated device along a recorded motion, time,position or time,q1,q2 at any uniform "
+                  "period, and compare what is felt with the network")
       ->option_text("FILE.csv");
   run->add_flag("--json", options.json, "With --motion: the errors as JSON, SI units");
 

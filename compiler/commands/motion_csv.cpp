@@ -40,6 +40,14 @@ bool is_answer(const fitting::TableColumn& column) {
 // All that the commands write has what the motor made.
 bool is_own(const fitting::TableColumn& column) { return column.name == "motor_force"; }
 
+constexpr const char* joint_positions[] = {"q1", "q2"};
+constexpr const char* joint_velocities[] = {"v1", "v2"};
+
+// Without unit: "q1 [deg]" is q1, and "t" is time.
+std::string name_of_joints(const fitting::TableColumn& column) {
+  return columns_for({column}, fitting::Role::time).empty() ? folded(parts_of(column).name) : "time";
+}
+
 struct Cell {
   std::string_view text;
   Span span;
@@ -65,8 +73,8 @@ class CsvTable {
 
   bool is_joint_motion() {
     find_dialect();
-    const std::vector<Cell> header = names_in(next_line());
-    return header.size() >= 3 && header[0].text == "time" && header[1].text == "q1" && header[2].text == "q2";
+    find_joint_header();
+    return joints_.has_all;
   }
 
   std::optional<Motion> read() {
@@ -102,30 +110,38 @@ class CsvTable {
   }
 
   std::optional<JointMotion> read_joints() {
-    static const std::vector<std::string> names = {"time", "q1", "q2", "v1", "v2"};
     if (!is_text()) return std::nullopt;
     find_dialect();
-    const Cell line = next_line();
-    if (line.text.empty()) return refuse_empty(), std::nullopt;
-    const std::vector<Cell> header = names_in(line);
-    const bool has_velocity = header.size() == names.size();
-    const bool is_known = (has_velocity || header.size() == 3) &&
-                          std::equal(header.begin(), header.end(), names.begin(),
-                                     [](const Cell& cell, const std::string& name) { return cell.text == name; });
-    if (!is_known)
-      return fail<DiagnosticCode::axes_csv_columns>(line.span, excerpt(std::string(line.text))), std::nullopt;
+    const std::vector<Cell> header = find_joint_header();
+    if (header.empty()) return refuse_empty(), std::nullopt;
+    if (!joints_.has_all)
+      return fail<DiagnosticCode::axes_csv_columns>({&file_, header.front().span.begin, header.back().span.end},
+                                                    excerpt(line_of(header))),
+             std::nullopt;
     JointMotion motion;
-    std::vector<double>* const columns[] = {&motion.clock.time, &motion.position[0], &motion.position[1],
-                                            &motion.velocity[0], &motion.velocity[1]};
+    const auto time = joint_column(header, "time", motion);
+    std::optional<Column> position[2], velocity[2];
+    for (std::size_t j = 0; j < 2; ++j) {
+      position[j] = joint_column(header, joint_positions[j], motion);
+      velocity[j] = joint_column(header, joint_velocities[j], motion);
+    }
+    if (failed_) return std::nullopt;
+    digits_ = TimeDigits(time->factor);
     for (std::vector<Cell> row = next_row(header.size()); !row.empty(); row = next_row(header.size())) {
       if (!has_fields(row, header.size())) break;
-      for (std::size_t i = 0; i < header.size(); ++i) append(*columns[i], row, {i, 1}, names[i].c_str());
-      digits_.add(with_point(row.front().text));
+      append(motion.clock.time, row, *time, "time");
+      for (std::size_t j = 0; j < 2; ++j) {
+        append(motion.position[j], row, *position[j], joint_positions[j]);
+        if (velocity[j]) append(motion.velocity[j], row, *velocity[j], joint_velocities[j]);
+      }
+      digits_.add(with_point(row[time->index].text));
       row_spans_.push_back(row.front().span);
     }
     if (failed_) return std::nullopt;
     if (motion.clock.time.empty()) return refuse_empty(), std::nullopt;
-    return find_period(motion.clock) ? std::optional(std::move(motion)) : std::nullopt;
+    if (!find_period(motion.clock)) return std::nullopt;
+    motion.rows = row_spans_;
+    return motion;
   }
 
  private:
@@ -165,6 +181,64 @@ class CsvTable {
     }
     place_ = behind_first;
     return first;
+  }
+
+  // The first line that names time and both joints; without one the first line.
+  std::vector<Cell> find_joint_header() {
+    std::vector<Cell> first;
+    std::size_t behind_first = 0;
+    for (std::size_t i = 0; i < fitting::head_lines; ++i) {
+      const Cell text = next_line();
+      if (text.text.empty()) break;
+      const std::vector<Cell> line = names_in(text);
+      if (line.empty()) continue;
+      if (first.empty()) first = line, behind_first = place_;
+      joints_ = {};
+      for (const Cell& cell : line) joints_.columns.push_back(fitting::table_column(cell.text));
+      joints_.has_all = true;
+      for (const char* name : {"time", joint_positions[0], joint_positions[1]})
+        joints_.has_all = joints_.has_all && joints_.count(name) == 1;
+      const std::size_t velocities = joints_.count(joint_velocities[0]);
+      joints_.has_all = joints_.has_all && velocities <= 1 && joints_.count(joint_velocities[1]) == velocities;
+      if (!joints_.has_all) continue;
+      joints_.columns = with_units(line);
+      return line;
+    }
+    place_ = behind_first;
+    return first;
+  }
+
+  static std::string line_of(const std::vector<Cell>& header) {
+    std::string line;
+    for (const Cell& cell : header) line += (line.empty() ? "" : ",") + std::string(cell.text);
+    return line;
+  }
+
+  // Nothing where there is none, or, told, where its unit is of something else.
+  std::optional<Column> joint_column(const std::vector<Cell>& header, const std::string& name, JointMotion& motion) {
+    const auto is_named = [&](const fitting::TableColumn& column) { return name_of_joints(column) == name; };
+    const auto found = std::find_if(joints_.columns.begin(), joints_.columns.end(), is_named);
+    if (found == joints_.columns.end()) return std::nullopt;
+    const fitting::Role role = name == "time"   ? fitting::Role::time
+                               : name[0] == 'q' ? fitting::Role::position
+                                                : fitting::Role::velocity;
+    const auto index = static_cast<std::size_t>(found - joints_.columns.begin());
+    const fitting::TitleParts parts = parts_of(*found);
+    const auto unit = parts.unit && !found->unit ? std::nullopt : fitting::unit_of_column(*found, role);
+    if (!unit) {
+      fail<DiagnosticCode::recording_wrong_unit>(header[index].span, found->title, *parts.unit, name_of(role),
+                                                 likely_unit(role));
+      return std::nullopt;
+    }
+    if (found->unit && role != fitting::Role::time) {
+      const auto kind = unit->dimension.radian != 0 ? dashpot::motion::rotation : dashpot::motion::translation;
+      if (motion.clock.kind && *motion.clock.kind != kind)
+        fail<DiagnosticCode::recording_wrong_unit>(header[index].span, found->title, *found->unit, name_of(role),
+                                                   motion.clock.kind == dashpot::motion::rotation ? "rad" : "m");
+      motion.clock.kind = kind;
+      motion.clock.kind_span = header[index].span;
+    }
+    return Column{index, unit->factor};
   }
 
   // The names may stand behind the sign of a comment.
@@ -325,6 +399,18 @@ class CsvTable {
   Diagnostics& diagnostics_;
   std::size_t place_ = 0;
   fitting::Dialect dialect_;
+  // What the header of joints says.
+  struct JointColumns {
+    std::vector<fitting::TableColumn> columns;
+    bool has_all = false;
+
+    std::size_t count(const std::string& name) const {
+      return static_cast<std::size_t>(std::count_if(
+          columns.begin(), columns.end(), [&](const auto& column) { return name_of_joints(column) == name; }));
+    }
+  };
+
+  JointColumns joints_;
   std::vector<Span> row_spans_;
   TimeDigits digits_;
   bool failed_ = false;

@@ -44,14 +44,15 @@ struct Motion {
 // numbers, times that do not rise, a period that is not uniform or that no loop has.
 std::optional<Motion> parse_motion(const SourceFile& file, Diagnostics& diagnostics);
 
-// The motion of two joints: columns time, q1, q2 and perhaps v1, v2, in SI and in that order.
+// The motion of two joints: columns time, q1, q2 and perhaps v1, v2, among others.
 struct JointMotion {
-  Motion clock;                                 // its times and period alone
+  Motion clock;                                 // its times, period and kind alone
   std::array<std::vector<double>, 2> position;  // [rad] or [m]
   std::array<std::vector<double>, 2> velocity;  // [rad/s] or [m/s]; empty where the file has none
+  std::vector<Span> rows;                       // where each stands
 };
 
-// As parse_motion(), but for the names.
+// As parse_motion(), but for the names of joints, which are these alone.
 std::optional<JointMotion> parse_joint_motion(const SourceFile& file, Diagnostics& diagnostics);
 
 // Whether a table that begins so is a motion: a line that names time and position, and no force, stress or anything

@@ -8,9 +8,12 @@
 
 #include "commands/arm_library.hpp"
 #include "commands/axes_commands.hpp"
+#include "commands/changed_network.hpp"
 #include "commands/live_line.hpp"
+#include "commands/played_arm.hpp"
 #include "commands/run_axes.hpp"
 #include "commands/run_loop.hpp"
+#include "emit/write_files.hpp"
 #include "network/arm_description.hpp"
 #include "network/port_units.hpp"
 
@@ -42,11 +45,20 @@ simulated::tip_path path_in(const axes::Box& workspace) {
   };
 }
 
-// Options that only a run of one axis knows.
-const char* option_beyond_two_axes(const Options& options) {
-  if (options.port) return "--port";
-  if (options.motion) return "--motion";
-  return nullptr;
+ExitStatus play_motion(const Options& options, const AxesCompilation& compilation, SourceFiles& files,
+                       Diagnostics& diagnostics) {
+  const SourceFile* input = files.open(*options.motion, diagnostics);
+  const std::optional<JointMotion> motion = input ? parse_joint_motion(*input, diagnostics) : std::nullopt;
+  if (!motion || !suits(motion->clock, compilation.device.joint_motion(), diagnostics))
+    return ExitStatus::input_refused;
+  const std::string log = options.output.value_or(compilation.network.name + "_run.csv");
+  if (!spares_inputs(options, {log}, diagnostics)) return ExitStatus::command_line_wrong;
+  const std::optional<PlayedMotion> played = play(compilation, *motion, options.seed.value_or(0), diagnostics);
+  if (!played || diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (!write_files("", {{log, csv_of(*played, compilation)}}, diagnostics)) return ExitStatus::input_refused;
+  return write_standard_output(
+      options.json ? to_json(*played, compilation, log) : to_text(*played, compilation) + "log: " + log + "\n",
+      diagnostics);
 }
 
 telemetry_record largest_of(const arm_telemetry_record& record) {
@@ -79,14 +91,15 @@ std::string range_of(const arm_servo_summary& summary, unsigned brakes, const Po
 }  // namespace
 
 ExitStatus run_axes(const Options& options, const simulated::hand& user, const SourceFile& network,
-                    const DeviceChoice& device, Diagnostics& diagnostics) {
+                    const DeviceChoice& device, SourceFiles& files, Diagnostics& diagnostics) {
   const auto compilation = compile_axes(network, options, device, diagnostics);
   if (!compilation) return ExitStatus::input_refused;
-  if (const char* option = option_beyond_two_axes(options)) {
-    diagnostics.report<DiagnosticCode::option_on_two_axes>(compilation->network.name_span, option);
+  if (options.port) {
+    diagnostics.report<DiagnosticCode::option_on_two_axes>(compilation->network.name_span, "--port");
     return ExitStatus::command_line_wrong;
   }
   if (!compilation->certificate.certified) warn_of_uncertified(*compilation, diagnostics);
+  if (options.motion) return play_motion(options, *compilation, files, diagnostics);
   const arm_description arm = arm_description_of(compilation->device);
   simulated::arm_scenario scene;
   scene.user = simulated::planar(user.mass, user.damping, user.input[0] * user.output[0]);  // alike in all directions

@@ -9,6 +9,6 @@ namespace dashpot::compiler {
 
 // Of `user` mass, damping and stiffness are taken, alike in all directions of the plane.
 ExitStatus run_axes(const Options& options, const simulated::hand& user, const SourceFile& network,
-                    const DeviceChoice& device, Diagnostics& diagnostics);
+                    const DeviceChoice& device, SourceFiles& files, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

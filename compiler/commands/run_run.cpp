@@ -145,7 +145,7 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
   if (device.status != ExitStatus::done) return device.status;
   const SourceFile* file = open_network(options.networks.front(), options, files, diagnostics);
   if (file && has_two_axes(*file))
-    return run_axes(options, hands.at(options.hand.value_or("relaxed"))(), *file, device, diagnostics);
+    return run_axes(options, hands.at(options.hand.value_or("relaxed"))(), *file, device, files, diagnostics);
   if (file && !as_many_axes(*file, device, diagnostics)) return ExitStatus::input_refused;
   const std::optional<Compilation> compilation =
       file ? compile(*file, options.choices, device.device, diagnostics) : std::nullopt;

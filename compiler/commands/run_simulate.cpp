@@ -32,14 +32,12 @@ double rate_meant(const Motion& motion) {
 // What the motion's rate is held against.
 struct DeviceRate {
   std::string name;
-  double rate;         // [Hz]
-  bool plays_motions;  // by `run --motion`
+  double rate;  // [Hz]
 };
 
 std::optional<DeviceRate> rate_of(const DeviceChoice& device) {
-  if (device.device) return DeviceRate{device.device->name, 1 / device.device->description.loop.sample_period, true};
-  if (device.axes_device)
-    return DeviceRate{device.axes_device->name, 1 / device.axes_device->loop().sample_period, false};
+  if (device.device) return DeviceRate{device.device->name, 1 / device.device->description.loop.sample_period};
+  if (device.axes_device) return DeviceRate{device.axes_device->name, 1 / device.axes_device->loop().sample_period};
   return std::nullopt;
 }
 
@@ -51,7 +49,7 @@ bool settle_rate(const Motion& motion, const std::optional<DeviceRate>& device, 
   if (!choices.rate) choices.rate = rate_meant(motion);
   if (std::abs(*choices.rate * *motion.period - 1) <= same_rate_of(motion)) return true;
   diagnostics.report<DiagnosticCode::csv_rate_contradicts>({&file, 0, 0}, 1 / *motion.period, *choices.rate);
-  if (device && device->plays_motions) diagnostics.note<DiagnosticCode::played_at_any_rate>({}, device->name);
+  if (device) diagnostics.note<DiagnosticCode::played_at_any_rate>({}, device->name);
   return false;
 }
 
@@ -118,6 +116,8 @@ ExitStatus simulate_axes(const SourceFile& network, const Options& asked, Source
     return ExitStatus::command_line_wrong;
   const std::optional<AxesCompilation> c = compile_axes(network, options, device, diagnostics);
   if (!c || diagnostics.has_errors()) return ExitStatus::input_refused;
+  if (!suits(motion->clock, c->device.joint_motion(), diagnostics)) return ExitStatus::input_refused;
+  if (device.axes_device) diagnostics.report<DiagnosticCode::law_alone>({}, device.axes_device->name);
   return write_output(
       options,
       options.choices.scalar == ScalarType::float64 ? simulate<double>(*c, *motion) : simulate<float>(*c, *motion),

@@ -404,7 +404,7 @@ class AxesTest(CommandTest):
         self.write("slow.csv", "time,q1,q2\n" + "".join(f"{i / 1000},1,1\n" for i in range(5)))
         told = self.refused("simulate", FIELD, "--device", PANTOGRAPH, "--input", "slow.csv", code="csv-rate-contradicts",
                             status=COMMAND_LINE_WRONG).stderr
-        self.assertNotIn("--motion", told)  # which takes no network of two axes
+        self.assertIn("'dashpot run --motion' plays a recording of any rate", told)
         lines = (self.folder / "run.csv").read_text().splitlines()
         names = [name.split(" ")[0] for name in lines[0].split(",")]
         table = [dict(zip(names, line.split(","))) for line in lines[1:]]
@@ -423,6 +423,25 @@ class AxesTest(CommandTest):
                 self.assertEqual(sent, min(wanted, 0.014))
         self.dashpot(*run, "-o", "again.csv")
         self.assertEqual((self.folder / "again.csv").read_bytes(), (self.folder / "run.csv").read_bytes())
+
+    # If this fails, joints in degrees, in another order or among other columns are simulated as another motion.
+    def test_units_and_order_of_joints(self):
+        joints = motion_in_joints(50, 2)
+        simulated = lambda names, rows: [[float(word) for word in line.split(",")[1:]] for line in self.dashpot(
+            "simulate", FIELD, "--device", PANTOGRAPH, "--input", self.write("motion.csv", names + "\n" + "".join(
+                ",".join(map(repr, row)) + "\n" for row in rows))).stdout.splitlines()[1:]]
+        plain = simulated("time,q1,q2", [[i * PERIOD, *q] for i, q in enumerate(joints)])
+        other = simulated("# of the rig\ntrial,q2 [deg],t [ms],q1 (deg)",
+                          [[7, math.degrees(b), 1e3 * i * PERIOD, math.degrees(a)] for i, (a, b) in enumerate(joints)])
+        for one, same in zip(plain, other, strict=True):
+            for a, b in zip(one, same):
+                self.assertAlmostEqual(a, b, delta=1e-8 * (1 + abs(a)))
+        for header, code in (("time,q1", "axes-csv-columns"), ("time,q1,q2,q2", "axes-csv-columns"), ("time,q1,q2,v1", "axes-csv-columns"),
+                             ("time,q1 [N],q2", "recording-wrong-unit"), ("time,q1 [rad],q2 [mm]", "recording-wrong-unit"),
+                             ("time,q1 [mm],q2 [mm]", "csv-other-motion")):
+            self.write("bad.csv", f"{header}\n" + "0,1,1,1"[:2 * header.count(",") + 1] + "\n")
+            refused = self.refused("simulate", FIELD, "--device", PANTOGRAPH, "--input", "bad.csv", code=code)
+            self.assertIn("bad.csv:1:", refused.stderr)
 
     # If this fails, a loop of one's own has other numbers than the device's file, or takes a law for another's.
     def test_a_device_is_written_as_code(self):
@@ -452,9 +471,8 @@ int main() {
         for command in (["report", FIELD, "-o", "a.html"], ["export", "--to", "generic", FIELD]):
             self.assertIn("[several-axes]", self.dashpot(*command, status=INPUT_REFUSED).stderr, command)
         self.assertIn("[device-of-several-axes]", self.dashpot("device", PANTOGRAPH, "--target", "c99", "-o", ".", status=INPUT_REFUSED).stderr)
-        for option in (["--port", "unix:none"], ["--motion", "none.csv"]):
-            self.assertIn("[option-on-two-axes]",
-                          self.dashpot("run", FIELD, "--device", PANTOGRAPH, *option, status=COMMAND_LINE_WRONG).stderr)
+        self.assertIn("[option-on-two-axes]",
+                      self.dashpot("run", FIELD, "--device", PANTOGRAPH, "--port", "unix:none", status=COMMAND_LINE_WRONG).stderr)
         self.assertIn("[axes-differ]", self.dashpot("run", FIELD, "--device", ONE_AXIS, status=INPUT_REFUSED).stderr)
         for target in ("c99", "hal", "fmi2", "python", "wasm"):
             self.assertIn("[target-on-two-axes]", self.dashpot("compile", FIELD, "--target", target, status=None).stderr, target)

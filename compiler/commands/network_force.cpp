@@ -1,0 +1,151 @@
+#include "commands/network_force.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "commands/value_columns.hpp"
+#include "compile.hpp"
+#include "law/evaluate.hpp"
+#include "network/rate_limits.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+constexpr double finer_steps = 32;  // of a reference that has no closed form, in a period of the loop
+
+// k0 u + b∞ u̇ + Σ F_i of a linear network under the motion, exactly: F_i decays, and along a straight piece it gains
+// B_i u̇ (1 − e^(−λ t)) (theory, section 3).
+class ClosedForm : public NetworkForce {
+ public:
+  ClosedForm(const LinearForm& form, const Path& path)
+      : path_(path),
+        static_stiffness_(to_double(form.static_stiffness)),
+        feedthrough_(to_double(form.feedthrough_damping)) {
+    for (const Mode& mode : form.modes)
+      modes_.push_back({to_double(mode.relaxation_rate), to_double(mode.damping()), 0});
+  }
+
+  double force_at(double time) override {
+    while (next_piece_ < path_.piece(time) + 1) go_to(path_.at(next_piece_++));
+    go_to(time);
+    const simulated::motion_point here = path_.point(time);
+    double force = static_stiffness_ * here.position + feedthrough_ * here.velocity;
+    for (const Relaxation& mode : modes_) force += mode.force;
+    return force;
+  }
+
+ private:
+  struct Relaxation {
+    double rate, damping, force;
+  };
+
+  void go_to(double time) {
+    const double duration = time - time_;
+    if (!(duration > 0)) return;
+    const double velocity = path_.point(time_ + duration / 2).velocity;
+    for (Relaxation& mode : modes_) {
+      const double lost = -std::expm1(-mode.rate * duration);
+      mode.force += (mode.damping * velocity - mode.force) * lost;
+    }
+    time_ = time;
+  }
+
+  const Path& path_;
+  double static_stiffness_, feedthrough_;
+  std::vector<Relaxation> modes_;
+  double time_ = 0;
+  std::size_t next_piece_ = 1;
+};
+
+// The force of a network with slips, a contact, a static curve or tunables, by its own steps in quick succession, all
+// of it made by the motor: no brake and no estimate take part. Between two steps it is straight.
+class OwnSteps : public NetworkForce {
+ public:
+  OwnSteps(const Compilation& fine, const Motion& motion, const Path& path, Diagnostics& diagnostics)
+      : path_(path), law_(fine.law), values_(fine, motion, diagnostics), period_(1 / fine.rate) {
+    law_.reset(path.point(0).position);
+    last_ = force_ = step(0);
+  }
+
+  double force_at(double time) override {
+    Diagnostics heard_from_the_device;
+    while (double(steps_) * period_ < time) {
+      last_ = force_;
+      ++steps_;
+      values_.set(law_, path_.piece(double(steps_) * period_), double(steps_) * period_, heard_from_the_device);
+      force_ = step(double(steps_) * period_);
+    }
+    const double behind = std::clamp(double(steps_) - time / period_, 0.0, 1.0);
+    return force_ + (last_ - force_) * behind;
+  }
+
+ private:
+  double step(double time) {
+    const double position = path_.point(time).position;
+    const double velocity = steps_ == 0 ? 0 : (position - position_) / period_;
+    position_ = position;
+    const command<double> now = law_.step(position, velocity);
+    return now.damping * velocity + now.force;
+  }
+
+  const Path& path_;
+  Evaluation<double> law_;
+  ValueColumns values_;
+  double period_, position_ = 0, last_ = 0, force_ = 0;
+  std::uint64_t steps_ = 0;
+};
+
+bool has_closed_form(const Compilation& c) {
+  return !c.form.has_slips() && !c.network.contact && !c.network.map && !c.law.tunable;
+}
+
+std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
+  Choices fine = choices;
+  fine.decomposition = "virtual";
+  fine.state_input.reset();
+  fine.scheme = Scheme::exact;
+  fine.scalar = ScalarType::float64;
+  fine.rate = std::min(c.rate * finer_steps, highest_rate);
+  Diagnostics of_rates;  // what a finer rate is told of is not for the device
+  StageTimes unseen;
+  std::optional<Compilation> compiled = compile(c.network, fine, std::nullopt, of_rates, unseen);
+  if (!compiled) compile(c.network, fine, std::nullopt, diagnostics, unseen);
+  return compiled;
+}
+
+}  // namespace
+
+std::size_t RecordedPath::piece(double time) const {
+  const double wanted = time + clock_.time.front() + 1e-6 * clock_.period.value_or(0);
+  const auto behind = std::upper_bound(clock_.time.begin(), clock_.time.end(), wanted);
+  return behind == clock_.time.begin() ? 0 : std::size_t(behind - clock_.time.begin()) - 1;
+}
+
+simulated::motion_point RecordedPath::point(double time) const {
+  const std::size_t before = piece(time);
+  const bool at_rest = time < 0 || before + 1 == clock_.time.size();
+  if (at_rest) return {position_[before], 0};
+  const double slope = (position_[before + 1] - position_[before]) / (at(before + 1) - at(before));
+  return {position_[before] + slope * (time - at(before)), slope};
+}
+
+std::optional<ReferenceForce> ReferenceForce::of(const Compilation& c, const Choices& choices,
+                                                 Diagnostics& diagnostics) {
+  ReferenceForce reference;
+  reference.compilation_ = &c;
+  if (has_closed_form(c)) return reference;
+  std::optional<Compilation> fine = compiled_finely(c, choices, diagnostics);
+  if (!fine) return std::nullopt;
+  reference.fine_ = std::make_shared<const Compilation>(std::move(*fine));
+  return reference;
+}
+
+std::unique_ptr<NetworkForce> ReferenceForce::along(const Path& path, const Motion& motion,
+                                                    Diagnostics& diagnostics) const {
+  if (fine_) return std::make_unique<OwnSteps>(*fine_, motion, path, diagnostics);
+  return std::make_unique<ClosedForm>(compilation_->form.linear, path);
+}
+
+double ReferenceForce::finest_period(const Compilation& c) { return 1 / std::min(c.rate * finer_steps, highest_rate); }
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,68 @@
+// The force of a network of one port itself along a motion, as no device makes it.
+#pragma once
+
+#include <dashpot/simulated/trajectory.hpp>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "commands/motion_csv.hpp"
+#include "decompose/choices.hpp"
+#include "emit/emission.hpp"
+
+namespace dashpot::compiler {
+
+// A motion from time 0, of pieces that are straight, or so short that they are as good as that; at rest before and
+// after.
+class Path {
+ public:
+  virtual ~Path() = default;
+
+  virtual double at(std::size_t piece) const = 0;  // where it begins [s]
+  // The last piece that has begun at a time, which is a sum of periods: what is as good as at a beginning is at it, so
+  // that the velocity there is that of the piece that begins.
+  virtual std::size_t piece(double time) const = 0;
+  virtual simulated::motion_point point(double time) const = 0;
+};
+
+// A column of a recording, straight between its rows.
+class RecordedPath : public Path {
+ public:
+  RecordedPath(const Motion& clock, const std::vector<double>& position) : clock_(clock), position_(position) {}
+
+  double end() const { return at(clock_.time.size() - 1); }
+  double at(std::size_t row) const override { return clock_.time[row] - clock_.time.front(); }
+  std::size_t piece(double time) const override;
+  simulated::motion_point point(double time) const override;
+
+ private:
+  const Motion& clock_;
+  const std::vector<double>& position_;
+};
+
+class NetworkForce {
+ public:
+  virtual ~NetworkForce() = default;
+
+  virtual double force_at(double time) = 0;  // opposing the motion; times must not fall
+};
+
+// A linear network's force is its closed form; another's that of its own steps on an ideal device 32 times as often,
+// all of it made by the motor. `motion` is asked for the values of tunables. Refuses: what does not compile. What is
+// given has to outlive the answer.
+class ReferenceForce {
+ public:
+  // Nothing, reported, where it is refused.
+  static std::optional<ReferenceForce> of(const Compilation& compilation, const Choices& choices,
+                                          Diagnostics& diagnostics);
+
+  std::unique_ptr<NetworkForce> along(const Path& path, const Motion& motion, Diagnostics& diagnostics) const;
+  static double finest_period(const Compilation& compilation);  // of steps of its own [s]
+
+ private:
+  const Compilation* compilation_ = nullptr;
+  std::shared_ptr<const Compilation> fine_;  // nothing where there is a closed form
+};
+
+}  // namespace dashpot::compiler

@@ -344,7 +344,8 @@ class RemedyNotes {
     std::stable_sort(notes_.begin(), notes_.end(),
                      [](const auto& one, const auto& other) { return one.first < other.first; });
     for (const auto& [error, tell_it] : notes_) tell_it(diagnostics);
-    if (!notes_.empty() && notes_.front().first > ruinous) diagnostics.note<DiagnosticCode::remedies_ruin_the_feel>({});
+    if (!notes_.empty() && notes_.front().first > ruinous)
+      diagnostics.note<DiagnosticCode::remedies_ruin_the_feel>({}, notes_.size() == 1 ? "this" : "each of these");
   }
 
  private:
@@ -474,7 +475,10 @@ RemedyNotes notes_on_remedies(const Compilation& c, const Choices& choices, doub
   const double by_loop = available / certificate.bound.needed, by_brake = brake ? loop.max_damping / brake->value : 0;
   if (const auto share = remedies.share({std::max(by_loop, by_brake), std::min(by_loop, by_brake)}))
     notes.add<DiagnosticCode::scale_that_would_do>(
-        share->error, share->value, std::string(c.form.has_slips() ? ", and its yield forces as they are," : ""));
+        share->error, share->value,
+        std::string(c.law.tunable        ? ", ranges of tunables too,"
+                    : c.form.has_slips() ? ", and its yield forces as they are,"
+                                         : ""));
   if (const std::optional<Remedy> rate = remedies.rate())
     notes.add<DiagnosticCode::rate_that_would_do>(rate->error, rate->value);
   add_jitter(c, remedies, notes);

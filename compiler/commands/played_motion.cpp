@@ -201,8 +201,8 @@ std::string text_of_brake(double mean, double most, double for_passivity, const 
 
 std::string text_of_limits(const PlayedMotion& p) {
   if (p.limited == 0) return "";
-  return fmt::format("{} could not make the force of {} samples in {}\n",
-                     p.axes == 1 ? "the motor's limits: it" : "the motors' limits: they", p.limited, p.samples.size());
+  return fmt::format("{} reached in {} samples of {}; a law that sheds forces there asks for less in those behind\n",
+                     p.axes == 1 ? "the motor's limits:" : "the motors' limits:", p.limited, p.samples.size());
 }
 
 std::string text_of_energy(const PlayedMotion& p) {

@@ -515,7 +515,10 @@ class Chooser {
     for (const std::vector<Role>& group : needed())
       if (std::none_of(group.begin(), group.end(), [&](Role role) { return has(role); }) && report_misfit(group))
         is_misfit = true;
-    if (is_misfit) return note_answer();
+    if (is_misfit) {
+      diagnostics_.note<DiagnosticCode::recording_unit_remedy>({});
+      return note_answer();
+    }
     for (const std::vector<Role>& group : needed()) {
       if (std::any_of(group.begin(), group.end(), [&](Role role) { return has(role); })) continue;
       diagnostics_.report<DiagnosticCode::recording_column_missing>({}, path_, words_of(group));

@@ -376,6 +376,7 @@ int main() {
         self.write("units.csv", "\n".join(["time [s],position [foo],force [stones]", *rows]) + "\n")
         told = self.refused("fit", "units.csv", "-o", "not.json", code="recording-wrong-unit").stderr
         for unit in ("foo", "stones"): self.assertIn(f"in '{unit}'", told)
+        self.assertIn("has to be converted first", told)
 
     def test_an_empty_last_field(self):
         """Fails if a row whose last field is empty is said to be short of it; or a row that only ends with a comma is refused."""

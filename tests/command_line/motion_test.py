@@ -107,7 +107,7 @@ class Motion(CommandTest):
                                "velocity-free").stdout
         self.assertIn(f"the brake is told {damping[0]:.4g} N s/m on average, {damping[0]:.4g} at most; of it {damping[0]:.4g} are there "
                       "for passivity alone\n", printed)
-        self.assertIn(f"the motor's limits: it could not make the force of {told['limited_samples']} samples in {len(rows)}\n", printed)
+        self.assertIn(f"the motor's limits: reached in {told['limited_samples']} samples of {len(rows)}; ", printed)
         _, strong = self.played(net, self.device(), table(sine(2000)), "--decomposition", "velocity-free")
         self.assertEqual(strong["limited_samples"], 0)
 

@@ -1,6 +1,6 @@
 // The coil of a programmable brake: what the brake's damping does after a new one is demanded.
 //
-// b = κ i² (device.md, section 3), so the state kept here is √b = √κ·i, which is proportional to the coil's current and
+// b = κ i², so the state kept here is √b = √κ·i, which is proportional to the coil's current and
 // to its magnetic field. Under a constant demand it obeys
 //     d√b/dt = clamp((√b_demanded − √b)/lag, ±slew),     slew = √κ · (V/L),
 // which is solved exactly: straight while the rail voltage limits it, exponential afterwards. Where κ is not stated the

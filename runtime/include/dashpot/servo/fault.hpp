@@ -1,4 +1,4 @@
-// Everything that sends the servo loop into its safe state (device.md, section 6), and how each is counted and named.
+// Everything that sends the servo loop into its safe state, and how each is counted and named.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Watches one loop on one device for the faults of device.md, section 6. No heap, no clock, no input or output: the
+// Watches one loop on one device for the faults of fault.hpp. No heap, no clock, no input or output: the
 // loop shows it what happened in a period, in running order, and sends the safe command when a check returns a fault.
 //
 // A sample is fresh when the device calls it ok and its sequence number has moved on. Up to

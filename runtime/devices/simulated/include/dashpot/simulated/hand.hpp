@@ -26,7 +26,7 @@ struct hand {
 hand no_hand();
 hand mass_spring_damper(double mass, double damping, double stiffness);  // [kg], [N·s/m], [N/m]
 
-// Sets seen in the literature (device.md, section 5).
+// Sets of values as the literature has them.
 hand relaxed_hand();  // 0.8 kg, 5.5 N·s/m, 30 N/m
 hand firm_hand();     // 0.55 kg, 6.5 N·s/m, 135 N/m
 hand stiff_grasp();   // no mass, 8 N·s/m, 400 N/m

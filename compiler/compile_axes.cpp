@@ -18,15 +18,12 @@
 namespace dashpot::compiler {
 namespace {
 
-constexpr axes::BrakeRule rules_of_brakes[] = {axes::BrakeRule::diagonal, axes::BrakeRule::non_injecting,
-                                               axes::BrakeRule::virtual_brake};
-
 // `diagonal` where nothing is asked for; nothing, reported, for a rule of one axis.
 std::optional<axes::BrakeRule> brake_rule(const Choices& choices, const std::optional<AxesDevice>& device,
                                           Diagnostics& diagnostics) {
   if (is_named(choices, "")) return axes::BrakeRule::diagonal;
   std::string names;
-  for (const axes::BrakeRule rule : rules_of_brakes) {
+  for (const axes::BrakeRule rule : axes::all_brake_rules) {
     // A closed form of two brakes.
     if (rule == axes::BrakeRule::non_injecting && device && device->brakes.size() != 2) continue;
     if (is_named(choices, name_of(rule))) return rule;
@@ -120,6 +117,10 @@ std::string_view axes::name_of(BrakeRule rule) {
 
 std::optional<axes::ShareMap> share_by(const AxesCompilation& c, axes::BrakeRule rule) {
   return share_of(c.network, certified_ports(c), c.device, rule);
+}
+
+std::vector<PlacedShare> shares_over(const AxesCompilation& c, axes::BrakeRule rule, int side) {
+  return shares_over(c.network, certified_ports(c), c.device, rule, side);
 }
 
 namespace {

@@ -86,6 +86,29 @@ axes::TipDamping wanted_at_tip(const AxesNetwork& network, const std::vector<Cer
   };
 }
 
+// None of a device without a workspace.
+std::vector<axes::Place> places_of(const AxesDevice& device, int side) {
+  if (device.workspace[0].width() == 0) return {};
+  return axes::places_in(device.arm, device.workspace, side);
+}
+
+// A share is told of what takes power in every direction; a single wall does so by 1e-9 of the most that is wanted.
+// Nothing where nothing is wanted.
+std::optional<axes::TipDamping> definite_at_tip(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                                                const AxesDevice& device, const std::vector<axes::Place>& places) {
+  const axes::TipDamping wanted = wanted_at_tip(network, ports);
+  double most = 0;
+  for (const axes::Place& place : places) {
+    const Symmetric<double> there = wanted(axes::pose(device.arm, place.joints).tip);
+    most = std::max(most, there.xx + there.yy);
+  }
+  if (most == 0) return std::nullopt;
+  const double everywhere = 1e-9 * most;
+  return [wanted, everywhere](const Pair<double>& tip) {
+    return wanted(tip) + Symmetric<double>{everywhere, 0, everywhere};
+  };
+}
+
 // What of the ports' damping the two brakes make over joint positions, each along its own direction: of ports without a
 // contact, which damp everywhere.
 Pair<Sloped> dampings_over(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
@@ -319,22 +342,22 @@ std::vector<axes::Brake> brakes_of(const AxesDevice& device) {
 
 std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                        const AxesDevice& device, axes::BrakeRule rule) {
-  if (device.workspace[0].width() == 0) return std::nullopt;
-  const std::vector<axes::Place> places = axes::places_in(device.arm, device.workspace, places_a_side);
-  if (places.empty()) return std::nullopt;
-  const axes::TipDamping wanted = wanted_at_tip(network, ports);
-  double most = 0;
-  for (const axes::Place& place : places) {
-    const Symmetric<double> there = wanted(axes::pose(device.arm, place.joints).tip);
-    most = std::max(most, there.xx + there.yy);
-  }
-  if (most == 0) return std::nullopt;
-  // A share is told of what takes power in every direction; a single wall does so by this much.
-  const double everywhere = 1e-9 * most;
-  const axes::TipDamping definite = [&](const Pair<double>& tip) {
-    return wanted(tip) + Symmetric<double>{everywhere, 0, everywhere};
-  };
-  return axes::share_map(device.arm, places, brakes_of(device), rule, definite);
+  const std::vector<axes::Place> places = places_of(device, places_a_side);
+  const std::optional<axes::TipDamping> wanted = definite_at_tip(network, ports, device, places);
+  if (!wanted) return std::nullopt;
+  return axes::share_map(device.arm, places, brakes_of(device), rule, *wanted);
+}
+
+std::vector<PlacedShare> shares_over(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                                     const AxesDevice& device, axes::BrakeRule rule, int side) {
+  const std::vector<axes::Place> places = places_of(device, side);
+  const std::optional<axes::TipDamping> wanted = definite_at_tip(network, ports, device, places);
+  std::vector<PlacedShare> shares;
+  for (const axes::Place& place : places)
+    if (wanted)
+      shares.push_back({axes::pose(device.arm, place.joints).tip,
+                        axes::share_at(device.arm, place.joints, brakes_of(device), rule, *wanted)});
+  return shares;
 }
 
 AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,

@@ -55,6 +55,14 @@ std::vector<axes::Brake> brakes_of(const AxesDevice& device);
 std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                        const AxesDevice& device, axes::BrakeRule rule);
 
+// The same at the centres of `side` × `side` equal parts of the workspace; empty where there is none of it.
+struct PlacedShare {
+  axes::Pair<double> tip;  // [m]
+  axes::Share share;
+};
+std::vector<PlacedShare> shares_over(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                                     const AxesDevice& device, axes::BrakeRule rule, int side);
+
 // In: a network's ports, the device, and by what rule its brakes take part. Out: the certificate, with what has to be
 // added to the brakes' commands, as far as they reach.
 AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,

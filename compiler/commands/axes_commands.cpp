@@ -18,9 +18,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr axes::BrakeRule all_rules[] = {axes::BrakeRule::diagonal, axes::BrakeRule::non_injecting,
-                                         axes::BrakeRule::virtual_brake};
-
 // Options that only laws of one axis know.
 const char* option_of_one_axis(const Options& options) {
   if (options.emission.constant_time) return "--constant-time";
@@ -70,7 +67,7 @@ std::string shares_text(const AxesCompilation& c) {
       "{:<14} {:>6} {:>6} {:>6} {:>14} {:>8} {:>8} {:>12}\n",
       "", "in all directions", "", "in the worst one", "delay-proof", "candidate", "mean", "median", "least", "at [mm]",
       "median", "least", "[%]");
-  for (const axes::BrakeRule rule : all_rules)
+  for (const axes::BrakeRule rule : axes::all_brake_rules)
     if (const auto share = share_by(c, rule)) text += share_row(name_of(rule), *share, rule == c.rule);
   return text;
 }
@@ -132,7 +129,7 @@ std::string explain_json(const AxesCompilation& c) {
                      {"modes", modes},
                      {"damping", c.ports[i].decomposition.choice().damping}});
   }
-  for (const axes::BrakeRule rule : all_rules) {
+  for (const axes::BrakeRule rule : axes::all_brake_rules) {
     const auto share = share_by(c, rule);
     candidates.push_back({{"name", name_of(rule)}, {"share", share ? json_of(*share) : Json(nullptr)}});
   }

@@ -27,11 +27,16 @@ namespace axes {
 
 // "diagonal", "non-injecting", "virtual".
 std::string_view name_of(BrakeRule rule);
+inline constexpr BrakeRule all_brake_rules[] = {BrakeRule::diagonal, BrakeRule::non_injecting,
+                                                BrakeRule::virtual_brake};
 
 }  // namespace axes
 
 // What the brakes would make of the ports' damping by another rule; nothing without a workspace.
 std::optional<axes::ShareMap> share_by(const AxesCompilation& compilation, axes::BrakeRule rule);
+
+// The same at the centres of `side` × `side` equal parts of the workspace.
+std::vector<PlacedShare> shares_over(const AxesCompilation& compilation, axes::BrakeRule rule, int side);
 
 // <name>.hpp. Refuses: templates that do not fit.
 std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,

@@ -63,6 +63,8 @@ def wanted():
     of_one_axis = [path for path in sorted(SOURCE.glob("networks/*/*.json")) if path.parent.name != "axes"]
     networks = recorded.one_a_shape(sorted(SOURCE.glob("networks/paper/*.json")) + of_one_axis)
     arguments = {path.stem: [path.relative_to(SOURCE)] for path in networks}
+    for path in sorted(SOURCE.glob("networks/axes/*.json")):
+        arguments[path.stem] = [path.relative_to(SOURCE), "--device", "runtime/devices/pantograph_2dof.json"]
     return {**arguments, "with_a_device": ["networks/paper/second_order_maxwell.json", "--device", PANTOGRAPH]}
 
 

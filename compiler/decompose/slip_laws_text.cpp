@@ -122,8 +122,9 @@ std::string to_text(const SlipDecomposition& slips, const Network& network) {
     text += fmt::format("{}\n", to_text(likes));
     const bool is_silent = std::all_of(likes.first->shares.begin(), likes.first->shares.end(),
                                        [](const BrakeShare& share) { return share.damping == 0; });
-    text += fmt::format("  {} regimes{}{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "",
-                        is_silent && !asks_the_brake(*likes.first) ? ", and the brake makes nothing of this part in any" : "");
+    text += fmt::format(
+        "  {} regimes{}{}\n", likes.first->regimes.count, likes.names.size() > 1 ? " each" : "",
+        is_silent && !asks_the_brake(*likes.first) ? ", and the brake makes nothing of this part in any" : "");
     if (asks_the_brake(*likes.first)) text += regimes_text(*likes.first, network);
     if (likes.first->regimes.regimes.empty() && likes.first->shares.front().damping > 0)
       text += fmt::format("  b = {:.8g} in every regime\n", likes.first->shares.front().damping);

@@ -9,9 +9,9 @@
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
 //   100.6) mm, in motions alike in all directions
 // passivity: certified for any motion in the workspace, while the motors make their torques: what the motors hold
-//   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints; 0.00421038 and
-//   0.00421038 N·m·s/rad of it is missing there, beside their own damping and the brakes' share of the network's;
-//   most is missing at (0.9375, 70) mm
+//   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints; their own
+//   damping and the brakes' share of the network's leave 0.00421038 and 0.00421038 N·m·s/rad of it to be added,
+//   most at (0.9375, 70) mm
 //   of what is needed, 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers

@@ -10,8 +10,8 @@
 //   119.4) mm, in motions alike in all directions
 // passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the loop is late:
 //   what the motors hold from one sample to the next needs 0.0446642 and 0.0446642 N·m·s/rad of damping at the
-//   joints; 0.0445942 and 0.0445942 N·m·s/rad of it is missing there, beside their own damping and the brakes'
-//   share of the network's; most is missing at (-22.97, 120) mm
+//   joints; their own damping and the brakes' share of the network's leave 0.0445942 and 0.0445942 N·m·s/rad of it
+//   to be added, most at (-22.97, 120) mm
 //   of what is needed, 0.00743716 and 0.00743716 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.0336727 and 0.0336727 N·m·s/rad are for the lag of the motors' amplifiers

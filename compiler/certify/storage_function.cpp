@@ -17,7 +17,8 @@ namespace {
 
 namespace checker = dashpot_check;
 
-constexpr std::size_t most_states_in_digits = 30;  // beyond, 50 digits take seconds
+constexpr std::size_t most_states_in_digits = 30;      // beyond, 50 digits take seconds
+constexpr std::size_t most_states_step_by_step = 100;  // beyond, a step takes seconds
 // Beyond, so does the search of one P for all holds, which rounding ends early besides: it is left for laws of which
 // nothing else is known.
 constexpr std::size_t most_states_in_common = 18, most_states_in_common_at_all = 30;
@@ -468,12 +469,14 @@ std::optional<checker::LoopForm> loop_form_of(const checker::Program& program, c
 // taken to.
 std::optional<StorageProof> punctual_proof(const StorageSearch& search, double most) {
   std::vector<double> slacks = {4e-9, 9e-9, 4e-8, 4e-7, 4e-6, 4e-5, 4e-4, 4e-3, 4e-2};
+  const bool takes_long = search.states() > most_states_in_digits;
+  if (search.states() > most_states_step_by_step) slacks.resize(1);
   while (slacks.size() > 1 && search.supremum() * (1 + slacks.back()) > most) slacks.pop_back();
   const auto at = [&](std::size_t step) -> std::optional<StorageProof> {
     const double damping = search.supremum() * (1 + slacks[step]);
     for (const double strictness : {usual_strictness, least_strictness})
       for (const bool in_doubles : {true, false})
-        if (search.states() <= most_states_in_digits || (in_doubles && strictness == usual_strictness))
+        if (!takes_long || (in_doubles && strictness == usual_strictness))
           if (std::optional<StorageProof> proof = search.at(damping, in_doubles, strictness)) return proof;
     return std::nullopt;
   };

@@ -48,6 +48,17 @@ std::string name_of_joints(const fitting::TableColumn& column) {
   return columns_for({column}, fitting::Role::time).empty() ? folded(parts_of(column).name) : "time";
 }
 
+// Time and both joints, once each, and the velocities of both or of none.
+bool is_joint_header(const std::vector<fitting::TableColumn>& columns) {
+  const auto count = [&](const char* name) {
+    return std::count_if(columns.begin(), columns.end(),
+                         [&](const fitting::TableColumn& column) { return name_of_joints(column) == name; });
+  };
+  const auto velocities = count(joint_velocities[0]);
+  return count("time") == 1 && count(joint_positions[0]) == 1 && count(joint_positions[1]) == 1 && velocities <= 1 &&
+         count(joint_velocities[1]) == velocities;
+}
+
 struct Cell {
   std::string_view text;
   Span span;
@@ -65,22 +76,20 @@ class CsvTable {
 
   bool is_motion() {
     find_dialect();
-    std::vector<fitting::TableColumn> columns;
-    for (const Cell& cell : find_header()) columns.push_back(fitting::table_column(cell.text));
+    const std::vector<fitting::TableColumn> columns = columns_of(find_header(is_header));
     return is_header(columns) && (std::any_of(columns.begin(), columns.end(), is_own) ||
                                   std::none_of(columns.begin(), columns.end(), is_answer));
   }
 
   bool is_joint_motion() {
     find_dialect();
-    find_joint_header();
-    return joints_.has_all;
+    return is_joint_header(columns_of(find_header(is_joint_header)));
   }
 
   std::optional<Motion> read() {
     if (!is_text()) return std::nullopt;
     find_dialect();
-    const std::vector<Cell> header = find_header();
+    const std::vector<Cell> header = find_header(is_header);
     if (header.empty()) return refuse_empty();
     Motion motion;
     const std::vector<fitting::TableColumn> columns = with_units(header);
@@ -112,18 +121,19 @@ class CsvTable {
   std::optional<JointMotion> read_joints() {
     if (!is_text()) return std::nullopt;
     find_dialect();
-    const std::vector<Cell> header = find_joint_header();
+    const std::vector<Cell> header = find_header(is_joint_header);
     if (header.empty()) return refuse_empty(), std::nullopt;
-    if (!joints_.has_all)
+    if (!is_joint_header(columns_of(header)))
       return fail<DiagnosticCode::axes_csv_columns>({&file_, header.front().span.begin, header.back().span.end},
                                                     excerpt(line_of(header))),
              std::nullopt;
     JointMotion motion;
-    const auto time = joint_column(header, "time", motion);
+    const std::vector<fitting::TableColumn> columns = with_units(header);
+    const auto time = joint_column(header, columns, "time", motion);
     std::optional<Column> position[2], velocity[2];
     for (std::size_t j = 0; j < 2; ++j) {
-      position[j] = joint_column(header, joint_positions[j], motion);
-      velocity[j] = joint_column(header, joint_velocities[j], motion);
+      position[j] = joint_column(header, columns, joint_positions[j], motion);
+      velocity[j] = joint_column(header, columns, joint_velocities[j], motion);
     }
     if (failed_) return std::nullopt;
     digits_ = TimeDigits(time->factor);
@@ -165,8 +175,14 @@ class CsvTable {
     dialect_ = fitting::dialect_of(head).value_or(fitting::Dialect());
   }
 
-  // The first line that names time and position; without one the first line, whose want is told.
-  std::vector<Cell> find_header() {
+  static std::vector<fitting::TableColumn> columns_of(const std::vector<Cell>& line) {
+    std::vector<fitting::TableColumn> columns;
+    for (const Cell& cell : line) columns.push_back(fitting::table_column(cell.text));
+    return columns;
+  }
+
+  // The first line whose columns are a header's; without one the first line, whose want is told.
+  std::vector<Cell> find_header(bool (*is_header)(const std::vector<fitting::TableColumn>&)) {
     std::vector<Cell> first;
     std::size_t behind_first = 0;
     for (std::size_t i = 0; i < fitting::head_lines; ++i) {
@@ -175,34 +191,7 @@ class CsvTable {
       const std::vector<Cell> line = names_in(text);
       if (line.empty()) continue;  // the sign of a comment alone
       if (first.empty()) first = line, behind_first = place_;
-      std::vector<fitting::TableColumn> columns;
-      for (const Cell& cell : line) columns.push_back(fitting::table_column(cell.text));
-      if (is_header(columns)) return line;
-    }
-    place_ = behind_first;
-    return first;
-  }
-
-  // The first line that names time and both joints; without one the first line.
-  std::vector<Cell> find_joint_header() {
-    std::vector<Cell> first;
-    std::size_t behind_first = 0;
-    for (std::size_t i = 0; i < fitting::head_lines; ++i) {
-      const Cell text = next_line();
-      if (text.text.empty()) break;
-      const std::vector<Cell> line = names_in(text);
-      if (line.empty()) continue;
-      if (first.empty()) first = line, behind_first = place_;
-      joints_ = {};
-      for (const Cell& cell : line) joints_.columns.push_back(fitting::table_column(cell.text));
-      joints_.has_all = true;
-      for (const char* name : {"time", joint_positions[0], joint_positions[1]})
-        joints_.has_all = joints_.has_all && joints_.count(name) == 1;
-      const std::size_t velocities = joints_.count(joint_velocities[0]);
-      joints_.has_all = joints_.has_all && velocities <= 1 && joints_.count(joint_velocities[1]) == velocities;
-      if (!joints_.has_all) continue;
-      joints_.columns = with_units(line);
-      return line;
+      if (is_header(columns_of(line))) return line;
     }
     place_ = behind_first;
     return first;
@@ -215,14 +204,15 @@ class CsvTable {
   }
 
   // Nothing where there is none, or, told, where its unit is of something else.
-  std::optional<Column> joint_column(const std::vector<Cell>& header, const std::string& name, JointMotion& motion) {
+  std::optional<Column> joint_column(const std::vector<Cell>& header, const std::vector<fitting::TableColumn>& columns,
+                                     const std::string& name, JointMotion& motion) {
     const auto is_named = [&](const fitting::TableColumn& column) { return name_of_joints(column) == name; };
-    const auto found = std::find_if(joints_.columns.begin(), joints_.columns.end(), is_named);
-    if (found == joints_.columns.end()) return std::nullopt;
+    const auto found = std::find_if(columns.begin(), columns.end(), is_named);
+    if (found == columns.end()) return std::nullopt;
     const fitting::Role role = name == "time"   ? fitting::Role::time
                                : name[0] == 'q' ? fitting::Role::position
                                                 : fitting::Role::velocity;
-    const auto index = static_cast<std::size_t>(found - joints_.columns.begin());
+    const auto index = static_cast<std::size_t>(found - columns.begin());
     const fitting::TitleParts parts = parts_of(*found);
     const auto unit = parts.unit && !found->unit ? std::nullopt : fitting::unit_of_column(*found, role);
     if (!unit) {
@@ -399,18 +389,6 @@ class CsvTable {
   Diagnostics& diagnostics_;
   std::size_t place_ = 0;
   fitting::Dialect dialect_;
-  // What the header of joints says.
-  struct JointColumns {
-    std::vector<fitting::TableColumn> columns;
-    bool has_all = false;
-
-    std::size_t count(const std::string& name) const {
-      return static_cast<std::size_t>(std::count_if(
-          columns.begin(), columns.end(), [&](const auto& column) { return name_of_joints(column) == name; }));
-    }
-  };
-
-  JointColumns joints_;
   std::vector<Span> row_spans_;
   TimeDigits digits_;
   bool failed_ = false;

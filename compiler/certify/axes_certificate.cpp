@@ -352,11 +352,12 @@ std::vector<PlacedShare> shares_over(const AxesNetwork& network, const std::vect
                                      const AxesDevice& device, axes::BrakeRule rule, int side) {
   const std::vector<axes::Place> places = places_of(device, side);
   const std::optional<axes::TipDamping> wanted = definite_at_tip(network, ports, device, places);
+  if (!wanted) return {};
+  const std::vector<axes::Brake> brakes = brakes_of(device);
   std::vector<PlacedShare> shares;
   for (const axes::Place& place : places)
-    if (wanted)
-      shares.push_back({axes::pose(device.arm, place.joints).tip,
-                        axes::share_at(device.arm, place.joints, brakes_of(device), rule, *wanted)});
+    shares.push_back(
+        {axes::pose(device.arm, place.joints).tip, axes::share_at(device.arm, place.joints, brakes, rule, *wanted)});
   return shares;
 }
 

@@ -9,6 +9,7 @@
 #include "law/cost.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
+#include "report/page_parts.hpp"
 #include "report/schematic.hpp"
 #include "report/workspace_map.hpp"
 
@@ -19,10 +20,6 @@ using axes::Pair;
 
 constexpr int map_side = 40;  // parts of the workspace in a map of shares
 constexpr int arrows_across = 13;
-
-Fields fact(const std::string& label, const std::string& value, const std::string& unit, const char* channel = "") {
-  return {{"label", label}, {"value", value}, {"unit", unit}, {"channel", channel}};
-}
 
 std::string millimetres(const Pair<double>& place) {
   return fmt::format("({}, {})", number_text(1e3 * place[0], 3), number_text(1e3 * place[1], 3));
@@ -151,11 +148,16 @@ std::string force_figure(const AxesCompilation& c) {
   return map_figure(map);
 }
 
-std::string share_figure(const AxesCompilation& c, axes::BrakeRule rule) {
-  const std::vector<PlacedShare> shares = shares_over(c, rule, map_side);
-  const auto told = share_by(c, rule);
+// What a rule of the brakes makes of the ports' damping over the workspace.
+struct SharedBy {
+  axes::BrakeRule rule;
+  axes::ShareMap share;
+};
+
+std::string share_figure(const AxesCompilation& c, const SharedBy& by) {
+  const std::vector<PlacedShare> shares = shares_over(c, by.rule, map_side);
   WorkspaceMap map;
-  map.title = fmt::format("Share of the brakes, {}{}", name_of(rule), rule == c.rule ? " (chosen)" : "");
+  map.title = fmt::format("Share of the brakes, {}{}", name_of(by.rule), by.rule == c.rule ? " (chosen)" : "");
   map.shown = c.device.workspace;
   map.cell_size = {map.shown[0].width() / map_side, map.shown[1].width() / map_side};
   bool has_marks = false;
@@ -168,25 +170,22 @@ std::string share_figure(const AxesCompilation& c, axes::BrakeRule rule) {
     const double apart = a.centre[1] - b.centre[1];
     return std::abs(apart) > map.cell_size[1] / 2 ? apart < 0 : a.centre[0] < b.centre[0];
   });
-  if (told) map.dots.push_back({told->worst_at, share_text(told->worst)});
+  map.dots.push_back({by.share.worst_at, share_text(by.share.worst)});
   map.scale = "of the ports' damping";
   map.note = "The dot: where it is least.";
   if (has_marks) map.note += " Hatched: there, velocities that are late enough make the motors' part active.";
   return map_figure(map);
 }
 
-std::string shares_html(const AxesCompilation& c) {
+std::string shares_html(const AxesCompilation& c, const std::vector<SharedBy>& all) {
   std::string rows;
-  for (const axes::BrakeRule rule : axes::all_brake_rules) {
-    const auto share = share_by(c, rule);
-    if (!share) continue;
+  for (const auto& [rule, share] : all)
     rows += fmt::format(
         "<tbody{}><tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td><td>{:.0f}</td></tr></tbody>\n",
-        rule == c.rule ? " class=\"chosen\"" : "", name_of(rule), share_text(share->mean), share_text(share->median),
-        share_text(share->worst), millimetres(share->worst_at), share_text(share->worst_direction_median),
-        share_text(share->worst_direction_worst), 100 * share->delay_proof);
-  }
+        rule == c.rule ? " class=\"chosen\"" : "", name_of(rule), share_text(share.mean), share_text(share.median),
+        share_text(share.worst), millimetres(share.worst_at), share_text(share.worst_direction_median),
+        share_text(share.worst_direction_worst), 100 * share.delay_proof);
   return "<div class=\"wide\"><table class=\"candidates\">\n<thead><tr><th></th><th>mean</th><th>median</th><th>least"
          "</th><th>at [mm]</th><th>median in the worst direction</th><th>least there</th><th>delay-proof [%]</th></tr>"
          "</thead>\n" +
@@ -216,22 +215,6 @@ std::string ports_html(const AxesCompilation& c) {
   return html;
 }
 
-std::string sentences(const std::vector<std::string>& lines) {
-  std::string html;
-  for (std::string line : lines) {
-    line.erase(0, line.find_first_not_of(' '));
-    if (line.starts_with("passivity: ")) line.erase(0, std::string_view("passivity: ").size());
-    if (!line.empty() && line[0] >= 'a' && line[0] <= 'z') line[0] = char(line[0] - 'a' + 'A');
-    html += "<p>" + escaped(in_four_digits(line)) + (line.ends_with('.') ? "" : ".") + "</p>\n";
-  }
-  return html;
-}
-
-std::string built_in(const char* name, Diagnostics& diagnostics) {
-  const SourceFile* file = find_template(name, std::nullopt, diagnostics);
-  return file ? std::string(file->text()) : "";
-}
-
 }  // namespace
 
 std::optional<std::string> report(const AxesCompilation& c, Diagnostics& diagnostics) {
@@ -247,24 +230,23 @@ std::optional<std::string> report(const AxesCompilation& c, Diagnostics& diagnos
   fields["digest"] = c.network.digest;
   fields["style"] = built_in("report.css", diagnostics);
   fields["ports"] = ports_html(c);
-  fields["passivity"] = sentences(passivity_lines(c.certificate, c.device));
+  for (const std::string& line : passivity_lines(c.certificate, c.device)) fields["passivity"] += sentence(line);
   model.lists["facts"] = facts(c);
-  for (const char* list : {"networks", "remarks", "comments", "remarks_end", "workspace", "shares", "no_device"})
-    model.lists[list];
+  for (const char* list : {"networks", "workspace", "shares", "no_device"}) model.lists[list];
   for (std::size_t i = 0; i < c.ports.size(); ++i)
     model.lists["networks"].push_back(
         {{"port", escaped(c.network.ports[i].name)}, {"drawing", schematic(c.ports[i].network)}});
-  if (!c.network.comments.empty()) model.lists["remarks"] = model.lists["remarks_end"] = {{}};
-  for (const Comment& comment : c.network.comments)
-    model.lists["comments"].push_back({{"about", comment.about.empty() ? "" : "<b>" + escaped(comment.about) + "</b> "},
-                                       {"text", escaped(comment.text)}});
+  add_comments(c.network.comments, model);
   if (c.has_device) model.lists["workspace"].push_back({{"figures", arm_figure(c) + force_figure(c)}});
   else model.lists["no_device"].push_back({});
   if (c.certificate.share) {
-    std::string figures;
+    std::vector<SharedBy> all;
     for (const axes::BrakeRule rule : axes::all_brake_rules)
-      if (rule != axes::BrakeRule::virtual_brake) figures += share_figure(c, rule);
-    model.lists["shares"].push_back({{"table", shares_html(c)}, {"figures", figures}});
+      if (const auto share = share_by(c, rule)) all.push_back({rule, *share});
+    std::string figures;
+    for (const SharedBy& by : all)
+      if (by.rule != axes::BrakeRule::virtual_brake) figures += share_figure(c, by);
+    model.lists["shares"].push_back({{"table", shares_html(c, all)}, {"figures", figures}});
   }
   const SourceFile* shape = find_template("axes_report.html.in", std::nullopt, diagnostics);
   return shape ? fill(*shape, model, diagnostics) : std::nullopt;

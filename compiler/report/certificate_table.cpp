@@ -6,44 +6,36 @@
 
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
+#include "report/page_parts.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
-std::string fact(const std::string& name, const std::string& value, const std::string& unit) {
+std::string fact_row(const std::string& name, const std::string& value, const std::string& unit) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n", name, value, unit);
 }
 
-// A line of the certificate as a sentence below the heading.
-std::string sentence(std::string line) {
-  constexpr std::string_view heading = "passivity: ";
-  if (line.compare(0, heading.size(), heading) == 0) line.erase(0, heading.size());
-  line.erase(0, line.find_first_not_of(' '));
-  if (!line.empty() && line[0] >= 'a' && line[0] <= 'z') line[0] = char(line[0] - 'a' + 'A');
-  return "<p>" + escaped(in_four_digits(line)) + ".</p>\n";
-}
-
 std::string damping_facts(const Certificate& c, const PortUnits& units) {
-  std::string html = fact("damping needed at most", number_text(c.bound.needed), units.damping);
-  if (c.bound.frequency > 0) html += fact("where it binds", number_text(c.bound.frequency), "Hz");
-  html += fact("damping assured", number_text(c.assured), units.damping);
-  if (c.added_damping > 0) html += fact("of it added for passivity", number_text(c.added_damping), units.damping);
+  std::string html = fact_row("damping needed at most", number_text(c.bound.needed), units.damping);
+  if (c.bound.frequency > 0) html += fact_row("where it binds", number_text(c.bound.frequency), "Hz");
+  html += fact_row("damping assured", number_text(c.assured), units.damping);
+  if (c.added_damping > 0) html += fact_row("of it added for passivity", number_text(c.added_damping), units.damping);
   if (c.certified) return html;
   const double missing = c.minimum_damping - c.added_damping;
   const std::string lacking = std::isfinite(missing) ? number_text(missing) : "no command would do";
-  return html + fact("lacking in the brake's command", lacking, units.damping);
+  return html + fact_row("lacking in the brake's command", lacking, units.damping);
 }
 
 std::string encoder_facts(const Certificate& c, const PortUnits& units) {
   if (c.loop.encoder_step == 0) return "";
   std::string html;
   if (c.quantisation_gain)
-    html += fact("the encoder's steps act in the motor like a spring of", number_text(*c.quantisation_gain),
-                 units.stiffness);
-  html += fact("friction takes its energy up to 2<i>f</i><sub>c</sub>/Δ =", number_text(c.quantisation_stiffness),
-               units.stiffness);
+    html += fact_row("the encoder's steps act in the motor like a spring of", number_text(*c.quantisation_gain),
+                     units.stiffness);
+  html += fact_row("friction takes its energy up to 2<i>f</i><sub>c</sub>/Δ =", number_text(c.quantisation_stiffness),
+                   units.stiffness);
   if (unpaid_force(c) > 0)
-    html += fact("what is beyond can give the hand", number_text(unpaid_force(c)), "J/" + units.position);
+    html += fact_row("what is beyond can give the hand", number_text(unpaid_force(c)), "J/" + units.position);
   return html;
 }
 

@@ -21,6 +21,7 @@
 #include "report/linear_responses.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
+#include "report/page_parts.hpp"
 #include "report/regime_table.hpp"
 #include "report/sampled_margin.hpp"
 #include "report/schematic.hpp"
@@ -33,10 +34,6 @@ constexpr std::size_t most_drawn_elements = 150;
 
 // Behind a contact a linear network is one for as long as it is touched.
 bool is_linear(const Compilation& c) { return !c.form.has_slips(); }
-
-Fields fact(const std::string& label, const std::string& value, const std::string& unit, const char* channel = "") {
-  return {{"label", label}, {"value", value}, {"unit", unit}, {"channel", channel}};
-}
 
 // What a reader looks for first.
 std::vector<Fields> facts(const Compilation& c) {
@@ -66,15 +63,6 @@ std::vector<Fields> facts(const Compilation& c) {
 std::string in_words_html(const std::string& words) {
   if (words.empty()) return "";
   return "<p>" + escaped(in_four_digits(words)) + (words.ends_with('.') ? "" : ".") + "</p>";
-}
-
-// What the author remarks, with the name or the place in the file that it stands at.
-void add_comments(const Compilation& c, CodeModel& model) {
-  for (const char* list : {"comments", "remarks", "remarks_end"}) model.lists[list];
-  if (!c.network.comments.empty()) model.lists["remarks"] = model.lists["remarks_end"] = {{}};
-  for (const Comment& comment : c.network.comments)
-    model.lists["comments"].push_back({{"about", comment.about.empty() ? "" : "<b>" + escaped(comment.about) + "</b> "},
-                                       {"text", escaped(comment.text)}});
 }
 
 // Candidates are of what is beside the slips. Without a device they differ by nothing that can be shown there.
@@ -218,11 +206,6 @@ std::string data_json(const Compilation& c, const std::optional<std::string>& mo
 }
 
 // Text of a file that was built in; it must be there.
-std::string built_in(const char* name, Diagnostics& diagnostics) {
-  const SourceFile* file = find_template(name, std::nullopt, diagnostics);
-  return file ? std::string(file->text()) : "";
-}
-
 void add_page(CodeModel& model, Diagnostics& diagnostics) {
   Fields& fields = model.fields;
   fields["style"] = built_in("report.css", diagnostics);
@@ -260,7 +243,7 @@ std::optional<std::string> report(const Compilation& c, const std::optional<std:
   const double amplitude = telling_amplitude(c);
   fields["responses"] =
       static_curve_html(c) + (is_linear(c) ? linear_responses_html(c) : "") + hysteresis_html(c, amplitude);
-  add_comments(c, model);
+  add_comments(c.network.comments, model);
   add_linear_parts(c, model);
   add_passivity(c, model);
   add_live_part(c, module.has_value(), amplitude, model);

@@ -1,6 +1,6 @@
 #include "insist.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,9 +24,15 @@ constexpr double some_more = 1 + 1e-9;  // than what is needed, which is rounded
 constexpr double noticeably = 0.9;      // of an error, what is worth another choice [1]
 constexpr double ruinous = 0.5;         // of the network's force: what errs by so much feels like something else [1]
 
-constexpr const char* no_lag = "no \"amplifier_lag\"";
-constexpr const char* no_delay = "no \"delay_samples\"";
-constexpr const char* no_slew = "no \"slew\"";
+// What makes a loop late, in the words of the file without it.
+struct Lateness {
+  const char* words_without;
+  void (*leave_out)(device_description&);
+};
+
+const Lateness amplifier_lag{"no \"amplifier_lag\"", [](device_description& d) { d.motor.amplifier_lag = 0; }};
+const Lateness loop_delay{"no \"delay_samples\"", [](device_description& d) { d.loop.delay_samples = 0; }};
+const Lateness limited_slew{"no \"slew\"", [](device_description& d) { d.motor.slew = 0; }};
 
 // The network on another device, or another one on the same: what is told to people has been tried.
 std::optional<Compilation> compiled(const Network& network, Choices choices, const Device& device) {
@@ -127,7 +133,7 @@ class Remedies {
 
   // At the tool, in four digits: of the device itself, whatever the brake does, without what makes its loop late, in
   // the words of the file.
-  std::optional<Remedy> own_damping(const std::vector<const char*>& left_out) const {
+  std::optional<Remedy> own_damping(const std::vector<Lateness>& left_out) const {
     Device device = without(left_out);
     mechanics_description& mechanics = device.description.mechanics;
     const double own = mechanics.damping;
@@ -218,7 +224,7 @@ class Remedies {
     std::vector<std::pair<std::string, WorstError>> all;
     const device_description& own = c_.device->description;
     const bool has_lag = own.motor.amplifier_lag > 0, has_delay = own.loop.delay_samples > 0;
-    const auto attempt = [&](bool is_there, const std::vector<const char*>& left_out) {
+    const auto attempt = [&](bool is_there, const std::vector<Lateness>& left_out) {
       if (!is_there) return;
       const Device prompt = without(left_out);
       if (!may_do(prompt)) return;
@@ -226,9 +232,9 @@ class Remedies {
       if (error && (all.empty() || error->share < noticeably * all.back().second.share))
         all.emplace_back(joined(left_out), *error);
     };
-    attempt(has_lag, {no_lag});
-    attempt(has_delay, {no_delay});
-    attempt(has_lag && has_delay, {no_delay, no_lag});
+    attempt(has_lag, {amplifier_lag});
+    attempt(has_delay, {loop_delay});
+    attempt(has_lag && has_delay, {loop_delay, amplifier_lag});
     return all;
   }
 
@@ -257,7 +263,7 @@ class Remedies {
   // Of the same device, if its motor's force could follow at once.
   std::optional<WorstError> without_slew() const {
     if (c_.device->description.motor.slew == 0) return std::nullopt;
-    const Device prompt = without({no_slew});
+    const Device prompt = without({limited_slew});
     if (!c_.network.contact && !may_do(prompt)) return std::nullopt;
     return error_where_certified(c_.network, choices_, prompt);
   }
@@ -274,18 +280,16 @@ class Remedies {
     return std::nullopt;
   }
 
-  static std::string joined(const std::vector<const char*>& left_out) {
-    return fmt::format("{}", fmt::join(left_out, " and "));
+  static std::string joined(const std::vector<Lateness>& left_out) {
+    std::string words;
+    for (const Lateness& one : left_out) words += (words.empty() ? "" : " and ") + std::string(one.words_without);
+    return words;
   }
 
  private:
-  Device without(const std::vector<const char*>& left_out) const {
+  Device without(const std::vector<Lateness>& left_out) const {
     Device device = *c_.device;
-    for (const char* const words : left_out) {
-      if (words == no_lag) device.description.motor.amplifier_lag = 0;
-      if (words == no_delay) device.description.loop.delay_samples = 0;
-      if (words == no_slew) device.description.motor.slew = 0;
-    }
+    for (const Lateness& one : left_out) one.leave_out(device.description);
     return device;
   }
 
@@ -366,7 +370,7 @@ bool add_slew(const Compilation& c, const Remedies& remedies, RemedyNotes& notes
   if (slew)
     notes.add<DiagnosticCode::slew_that_would_do>(
         slew->error, slew->value, std::string(port_units(c.device->description.motion).force), motor.slew);
-  if (without) notes.add<DiagnosticCode::prompt_loop_that_would_do>(*without, std::string(no_slew));
+  if (without) notes.add<DiagnosticCode::prompt_loop_that_would_do>(*without, std::string(limited_slew.words_without));
   return slew || without;
 }
 
@@ -380,7 +384,7 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   RemedyNotes notes;
   if (c.certificate.loop.amplifier_lag > 0) add_jitter(c, remedies, notes);
   const bool is_slew_told = add_slew(c, remedies, notes);
-  const auto add_without = [&](const std::vector<const char*>& left_out) {
+  const auto add_without = [&](const std::vector<Lateness>& left_out) {
     const auto damping = remedies.own_damping(left_out);
     if (!damping) return false;
     const std::string besides = left_out.empty() ? "" : " with " + Remedies::joined(left_out);
@@ -392,16 +396,16 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
     return true;
   };
   // The least change first: often the lag alone stands in the way.
-  std::vector<std::vector<const char*>> attempts = {{}};
-  std::vector<const char*> all;
-  const auto attempt = [&](bool is_there, const char* words) {
+  std::vector<std::vector<Lateness>> attempts = {{}};
+  std::vector<Lateness> all;
+  const auto attempt = [&](bool is_there, const Lateness& one) {
     if (!is_there) return;
-    attempts.push_back({words});
-    all.push_back(words);
+    attempts.push_back({one});
+    all.push_back(one);
   };
-  attempt(device.motor.amplifier_lag > 0, no_lag);
-  attempt(device.motor.slew > 0 && !is_slew_told, no_slew);
-  attempt(device.loop.delay_samples > 0, no_delay);
+  attempt(device.motor.amplifier_lag > 0, amplifier_lag);
+  attempt(device.motor.slew > 0 && !is_slew_told, limited_slew);
+  attempt(device.loop.delay_samples > 0, loop_delay);
   if (all.size() > 1) attempts.push_back(all);
   std::any_of(attempts.begin(), attempts.end(), add_without);
   notes.tell(diagnostics);

@@ -584,11 +584,9 @@ bool needs_one_for_all_holds(const MotorConstants& motor, const SampledLoop& loo
   return loop.jitter > 0 && (loop.amplifier_lag > 0 || (motor.follows_estimate() && divides_by_varying_interval(loop)));
 }
 
-std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
-                                          std::optional<double> most) {
+std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop, double most) {
   return found_proof(motor, loop, true, [&](const StorageSearch& search) {
-    return needs_one_for_all_holds(motor, loop) ? jittered_proof(search, false)
-                                                : punctual_proof(search, most.value_or(HUGE_VAL));
+    return needs_one_for_all_holds(motor, loop) ? jittered_proof(search, false) : punctual_proof(search, most);
   });
 }
 

@@ -8,6 +8,7 @@
 // where one is too coarse, and then checked with integers: nothing here has to be believed.
 #pragma once
 
+#include <cmath>
 #include <optional>
 
 #include "certify/certificate.hpp"
@@ -37,8 +38,7 @@ bool needs_one_for_all_holds(const MotorConstants& motor, const SampledLoop& loo
 // Not more than 1e-8 above the supremum over all frequencies, if doubles do and samples are punctual, else as little
 // above as is found; with jitter times T_max/T, and where one P serves all holds next to what the best of them needs.
 // With `most` nothing is looked for much above that [N·s/m]. Empty where nothing is proved.
-std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop,
-                                          std::optional<double> most = std::nullopt);
+std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop, double most = HUGE_VAL);
 
 // One P for all holds, as above. Found sooner, with up to a hundredth more damping, where that is no more than `enough`
 // or that is empty.

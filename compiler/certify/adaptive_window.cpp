@@ -89,7 +89,7 @@ std::optional<Rational> largest_response(const MotorConstants& motor) {
 }  // namespace
 
 std::optional<WindowStorage> window_storage(const SampledLoop& loop, double gain) {
-  if (loop.amplifier_lag > 0) return std::nullopt;
+  if (loop.amplifier_lag > 0 || loop.write_latest > 0) return std::nullopt;
   if (divides_by_varying_interval(loop)) return interval_storage(loop);
   if (!adapts(loop)) return std::nullopt;
   const std::string_view text = table(loop.velocity.best_fit, gain > 0);
@@ -122,7 +122,7 @@ std::optional<double> damping_for_estimate(const MotorConstants& motor, const Sa
   const std::optional<WindowStorage> known =
       motor.estimate_drives_modes() && !divides ? std::nullopt : window_storage(loop, motor.velocity_gain);
   const std::optional<Rational> response = largest_response(motor);
-  if (!response || (divides && !known)) return std::nullopt;
+  if (!response || (divides && !known && loop.write_latest == 0)) return std::nullopt;
   return ceiling(Rational(known ? known->factor : *gain) * *response);
 }
 

@@ -28,9 +28,16 @@ std::string hindrance_to_hold(const MotorConstants& motor, const SampledLoop& lo
   return "";
 }
 
-// T_max/h
-Rational longest_hold_share(const SampledLoop& loop) {
-  return (Rational(loop.sample_period) + Rational(loop.jitter)) / Rational(loop.sample_period);
+// T_max, and T_max/h
+Rational longest_hold(const SampledLoop& loop) {
+  return Rational(loop.sample_period) + Rational(loop.jitter) +
+         (Rational(loop.write_latest) - Rational(loop.write_earliest));
+}
+Rational longest_hold_share(const SampledLoop& loop) { return longest_hold(loop) / Rational(loop.sample_period); }
+
+// time_of_write()/T_max, not below it.
+Rational late_share_counted(const SampledLoop& loop) {
+  return Rational(time_of_write(loop) / loop.longest_hold()) * (1 + Rational(1e-15));
 }
 
 PassivityBound within_range(PassivityBound bound) {
@@ -50,17 +57,18 @@ PassivityBound sampled_statement(const MotorConstants& motor, const SampledLoop&
   bound.reason = hindrance_to_hold(motor, loop);
   bound.constant_period_only = loop.amplifier_lag > 0;
   if (!std::isfinite(bound.needed)) return within_range(bound);
-  if (bound.needed > 0 && loop.jitter > 0 && !bound.constant_period_only)
+  if (bound.needed > 0 && !loop.is_punctual() && !bound.constant_period_only)
     bound.needed = ceiling(Rational(bound.needed) * longest_hold_share(loop));
   return within_range(bound);
 }
 
-// β (1 + 2n) T_max: late by n samples the force is off by no more than 2 n β ‖Δu‖, for |1 − wⁿ| |H| ≤ 2 n β.
+// β (1 + 2n) T_max: late by n samples the force is off by no more than 2 n β ‖Δu‖, for |1 − wⁿ| |H| ≤ 2 n β. With a
+// command that acts later still, time_of_write() more.
 PassivityBound hold_statement(const MotorConstants& motor, const SampledLoop& loop) {
   PassivityBound bound;
   bound.proof = Proof::hold;
-  bound.needed = ceiling(hold_stiffness(motor) * (1 + 2 * Rational(loop.delay_samples)) *
-                         (Rational(loop.sample_period) + Rational(loop.jitter)));
+  bound.needed = ceiling(hold_stiffness(motor) * (1 + 2 * Rational(loop.delay_samples) + late_share_counted(loop)) *
+                         longest_hold(loop));
   return within_range(bound);
 }
 
@@ -109,7 +117,7 @@ PassivityBound prompt_bound(const std::optional<MotorConstants>& motor, const Sa
   }
   if (hindrance_to_hold(*motor, loop).empty()) {
     const PassivityBound held = hold_statement(*motor, loop);
-    if (loop.delay_samples == 0) return held;
+    if (!loop.is_late()) return held;
     PassivityBound sampled = sampled_statement(*motor, loop, {}, 0, terms);
     sampled.reason = "over all frequencies less is needed than sample by sample";
     const bool asks_less =
@@ -130,6 +138,7 @@ PassivityBound prompt_bound(const std::optional<MotorConstants>& motor, const Sa
 }  // namespace
 
 PassivityBound passivity_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop, std::size_t terms) {
+  if (loop.may_overtake()) return not_proved(overtaken);
   const PassivityBound bound = prompt_bound(motor, loop, terms);
   return motor ? with_slew(bound, *motor, loop) : bound;
 }
@@ -146,16 +155,16 @@ PassivityBound with_slips(PassivityBound bound, const SlipMotor& slips, const Sa
   bound.any_regime = true;
   bound.storage.reset();
   if (bound.proof == Proof::none) return bound;
-  const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
+  if (loop.may_overtake()) return not_proved(overtaken);
   if (loop.motor_slew > 0)
     return not_proved(
         "the motor's slew is limited, and its force jumps where a slip gives way or a contact begins or ends");
-  if (slips.lets_go_by_estimate && is_late)
+  if (slips.lets_go_by_estimate && loop.is_late())
     return not_proved("the contact lets go by a velocity estimate, and the loop is late");
   if (loop.amplifier_lag > 0) {
     bound.proof = Proof::sampled;
     bound.reason = "the amplifier lags";
-    bound.constant_period_only = bound.constant_period_only || loop.jitter == 0;
+    bound.constant_period_only = bound.constant_period_only || loop.is_punctual();
     if (loop.jitter >= loop.sample_period) return not_proved(at_once);
   }
   const double hold = loop.longest_hold() / loop.sample_period;
@@ -218,6 +227,7 @@ double rounding_of_step(const UpdateLaw& law) {
 // What is lacking at the worst place of the box, as a need against the least brake.
 PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   if (!box.hindrance.empty()) return not_proved(box.hindrance);
+  if (loop.may_overtake()) return not_proved(overtaken);
   if (loop.motor_slew > 0) return not_proved("the motor's slew is limited, and parameters change");
   if (loop.amplifier_lag > 0 && loop.jitter >= loop.sample_period) return not_proved(at_once);
   PassivityBound bound;
@@ -225,7 +235,7 @@ PassivityBound box_bound(const BoxMotor& box, const SampledLoop& loop) {
   if (!std::isfinite(bound.needed)) return within_range(bound);
   bound.proof = loop.amplifier_lag > 0 ? Proof::sampled : Proof::hold;
   if (loop.amplifier_lag > 0) bound.reason = "the amplifier lags";
-  bound.constant_period_only = loop.amplifier_lag > 0 && loop.jitter == 0;
+  bound.constant_period_only = loop.amplifier_lag > 0 && loop.is_punctual();
   bound.needed = std::max(0.0, ceiling(assured_share(loop) * Rational(box.least_brake) + Rational(box.lacking)));
   bound.any_value = true;
   return bound;

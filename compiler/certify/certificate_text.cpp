@@ -13,7 +13,9 @@ std::string covered(const Certificate& c) {
   if (c.bound.any_value) regimes += ", any values within their ranges between changes";
   if (c.bound.constant_period_only)
     return fmt::format("any motion{}, samples at {:.6g} Hz", regimes, 1 / c.loop.sample_period);
-  const std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";
+  std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";
+  if (c.loop.write_latest > 0)
+    jitter += fmt::format(", commands that act up to {:.4g} s after their samples", c.loop.write_latest);
   if (c.bound.proof == Proof::sampled)
     return fmt::format("any motion{}, samples at {:.6g} Hz{}", regimes, 1 / c.loop.sample_period, jitter);
   const char* brake = c.bound.any_regime || c.bound.any_value ? "least command" : "command";

@@ -26,7 +26,10 @@ double yield_forces(const Network& network) {
 std::string hindrance(const MotorConstants& motor, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
   if (motor.estimate_drives_modes() || (slips && slips->held_compensation > 0))
     return "the estimated velocity moves the law's states, and of that nothing is proved behind a static curve";
+  if (tool.may_overtake()) return overtaken;
   if (slips && tool.amplifier_lag > 0) return "the amplifier lags, and slips or a contact lie behind a static curve";
+  if (slips && tool.write_latest > 0)
+    return "commands act later than their samples, and slips or a contact lie behind a static curve";
   if (tool.motor_slew > 0) return "the motor's slew is limited, and its force lies behind a static curve";
   if (!tool.has_device)
     return "a static curve's steepness changes while the tool moves, and no device states how fast that is";
@@ -120,13 +123,13 @@ class CurveNeed {
   }
 
   double cost_of_lag() const {
-    if (tool_.amplifier_lag == 0) return 0;
+    if (tool_.amplifier_lag == 0 && tool_.write_latest == 0) return 0;
     const double steepest = map_.steepest();
     double most = 0;
     each_stretch(
         [&](double from, double to) { most = std::max(most, force(from, to) * map_.largest_curvature(from, to)); });
     const double stiffness = hold_stiffness(motor_).convert_to<double>();
-    return (stiffness * steepest * steepest + most / 2) * time_of_lag(tool_);
+    return (stiffness * steepest * steepest + most / 2) * time_of_lateness(tool_);
   }
 
   // Largest |M| over a stretch.
@@ -175,8 +178,7 @@ MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& cert
   limits.unbounded = Unbounded::curve;
   limits.needed = certificate.bound.needed;
   if (!certificate.certified) limits.reason = "nothing is proved of it within the limit either";
-  else if (tool.delay_samples > 0 || tool.amplifier_lag > 0)
-    limits.reason = "its forces lie behind a static curve, and the loop is late";
+  else if (tool.is_late()) limits.reason = "its forces lie behind a static curve, and the loop is late";
   limits.is_covered = limits.reason.empty();
   return limits;
 }
@@ -204,8 +206,8 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
     return not_proved("the brake's coil does not follow the static curve at the largest speed");
   const std::optional<double> of_estimate = cost_of_estimate(motor, slips, tool, map.steepest());
   if (!of_estimate) return not_proved(not_proved_for(tool));
-  behind.amplifier_lag = 0;                                    // these two are counted apart
-  behind.device_damping = std::numeric_limits<double>::max();  // what is there is compared at the tool
+  behind.amplifier_lag = behind.write_earliest = behind.write_latest = 0;  // these are counted apart
+  behind.device_damping = std::numeric_limits<double>::max();              // what is there is compared at the tool
   motor.velocity_gain = 0;
   std::optional<SlipMotor> without_estimate = slips;
   if (slips) without_estimate->compensation = 0;

@@ -52,7 +52,7 @@ Gains gains_of(const MotorConstants& linear, const std::optional<SlipMotor>& sli
   if (!slips) return gains;
   gains.position += slips->stiffness;
   gains.dampers = slips->damping;
-  const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
+  const bool is_late = loop.is_late();
   // What a ramp takes back its own excess pays for, as long as it acts on the same hold.
   add_estimate(slips->compensation + (is_late ? slips->held_compensation : 0), loop, gains);
   if (is_late && !slips->springs_alone) gains.hindrance = "dampers are behind the slips, and the loop is late";
@@ -84,9 +84,10 @@ double stiffness_of(const MotorConstants& linear, const std::optional<SlipMotor>
 
 bool is_enough(const std::optional<double>& wanted, double given) { return given == 0 || (wanted && *wanted <= given); }
 
-// b ≥ β′ ((1 + 2n) T + L + S)
+// b ≥ β′ ((1 + 2n) T + L + S + W)
 double needed_by(const Gains& gains, const SampledLoop& loop, double slew_time) {
-  const double late = (1 + 2.0 * loop.delay_samples) * loop.longest_hold() + time_of_lag(loop) + slew_time;
+  const double late =
+      (1 + 2.0 * loop.delay_samples) * loop.longest_hold() + time_of_lag(loop) + time_of_write(loop) + slew_time;
   return gains.all() * late + gains.dampers * loop.longest_hold() / loop.sample_period * margin;
 }
 
@@ -127,10 +128,23 @@ std::optional<double> slew_needed(const MotorConstants& motor, const SampledLoop
 double time_of_lag(const SampledLoop& loop) {
   const double lag = loop.amplifier_lag;
   if (!(lag > 0)) return 0;
-  const double kept = -std::expm1(-(loop.sample_period - loop.jitter) / lag);  // 1 − q
-  if (!(kept > 0)) return std::numeric_limits<double>::infinity();             // two samples may follow at once
-  const double lost = -std::expm1(-2 * loop.longest_hold() / lag);             // 1 − q_T²
+  const double shortest = loop.sample_period - loop.jitter - (loop.write_latest - loop.write_earliest);
+  const double kept = -std::expm1(-shortest / lag);                 // 1 − q
+  if (!(kept > 0)) return std::numeric_limits<double>::infinity();  // two samples may follow at once
+  const double lost = -std::expm1(-2 * loop.longest_hold() / lag);  // 1 − q_T²
   return 2 * std::sqrt(loop.longest_hold() * lag * lost / 2) / kept * margin;
+}
+
+double time_of_write(const SampledLoop& loop) {
+  if (loop.write_latest == 0) return 0;
+  const double s = loop.late_share(), prompt = 1 + 2.0 * loop.delay_samples, all = prompt + 2 * s;
+  // ½ (√(m² + 4κ) − m) = 2κ/(√(m² + 4κ) + m)
+  const double apart = s * (1 - s), more = 2 * apart / (std::sqrt(all * all + 4 * apart) + all);
+  return (2 * s + more) * loop.longest_hold() * margin;
+}
+
+double time_of_lateness(const SampledLoop& loop) {
+  return time_of_lag(loop) + 2 * std::sqrt(loop.longest_hold() * loop.write_latest) * margin;
 }
 
 std::optional<double> damping_for_slew(const MotorConstants& motor, double used, const SampledLoop& loop) {
@@ -165,7 +179,7 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
   limits.unbounded = unbounded(gains, slips, loop);
   if (limits.unbounded == Unbounded::nothing) limits.largest_force = largest_force(linear, slips, loop);
   if (!slips) limits.slew_needed = slew_needed(linear, loop);
-  if (loop.motor_slew > 0)
+  if (loop.motor_slew > 0 && loop.write_latest == 0)
     limits.largest_discontinuity = covered_discontinuity(loop.motor_slew, assured.convert_to<double>() - needed,
                                                          stiffness_of(linear, slips), loop.sample_period);
   const bool slew_is_enough = is_enough(limits.slew_needed, loop.motor_slew);
@@ -182,7 +196,7 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
     if (is_same_statement(gains, linear, slips, loop) && needed >= limits.needed * as_good_as_one)
       limits.needed = needed;
     // Behind a contact the brake leaves a free tool alone, which touches late.
-    const bool is_alone = slips && slips->behind_contact && (loop.delay_samples > 0 || loop.amplifier_lag > 0);
+    const bool is_alone = slips && slips->behind_contact && loop.is_late();
     const Rational there = is_alone ? assured_damping(loop, 0) : assured;
     if (!std::isfinite(limits.needed) || Rational(limits.needed) > there) limits.available = there.convert_to<double>();
   }
@@ -196,10 +210,9 @@ MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<d
   if (!loop.has_device || !(loop.max_force > 0 || loop.motor_slew > 0)) return limits;
   limits.rule = LimitRule::sheds;
   limits.unbounded = Unbounded::tunables;
-  const bool is_late = loop.delay_samples > 0 || loop.amplifier_lag > 0;
   if (!needed) limits.reason = "nothing is proved of it within the limit either";
   else if (loop.motor_slew > 0) limits.reason = "its force may have to fall faster than the motor's slew";
-  else if (is_late) limits.reason = "its parameters change while it runs, and the loop is late";
+  else if (loop.is_late()) limits.reason = "its parameters change while it runs, and the loop is late";
   else limits.needed = *needed;
   if (Rational(limits.needed) > assured) limits.available = assured.convert_to<double>();
   limits.is_covered = limits.reason.empty() && !limits.available;

@@ -10,10 +10,13 @@
 // for s brings c no further back than to the limit, within which it was before. So ‖Δc‖ ≤ 2 β ‖Δu‖ + 2 ‖w‖, as without
 // a limit but for w, and ‖w‖ ≤ |g| γ ‖Δu‖/h whatever s does to it. With β′ = β + |g| γ/h, n samples of delay, an
 // amplifier's lag τ and a slew ρ of which the law uses σ at most, a physical damping of
-//     β′ ((1 + 2n) T + L + S)
+//     β′ ((1 + 2n) T + L + S + W)
 //     L = 2 √(T τ (1 − q²_T)/2)/(1 − q),   q = e^{−(h − j)/τ},   q_T = e^{−T/τ},      S = 2 T √(σ/3ρ)
 // is enough for any motion, sample by sample. L and S are shortfalls: where the motor is off by e(t) while x of the
-// damping is not needed for anything else, it costs at most ∫e²/4x dt.
+// damping is not needed for anything else, it costs at most ∫e²/4x dt. W is of a command that acts d = sT after its
+// sample. Until then the one before acts on what the tool moves, c = s Δu + ρ, which is 2 β′ ‖Δu‖ ‖c‖ at most, and a
+// damping turns b (Δu² + ρ²/(s (1 − s)))/T into heat: with m = 1 + 2n + 2s it takes
+//     b/β′T = ½ (m + √(m² + 4 s (1 − s))) = 1 + 2n + W/T
 //
 // A force F0 that ought to vanish at once and falls by ρT a period costs no more than the F0²/2K that a spring K no
 // longer holds where F0 (1 + 3/2N + (½ + B)/N²) ≤ 6 ρ x/K, N = F0/ρT ≥ 1, with B = √3/36 for a last step that is not a
@@ -73,8 +76,8 @@ MotorLimits motor_limits(const UpdateLaw& law, const std::optional<SlipMotor>& s
 MotorLimits motor_limits_over_box(const SampledLoop& loop, const std::optional<double>& needed,
                                   const Rational& assured);
 
-// β′ ((1 + 2n) T + L) [N·s/m], which is enough under any jitter up to the device's, whether the law sheds or not; empty
-// where it is not known, and where the motor's slew is limited.
+// β′ ((1 + 2n) T + L + W) [N·s/m], which is enough under any jitter up to the device's, whether the law sheds or not;
+// empty where it is not known, and where the motor's slew is limited.
 std::optional<double> needed_sample_by_sample(const MotorConstants& linear, const std::optional<SlipMotor>& slips,
                                               const SampledLoop& loop);
 
@@ -90,6 +93,12 @@ std::optional<double> damping_for_slew(const MotorConstants& motor, double used,
 
 // L [s]; 0 without a lag, infinite with one where two samples may follow at once.
 double time_of_lag(const SampledLoop& loop);
+
+// W [s], not below it; 0 where commands act at once.
+double time_of_write(const SampledLoop& loop);
+
+// L, and what a command's own lateness asks for whatever is done at the same sample: 2 √(T d) [s], not below it.
+double time_of_lateness(const SampledLoop& loop);
 
 // The largest such F0; 0 where there is none.
 double covered_discontinuity(double slew, double spare_damping, double stiffness, double sample_period);

@@ -25,6 +25,17 @@ double lag_spread(double y, double q) {
 
 }  // namespace
 
+LateWrite<Real> late_write(double hold, double delay, double lag) {
+  const Real s = Real(delay) / Real(hold);
+  if (delay == 0) return {};
+  if (lag == 0) return {0, s, 0, 0, 0, s * (1 - s)};
+  const Real x = Real(hold) / Real(lag), y = Real(delay) / Real(lag), until = exp(-y), kept = exp(y - x), q = exp(-x);
+  const Real share = s + (1 - kept) / x, later = (1 - q) / x, spread = (1 - q * q) / (2 * x) - later * later;
+  const Real both = ((1 - until) + (until - kept * q) / 2) / x - share * later, mixed = both / spread;
+  const Real apart = s + (1 - kept * kept) / (2 * x) - share * share - mixed * both;
+  return {kept, share, later, spread, mixed, apart > 0 ? apart : Real(0)};
+}
+
 NeededDamping::NeededDamping(const MotorConstants& motor, const SampledLoop& loop, const EstimatorFactors& estimator)
     : estimator_(estimator),
       follows_estimate_(motor.follows_estimate()),
@@ -40,6 +51,13 @@ NeededDamping::NeededDamping(const MotorConstants& motor, const SampledLoop& loo
     lag_loss_ = -std::expm1(-y);
     lag_share_ = lag_loss_ / y;
     lag_spread_ = std::sqrt(lag_share_ * lag_spread(y, lag_decay_)) * (1 + 1e-13);
+  }
+  // Behind a lag of punctual samples; else of the longest hold, which then scales all.
+  if (loop.write_latest > 0) {
+    const double hold = loop.amplifier_lag > 0 ? loop.sample_period : loop.longest_hold();
+    const LateWrite<Real> write = late_write(hold, loop.write_latest, loop.amplifier_lag);
+    write_ = {to_double(write.kept),         to_double(write.share), to_double(write.later_share),
+              to_double(sqrt(write.spread)), to_double(write.mixed), to_double(sqrt(write.apart))};
   }
   scale_ = stiffness_ * (1 + delay_) + std::abs(rest_) + std::abs(velocity_gain_);
   for (const Mode& mode : modes_)
@@ -137,15 +155,31 @@ NeededDamping::Bounds NeededDamping::on(const Arc& arc) const {
   const RealArcModel springs =
       real_part(stiffness_ * (geometric + ArcModel::constant(-0.5)) + sums.position * geometric);
   const RealArcModel needed = springs + -1.0 * sums.poles + -1.0 * real_part(late * (rest + estimated));
-  if (lag_share_ == 0) return without_lag(needed, arc.radius());
+  if (lag_share_ == 0 && write_.share == 0) return without_lag(needed, arc.radius());
 
   const ArcModel force = power_model(arc, delay_) * (ArcModel::constant(stiffness_) + sums.position +
                                                      difference_model(arc) * (rest + estimated));  // T H
-  const std::optional<ArcModel> lag = pole_model(arc, {lag_decay_, lag_loss_, 1 + lag_decay_, 0});
-  if (!lag) return {-infinite, infinite};
+  std::optional<ArcModel> lag;
+  if (lag_share_ > 0) {
+    lag = pole_model(arc, {lag_decay_, lag_loss_, 1 + lag_decay_, 0});
+    if (!lag) return {-infinite, infinite};
+  }
+  if (write_.share > 0) return with_late_write(arc, needed, force, lag);
   const ArcModel lagged = force * *lag;
   const RealArcModel late_part = lag_share_ * real_part(power_model(arc, 1) * lagged);
-  return with_lag(needed + late_part, lag_spread_ * lagged, arc.radius());
+  return with_lag(needed + late_part, {lag_spread_ * lagged}, arc.radius());
+}
+
+NeededDamping::Bounds NeededDamping::with_late_write(const Arc& arc, const RealArcModel& prompt, const ArcModel& force,
+                                                     const std::optional<ArcModel>& lag) const {
+  ArcModel share = ArcModel::constant(write_.share);
+  std::vector<ArcModel> Z = {write_.apart * force};
+  if (lag) {
+    const ArcModel lacking = write_.kept * (power_model(arc, 1) * *lag);  // e/h
+    share += write_.later_share * lacking;
+    Z.push_back(write_.spread * (force * (ArcModel::constant(write_.mixed) + lacking)));
+  }
+  return with_lag(prompt + real_part(power_model(arc, 1) * (force * share)), Z, arc.radius());
 }
 
 NeededDamping::Bounds NeededDamping::without_lag(const RealArcModel& needed, double radius) const {
@@ -155,23 +189,39 @@ NeededDamping::Bounds NeededDamping::without_lag(const RealArcModel& needed, dou
   return {needed.value - error, needed.value + (error + reach) * slack};
 }
 
-// With V = (R, Z): S = ½ (R + |V|), |V|″ ≤ |V′|²/|V| + |V″|, and |V| falls by no more than |V′| times the radius. Where
-// that says nothing: S grows with R and with |Z|.
-NeededDamping::Bounds NeededDamping::with_lag(const RealArcModel& R, const ArcModel& Z, double radius) const {
-  const double length = std::hypot(R.value, Z.value.magnitude());
-  const double error = roundoff_ * (R.size + Z.size), value = (R.value + length) / 2;
-  const double steepness = std::hypot(R.steepness, Z.steepness), shortest = length - steepness * radius - error;
+// With V = (R, Z₁, Z₂): S = ½ (R + |V|), |V|″ ≤ |V′|²/|V| + |V″|, and |V| falls by no more than |V′| times the radius.
+// Where that says nothing: S grows with R and with every |Z|.
+NeededDamping::Bounds NeededDamping::with_lag(const RealArcModel& R, const std::vector<ArcModel>& Z,
+                                              double radius) const {
+  const auto length_of = [&](double real, const auto& of) {
+    for (const ArcModel& one : Z) real = std::hypot(real, of(one));
+    return real;
+  };
+  double size = R.size, steep = R.steepness, product = R.value * R.slope;
+  for (const ArcModel& one : Z) {
+    size += one.size;
+    steep += one.steepness;
+    product += one.value.real * one.slope.real;
+    product += one.value.imaginary * one.slope.imaginary;
+  }
+  const double length = length_of(R.value, [](const ArcModel& one) { return one.value.magnitude(); });
+  const double steepness = length_of(R.steepness, [](const ArcModel& one) { return one.steepness; });
+  const double second = length_of(R.second, [](const ArcModel& one) { return one.second; });
+  const double error = roundoff_ * size, value = (R.value + length) / 2;
+  const double shortest = length - steepness * radius - error;
   const double R_reach = (std::abs(R.slope) + roundoff_ * R.steepness) * radius + R.second / 2 * radius * radius;
-  const double Z_reach = (Z.slope.magnitude() + roundoff_ * Z.steepness) * radius + Z.second / 2 * radius * radius;
+  const auto farthest = [&](const ArcModel& one) {
+    const double reach =
+        (one.slope.magnitude() + roundoff_ * one.steepness) * radius + one.second / 2 * radius * radius;
+    return one.value.magnitude() + reach;
+  };
   const double highest_R = R.value + R_reach;
-  double over_arc = (highest_R + std::hypot(highest_R, Z.value.magnitude() + Z_reach)) / 2;
+  double over_arc = (highest_R + length_of(highest_R, farthest)) / 2;
   if (shortest > 0) {
-    const double along =
-        (R.value * R.slope + Z.value.real * Z.slope.real + Z.value.imaginary * Z.slope.imaginary) / length;
     const double slope =
-        std::abs(R.slope + along) / 2 + roundoff_ * (R.steepness + Z.steepness) + steepness * 2 * error / shortest;
-    const double second = (R.second + std::hypot(R.second, Z.second) + steepness * steepness / shortest) / 2;
-    over_arc = std::min(over_arc, value + slope * radius + second / 2 * radius * radius);
+        std::abs(R.slope + product / length) / 2 + roundoff_ * steep + steepness * 2 * error / shortest;
+    const double bend = (R.second + second + steepness * steepness / shortest) / 2;
+    over_arc = std::min(over_arc, value + slope * radius + bend / 2 * radius * radius);
   }
   return {value - error, over_arc + error * slack + 1e-15 * std::abs(over_arc)};
 }

@@ -15,14 +15,34 @@
 //     q = e^{−T/τ},   p = (1 − q) τ/T,   κ = p ((1 + q)/2 − p)
 // from Σ 1/ω_m², Σ A/ω_m², Σ |A|²/ω_m² in closed form. It is necessary and sufficient for passivity against every
 // motion, not only against linear hands.
+//
+// A command that acts d after its sample: over a hold the force is off by h ψ(σ) + e φ(σ), where h is the last change
+// of the command, which is still to come, e what the amplifier lacked at the sample, e⁺ = q e + ψ(T) h, φ = e^{−σ/τ},
+// ψ = 1 up to d and e^{−(σ−d)/τ} from there on. With the means of both over the hold and their covariances
+//     R = S₀ + T Re{w H (mean ψ + mean φ · ψ(T) w/(1 − q w))},
+//     Z² = T² |H|² (|√K_φφ (λ + ψ(T) w/(1 − q w))|² + K_ψψ − λ K_ψφ),   λ = K_ψφ/K_φφ
+// Without a lag that is mean ψ = s = d/T and Z² = T² |H|² s (1 − s).
 #pragma once
 
 #include <optional>
 
 #include "certify/arc_model.hpp"
 #include "certify/estimator_factors.hpp"
+#include "linear/real.hpp"
 
 namespace dashpot::compiler {
+
+// What a command that acts late does to a hold; of one that acts at once all are zero.
+template <class Scalar>
+struct LateWrite {
+  Scalar kept = 0;         // ψ(T)
+  Scalar share = 0;        // mean ψ
+  Scalar later_share = 0;  // mean φ, which is p
+  Scalar spread = 0;       // K_φφ, which is κ
+  Scalar mixed = 0;        // λ
+  Scalar apart = 0;        // K_ψψ − λ K_ψφ
+};
+LateWrite<Real> late_write(double hold, double delay, double lag);
 
 class NeededDamping {
  public:
@@ -58,22 +78,25 @@ class NeededDamping {
   ArcModel estimate(const Arc& arc, const ModeSums& sums) const;  // Ĝ (g + Σ e w/(1 − a w))
   std::optional<ArcModel> pole_model(const Arc& arc, const EstimatorPole& pole) const;
   Bounds without_lag(const RealArcModel& needed, double radius) const;
-  Bounds with_lag(const RealArcModel& R, const ArcModel& Z, double radius) const;
+  Bounds with_lag(const RealArcModel& R, const std::vector<ArcModel>& Z, double radius) const;
+  Bounds with_late_write(const Arc& arc, const RealArcModel& prompt, const ArcModel& force,
+                         const std::optional<ArcModel>& lag) const;
 
   std::vector<Mode> modes_;
   EstimatorFactors estimator_;
   bool follows_estimate_;
   unsigned delay_;
   std::vector<double> geometric_;
-  double stiffness_;       // T k0 [N·s/m]
-  double rest_;            // T (s − Σ c) [N·s/m]
-  double rest_error_;      // of rest_
-  double vanished_ = 0;    // T d of modes whose decay is zero [N·s/m]
-  double velocity_gain_;   // g [N·s/m]
-  double lag_decay_ = 0;   // q
-  double lag_loss_ = 1;    // 1 − q
-  double lag_share_ = 0;   // p
-  double lag_spread_ = 0;  // √κ
+  double stiffness_;         // T k0 [N·s/m]
+  double rest_;              // T (s − Σ c) [N·s/m]
+  double rest_error_;        // of rest_
+  double vanished_ = 0;      // T d of modes whose decay is zero [N·s/m]
+  double velocity_gain_;     // g [N·s/m]
+  double lag_decay_ = 0;     // q
+  double lag_loss_ = 1;      // 1 − q
+  double lag_share_ = 0;     // p
+  double lag_spread_ = 0;    // √κ
+  LateWrite<double> write_;  // with the roots of spread and apart
   double roundoff_, scale_;
 };
 

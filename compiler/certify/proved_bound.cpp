@@ -16,9 +16,7 @@ std::optional<SampledLoop> loop_of(const PassivityBound& bound, const std::optio
                                    const SampledLoop& loop) {
   const bool is_plain = motor && bound.proof == Proof::sampled && !bound.any_regime && !bound.any_value;
   if (!is_plain || loop.motor_slew > 0) return std::nullopt;
-  SampledLoop spoken_of = loop;
-  if (bound.constant_period_only) spoken_of.jitter = 0;
-  return spoken_of;
+  return bound.constant_period_only ? punctual(loop) : loop;
 }
 
 }  // namespace
@@ -57,7 +55,7 @@ std::optional<double> needed_beside(const MotorConstants& motor, const SampledLo
 
 PassivityBound under_jitter(PassivityBound bound, const MotorConstants& motor, const SampledLoop& loop,
                             std::optional<Rational> enough) {
-  if (bound.proof == Proof::none || !bound.constant_period_only || loop.jitter == 0) return bound;
+  if (bound.proof == Proof::none || !bound.constant_period_only || loop.is_punctual()) return bound;
   if (loop.jitter >= loop.sample_period) return not_proved(at_once);
   const bool is_linear = is_one_linear_loop(motor, loop);
   const std::optional<double> beside = needed_beside(motor, loop);
@@ -81,7 +79,7 @@ PassivityBound under_jitter(PassivityBound bound, const MotorConstants& motor, c
   return bound;
 }
 
-bool needs_jitter_gap(const SampledLoop& loop) { return loop.amplifier_lag > 0 && loop.jitter > 0; }
+bool needs_jitter_gap(const SampledLoop& loop) { return loop.amplifier_lag > 0 && !loop.is_punctual(); }
 
 namespace {
 
@@ -95,8 +93,7 @@ PassivityBound bound_at_longest_holds(MotorConstants motor, SampledLoop loop, st
   loop.velocity.cutoff /= longer;
   loop.velocity.acceleration /= longer * longer;
   loop.sample_period = loop.longest_hold();
-  loop.jitter = 0;
-  return passivity_bound(motor, loop, terms);
+  return passivity_bound(motor, punctual(loop), terms);
 }
 
 }  // namespace
@@ -132,7 +129,7 @@ double jitter_gap(const MotorConstants& motor, const SampledLoop& loop) {
 
 PassivityBound stated_bound(const std::optional<MotorConstants>& motor, const SampledLoop& loop,
                             const Rational& there) {
-  const bool is_lifted = motor && loop.amplifier_lag > 0 && loop.jitter > 0;
+  const bool is_lifted = motor && needs_jitter_gap(loop);
   return is_lifted ? under_jitter(passivity_bound(motor, loop), *motor, loop, there) : proved_bound(motor, loop);
 }
 

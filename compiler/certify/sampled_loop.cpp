@@ -43,6 +43,12 @@ SampledLoop sampled_loop(const PortDevice& device, double sample_period) {
   return loop;
 }
 
+SampledLoop punctual(SampledLoop loop) {
+  loop.jitter = 0;
+  loop.write_earliest = loop.write_latest;
+  return loop;
+}
+
 Rational assured_share(const SampledLoop& loop) { return (1 - Rational(loop.tolerance)) * share_at_speed(loop); }
 
 Rational assured_damping(const SampledLoop& loop, const Rational& brake) {

@@ -13,6 +13,8 @@ struct SampledLoop {
   double sample_period = 0;       // T [s]
   double jitter = 0;              // longest lateness of a sample [s]
   unsigned delay_samples = 0;     // n
+  double write_earliest = 0;      // of a command, behind its sample and n more, when it acts [s]
+  double write_latest = 0;        // the same, at the latest [s]
   double amplifier_lag = 0;       // τ, first order [s]
   double tolerance = 0;           // ε of the brake [1]
   double largest_speed = 0;       // [m/s]; 0: not stated
@@ -29,8 +31,19 @@ struct SampledLoop {
   velocity_description velocity;  // in the joint's coordinate
   double joint_encoder_step = 0;  // what the estimator is built with [m] or [rad]
 
-  double longest_hold() const { return sample_period + jitter; }  // T_max [s]
+  // T_max: of a command, from when it acts until the next does, or of the samples, whichever is longer [s].
+  double longest_hold() const { return sample_period + jitter + (write_latest - write_earliest); }
+  // Of the longest hold, the share for which the command before still acts.
+  double late_share() const { return write_latest / longest_hold(); }
+  bool is_late() const { return delay_samples > 0 || amplifier_lag > 0 || write_latest > 0; }
+  // Whether all holds are of one length.
+  bool is_punctual() const { return jitter == 0 && write_latest == write_earliest; }
+  // Whether a sample may be read before the command of the one before it acts, of which nothing is proved.
+  bool may_overtake() const { return write_latest > sample_period - jitter; }
 };
+
+// The same without jitter, every command at its latest.
+SampledLoop punctual(SampledLoop loop);
 
 SampledLoop sampled_loop(const PortDevice& device, double sample_period);
 

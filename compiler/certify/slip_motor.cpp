@@ -134,11 +134,14 @@ class Sum {
 }  // namespace
 
 double lateness(const SampledLoop& loop) {
-  const double lag = time_of_lag(loop);
-  return (loop.delay_samples + 1 + (std::isfinite(lag) ? lag / (2 * loop.longest_hold()) : 0)) * (1 + 1e-14);
+  const double late = time_of_lateness(loop);
+  return (loop.delay_samples + 1 + (std::isfinite(late) ? late / (2 * loop.longest_hold()) : 0)) * (1 + 1e-14);
 }
 
 double stiffness_share(const SlipMotor& motor, const SampledLoop& loop) {
+  const double lag = time_of_lag(loop), late = std::isfinite(lag) ? lag + time_of_write(loop) : 0;
+  if (motor.springs_alone && loop.write_latest > 0)
+    return (1 + 2.0 * loop.delay_samples + late / loop.longest_hold()) * (1 + 1e-14);
   if (motor.springs_alone) return (2 * lateness(loop) - 1) * (1 + 1e-14);
   return lateness(loop) * lateness(loop);
 }

@@ -33,23 +33,44 @@ using Complex = std::complex<Scalar>;
 template <class Scalar>
 using Dense = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-// 1/T, and q, p, κ of an amplifier's lag; of none q = p = κ = 0.
+// 1/T, and q, p, κ of an amplifier's lag; of none q = p = κ = 0. Of a command that acts late the rate at which samples
+// come, p until the next one, what it is more from there on, and over the whole hold s = late/T.
 template <class Scalar>
 struct OneHold {
   Scalar rate, decay = 0, share = 0, spread = 0;
+  Scalar late = 0, tilt = 0, pace = rate;
+
+  bool operator==(const OneHold&) const = default;
 };
 
-template <class Scalar>
-OneHold<Scalar> one_hold(double hold, double lag) {
-  if (lag == 0) return {1 / Scalar(hold)};
-  const Real x = Real(hold) / Real(lag), q = exp(-x), p = (1 - q) / x;
-  return {1 / Scalar(hold), Scalar(q), Scalar(p), Scalar(p * ((1 + q) / 2 - p))};
+// κ of a hold that is so many lags long.
+Real spread_of(const Real& x) {
+  const Real q = exp(-x), p = (1 - q) / x;
+  return p * ((1 + q) / 2 - p);
 }
 
-// x⁺ = A x + B w, what is multiplied by w, C, and e.
+// The longest of a device [s].
+double length_of_longest(const checker::Device& device) {
+  return device.sample_period + device.jitter + (device.write_latest - device.write_earliest);
+}
+
+template <class Scalar>
+OneHold<Scalar> longest_hold(const checker::Device& device) {
+  const Real all(length_of_longest(device)), after(device.write_latest), lag(device.amplifier_lag);
+  const Real rate = 1 / all, late = after / all, x = lag > 0 ? Real((all - after) / lag) : Real(0);
+  const Scalar pace(after > 0 ? Real(1 / (Real(device.sample_period) + Real(device.jitter))) : rate);
+  if (lag == 0) return {Scalar(rate), 0, 0, 0, Scalar(late), 0, pace};
+  const Real until = exp(-x), p = (1 - until) / x;
+  if (after == 0) return {Scalar(rate), Scalar(until), Scalar(p), Scalar(spread_of(x)), 0, 0, pace};
+  const Real y = after / lag, tilt = until * (1 - exp(-y)) / y - p;
+  const Real spread = (1 - late) * spread_of(x) + late * until * until * spread_of(y);
+  return {Scalar(rate), Scalar(exp(-all / lag)), Scalar(p), Scalar(spread), Scalar(late), Scalar(tilt), pace};
+}
+
+// x⁺ = A x + B w + L late, what is multiplied by w, C, and e.
 template <class Scalar>
 struct Recursion {
-  Dense<Scalar> A, B, C;
+  Dense<Scalar> A, B, L, C;
   Scalar stiffness;
 };
 
@@ -62,15 +83,16 @@ Scalar nearest(const checker::Rational& value) {
 template <class Scalar>
 Recursion<Scalar> recursion(const checker::LoopForm& loop, const OneHold<Scalar>& hold) {
   const Eigen::Index n = Eigen::Index(loop.states.size());
-  Recursion<Scalar> r{Dense<Scalar>::Zero(n, n), Dense<Scalar>::Zero(n, 1), Dense<Scalar>::Zero(1, n),
-                      nearest<Scalar>(loop.stiffness)};
+  Recursion<Scalar> r{Dense<Scalar>::Zero(n, n), Dense<Scalar>::Zero(n, 1), Dense<Scalar>::Zero(n, 1),
+                      Dense<Scalar>::Zero(1, n), nearest<Scalar>(loop.stiffness)};
   std::map<std::string, Eigen::Index> place;
   for (Eigen::Index i = 0; i < n; ++i) place[loop.states[std::size_t(i)]] = i;
   for (Eigen::Index i = 0; i < n; ++i)
     for (const auto& [name, value] : loop.next.at(loop.states[std::size_t(i)])) {
-      const Scalar factor = nearest<Scalar>(value);
+      const bool is_divided = loop.states[std::size_t(i)] == "pace0";
+      const Scalar factor = is_divided ? Scalar(nearest<Scalar>(value) * hold.pace) : nearest<Scalar>(value);
       if (name == "w") r.B(i, 0) += factor;
-      else if (name == "pace") r.B(i, 0) += factor * hold.rate;
+      else if (name == "late") r.L(i, 0) += factor;
       else r.A(i, place.at(name)) = factor;
     }
   for (const auto& [name, value] : loop.force) r.C(0, place.at(name)) = nearest<Scalar>(value);
@@ -81,7 +103,8 @@ Recursion<Scalar> recursion(const checker::LoopForm& loop, const OneHold<Scalar>
   return r;
 }
 
-// x(θ) = (zI − A)⁻¹ B. The states stand so that A is lower triangular but for a few rows of the estimator.
+// x(θ) = (zI − A)⁻¹ B, of a tool that rests between a sample and when its command acts. The states stand so that A is
+// lower triangular but for a few rows of the estimator.
 template <class Scalar>
 class Response {
  public:
@@ -124,14 +147,56 @@ class Response {
 
 // The damping that the loop needs at one frequency, S(θ).
 template <class Scalar>
-Scalar needed_at(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double hold,
-                 const std::vector<Complex<Scalar>>& x) {
-  using std::sqrt;
-  Scalar answer = r.stiffness / 2;
-  for (std::size_t i = 0; i < x.size(); ++i) answer -= r.C(0, Eigen::Index(i)) * x[i].real();
-  if (lag.spread == 0) return Scalar(hold) * answer;
-  return Scalar(hold) * (answer + sqrt(answer * answer + lag.spread * std::norm(x.back()))) / 2;
-}
+class Need {
+ public:
+  Need(const Recursion<Scalar>& r, const OneHold<Scalar>& hold, const checker::Device& device)
+      : r_(r), hold_(hold), length_(length_of_longest(device)) {
+    const LateWrite<Real> late = late_write(length_, device.write_latest, device.amplifier_lag);
+    late_ = {Scalar(late.kept),   Scalar(late.share), Scalar(late.later_share),
+             Scalar(late.spread), Scalar(late.mixed), Scalar(late.apart)};
+  }
+
+  Scalar at(double angle, const std::vector<Complex<Scalar>>& x) const {
+    using std::sqrt;
+    Scalar answer = r_.stiffness / 2;
+    for (std::size_t i = 0; i < x.size(); ++i) answer -= r_.C(0, Eigen::Index(i)) * x[i].real();
+    Scalar square = hold_.spread == 0 ? Scalar(0) : hold_.spread * std::norm(x.back());
+    if (hold_.late > 0) {
+      const Complex<Scalar> change = last_change(angle, x);  // h
+      Complex<Scalar> lacking(0);                            // e
+      if (hold_.spread != 0) {
+        lacking = turned_back(angle) * x.back() * late_.kept;
+        answer += hold_.share * x.back().real() - late_.later_share * lacking.real();
+      }
+      answer -= late_.share * change.real();
+      square = late_.apart * std::norm(change) + late_.spread * std::norm(late_.mixed * change + lacking);
+    }
+    if (square == 0) return Scalar(length_) * answer;
+    return Scalar(length_) * (answer + sqrt(answer * answer + square)) / 2;
+  }
+
+ private:
+  static Complex<Scalar> turned_back(double angle) {  // w = z⁻¹
+    using std::cos, std::sin;
+    return {cos(Scalar(angle)), -sin(Scalar(angle))};
+  }
+
+  // Of the command, from the sample before to this one: − k0 w − (1 − w) C x, without what C has of e.
+  Complex<Scalar> last_change(double angle, const std::vector<Complex<Scalar>>& x) const {
+    using std::sin;
+    const Scalar sine = sin(Scalar(angle) / 2);
+    const Complex<Scalar> difference(2 * sine * sine, sin(Scalar(angle)));  // 1 − w
+    Complex<Scalar> force(0);
+    for (std::size_t i = 0; i < x.size(); ++i) force += x[i] * r_.C(0, Eigen::Index(i));
+    if (hold_.spread != 0) force -= x.back() * hold_.share;
+    return -(turned_back(angle) * r_.stiffness) - difference * force;
+  }
+
+  const Recursion<Scalar>& r_;
+  const OneHold<Scalar>& hold_;
+  double length_;  // [s]
+  LateWrite<Scalar> late_;
+};
 
 // Of all states, the least share that is lost in a sample; none where that is below what Scalar can tell from 1.
 template <class Scalar>
@@ -160,12 +225,16 @@ std::vector<double> angles_of_interest(double binding, double least_leak) {
 template <class Scalar>
 class StateScales {
  public:
-  StateScales(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double hold, double binding) : hold_(hold) {
+  StateScales(const Recursion<Scalar>& r, const OneHold<Scalar>& hold, const checker::Device& device, double binding)
+      : hold_(length_of_longest(device)) {
     const Response<Scalar> response(r);
+    const Need<Scalar> need(r, hold, device);
     for (const double angle : angles_of_interest(binding, least_leak(r))) {
       const std::vector<Complex<Scalar>> x = response.at(angle);
-      places_.push_back({double(needed_at(r, lag, hold, x)), {}});
+      places_.push_back({double(need.at(angle, x)), {}});
       for (const Complex<Scalar>& state : x) places_.back().squares.push_back(double(std::norm(state)));
+      if (hold.late > 0)
+        places_.back().squares.front() = double(hold.late);  // what the tool moves until a command acts
     }
   }
 
@@ -219,7 +288,7 @@ std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, con
                                               double damping, const std::vector<double>& scale,
                                               double strictness = usual_strictness) {
   const Recursion<Scalar> r = recursion<Scalar>(loop, lag);
-  const Eigen::Index n = r.A.rows(), inputs = lag.spread == 0 ? 1 : 2;
+  const Eigen::Index n = r.A.rows(), late = lag.late == 0 ? 0 : 1, inputs = 1 + late + (lag.spread == 0 ? 0 : 1);
   Dense<Scalar> by(n, 1);
   for (Eigen::Index i = 0; i < n; ++i) by(i, 0) = Scalar(scale[std::size_t(i)]);
   using std::sqrt;
@@ -230,8 +299,15 @@ std::optional<checker::Storage> found_storage(const checker::LoopForm& loop, con
     B(i, 0) = r.B(i, 0) * unit / by(i, 0);
     S(i, 0) = r.C(0, i) * by(i, 0) * unit / Scalar(2);
   }
+  if (late == 1) {  // of b (a² /(1 − s) + c²/s)/T, with c, and a = w − c, over √s of the unit
+    const Scalar own = unit * sqrt(lag.late), early = Scalar(1) - lag.late;
+    for (Eigen::Index i = 0; i < n; ++i) B(i, 1) = r.L(i, 0) * own / by(i, 0);
+    if (lag.spread != 0) S(n - 1, 1) = by(n - 1, 0) * own * lag.tilt / Scalar(2);
+    R(0, 0) = R(1, 1) = Scalar(1) / early;
+    R(0, 1) = R(1, 0) = -sqrt(lag.late) / early;
+  }
   R(0, 0) -= r.stiffness * unit * unit / Scalar(2);
-  if (inputs == 2) S(n - 1, 1) = by(n - 1, 0) * unit * sqrt(lag.spread) / Scalar(2);
+  if (lag.spread != 0) S(n - 1, inputs - 1) = by(n - 1, 0) * unit * sqrt(lag.spread) / Scalar(2);
   const std::optional<Dense<Scalar>> P = riccati<Scalar>(A, B, S, R, strictness);
   if (!P) return std::nullopt;
   checker::Storage storage(loop.states.size());
@@ -277,10 +353,11 @@ std::vector<double> runtime_coefficients(const velocity_description& v, double T
 
 // The largest S(θ) that is found, and where: `attained` at `angle`, and what lies near the angles of interest.
 template <class Scalar>
-std::pair<double, double> largest_need(const Recursion<Scalar>& r, const OneHold<Scalar>& lag, double hold,
-                                       double attained, double angle) {
+std::pair<double, double> largest_need(const Recursion<Scalar>& r, const OneHold<Scalar>& hold,
+                                       const checker::Device& device, double attained, double angle) {
   const Response<Scalar> response(r);
-  const auto need = [&](double at) { return double(needed_at(r, lag, hold, response.at(at))); };
+  const Need<Scalar> needed(r, hold, device);
+  const auto need = [&](double at) { return double(needed.at(at, response.at(at))); };
   std::vector<double> angles = angles_of_interest(angle > 0 ? angle : 1, least_leak(r));
   std::sort(angles.begin(), angles.end());
   std::size_t best = 0;
@@ -306,21 +383,21 @@ class StorageSearch {
         loop_(loop),
         device_(device),
         is_proved_(is_proved),
-        hold_(device.sample_period + device.jitter),
-        lag_(one_hold<double>(hold_, device.amplifier_lag)),
-        lag_in_digits_(one_hold<Real>(hold_, device.amplifier_lag)) {
+        hold_(length_of_longest(device)),
+        lag_(longest_hold<double>(device)),
+        lag_in_digits_(longest_hold<Real>(device)) {
     const double jitter = hold_ / device.sample_period;
     const bool is_scaled = lag_.spread == 0 && device.estimator != name_of(estimator_kind::interval_difference);
     const double attained = is_scaled ? bound.attained * jitter : 0;
     const double angle = 2 * std::numbers::pi * bound.frequency * device.sample_period;
     const Recursion<double> r = recursion<double>(loop, lag_);
-    std::tie(supremum_, angle_) = largest_need(r, lag_, hold_, attained, angle);
+    std::tie(supremum_, angle_) = largest_need(r, lag_, device, attained, angle);
     // A pole next to −1 keeps few digits in doubles.
     const Recursion<Real> exact = recursion<Real>(loop, lag_in_digits_);
-    const double there = double(needed_at(exact, lag_in_digits_, hold_, Response<Real>(exact).at(angle_)));
+    const double there = double(Need<Real>(exact, lag_in_digits_, device).at(angle_, Response<Real>(exact).at(angle_)));
     if (!(std::abs(supremum_ - there) <= most_off_in_doubles * supremum_))
-      std::tie(supremum_, angle_) = largest_need(exact, lag_in_digits_, hold_, attained, angle);
-    scales_.emplace(r, lag_, hold_, angle_);
+      std::tie(supremum_, angle_) = largest_need(exact, lag_in_digits_, device, attained, angle);
+    scales_.emplace(r, lag_, device, angle_);
   }
 
   double supremum() const { return supremum_; }
@@ -376,7 +453,7 @@ class StorageSearch {
  private:
   const StateScales<Real>& scales_in_digits() const {
     if (!scales_in_digits_)
-      scales_in_digits_.emplace(recursion<Real>(loop_, lag_in_digits_), lag_in_digits_, hold_, angle_);
+      scales_in_digits_.emplace(recursion<Real>(loop_, lag_in_digits_), lag_in_digits_, device_, angle_);
     return *scales_in_digits_;
   }
 
@@ -411,11 +488,13 @@ class StorageSearch {
   std::vector<HoldInequality> inequalities(const std::vector<double>& scale, double damping) const {
     if (holds_.empty())
       for (const checker::Hold& hold : checker::holds(device_)) {
-        const OneHold<double> one{nearest<double>(hold.rate), nearest<double>(hold.decay), nearest<double>(hold.share),
-                                  nearest<double>(hold.spread)};
-        const bool is_known = std::any_of(holds_.begin(), holds_.end(), [&](const auto& known) {
-          return known.first.rate == one.rate && known.first.decay == one.decay && known.first.share == one.share;
-        });
+        const checker::Rational all = hold.before + hold.after;  // [s]
+        const OneHold<double> one{nearest<double>(1 / all),          nearest<double>(hold.decay),
+                                  nearest<double>(hold.share),       nearest<double>(hold.spread / all),
+                                  nearest<double>(hold.after / all), nearest<double>(hold.tilt),
+                                  nearest<double>(hold.rate)};
+        const bool is_known =
+            std::any_of(holds_.begin(), holds_.end(), [&](const auto& known) { return known.first == one; });
         if (!is_known) holds_.emplace_back(one, recursion<double>(loop_, one));
       }
     std::vector<HoldInequality> all;
@@ -426,20 +505,27 @@ class StorageSearch {
   HoldInequality inequality(const OneHold<double>& hold, const Recursion<double>& r, const std::vector<double>& scale,
                             double damping) const {
     const double unit = std::sqrt(hold_ / damping);
-    const Eigen::Index n = r.A.rows(), all = n + (hold.spread == 0 ? 1 : 2);
+    const Eigen::Index n = r.A.rows(), late = hold.late == 0 ? 0 : 1, all = n + 1 + late + (hold.spread == 0 ? 0 : 1);
     HoldInequality result{Dense<double>::Zero(n, all), Dense<double>::Zero(all, all), Dense<double>::Zero(all, all)};
+    const double own = unit * std::sqrt(hold.late);  // unit of what the tool moves until a command acts
     for (Eigen::Index i = 0; i < n; ++i) {
       const double by = scale[std::size_t(i)];
       for (Eigen::Index j = 0; j < n; ++j) result.next(i, j) = r.A(i, j) * scale[std::size_t(j)] / by;
       result.next(i, n) = r.B(i, 0) * unit / by;
+      if (late == 1) result.next(i, n + 1) = r.L(i, 0) * own / by;
       result.constant(i, n) = result.constant(n, i) = r.C(0, i) * by * unit / 2;
     }
     const double share = damping * unit * unit * hold.rate;
     result.constant(n, n) = -r.stiffness * unit * unit / 2;
-    result.damping(n, n) = share;
-    if (all == n + 1) return result;
-    result.constant(n - 1, n + 1) = result.constant(n + 1, n - 1) = scale.back() * unit / 2;
-    result.damping(n + 1, n + 1) = share / hold.spread;
+    result.damping(n, n) = share / (1 - hold.late);
+    if (late == 1) {
+      result.damping(n, n + 1) = result.damping(n + 1, n) = -std::sqrt(hold.late) * share / (1 - hold.late);
+      result.damping(n + 1, n + 1) = share / (1 - hold.late);
+    }
+    if (hold.spread == 0) return result;
+    if (late == 1) result.constant(n - 1, n + 1) = result.constant(n + 1, n - 1) = scale.back() * own * hold.tilt / 2;
+    result.constant(n - 1, all - 1) = result.constant(all - 1, n - 1) = scale.back() * unit / 2;
+    result.damping(all - 1, all - 1) = share / hold.spread;
     return result;
   }
 
@@ -512,6 +598,8 @@ checker::Device checked_device(const SampledLoop& loop) {
   const velocity_description& v = loop.velocity;
   checker::Device device{loop.sample_period,
                          loop.jitter,
+                         loop.write_earliest,
+                         loop.write_latest,
                          loop.amplifier_lag,
                          v.cutoff,
                          v.acceleration,
@@ -563,7 +651,7 @@ std::optional<StorageProof> found_proof(const MotorConstants& motor, const Sampl
   const std::optional<EstimatorFactors> factors =
       motor.follows_estimate() ? estimator_factors(loop) : EstimatorFactors{};
   const bool may_follow_at_once = needs_one_for_all_holds(motor, loop) && loop.jitter >= loop.sample_period;
-  if (!factors || may_follow_at_once) return std::nullopt;
+  if (!factors || may_follow_at_once || loop.may_overtake()) return std::nullopt;
   const checker::Device device = checked_device(loop);
   const checker::Program program = checked_program(motor);
   const std::optional<checker::LoopForm> form = loop_form_of(program, device);
@@ -581,7 +669,8 @@ std::optional<StorageProof> found_proof(const MotorConstants& motor, const Sampl
 }  // namespace
 
 bool needs_one_for_all_holds(const MotorConstants& motor, const SampledLoop& loop) {
-  return loop.jitter > 0 && (loop.amplifier_lag > 0 || (motor.follows_estimate() && divides_by_varying_interval(loop)));
+  const bool divides = motor.follows_estimate() && divides_by_varying_interval(loop);
+  return !loop.is_punctual() && (loop.amplifier_lag > 0 || divides);
 }
 
 std::optional<StorageProof> storage_proof(const MotorConstants& motor, const SampledLoop& loop, double most) {

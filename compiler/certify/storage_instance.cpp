@@ -172,7 +172,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   };
   // States in units in which the longest hold leaves as much of each one's square as of that of w: few digits of the
   // witnesses are then enough.
-  const double middle = Rational(Rational(proof.damping) / holds.back().longest).convert_to<double>();
+  const double middle = Rational(Rational(proof.damping) / holds.back().before).convert_to<double>();
   const RationalMatrix of_longest = recursion(holds[holds.size() - corners].decay);
   for (std::size_t i = 0; i < n; ++i) {
     Rational left = P[i][i];
@@ -200,8 +200,9 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
     for (std::size_t j = 0; j < n; ++j) magnitude += abs(stored[i][j]);
   // β and γ of Loop.v.
   const auto dissipation = [&](const dashpot_check::Hold& longest) {
-    const Rational beta = Rational(proof.damping) / longest.longest;
-    return std::pair(scaled(beta, S_digits), lags ? scaled(beta / longest.spread, S_digits) : Integer(0));
+    const Rational damping = proof.damping;
+    return std::pair(scaled(Rational(damping / longest.before), S_digits),
+                     lags ? scaled(Rational(damping / longest.spread), S_digits) : Integer(0));
   };
   // What goes in + V − V⁺ by the leading digits of A, less what the others may take: `near` of Loop.v.
   const auto balance = [&](const IntegerMatrix& whole, const std::vector<Integer>& C, const Integer& beta,
@@ -307,7 +308,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
       "  (0 <= work law 0 (repeat 0 (states law)) holds)%R.\n"
       "Proof. exact (nothing_is_extracted law law_is_sound). Qed.\nPrint Assumptions "
       "nothing_is_extracted_from_this_law.\n",
-      name, proof.damping, lengths, holds.back().longest.convert_to<double>(), lags ? " (decay : Z)" : "",
+      name, proof.damping, lengths, holds.back().before.convert_to<double>(), lags ? " (decay : Z)" : "",
       list_of(A_rows), lags ? " (share : Z)" : "", list_of(C_row), n, row_text(lags ? lacking : std::vector<Integer>{}),
       number_text(stiffness), form_text(stored), power(P_digits), power(A_digits), power(S_digits), list_of(part_texts),
       power(precision.kept), dropped, power(precision.slack), *of_P, list_of(witness_texts));
@@ -318,7 +319,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
 std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
                                         const std::optional<MotorConstants>& motor, SampledLoop loop,
                                         bool joins_holds) {
-  if (!motor || bound.proof == Proof::none || loop.motor_slew > 0) return std::nullopt;
+  if (!motor || bound.proof == Proof::none || loop.motor_slew > 0 || loop.write_latest > 0) return std::nullopt;
   const bool is_one_recursion =
       !adaptive_window_gain(loop) && loop.velocity.estimator != estimator_kind::interval_difference;
   if (motor->follows_estimate() && !is_one_recursion) return std::nullopt;  // of which the theorem is

@@ -12,6 +12,10 @@ PassivityBound not_proved(std::string reason);
 // The reason where samples are so late that two may follow at once.
 inline constexpr const char* at_once = "the amplifier lags, and the jitter is a sample or more";
 
+// The reason where the order of samples and commands is not known.
+inline constexpr const char* overtaken =
+    "a command may act after the next sample is read: \"write_delay\" and \"jitter\" are more than a period together";
+
 // Of an estimator that nothing is known of.
 std::string not_proved_for(const SampledLoop& loop);
 

@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "check.hpp"
-
 namespace dashpot_check {
 namespace {
 Form operator+(Form sum, const Form& other) {
@@ -151,11 +150,9 @@ struct Header : Program {
 };
 std::string displacement(unsigned age) { return "q" + std::to_string(age); }
 Form add(LoopForm& loop, const std::string& state, const Form& next) {
-  loop.states.push_back(state), loop.next[state] = next;
-  return {{state, 1}};
+  return loop.states.push_back(state), loop.next[state] = next, Form{{state, 1}};
 }
-// The velocity estimate in terms of the states after the sample; adds those that it has of its own. Its coefficients
-// are those of the certificate, which must be what the description says, to the rounding of doubles.
+// The velocity estimate in terms of the states after the sample; adds its own. Its coefficients are checked too.
 Form estimate(const Device& device, LoopForm& loop) {
   const std::string& kind = device.estimator;
   const bool adapts = kind == "foaw", slope = adapts ? device.best_fit : kind == "least_squares";
@@ -190,7 +187,7 @@ Form estimate(const Device& device, LoopForm& loop) {
   }
   if (kind == "interval_difference") {
     if (device.jitter >= device.sample_period) throw Unknown("the estimate may divide by no time at all");
-    Form oldest = {{"pace", 1}};
+    Form oldest = loop.next.at(displacement(0));
     for (unsigned age = 0; age <= device.delay_samples; ++age) oldest = add(loop, "pace" + std::to_string(age), oldest);
     return oldest;
   }
@@ -207,8 +204,7 @@ Form estimate(const Device& device, LoopForm& loop) {
   }
   return sum;
 }
-// value · 2^digits, rounded down
-Integer whole(const Rational& value, unsigned digits) {
+Integer whole(const Rational& value, unsigned digits) {  // value · 2^digits, rounded down
   const Integer scaled = numerator(value) << digits, left = scaled % denominator(value);
   return (scaled - left) / denominator(value) - (left < 0 ? 1 : 0);
 }
@@ -222,34 +218,35 @@ std::pair<Rational, Rational> enclosed_decay(const Rational& time, const Rationa
   for (int squarings = 0; squarings < 110; ++squarings) low = low * low >> 220, high = (high * high >> 220) + 1;
   return {below({low, Integer(1) << 220}), above({high, Integer(1) << 220})};
 }
-
-// The inequality's matrix for one hold, over the states, w and ρ, on and below the diagonal: whole, because scaled by
-// 2^digits for each of three factors, but for b/T and b/(κT), which are rounded down.
+// The inequality's matrix for one hold, over the states, w, late and ρ, on and below the diagonal: whole, because
+// scaled by 2^digits for each of three factors, but for what the damping turns into heat, which is rounded down.
 Matrix matrix_of(LoopForm loop, const Matrix& P, unsigned digits, const Rational& damping, const Hold& hold) {
   const std::size_t n = P.size(), lags = hold.spread != 0 && !loop.next.at("lacking").empty();  // else it is none
+  const std::size_t known = n + 1 + (hold.after != 0);
   if (lags) loop.next["lacking"]["lacking"] += hold.decay, loop.next[""]["lacking"] += hold.share;
-  std::map<std::string, std::size_t> place = {{"w", n}, {"pace", n}, {"", n}};
+  std::map<std::string, std::size_t> place = {{"w", n}, {"late", n + 1}, {"", n}};
   for (const std::string& state : loop.states) place.emplace(state, place.size() - 3);
-  Matrix M(n + 1 + lags, std::vector<Integer>(n + 1 + lags)), A(n + 1, std::vector<Integer>(n + 1));  // and B; C
+  Matrix M(known + lags, std::vector<Integer>(known + lags)), A(n + 1, std::vector<Integer>(known));  // and B; C
   for (const auto& [state, next] : loop.next)
     for (const auto& [name, value] : next)
-      A[place.at(state)][place.at(name)] += whole(name == "pace" ? value * hold.rate : value, digits);
+      A[place.at(state)][place.at(name)] += whole(state == "pace0" ? Rational(value * hold.rate) : value, digits);
   for (std::size_t k = 0; k < n; ++k) {
-    std::vector<Integer> PA(n + 1);  // a row of it
+    std::vector<Integer> PA(known);  // a row of it
     for (std::size_t l = 0; l < n; ++l)
-      for (std::size_t j = 0; j <= n; ++j)
+      for (std::size_t j = 0; j < known; ++j)
         if (A[l][j] != 0) PA[j] += P[k][l] * A[l][j];
-    for (std::size_t i = 0; i <= n; ++i)
+    for (std::size_t i = 0; i < known; ++i)
       for (std::size_t j = 0; j <= i && A[k][i] != 0; ++j) M[i][j] -= A[k][i] * PA[j];
     for (std::size_t j = 0; j <= k; ++j) M[k][j] += P[k][j] << (2 * digits);
     M[n][k] += A[n][k] << (2 * digits - 1);
   }
-  M[n][n] += whole(damping / hold.longest - loop.stiffness / 2, 3 * digits);
-  if (lags) M[n + 1][n - 1] = Integer(1) << (3 * digits - 1);
-  if (lags) M[n + 1][n + 1] = whole(damping / hold.longest / hold.spread, 3 * digits);
+  const auto heat = [&](const Rational& time) { return whole(damping / time, 3 * digits); };
+  M[n][n] += heat(hold.before) + whole(-loop.stiffness / 2, 3 * digits);
+  if (known > n + 1) M[n + 1][n] -= heat(hold.before), M[n + 1][n + 1] += heat(hold.before) + heat(hold.after);
+  if (known > n + 1) M[n + 1][n - 1] += whole(hold.tilt / 2, 3 * digits);
+  if (lags) M[known][n - 1] = Integer(1) << (3 * digits - 1), M[known][known] = heat(hold.spread);
   return M;
 }
-
 // Whether M, which is read on and below the diagonal, is L D Lᵀ + R with D > 0 and R diagonally dominant, by
 // elimination, once its last binary digits are dropped. Entries are rounded, by less than one each time: until row k is
 // eliminated, all roundings in it come to less than n (k + 1), which R keeps of its diagonal.
@@ -269,25 +266,25 @@ bool is_nonnegative(Matrix M, unsigned dropped) {
   }
   return true;
 }
-
 // β of a motor that position alone drives, without lag: V⁺ − V ≤ m w + β w² with V = ½ k0 u² + Σ F²/(2 c) and
-// β = k0/2 + Σ c/(1 + a) + |the answer within a sample that no mode explains|; n samples late, β (1 + 2n).
+// β = k0/2 + Σ c/(1 + a) + |the answer within a sample that no mode explains|.
 Rational hold_stiffness(const LoopForm& loop, const Device& device) {
   const std::string drive = displacement(device.delay_samples);
   Rational sum = loop.stiffness / 2, left = of(loop.force, drive);
-  if (device.amplifier_lag != 0 || loop.stiffness < 0) throw Unknown("the amplifier lags, or the spring pushes");
-  for (std::size_t i = device.delay_samples + 1; i < loop.states.size(); ++i) {
+  if (device.amplifier_lag != 0 || loop.stiffness < 0 || holds(device).empty())  // throws at times that contradict
+    throw Unknown("the amplifier lags, or the spring pushes");
+  for (std::size_t i = device.delay_samples + 1 + (device.write_latest > 0); i < loop.states.size(); ++i) {
     const Form& next = loop.next.at(loop.states[i]);
     const Rational a = of(next, loop.states[i]), d = of(next, drive);
     if (next.size() != (a == 0 ? 1u : 2u) || a < 0 || a >= 1 || d <= 0 || of(loop.force, loop.states[i]) != 1)
       throw Unknown("'" + loop.states[i] + "' is not a mode that relaxes and that position alone drives");
     sum += a == 0 ? d : Rational(d / (a + a * a)), left -= a == 0 ? Rational(0) : Rational(d / a);
   }
-  return (sum + abs(left)) * (1 + 2 * device.delay_samples);
+  return sum + abs(left);
 }
 }  // namespace
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Device, sample_period, jitter, amplifier_lag, cutoff, acceleration,
-                                   joint_encoder_step, delay_samples, window, order, best_fit, estimator,
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Device, sample_period, jitter, write_earliest, write_latest, amplifier_lag, cutoff,
+                                   acceleration, joint_encoder_step, delay_samples, window, order, best_fit, estimator,
                                    estimator_coefficients)
 
 LoopForm loop_form(Program program, const Device& device) {
@@ -298,9 +295,11 @@ LoopForm loop_form(Program program, const Device& device) {
   for (auto at = next.begin(); (at = std::ranges::find_if(next, stays_at_zero)) != next.end(); next.erase(at))
     for (auto& [other, form] : next) form.erase(at->first);
   LoopForm loop;
-  Form position = {{"u", 1}}, drive = add(loop, displacement(0), {{"w", 1}});  // as the law sees them
-  for (unsigned age = 1; age <= device.delay_samples; ++age)
-    position = position - drive, drive = add(loop, displacement(age), drive);
+  Form position = {{"u", 1}}, drive = {{"w", 1}};  // as the law sees them
+  if (device.write_latest > 0) position = position - add(loop, "moved", {{"late", 1}});
+  if (device.write_latest > 0) drive = drive + Form{{"moved", 1}, {"late", -1}};
+  for (unsigned age = 0; age <= device.delay_samples; ++age)
+    position = age > 0 ? position - drive : position, drive = add(loop, displacement(age), drive);
   Form sum, all;  // of the states but for a last position, and of what they become
   for (const auto& [state, form] : next)
     if (!state.empty() && form != Form{{"position", 1}}) sum[state] = 1, all = std::move(all) + form;
@@ -322,26 +321,34 @@ LoopForm loop_form(Program program, const Device& device) {
   add(loop, "lacking", loop.force - loop.stiffness * Form{{"w", 1}} - substituted(loop.force, values));
   return loop;
 }
-
 std::vector<Hold> holds(const Device& device) {
-  const Rational period = device.sample_period, late = device.jitter, lag = device.amplifier_lag;
-  if (period <= 0 || late < 0 || lag < 0) throw Unknown("a time is negative");
-  const Rational first = std::max(Rational(period - late), Rational(0));
-  const bool divides = device.estimator == "interval_difference" && first > 0;
-  const int parts = late == 0 || lag == 0 ? 1 : 6;
+  const Rational period = device.sample_period, jitter = device.jitter, lag = device.amplifier_lag;
+  const Rational soonest = device.write_earliest, latest = device.write_latest, wait = latest - soonest;
+  const Rational first = std::max(Rational(period - jitter), Rational(0)),
+                 then = latest > 0 ? Rational(lag / latest) : latest;
+  const bool divides = device.estimator == "interval_difference" && first > 0, is_late = latest > 0;
+  if (period <= 0 || jitter < 0 || lag < 0 || soonest < 0 || wait < 0 || (is_late && latest > first))
+    throw Unknown("a time is negative, or a sample may be read before the command before it acts");
+  const int parts = jitter == 0 || (lag == 0 && !(divides && is_late)) ? 1 : 6;
   std::vector<Hold> holds;
   for (int i = 0; i < parts; ++i) {
-    const Rational step = (period + late - first) / parts, shortest = first + step * i, longest = shortest + step;
-    const auto [low, high] = enclosed_decay(longest, lag);
-    const Rational part = lag / longest, spread = (1 - low) * part * ((1 + high) / 2 - (1 - high) * part);
+    const Rational step = (period + jitter - first) / parts, shortest = first + step * i, longest = shortest + step;
+    const Rational before = longest - soonest, part = lag / before;
+    const auto [low, high] = enclosed_decay(before, lag);  // of what lacked, to the next sample; and from there on
+    const auto [least, most] = enclosed_decay(latest, lag);
+    const Rational until = enclosed_decay(shortest - latest, lag).second, on = until * (1 - least) * then;
+    const Rational spread = before * (1 - low) * part * ((1 + high) / 2 - (1 - high) * part) +
+                            latest * on * until * ((1 + most) / 2 - (1 - most) * then);
     const auto rates = divides ? std::set{below(1 / longest), above(1 / shortest)} : std::set{Rational(1 / longest)};
-    for (const Rational& decay : std::set{low, enclosed_decay(shortest, lag).second})
-      for (const Rational& share : std::set{below((1 - high) * part), above((1 - low) * part)})
-        for (const Rational& rate : rates) holds.push_back({1 / rate, decay, share, spread, rate});
+    for (const auto& decay :
+         std::set{enclosed_decay(longest + wait, lag).first, enclosed_decay(shortest - wait, lag).second})
+      for (const auto& share : std::set{below((1 - high) * part), above((1 - low) * part)})
+        for (const auto& more : is_late ? std::set{below(low * (1 - most) * then), above(on)} : std::set{share})
+          for (const auto& rate : rates)
+            holds.push_back({is_late ? before : Rational(1 / rate), latest, decay, share, spread, more - share, rate});
   }
   return holds;
 }
-
 bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping) {
   const unsigned choices = device.estimator == "foaw" ? std::max(device.window, 1u) : 1, kept = 200;  // digits
   for (device.chosen = 1; device.chosen <= choices; ++device.chosen) {
@@ -361,7 +368,6 @@ bool proves(const Program& program, Device device, const Storage& storage, const
   }
   return true;
 }
-
 std::pair<int, std::string> verdict(const std::string& header, const std::string& certificate) try {
   const nlohmann::json all = nlohmann::json::parse(certificate), &passivity = all.at("passivity");
   bool other = !all.contains("storage") || all.contains(nlohmann::json::json_pointer("/constants/cell_begins"));
@@ -372,20 +378,23 @@ std::pair<int, std::string> verdict(const std::string& header, const std::string
   Device device = all.at("loop");
   const auto number = [&](const char* at) { return Rational(all.at(nlohmann::json::json_pointer(at)).get<double>()); };
   const bool is_punctual = passivity.at("constant_period_only"), is_certified = passivity.at("certified");
-  if (is_punctual) device.jitter = 0;
-  const Rational longest = Rational(device.sample_period) + device.jitter, needed = number("/passivity/needed_damping");
-  // Of what the brake gives, the share that is left at the largest speed, v / v_critical.
-  const Rational slow = number("/loop/critical_speed") * number("/loop/critical_speed");
-  const Rational fast = number("/loop/largest_speed") * number("/loop/largest_speed");
-  const Rational share = slow == 0 ? Rational(1) : fast == 0 ? Rational(0) : Rational(slow / (slow + fast));
+  if (is_punctual) device.jitter = 0, device.write_earliest = device.write_latest;
+  const Rational late_by = device.write_latest, needed = number("/passivity/needed_damping");
+  const Rational longest = Rational(device.sample_period) + device.jitter + (late_by - device.write_earliest);
+  const Rational slow = number("/loop/critical_speed"), fast = number("/loop/largest_speed"), square = slow * slow;
+  const Rational share = slow == 0 ? Rational(1) : fast == 0 ? Rational(0) : Rational(square / (square + fast * fast));
   const Rational told = share * (1 - number("/loop/brake_tolerance")), given = told * program.constants.at("damping");
   const Rational assured = given + share * number("/loop/residual_damping") + number("/loop/device_damping");
   const Rational spare = assured - needed, said = program.constants.at("sample_period");
   const bool by_hold = passivity.at("proof") == "hold";
+  // n samples and a share s of a hold late: b ≥ βT, b (b − βT (1 + 2n + 2s)) ≥ s (1 − s) β²T²
+  const Rational prompt =
+      by_hold ? Rational(hold_stiffness(loop_form(program, device), device) * longest) : Rational(0);
+  const Rational late = late_by / longest, beyond = needed - prompt * (1 + 2 * (device.delay_samples + late));
   const char* refuted = nullptr;
   if (said != device.sample_period && said != float(device.sample_period)) refuted = "the sample periods differ";
   else if (program.constants.at("loop_delay") != device.delay_samples) refuted = "the delays differ";
-  else if (by_hold && needed < hold_stiffness(loop_form(program, device), device) * longest)
+  else if (by_hold && (needed < prompt || needed * beyond < late * (1 - late) * prompt * prompt))
     refuted = "the hold certificate asks for more damping";
   else if (!by_hold && (storage.is_null() || !proves(program, device, storage.at("matrix"), needed)))
     refuted = "no storage function proves the damping that is stated";

@@ -16,7 +16,6 @@ using Forms = std::map<std::string, Form>;
 using Matrix = std::vector<std::vector<Integer>>;
 using Storage = std::vector<std::vector<double>>;  // P, by rows up to the diagonal, behind which roundings may stand
 using Unknown = std::runtime_error;
-
 // What a header computes in a sample, in exact arithmetic, while samples arrive and the motor is within its limit.
 struct Program {
   std::map<std::string, Rational> constants;  // and the states at rest
@@ -24,43 +23,37 @@ struct Program {
   Forms next;                                 // what they become, of the states, `position` and `velocity`
   Form force;
 };
-
 // What the certificate tells of the loop, in SI.
 struct Device {
-  double sample_period, jitter, amplifier_lag, cutoff, acceleration, joint_encoder_step;
+  double sample_period, jitter, write_earliest, write_latest, amplifier_lag, cutoff, acceleration, joint_encoder_step;
   unsigned delay_samples, window, order;
   bool best_fit;
   std::string estimator;
   std::vector<double> estimator_coefficients;
   unsigned chosen = 1;  // of an adaptive window's lengths, the one that the sample takes
 };
-
-// The loop as one linear recursion: w is the tool's displacement over the hold that follows, u the position at the
-// sample; the motor holds stiffness·u + force. States: the last displacements q0, q1 …, those of the estimator, those
-// of the law, and with an amplifier lag what the force still lacks at the sample, whose own decay is left out here.
+// The loop as one linear recursion: w is the tool's displacement while a command acts, u the position when it begins
+// to, since its sample by `moved`; the next one by `late`, a part of w. The motor holds stiffness·u + force. States:
+// the last displacements q0, q1 …, those of estimator and law, and what a lagging force lacks, without its decay.
 struct LoopForm {
   std::vector<std::string> states;
-  Forms next;          // of the states, w and, where the estimate divides by T itself, pace = w/T
+  Forms next;          // of the states, w and late; what an estimate divides by T itself, pace0, before that
   Form force;          // of the states [N]
   Rational stiffness;  // k0 [N/m]
 };
 LoopForm loop_form(Program program, const Device& device);
-
 // The holds from the shortest to the longest in parts, of each with a lag the four corners; where the estimate divides
 // by the time between two samples, both ends of each.
 struct Hold {
-  Rational longest, decay, share, spread;  // [s]; q; p; not below κ; these three zero without a lag
-  Rational rate;                           // 1/T that the estimate divides by
+  Rational before, after, decay;       // of a command, until the next sample and then, at most [s]; q
+  Rational share, spread, tilt, rate;  // p until that sample; κT, at most; what p is more after it; the estimate's 1/T
 };
 std::vector<Hold> holds(const Device& device);
-
 // Whether P proves that `damping` b [N·s/m] is enough for any motion and all holds T up to the longest. With
 // V = ½ k0 u² + xᵀPx, V⁺ − V ≤ (k0 u + Cx) w + b w²/T for all x and w when k0 ≥ 0, P ⪰ 0 and
 //     M = [ P − AᵀPA,  ½C − AᵀPB;  ·,  b/T − ½k0 − BᵀPB ] ⪰ 0,
-// which an amplifier's lag gives a row more (theory, section 6b). Of a window that adapts, one P has to serve every
-// length that a sample may take.
+// with a row more for a lag and one for late commands (theory, section 6b); a window that adapts has an M for each.
 bool proves(const Program& program, Device device, const Storage& storage, const Rational& damping);
-
 // In words. 0: proved, and the law is certified; 4: proved, and damping is lacking; 1: not proved; 3: nothing is known.
 std::pair<int, std::string> verdict(const std::string& header, const std::string& certificate);
 }  // namespace dashpot_check

@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "check.hpp"
-
 int main(int count, char** words) {
   std::string texts[2];
   for (int i : {0, 1})
@@ -11,6 +10,5 @@ int main(int count, char** words) {
     else return std::cerr << "dashpot-check HEADER CERTIFICATE: two files that can be read\n", 2;
   if (texts[0].starts_with('{')) std::swap(texts[0], texts[1]);  // the certificate came first
   const auto [status, said] = dashpot_check::verdict(texts[0], texts[1]);
-  std::cout << said;
-  return status;
+  return std::cout << said, status;
 }

@@ -17,6 +17,8 @@ Json json_of(const SampledLoop& loop) {
   return {{"sample_period", loop.sample_period},
           {"jitter", loop.jitter},
           {"delay_samples", loop.delay_samples},
+          {"write_earliest", loop.write_earliest},
+          {"write_latest", loop.write_latest},
           {"amplifier_lag", loop.amplifier_lag},
           {"brake_tolerance", loop.tolerance},
           {"largest_speed", loop.largest_speed},

@@ -1,8 +1,12 @@
 // The storage functions that prove the sampled bound (theory, section 6b), by their known values.
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <map>
+
 #include "certify/proved_bound.hpp"
 #include "certify/storage_function.hpp"
+#include "linear/real_traits.hpp"
 #include "motors.hpp"
 
 namespace dashpot::compiler {
@@ -76,6 +80,97 @@ TEST(StorageFunction, SpringBehindALag) {
   SampledLoop loop = plain_loop(punctual_period);
   loop.amplifier_lag = punctual_period;
   expect_proved(spring_motor(1000), loop, 1.513540553);
+}
+
+// A spring of 1000 N/m at 1 ms whose commands act 0.1 ms after their samples needs the b of (10 b − 1.5) (b/0.9 − 0.5)
+// = 1, sample by sample too; if they act at once or up to 0.1 ms later, that of (10 b − 1.5) (b − 0.5) = 1; a whole
+// period later, that of a sample more.
+TEST(StorageFunction, SpringOfLateCommands) {
+  SampledLoop loop = plain_loop(punctual_period);
+  const auto expect = [&](double earliest, double latest, double known) {
+    loop.write_earliest = earliest * punctual_period;
+    loop.write_latest = latest * punctual_period;
+    const std::optional<StorageProof> proof = storage_proof(spring_motor(1000), loop);
+    ASSERT_TRUE(proof);
+    EXPECT_NEAR(proof->damping / known, 1, 2e-8);
+    EXPECT_NEAR(passivity_bound(spring_motor(1000), loop).needed / known, 1, 1e-9);
+  };
+  expect(0.1, 0.1, 0.3 + std::sqrt(0.3 * 0.3 + 0.0225));
+  EXPECT_NEAR(storage_proof(spring_motor(1000), loop)->damping, 0.6354, 5e-5);
+  expect(0, 0.1, (6.5 + std::sqrt(6.5 * 6.5 + 10)) / 20);
+  expect(1 - 1e-9, 1 - 1e-9, 1.5);
+}
+
+using Square = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
+Real exact(const dashpot_check::Rational& value) { return Real(numerator(value)) / Real(denominator(value)); }
+
+// For one hold of the tool's motion, in which a command acts for `before` until the next sample and for `after` from
+// there on, how much the stored energy falls short of work and heat: the least eigenvalue of the form in the states,
+// the displacements in both stretches and the one that the lag weighs, each in units of `scale`.
+double least_left_over(const dashpot_check::LoopForm& loop, const StorageProof& proof, double before, double after,
+                       double lag) {
+  const Eigen::Index n = Eigen::Index(loop.states.size()), a = n, c = n + 1, rho = n + 2;
+  std::map<std::string, Eigen::Index> place = {{"w", a}, {"late", c}};
+  for (Eigen::Index i = 0; i < n; ++i) place[loop.states[std::size_t(i)]] = i;
+  Square next = Square::Zero(n, n + 3), form = Square::Zero(n + 3, n + 3), P = Square::Zero(n, n);
+  const auto add = [&](Square& to, Eigen::Index row, const std::string& name, const Real& value) {
+    to(row, place.at(name)) += value;
+    if (name == "w") to(row, c) += value;  // it is the sum of both
+  };
+  for (const auto& [state, values] : loop.next)
+    for (const auto& [name, value] : values) add(next, place.at(state), name, exact(value));
+  const Real A = before, D = after, tau = lag, first = exp(-A / tau), second = exp(-D / tau);
+  next(n - 1, n - 1) += first * second;
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j <= i; ++j) P(i, j) = P(j, i) = proof.storage[std::size_t(i)][std::size_t(j)];
+  form.topLeftCorner(n, n) = P;
+  form -= Square(next.transpose() * P * next);
+  const auto work = [&](Eigen::Index i, Eigen::Index j, const Real& value) {
+    form(i, j) += value / 2, form(j, i) += value / 2;
+  };
+  for (const auto& [name, value] : loop.force)
+    for (const Eigen::Index part : {a, c}) work(place.at(name), part, exact(value));
+  for (const Eigen::Index i : {a, c})
+    for (const Eigen::Index j : {a, c}) form(i, j) -= exact(loop.stiffness) / 2;
+  const Real mean = tau / A * (1 - first), then = first * tau / D * (1 - second);
+  work(n - 1, a, mean), work(n - 1, c, then), work(n - 1, rho, 1);
+  const Real square = tau / 2 * (1 - first * first * second * second) - A * mean * mean - D * then * then;
+  form(a, a) += proof.damping / A, form(c, c) += proof.damping / D, form(rho, rho) += proof.damping / square;
+  Square unit = form.diagonal().cwiseAbs().cwiseSqrt().cwiseInverse();
+  const Square scaled = unit.asDiagonal() * form * unit.asDiagonal();
+  return double(Eigen::SelfAdjointEigenSolver<Square>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff());
+}
+
+// One P would not serve some lengths of a hold, or some times at which its commands act, where both vary; or it would
+// be far from the least.
+TEST(StorageFunction, OfLateCommandsServesAllHolds) {
+  MotorConstants motor = spring_motor(500);
+  motor.velocity_gain = 2;
+  add_maxwell(motor, 300, 50, punctual_period, true);
+  SampledLoop loop = differencing_loop(punctual_period, 3);
+  loop.delay_samples = 1;
+  loop.jitter = 0.2 * punctual_period;
+  loop.write_earliest = 0.1 * punctual_period;
+  loop.write_latest = 0.3 * punctual_period;
+  for (const double lag : {0.05, 0.5, 2.0}) {
+    SCOPED_TRACE(lag);
+    loop.amplifier_lag = lag * punctual_period;
+    const std::optional<StorageProof> proof = storage_proof(motor, loop);
+    ASSERT_TRUE(proof);
+    SampledLoop longest = loop;
+    longest.write_earliest = longest.write_latest;
+    longest.jitter = loop.jitter;
+    EXPECT_GE(proof->damping, storage_proof(motor, longest)->damping * 0.999);
+    longest.jitter = 0;
+    EXPECT_LE(proof->damping, 1.8 * storage_proof(motor, longest)->damping);
+    const dashpot_check::LoopForm form = dashpot_check::loop_form(checked_program(motor), checked_device(loop));
+    const double T = punctual_period;
+    for (const double period : {0.8 * T, 0.87 * T, T, 1.13 * T, 1.2 * T})
+      for (const double from : {0.1 * T, 0.17 * T, 0.3 * T})
+        for (const double to : {0.1 * T, 0.21 * T, 0.3 * T})
+          EXPECT_GE(least_left_over(form, *proof, period - from, to, loop.amplifier_lag), 0) << period << from << to;
+  }
 }
 
 // At the supremum itself there is one P alone, here of a damper behind the difference over two samples: what is found

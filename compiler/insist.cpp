@@ -32,6 +32,8 @@ struct Lateness {
 
 const Lateness amplifier_lag{"no \"amplifier_lag\"", [](device_description& d) { d.motor.amplifier_lag = 0; }};
 const Lateness loop_delay{"no \"delay_samples\"", [](device_description& d) { d.loop.delay_samples = 0; }};
+const Lateness write_delay{"no \"write_delay\"",
+                           [](device_description& d) { d.loop.write_earliest = d.loop.write_latest = 0; }};
 const Lateness limited_slew{"no \"slew\"", [](device_description& d) { d.motor.slew = 0; }};
 
 // The network on another device, or another one on the same: what is told to people has been tried.
@@ -223,7 +225,8 @@ class Remedies {
   std::vector<std::pair<std::string, WorstError>> prompt_loops() const {
     std::vector<std::pair<std::string, WorstError>> all;
     const device_description& own = c_.device->description;
-    const bool has_lag = own.motor.amplifier_lag > 0, has_delay = own.loop.delay_samples > 0;
+    const bool has_lag = own.motor.amplifier_lag > 0, has_delay = own.loop.delay_samples > 0,
+               writes_late = own.loop.write_latest > 0;
     const auto attempt = [&](bool is_there, const std::vector<Lateness>& left_out) {
       if (!is_there) return;
       const Device prompt = without(left_out);
@@ -233,8 +236,13 @@ class Remedies {
         all.emplace_back(joined(left_out), *error);
     };
     attempt(has_lag, {amplifier_lag});
+    attempt(writes_late, {write_delay});
     attempt(has_delay, {loop_delay});
     attempt(has_lag && has_delay, {loop_delay, amplifier_lag});
+    std::vector<Lateness> all_late = {loop_delay, write_delay, amplifier_lag};
+    if (!has_delay) all_late.erase(all_late.begin());
+    if (!has_lag) all_late.pop_back();
+    attempt(writes_late && all_late.size() > 1, all_late);
     return all;
   }
 
@@ -405,6 +413,7 @@ void tell_of_other_devices(const Compilation& c, const Choices& choices, Diagnos
   };
   attempt(device.motor.amplifier_lag > 0, amplifier_lag);
   attempt(device.motor.slew > 0 && !is_slew_told, limited_slew);
+  attempt(device.loop.write_latest > 0, write_delay);
   attempt(device.loop.delay_samples > 0, loop_delay);
   if (all.size() > 1) attempts.push_back(all);
   std::any_of(attempts.begin(), attempts.end(), add_without);
@@ -549,6 +558,8 @@ std::vector<MendedDevice> mended(const Device& device) {
   for (MendedDevice& other : all) other.is_of_estimator = true;
   mend(is.encoder.step > 0, "with a 16th of the encoder's step", [](device_description& d) { d.encoder.step /= 16; });
   mend(is.loop.delay_samples > 0, "without the loop's delay", [](device_description& d) { d.loop.delay_samples = 0; });
+  mend(is.loop.write_latest > 0, "with commands that act at once",
+       [](device_description& d) { d.loop.write_earliest = d.loop.write_latest = 0; });
   mend(is.motor.slew > 0, "without the motor's slew", [](device_description& d) { d.motor.slew = 0; });
   mend(is.motor.amplifier_lag > 0, "without the amplifier's lag",
        [](device_description& d) { d.motor.amplifier_lag = 0; });

@@ -113,22 +113,29 @@ class Drives {
         lacking_(device.amplifier_lag() > 0 ? std::exp(-instant / device.amplifier_lag()) : 0),
         most_(std::sqrt(device.max_damping().value_or(0) / device.damping_scale())),
         late_(device.description().loop.delay_samples, command<double>{0, 0}),
+        until_write_(int(std::lround(mean_write_delay(device) / instant))),
         coil_(device.description().brake) {}
 
   // The brake is on, and the motor at rest, before a motion begins.
   void begin(const command<double>& first) {
     coil_.reset(std::sqrt(first.damping / device_.damping_scale()));
     std::fill(late_.begin(), late_.end(), command<double>{first.damping, 0});
+    told_ = next_ = {first.damping, 0};
+    wanted_ = std::sqrt(first.damping / device_.damping_scale());
   }
 
   void take(const command<double>& now) {
     late_.push_back(now);
-    told_ = late_.front();
+    next_ = late_.front();
     late_.pop_front();
-    wanted_ = std::sqrt(std::max(told_.damping, 0.0) / device_.damping_scale());
+    waits_ = until_write_;
   }
 
   void advance() {
+    if (waits_-- == 0) {
+      told_ = next_;
+      wanted_ = std::sqrt(std::max(told_.damping, 0.0) / device_.damping_scale());
+    }
     force_ = told_.force + (force_ - told_.force) * lacking_;
     if (coil_.root_damping() == wanted_) return;  // it stays there
     coil_.advance(std::clamp(coil_.demand_to_reach(wanted_, instant_), 0.0, std::max(most_, wanted_)), instant_);
@@ -138,12 +145,18 @@ class Drives {
   double damping() const { return coil_.damping() * device_.damping_scale(); }
 
  private:
+  static double mean_write_delay(const PortDevice& device) {
+    return (device.description().loop.write_earliest + device.description().loop.write_latest) / 2;
+  }
+
   const PortDevice& device_;
   double instant_;  // [s]
   double lacking_;  // of a change of the force after an instant [1]
   double most_;     // of the coil's current, as the root of the damping at the brake
   std::deque<command<double>> late_;
-  command<double> told_{0, 0};
+  int until_write_;  // instants of a sample until its command acts
+  int waits_ = 0;    // those that are left of them
+  command<double> next_{0, 0}, told_{0, 0};
   double wanted_ = 0;  // of the coil's current, as the root of the damping at the brake
   brake_coil<double> coil_;
   double force_ = 0;

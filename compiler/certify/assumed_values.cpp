@@ -14,6 +14,11 @@ struct VariedValue {
 constexpr VariedValue varied_values[] = {
     {"arm_radius", [](device_description& d, double factor) { d.arm_radius *= factor; }},
     {"loop.jitter", [](device_description& d, double factor) { d.loop.jitter *= factor; }},
+    {"loop.write_delay",
+     [](device_description& d, double factor) {
+       d.loop.write_earliest *= factor;
+       d.loop.write_latest *= factor;
+     }},
     {"loop.band",
      [](device_description& d, double factor) {
        d.loop.band_low *= factor;

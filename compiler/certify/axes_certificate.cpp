@@ -9,6 +9,7 @@
 #include "axes/motor_norms.hpp"
 #include "certify/estimator_factors.hpp"
 #include "certify/motor_limits.hpp"
+#include "certify/unproved.hpp"
 #include "network/port_units.hpp"
 
 namespace dashpot::compiler {
@@ -227,8 +228,22 @@ bool damps(const CertifiedPort& port) { return std::max(port.law->damping, port.
 // between.
 bool varies(const CertifiedPort& port) { return port.law->brake_changes() && port.form->has_slips(); }
 
+// The loop of a joint, as one axis has it.
+SampledLoop loop_of_joint(const device_description& joint) {
+  SampledLoop loop;
+  loop.has_device = true;
+  loop.sample_period = joint.loop.sample_period;
+  loop.jitter = joint.loop.jitter;
+  loop.write_earliest = joint.loop.write_earliest;
+  loop.write_latest = joint.loop.write_latest;
+  loop.amplifier_lag = joint.motor.amplifier_lag;
+  loop.velocity = joint.velocity;
+  loop.joint_encoder_step = joint.encoder.step;
+  return loop;
+}
+
 bool are_late(const AxesDevice& device) {
-  return device.loop().delay_samples > 0 ||
+  return device.loop().delay_samples > 0 || device.loop().write_latest > 0 ||
          std::any_of(device.joints.begin(), device.joints.end(),
                      [](const device_description& joint) { return joint.motor.amplifier_lag > 0; });
 }
@@ -236,6 +251,7 @@ bool are_late(const AxesDevice& device) {
 std::string uncovered_in_device(const AxesDevice& device) {
   for (const device_description& joint : device.joints)
     if (joint.motor.slew > 0) return "the motors' slew is limited, which no bound of two axes covers yet";
+  if (loop_of_joint(device.joints[0]).may_overtake()) return overtaken;
   return "";
 }
 
@@ -249,18 +265,6 @@ std::string uncovered_in_ports(const std::vector<CertifiedPort>& ports, const Ax
     if (!port.slips->springs_alone) return of_port + "dampers are behind its slips, and the loop is late";
   }
   return "";
-}
-
-// The loop of a joint, as one axis has it.
-SampledLoop loop_of_joint(const device_description& joint) {
-  SampledLoop loop;
-  loop.has_device = true;
-  loop.sample_period = joint.loop.sample_period;
-  loop.jitter = joint.loop.jitter;
-  loop.amplifier_lag = joint.motor.amplifier_lag;
-  loop.velocity = joint.velocity;
-  loop.joint_encoder_step = joint.encoder.step;
-  return loop;
 }
 
 // γ of ‖v̂‖ ≤ γ ‖Δq/h‖, of both joints; 0 where the motors follow no estimate. Empty where it is not known.
@@ -392,7 +396,7 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   }
   const std::optional<double> gain = gain_of_estimates(network, ports, device);
   double lag = 0;
-  for (const device_description& joint : device.joints) lag = std::max(lag, time_of_lag(loop_of_joint(joint)));
+  for (const device_description& joint : device.joints) lag = std::max(lag, time_of_lateness(loop_of_joint(joint)));
   const Sizes sizes = sizes_of(ports, loads, device, c.weight, lag > 0);
   c.for_lag = lag * sizes.springs;
   const double for_each = gain.value_or(1) * loop.longest_period / device.loop().sample_period * (1 + 1e-12);
@@ -450,8 +454,9 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
         fmt::format("  of what is needed, {} are for what the motors make of estimated velocities, however late",
                     at_joints(c.for_estimates, c, device)));
   if (c.for_lag > 0)
-    lines.push_back(fmt::format("  of what is needed, {} are for the lag of the motors' amplifiers",
-                                at_joints(c.for_lag, c, device)));
+    lines.push_back(fmt::format("  of what is needed, {} are for {}", at_joints(c.for_lag, c, device),
+                                device.loop().write_latest > 0 ? "torques that come after their samples"
+                                                               : "the lag of the motors' amplifiers"));
   const std::string unit = port_units(device.joint_motion()).damping;
   std::string added;
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);

@@ -23,6 +23,8 @@ SampledLoop sampled_loop(const PortDevice& device, double sample_period) {
   loop.has_device = true;
   loop.jitter = joint.loop.jitter;
   loop.delay_samples = joint.loop.delay_samples;
+  loop.write_earliest = joint.loop.write_earliest;
+  loop.write_latest = joint.loop.write_latest;
   loop.amplifier_lag = joint.motor.amplifier_lag;
   loop.tolerance = joint.brake.tolerance;
   loop.largest_speed = joint.encoder.max_speed;  // only their ratio counts: no conversion to the tool

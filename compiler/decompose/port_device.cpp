@@ -104,7 +104,9 @@ double PortDevice::sample_period() const {
   return (is_ideal() ? loop_description{} : device_->description.loop).sample_period;
 }
 double PortDevice::longest_hold() const {
-  return sample_period() + (is_ideal() ? 0 : device_->description.loop.jitter);
+  if (is_ideal()) return sample_period();
+  const loop_description& loop = device_->description.loop;
+  return loop.sample_period + loop.jitter + (loop.write_latest - loop.write_earliest);
 }
 double PortDevice::amplifier_lag() const { return is_ideal() ? 0 : device_->description.motor.amplifier_lag; }
 double PortDevice::coil_lag() const { return is_ideal() ? 0 : device_->description.brake.coil_lag; }
@@ -123,7 +125,8 @@ std::string_view PortDevice::estimator_name() const {
 std::optional<unsigned> PortDevice::estimate_memory() const {
   if (is_ideal()) return 1;
   const velocity_description& velocity = device_->description.velocity;
-  const unsigned delay = device_->description.loop.delay_samples;
+  const loop_description& loop = device_->description.loop;
+  const unsigned delay = loop.delay_samples + (loop.write_latest > 0 ? 1 : 0);
   switch (velocity.estimator) {
     case estimator_kind::backward_difference:
     case estimator_kind::least_squares: return delay + velocity.window;
@@ -166,7 +169,7 @@ std::complex<double> PortDevice::velocity_response(double angular_frequency) con
 std::complex<double> PortDevice::motor_response(double angular_frequency) const {
   if (is_ideal()) return 1;
   const device_description& d = device_->description;
-  const double delay = d.loop.delay_samples * d.loop.sample_period;
+  const double delay = d.loop.delay_samples * d.loop.sample_period + (d.loop.write_earliest + d.loop.write_latest) / 2;
   return std::polar(1.0, -angular_frequency * delay) / std::complex(1.0, angular_frequency * d.motor.amplifier_lag);
 }
 

@@ -59,6 +59,8 @@ void add_loop(const loop_description& loop, Facts& facts) {
   facts.number("loop.sample_period", loop.sample_period, "s");
   facts.number("loop.jitter", loop.jitter, "s");
   facts.count("loop.delay_samples", loop.delay_samples);
+  facts.number("loop.write_earliest", loop.write_earliest, "s");
+  facts.number("loop.write_latest", loop.write_latest, "s");
   facts.number("loop.band_low", loop.band_low, "Hz");
   facts.number("loop.band_high", loop.band_high, "Hz");
   facts.number("loop.reference_frequency", loop.reference_frequency, "Hz");

@@ -156,7 +156,7 @@ class DeviceBuilder {
     SectionReader reader = section("loop");
     loop_description& loop = device_.description.loop;
     reader.refuse_other_keys(
-        {"rate", "jitter", "delay_samples", "band", "reference_frequency", "missed_deadlines_allowed"});
+        {"rate", "jitter", "delay_samples", "write_delay", "band", "reference_frequency", "missed_deadlines_allowed"});
     if (!reader.is_present())
       diagnostics_.report<DiagnosticCode::missing_key>(decl_.opening, "the device file", "loop");
     reader.require("rate");
@@ -173,10 +173,29 @@ class DeviceBuilder {
     reader.read_count("delay_samples", 0, loop.delay_samples);
     if (!reader.is_within("delay_samples", loop.delay_samples, 0, most_delay_samples, "samples"))
       loop.delay_samples = 0;
+    read_write_delay(reader, loop);
     reader.read_pair("band", dimensions::frequency, Bound::above_zero, loop.band_low, loop.band_high);
     reader.read("reference_frequency", dimensions::frequency, Bound::zero_or_more, loop.reference_frequency);
     reader.read_count("missed_deadlines_allowed", 0, loop.missed_deadlines_allowed);
     reader.is_within("missed_deadlines_allowed", loop.missed_deadlines_allowed, 0, most_missed_deadlines, "deadlines");
+  }
+
+  // One time, or the earliest and the latest.
+  void read_write_delay(const SectionReader& reader, loop_description& loop) {
+    if (reader.is_list("write_delay")) {
+      reader.read_pair("write_delay", dimensions::time, Bound::zero_or_more, loop.write_earliest, loop.write_latest);
+    } else {
+      reader.read("write_delay", dimensions::time, Bound::zero_or_more, loop.write_latest);
+      loop.write_earliest = loop.write_latest;
+    }
+    if (loop.write_latest < loop.sample_period) return;
+    diagnostics_.report<DiagnosticCode::write_after_a_period>(reader.place_of("write_delay"),
+                                                              reader.text_of("write_delay"), 1e3 * loop.sample_period);
+    const double samples = std::floor(loop.write_latest / loop.sample_period);
+    if (!reader.is_list("write_delay") && samples + loop.delay_samples <= most_delay_samples)
+      diagnostics_.note<DiagnosticCode::whole_samples_remedy>({}, loop.delay_samples + unsigned(samples),
+                                                              1e3 * (loop.write_latest - samples * loop.sample_period));
+    loop.write_earliest = loop.write_latest = 0;
   }
 
   void read_encoder() {

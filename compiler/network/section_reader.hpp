@@ -33,6 +33,7 @@ class SectionReader {
 
   bool is_present() const { return section_ != nullptr; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
+  bool is_list(std::string_view key) const { return has(key) && find(key)->is_list; }
   void require(std::string_view key) const;  // reports where the section, if present, lacks it and did not misspell it
   void refuse_other_keys(const std::vector<std::string>& keys, const std::vector<KeyRemedy>& remedies = {});
 

@@ -36,6 +36,8 @@ Json json_of_loop(const AxesDevice& device) {
   return {{"sample_period", device.loop().sample_period},
           {"jitter", device.loop().jitter},
           {"delay_samples", device.loop().delay_samples},
+          {"write_earliest", device.loop().write_earliest},
+          {"write_latest", device.loop().write_latest},
           {"kinematics", axes::name_of(device.arm.kind)},
           {"workspace",
            {{"x", {device.workspace[0].low, device.workspace[0].high}},

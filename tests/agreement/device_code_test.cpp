@@ -30,7 +30,7 @@ compiler::Device other_device(std::uint64_t seed) {
   device_description& d = device.description;
   d.motion = seed % 2 == 0 ? motion::rotation : motion::translation;
   d.arm_radius = some();
-  d.loop = {some(), some(), count(), some(), some(), some(), count()};
+  d.loop = {some(), some(), count(), some(), some(), some(), some(), some(), count()};
   d.encoder = {some(), quantiser::round, -some(), some(), some()};
   d.velocity = {
       all_estimators[seed % std::size(all_estimators)], count(), count(), some(), true, some(), some(), some(), some()};

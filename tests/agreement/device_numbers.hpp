@@ -7,30 +7,13 @@ namespace dashpot::testing {
 
 template <class Loop, class Encoder, class Velocity>
 std::vector<double> numbers_of_loop(const Loop& loop, const Encoder& encoder, const Velocity& velocity) {
-  const auto& [period, jitter, delay, band_low, band_high, reference, missed] = loop;
+  const auto& [period, jitter, delay, earliest, latest, band_low, band_high, reference, missed] = loop;
   const auto& [step, rounding, range_low, range_high, max_speed] = encoder;
   const auto& [estimator, window, order, cutoff, best, acceleration, factor, noise, bandwidth] = velocity;
-  return {period,
-          jitter,
-          double(delay),
-          band_low,
-          band_high,
-          reference,
-          double(missed),
-          step,
-          double(rounding),
-          range_low,
-          range_high,
-          max_speed,
-          double(estimator),
-          double(window),
-          double(order),
-          cutoff,
-          double(best),
-          acceleration,
-          factor,
-          noise,
-          bandwidth};
+  return {
+      period,         jitter, double(delay),    earliest,     latest,     band_low,  band_high,         reference,
+      double(missed), step,   double(rounding), range_low,    range_high, max_speed, double(estimator), double(window),
+      double(order),  cutoff, double(best),     acceleration, factor,     noise,     bandwidth};
 }
 
 template <class Motor, class Brake, class Mechanics>

@@ -72,6 +72,7 @@ FALSE = {"less is needed": lambda c: c["passivity"].update(needed_damping=c["pas
          "no storage function": lambda c: c.update(storage=None),
          "a shorter period": lambda c: c["loop"].update(sample_period=0.0009),
          "jitter": lambda c: c["loop"].update(jitter=1e-6), "a lag": lambda c: c["loop"].update(amplifier_lag=1e-5),
+         "a late command": lambda c: c["loop"].update(write_latest=1e-6),
          "a delay": lambda c: c["loop"].update(delay_samples=1), "a filter": lambda c: c["loop"].update(estimator="kalman"),
          "another rate": lambda c: c["loop"].update(estimator_coefficients=[999.9]),
          "a row less": lambda c: c["storage"]["matrix"].pop(), "a short row": lambda c: c["storage"]["matrix"][-1].pop(),
@@ -316,6 +317,35 @@ class CheckTest(CommandTest):
         files = self.write("law.json", json.dumps(certificate)), self.write("law.hpp", header)
         self.dashpot("verify", "--allow-uncertified", *files)
         self.refused("compile", *law, "--state-input", "velocity", code="velocity-input-drifts")
+
+    # Commands that act later than their samples would be refused, or be proved for earlier ones, for fewer of them, or
+    # with less; behind a lag, under jitter and counted sample by sample too.
+    def test_late_commands(self):
+        prompt = json.loads(PANTOGRAPH.read_text())
+        del prompt["motor"]["amplifier_lag"]
+        prompt["assumed"].remove("motor.amplifier_lag")
+        spring = self.write("spring.json", '{"dashpot": 1, "name": "spring", "network": {"spring": "40 N/m", "name": "K"}}')
+        cases = ((FIG_5, json.loads(PANTOGRAPH.read_text()), 0), (FIG_5, prompt, 0), (FIG_5, prompt, 1), (spring, prompt, 0), (spring, prompt, 1))
+        for network, device, delays in cases:
+            device["loop"].update(write_delay=["10 us", "30 us"], delay_samples=delays)
+            with self.subTest(network=network, lag="amplifier_lag" in device["motor"], delays=delays):
+                law = [network, "--device", self.write("late.json", json.dumps(device)), "--decomposition", "zero-frequency"]
+                header, certificate = self.compiled(law)
+                accepted, words = self.said(header, certificate)
+                self.assertTrue(accepted, words)
+                self.assertRegex(words, "for holds of any lengths up to 0.00017")
+                needed, by_hold = certificate["passivity"]["needed_damping"], certificate["passivity"]["proof"] == "hold"
+                self.assertEqual(by_hold, network == spring)
+                edits = {"less": lambda c: c["passivity"].update(needed_damping=needed * 0.97), "later": lambda c: c["loop"].update(write_latest=3.2e-5),
+                         "overtaken": lambda c: c["loop"].update(write_latest=6e-5), "delayed": lambda c: c["loop"].update(delay_samples=2),
+                         "sooner": lambda c: c["loop"].update(write_earliest=0), "backward": lambda c: c["loop"].update(write_earliest=4e-5)}
+                if not by_hold: edits["none"] = lambda c: c.update(storage=None)
+                for what, edit in edits.items():
+                    edited = json.loads(json.dumps(certificate))
+                    edit(edited)
+                    self.assertFalse(self.accepts(header, edited), what)
+                files = self.write("law.json", json.dumps(certificate)), self.write("law.hpp", header)
+                self.dashpot("verify", "--allow-uncertified", *files)
 
     # Who asks about a law behind a static curve would be shown a piece of code in place of a reason.
     def test_static_curve(self):

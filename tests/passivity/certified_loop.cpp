@@ -38,6 +38,10 @@ compiler::Device random_device(Random& random) {
   d.brake.tolerance = random.chance(0.3) ? 0 : random.uniform(0, 0.2);
   d.mechanics.inertia = random.log_uniform(0.02, 1);
   d.mechanics.damping = random.chance(0.5) ? 0 : random.log_uniform(1e-3, 1);
+  if (random.chance(0.3)) {
+    d.loop.write_latest = random.uniform(0, 1) * (d.loop.sample_period - d.loop.jitter);
+    d.loop.write_earliest = random.chance(0.5) ? d.loop.write_latest : random.uniform(0, 1) * d.loop.write_latest;
+  }
   return device;
 }
 
@@ -81,7 +85,10 @@ namespace {
 // The device as it is described, apart from what the conditions say.
 device_description simulated_description(const CompiledCase& one, const Conditions& conditions) {
   device_description d = one.device.description;
-  if (one.compilation->certificate.bound.constant_period_only) d.loop.jitter = 0;
+  if (one.compilation->certificate.bound.constant_period_only) {
+    d.loop.jitter = 0;
+    d.loop.write_earliest = d.loop.write_latest;
+  }
   if (!conditions.encoder_steps) d.encoder.step = 0;
   d.encoder.rounding = conditions.rounding;
   d.mechanics.coulomb_friction = conditions.friction;
@@ -90,7 +97,7 @@ device_description simulated_description(const CompiledCase& one, const Conditio
 
 simulated::scenario random_scenario(const CompiledCase& one, Random& random, const Conditions& conditions,
                                     const device_description& d) {
-  const double brake_on = d.loop.delay_samples * (d.loop.sample_period + d.loop.jitter);
+  const double brake_on = d.loop.delay_samples * (d.loop.sample_period + d.loop.jitter) + d.loop.write_latest;
   simulated::scenario scene;
   scene.user = random_hand(random, d.mechanics.inertia, std::max(one.compilation->certificate.bound.frequency, 1.0));
   const double depth = conditions.size * random.uniform(0, 0.02),
@@ -151,7 +158,8 @@ struct Jump {
 // The old force is held until a command of the new parameters acts: over one hold, the loop's delay and ten lags of the
 // amplifier.
 int holds_of_a_jump(const device_description& d) {
-  return 1 + int(d.loop.delay_samples) + int(std::ceil(10 * d.motor.amplifier_lag / d.loop.sample_period));
+  return 1 + int(d.loop.delay_samples) + (d.loop.write_latest > 0 ? 1 : 0) +
+         int(std::ceil(10 * d.motor.amplifier_lag / d.loop.sample_period));
 }
 
 }  // namespace

@@ -69,36 +69,42 @@ Balance balance_of(const CompiledCase& one, double damping, Random random, int s
   estimator.reset(0);
   std::deque<double> late(d.loop.delay_samples, 0);
   const double lag = d.motor.amplifier_lag, limit = one.compilation->certificate.loop.max_force;
-  double energy = 0, least = 0, largest = 0, position = 0, pace = 1e-3, made = 0;
+  double energy = 0, least = 0, largest = 0, position = 0, pace = 1e-3, made = 0, told = 0;
   int way = 3;
   Balance balance;
+  // The next motion, for so long, while the motor is told `told`.
+  const auto move = [&](double duration, bool rests) {
+    const double kept = lag > 0 ? std::exp(-duration / lag) : 0, mean = lag > 0 ? lag / duration * (1 - kept) : 0;
+    const double force = told + (made - told) * mean;  // over the motion, at a constant speed
+    made = told + (made - told) * kept;
+    const double most = damping > 0 ? -force * duration / (2 * damping) * random.uniform(0.5, 1.5) : 0;
+    const double wild = random.chance(0.5) ? most : random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
+    // Pressed, held, or slowly let go of in between.
+    double change = way == 0 ? -0.02 * position : way == 1 ? pace / 20 : way == 2 ? 0 : wild;
+    if (rests) change = 0;
+    const double work = force * change + damping / duration * change * change;
+    energy += work;
+    least = std::min(least, energy);
+    largest = std::max(largest, std::abs(work));
+    position += change;
+  };
   for (int k = 0; k < samples; ++k) {
     device_sample sample{};
     sample.position = position;
     late.push_back(law.step(position, estimator.update(sample)).force);
     const double wanted = late.front();
     late.pop_front();
-    const double told = std::clamp(wanted, -limit, limit);
-    balance.limited += told != wanted || (law.kept_share() < 1) ? 1 : 0;
+    const double next = std::clamp(wanted, -limit, limit);
+    balance.limited += next != wanted || (law.kept_share() < 1) ? 1 : 0;
     const double hold = d.loop.sample_period + (lag == 0 && random.chance(0.5) ? d.loop.jitter : 0);
-    const double kept = lag > 0 ? std::exp(-hold / lag) : 0, mean = lag > 0 ? lag / hold * (1 - kept) : 0;
-    const double force = told + (made - told) * mean;  // over a hold at a constant speed
-    made = told + (made - told) * kept;
     if (random.chance(0.05)) pace = random.log_uniform(1e-6, 1e2);
     if (random.chance(0.02)) way = static_cast<int>(random.index(4));
-    const double most = damping > 0 ? -force * hold / (2 * damping) * random.uniform(0.5, 1.5) : 0;
-    const double wild = random.chance(0.5) ? most : random.chance(0.2) ? 0 : pace * random.uniform(-1, 1);
-    // Pressed, held, or slowly let go of in between.
-    double change = way == 0 ? -0.02 * position : way == 1 ? pace / 20 : way == 2 ? 0 : wild;
-    if (update.tunable && random.chance(0.02)) {
-      set_at_random(law, *update.tunable, random);
-      change = 0;  // else the command that is held would be of a force that is no more
-    }
-    const double work = force * change + damping / hold * change * change;
-    energy += work;
-    least = std::min(least, energy);
-    largest = std::max(largest, std::abs(work));
-    position += change;
+    const double wait = lag == 0 && random.chance(0.5) ? d.loop.write_earliest : d.loop.write_latest;
+    if (wait > 0) move(wait, false);
+    told = next;
+    const bool changes = update.tunable && random.chance(0.02);
+    if (changes) set_at_random(law, *update.tunable, random);
+    move(hold - wait, changes);  // moving, the command that is held would be of a force that is no more
   }
   balance.least = largest > 0 ? least / largest : 0;
   return balance;

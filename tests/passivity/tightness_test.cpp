@@ -162,7 +162,7 @@ int destabilised_with(double share) {
     CompiledCase one = random_case(seed);
     if (!one.compilation) continue;
     Certificate& certificate = one.compilation->certificate;
-    certificate.loop.jitter = 0;
+    certificate.loop.jitter = certificate.loop.write_earliest = certificate.loop.write_latest = 0;
     const std::optional<MotorConstants> motor = motor_constants(one.compilation->law);
     if (!motor || certificate.loop.velocity.estimator == estimator_kind::foaw) continue;
     certificate.bound = passivity_bound(motor, certificate.loop);

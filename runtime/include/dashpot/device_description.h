@@ -24,9 +24,10 @@ typedef struct dashpot_loop_description {
   double sample_period;  // [s]
   double jitter;         // longest lateness of a sample [s]
   unsigned delay_samples;
-  double band_low, band_high;         // band in which errors are judged [Hz]
-  double reference_frequency;         // where shares of dissipation are compared [Hz]; 0: the limit ω → 0
-  unsigned missed_deadlines_allowed;  // in a row, before the loop goes safe
+  double write_earliest, write_latest;  // beyond these, from read to effective write, at least and at most [s]
+  double band_low, band_high;           // band in which errors are judged [Hz]
+  double reference_frequency;           // where shares of dissipation are compared [Hz]; 0: the limit ω → 0
+  unsigned missed_deadlines_allowed;    // in a row, before the loop goes safe
 } dashpot_loop_description;
 
 typedef struct dashpot_encoder_description {

@@ -32,6 +32,8 @@ struct loop_description {
   double sample_period = 0.001;           // [s]
   double jitter = 0;                      // longest lateness of a sample [s]
   unsigned delay_samples = 0;             // whole samples between read and effective write
+  double write_earliest = 0;              // beyond these, from read to effective write, at least [s]
+  double write_latest = 0;                // and at most [s]
   double band_low = 0.1;                  // band in which errors are judged [Hz]
   double band_high = 30;                  // [Hz]
   double reference_frequency = 0;         // where shares of dissipation are compared [Hz]; 0: the limit ω → 0

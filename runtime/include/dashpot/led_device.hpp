@@ -29,8 +29,7 @@ class led_device {
         estimator_(device.velocity, device.loop.sample_period, device.encoder.step),
         actuator_(device, network),
         coil_(device.brake),
-        torque_kept_(device.motor.amplifier_lag > 0 ? decay(device.loop.sample_period / device.motor.amplifier_lag)
-                                                    : 0.0) {}
+        torque_kept_(decay_over(device.loop.sample_period)) {}
 
   // At rest at `position` of the tool [m] or [rad], motor and brake without current.
   void reset(double position) noexcept {
@@ -72,10 +71,14 @@ class led_device {
   void go_on_to(double position) noexcept {
     if (index_ == 0) return;
     const double period = device_.loop.sample_period;
-    const motor_description& motor = device_.motor;
-    torque_ = motor.slew > 0 ? slewed_lag(torque_, demanded_.motor_torque, motor.amplifier_lag, motor.slew, period)
-                             : demanded_.motor_torque + (torque_ - demanded_.motor_torque) * torque_kept_;
-    coil_.advance(root_, period);
+    const double wait = (device_.loop.write_earliest + device_.loop.write_latest) / 2;
+    if (wait > 0) {
+      act(before_, wait, decay_over(wait));
+      act(demanded_, period - wait, decay_over(period - wait));
+    } else {
+      act(demanded_, period, torque_kept_);
+    }
+    before_ = demanded_;
     const double travelled = (position - last_position_) / period;
     const double rate = 6.283185307179586 * device_.velocity.bandwidth;
     sensed_ = rate > 0 ? travelled + (sensed_ - travelled) * decay(rate * period) : travelled;
@@ -85,10 +88,31 @@ class led_device {
   void take_effect() noexcept {
     const unsigned delay = device_.loop.delay_samples;
     demanded_ = index_ < delay ? actuation{} : line_[(index_ - delay) % length];
+    if (!(device_.loop.write_latest > 0)) turn_to(demanded_);
+  }
+
+  // What is so quick that it follows at once.
+  void turn_to(const actuation& demand) noexcept {
+    if (!(device_.motor.amplifier_lag > 0) && !(device_.motor.slew > 0)) torque_ = demand.motor_torque;
+    if (!(device_.brake.coil_lag > 0) && !(coil_.slew() > 0)) coil_.reset(root_of(demand));
+  }
+
+  void act(const actuation& demand, double duration, double torque_kept) noexcept {
+    const motor_description& motor = device_.motor;
+    turn_to(demand);
+    torque_ = motor.slew > 0 ? slewed_lag(torque_, demand.motor_torque, motor.amplifier_lag, motor.slew, duration)
+                             : demand.motor_torque + (torque_ - demand.motor_torque) * torque_kept;
+    coil_.advance(root_of(demand), duration);
+  }
+
+  // Of a difference between torque and demand, what is left.
+  constexpr double decay_over(double duration) const noexcept {
+    return device_.motor.amplifier_lag > 0 ? decay(duration / device_.motor.amplifier_lag) : 0.0;
+  }
+
+  double root_of(const actuation& demand) const noexcept {
     const double most = device_.brake.kind == brake_kind::none ? 0 : device_.brake.max_damping;
-    root_ = square_root(demanded_.brake_damping < most ? demanded_.brake_damping : most);
-    if (!(device_.motor.amplifier_lag > 0) && !(device_.motor.slew > 0)) torque_ = demanded_.motor_torque;
-    if (!(device_.brake.coil_lag > 0) && !(coil_.slew() > 0)) coil_.reset(root_);
+    return square_root(demand.brake_damping < most ? demand.brake_damping : most);
   }
 
   // At the joint, opposing +q.
@@ -140,9 +164,8 @@ class led_device {
   brake_coil<double> coil_;
   double torque_kept_;  // of a difference, over a period
   actuation line_[length] = {};
-  actuation demanded_;
+  actuation demanded_, before_;  // of the newest sample and of the one before
   command<double> command_{0, 0};
-  double root_ = 0;           // √ of the demanded damping
   double torque_ = 0;         // [N·m] or [N]
   double last_position_ = 0;  // [rad] or [m]
   double sensed_ = 0;         // [rad/s] or [m/s]

@@ -183,6 +183,20 @@ TEST(StorageFunction, NearTheOnlyOne) {
   EXPECT_NEAR(proof->storage[1][1], 1250, 0.1);
 }
 
+// The tabled P of the same damper, for the last displacement and the force r = 2500 (Δu_k + Δu_{k−1}), would not prove
+// a damping of S (1 + 1e-6), for which it was found; or it would prove S.
+TEST(StorageFunction, OfADamperAsItIsTabled) {
+  const double first = 1562.501565, mixed = -0.2500001139, second = 2.000000907e-4, r = 2500;
+  const double square = second * r * r;
+  const dashpot_check::Storage P = {{first + 2 * mixed * r + square}, {mixed * r + square, square}};
+  const auto proves = [&](double damping) {
+    const SampledLoop loop = differencing_loop(punctual_period, 2);
+    return dashpot_check::proves(checked_program(damper_motor(5)), checked_device(loop), P, damping);
+  };
+  EXPECT_TRUE(proves(2.8125 * (1 + 1e-6)));
+  EXPECT_FALSE(proves(2.8125));
+}
+
 // A mode that hardly relaxes would be charged what the arcs of the frequency search leave open.
 TEST(StorageFunction, SlowMode) {
   MotorConstants motor;

@@ -93,6 +93,28 @@ TEST(Device, CommandsTakeEffectAfterTheLoopDelay) {
   }
 }
 
+// A command would act with its sample, or later than the device says.
+TEST(Device, CommandsActWithinTheSampleWhenTheDeviceSays) {
+  const double earliest[] = {0, 2e-4, 1e-4}, latest[] = {0, 2e-4, 9e-4};
+  for (int i = 0; i < 3; ++i) {
+    device_description description = plain_device();
+    description.loop.write_earliest = earliest[i];
+    description.loop.write_latest = latest[i];
+    simulated_device device(description);
+    device_sample sample;
+    device.read(sample);
+    device.write({0.7, 0});
+    device.read(sample);
+    const double acceleration = 0.7 / description.mechanics.inertia, period = description.loop.sample_period;
+    const auto moved = [&](double after) { return acceleration / 2 * (period - after) * (period - after); };
+    EXPECT_LE(sample.position, moved(earliest[i]) * (1 + 1e-12));
+    EXPECT_GE(sample.position, moved(latest[i]) * (1 - 1e-12));
+    EXPECT_EQ(device.truth().motor_torque, 0.7);
+    device.write({0, 0});
+    EXPECT_EQ(device.truth_from_now_on().motor_torque, latest[i] > 0 ? 0.7 : 0);
+  }
+}
+
 std::vector<unsigned char> bytes_of_a_run(std::uint64_t seed, std::vector<sample_fault> faults = {},
                                           std::uint64_t samples = 3000) {
   device_description arm = imperfect_arm();

@@ -79,6 +79,7 @@ TEST(LedDevice, AtEveryDelayAndLag) {
   for (const unsigned delay : {0u, 2u, 7u}) {
     device_description device = punctual_arm();
     device.loop.delay_samples = delay;
+    device.loop.write_earliest = device.loop.write_latest = delay == 0 ? 0 : 0.3 * device.loop.sample_period;
     device.motor.amplifier_lag = delay == 2 ? 0 : 1e-3;
     device.brake.coil_lag = delay == 7 ? 0 : 3e-3;
     device.encoder.rounding = delay == 0 ? quantiser::round : quantiser::floor;

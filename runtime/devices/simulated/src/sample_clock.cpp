@@ -1,5 +1,7 @@
 #include <dashpot/simulated/sample_clock.hpp>
 
+#include <algorithm>
+
 #include <dashpot/simulated/draw.hpp>
 
 namespace dashpot::simulated {
@@ -21,6 +23,12 @@ sample_clock::step sample_clock::advance(const loop_description& loop, std::uint
   postponed_ += delay;
   const double period = loop.sample_period, lateness = jitter_of(loop, seed, index_);
   return {period + (lateness - lateness_before) + delay, static_cast<double>(index_) * period + postponed_ + lateness};
+}
+
+double sample_clock::until_write(const loop_description& loop, std::uint64_t seed, double duration) const noexcept {
+  const double range = loop.write_latest - loop.write_earliest;
+  const double later = range > 0 ? range * draw_uniform(seed, draw_stream::write, index_) : 0;
+  return std::min(loop.write_earliest + later, duration);
 }
 
 }  // namespace dashpot::simulated

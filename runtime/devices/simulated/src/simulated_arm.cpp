@@ -95,7 +95,10 @@ void simulated_arm::go_on() noexcept {
       plant_.disturb(
           j, noise * draw_normal(scene_.seed, simulated::draw_stream::motor_noise, arm_axes * clock_.index() + j));
   }
-  plant_.advance(step.duration, step.end, line_.back().command, sensors_);
+  const double wait = clock_.until_write(description_.loop(), scene_.seed, step.duration), rest = step.duration - wait;
+  if (wait > 0) plant_.advance(wait, step.end - rest, before_, sensors_);
+  if (rest > 0 || wait == 0) plant_.advance(rest, step.end, line_.back().command, sensors_);
+  before_ = line_.back().command;
   for (std::size_t slot = line_.size() - 1; slot > 0; --slot) line_[slot] = line_[slot - 1];
 }
 

@@ -80,14 +80,17 @@ device_status simulated_device::read(device_sample& sample) noexcept {
 
 void simulated_device::go_on() noexcept {
   const simulated::sample_clock::step step = clock_.advance(description_.loop, scene_.seed, scene_.faults);
+  const double wait = clock_.until_write(description_.loop, scene_.seed, step.duration), rest = step.duration - wait;
   std::visit(
       [&](auto& plant) {
         if (description_.motor.noise > 0)
           plant.disturb(description_.motor.noise *
                         draw_normal(scene_.seed, simulated::draw_stream::motor_noise, clock_.index()));
-        plant.advance(step.duration, step.end, line_.back().command, sensors_);
+        if (wait > 0) plant.advance(wait, step.end - rest, before_, sensors_);
+        if (rest > 0 || wait == 0) plant.advance(rest, step.end, line_.back().command, sensors_);
       },
       plant_);
+  before_ = line_.back().command;
   for (std::size_t slot = line_.size() - 1; slot > 0; --slot) line_[slot] = line_[slot - 1];
 }
 

@@ -7,7 +7,7 @@
 //     balance = motor_energy + brake_energy ≥ 0.
 // Where a device tells what it made of a command, by the command's number, tell() puts that in the command's place.
 // Exact for the positions given: an encoder's step q moves the motor's part by q (|m_0| + |m_n| + Σ|m_k − m_{k−1}|) at
-// most. Amplifier lag is not seen. No heap, no <cmath>.
+// most. Amplifier lag is not seen, nor that a command acts within a sample. No heap, no <cmath>.
 #pragma once
 
 #include <dashpot/device_description.hpp>

@@ -31,10 +31,14 @@ class simulated_arm {
   // What only a simulation can know: the truth at the newest sample, and all energy until then.
   simulated::arm_view truth() const noexcept { return plant_.view(); }
   // The same instant seen from its other side: under what write() has put into effect.
-  simulated::arm_view truth_from_now_on() const noexcept { return plant_.view_under(line_.back().command); }
+  simulated::arm_view truth_from_now_on() const noexcept { return plant_.view_under(acting()); }
   const simulated::energy_ledger& ledger() const noexcept { return plant_.ledger(); }
 
  private:
+  // At the newest sample, before a command that acts later.
+  const arm_actuation& acting() const noexcept {
+    return description_.loop().write_latest > 0 ? before_ : line_.back().command;
+  }
   struct numbered {
     arm_actuation command;
     unsigned number = 0;  // 0: before the first
@@ -49,6 +53,7 @@ class simulated_arm {
   simulated::arm_plant plant_;
   simulated::shaft_sensors sensors_[arm_axes];
   std::vector<numbered> line_;  // [0]: written last; back(): in effect
+  arm_actuation before_;        // in effect until that one acts
   unsigned written_ = 0;        // commands, wrapping around
   bool started_ = false;
   simulated::sample_clock clock_;

@@ -43,7 +43,7 @@ class simulated_device {
   }
   // The same instant seen from its other side: under what write() has put into effect.
   simulated::plant_view truth_from_now_on() const noexcept {
-    return std::visit([this](const auto& plant) { return plant.view_under(line_.back().command); }, plant_);
+    return std::visit([this](const auto& plant) { return plant.view_under(acting()); }, plant_);
   }
   const simulated::energy_ledger& ledger() const noexcept {
     return std::visit([](const auto& plant) -> const simulated::energy_ledger& { return plant.ledger(); }, plant_);
@@ -60,6 +60,10 @@ class simulated_device {
   simulated::scenario scene_;
   std::variant<simulated::plant, simulated::compliant_plant> plant_;
   simulated::shaft_sensors sensors_;
+  // At the newest sample, before a command that acts later.
+  const actuation& acting() const noexcept {
+    return description_.loop.write_latest > 0 ? before_ : line_.back().command;
+  }
   struct numbered {
     actuation command;
     unsigned number = 0;  // 0: before the first
@@ -67,6 +71,7 @@ class simulated_device {
   device_report report() const noexcept;
 
   std::vector<numbered> line_;  // [0]: written last; back(): in effect
+  actuation before_;            // in effect until that one acts
   unsigned written_ = 0;        // commands, wrapping around
   bool started_ = false;
   simulated::sample_clock clock_;

@@ -341,10 +341,13 @@ class AxesTest(CommandTest):
         prompt["mechanics"]["damping"] = "0.1 N m s/rad"  # more than any of these needs
         late = json.loads(json.dumps(prompt))
         late["motors"]["amplifier_lag"] = "0.3 ms"
+        writing = json.loads(json.dumps(prompt))
+        writing["loop"]["write_delay"] = ["0 us", "30 us"]
         spring, damper, slip = {"spring": "150 N/m"}, {"damper": "0.5 N s/m"}, {"slip": "1 N"}
         side_by_side, relaxing = {"parallel": [spring, damper]}, {"parallel": [spring, {"series": [spring, damper]}]}
         sliding = {"series": [slip, spring]}
         for device, contact, network, is_certified in (
+                (writing, False, side_by_side, True), (writing, True, side_by_side, False),
                 (late, False, side_by_side, True), (late, False, relaxing, False), (prompt, False, relaxing, False),
                 (late, True, side_by_side, False), (prompt, True, side_by_side, True), (late, True, relaxing, True),
                 (late, False, sliding, True), (late, False, {"parallel": [sliding, damper]}, True),
@@ -355,7 +358,7 @@ class AxesTest(CommandTest):
                 port["contact"] = {"at": 0}
             self.write("device.json", json.dumps(device))
             self.write("floor.json", json.dumps({"dashpot": 1, "axes": 2, "name": "soft_floor", "ports": [port]}))
-            with self.subTest(network=network, contact=contact, late=device is late):
+            with self.subTest(network=network, contact=contact, late=device is late, writing=device is writing):
                 told = self.dashpot("compile", "floor.json", "--device", "device.json", "-o", "out").stderr
                 self.assertEqual("note: ports that can be certified: " in told, not is_certified)
                 self.assertEqual("[nothing-proved]" in told, not is_certified)

@@ -22,7 +22,7 @@ BEYOND_THE_SCHEMAS = {
     "devices/band_reversed", "devices/coil_lag_below_the_band", "devices/damping_at_the_tool", "devices/jitter_of_a_period",
     "devices/limit_as_a_current", "devices/brake_safe_damping_too_large", "devices/brake_unit_of_the_other_motion",
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
-    "devices/rate_is_a_period", "devices/units_run_together",
+    "devices/rate_is_a_period", "devices/units_run_together", "devices/write_after_a_period", "devices/write_delay_reversed",
     # two axes: geometry and physics
     "axes_field_gives_power", "axes_field_turns", "axes_map_radius_of_zero", "axes_port_twice", "axes_tunable",
     "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel", "devices/axes_motion_of_serial",

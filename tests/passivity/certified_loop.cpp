@@ -38,9 +38,10 @@ compiler::Device random_device(Random& random) {
   d.brake.tolerance = random.chance(0.3) ? 0 : random.uniform(0, 0.2);
   d.mechanics.inertia = random.log_uniform(0.02, 1);
   d.mechanics.damping = random.chance(0.5) ? 0 : random.log_uniform(1e-3, 1);
-  if (random.chance(0.3)) {
-    d.loop.write_latest = random.uniform(0, 1) * (d.loop.sample_period - d.loop.jitter);
-    d.loop.write_earliest = random.chance(0.5) ? d.loop.write_latest : random.uniform(0, 1) * d.loop.write_latest;
+  Random apart = random;  // what is drawn next is of the network
+  if (apart.chance(0.3)) {
+    d.loop.write_latest = apart.uniform(0, 1) * (d.loop.sample_period - d.loop.jitter);
+    d.loop.write_earliest = apart.chance(0.5) ? d.loop.write_latest : apart.uniform(0, 1) * d.loop.write_latest;
   }
   return device;
 }

@@ -19,13 +19,10 @@ namespace dashpot::compiler {
 namespace {
 
 // `diagonal` where nothing is asked for; nothing, reported, for a rule of one axis.
-std::optional<axes::BrakeRule> brake_rule(const Choices& choices, const std::optional<AxesDevice>& device,
-                                          Diagnostics& diagnostics) {
+std::optional<axes::BrakeRule> brake_rule(const Choices& choices, Diagnostics& diagnostics) {
   if (is_named(choices, "")) return axes::BrakeRule::diagonal;
   std::string names;
   for (const axes::BrakeRule rule : axes::all_brake_rules) {
-    // A closed form of two brakes.
-    if (rule == axes::BrakeRule::non_injecting && device && device->brakes.size() != 2) continue;
     if (is_named(choices, name_of(rule))) return rule;
     names += (names.empty() ? "" : ", ") + std::string(name_of(rule));
   }
@@ -184,7 +181,7 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   const std::optional<Range> band =
       device ? std::optional(Range{device->loop().band_low, device->loop().band_high}) : std::nullopt;
   std::optional<AxesNetwork> network = build_axes_network(*decl, diagnostics, band);
-  const std::optional<axes::BrakeRule> rule = brake_rule(asked, device, diagnostics);
+  const std::optional<axes::BrakeRule> rule = brake_rule(asked, diagnostics);
   if (asked.state_input && *asked.state_input != StateInput::position)
     diagnostics.report<DiagnosticCode::ports_follow_position>({}, name_of(*asked.state_input));
   if (!network || !rule || diagnostics.error_count() > errors_before) return std::nullopt;

@@ -10,6 +10,7 @@
 //     virtual        no brake
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "axes/pair.hpp"
@@ -69,10 +70,126 @@ Pair<S> non_injecting(const Pair<Brake>& brakes, const Symmetric<S>& target, con
   return {min(max(p - kept, none), first_most), min(max(s - other_kept, none), second_most)};
 }
 
-// Of one to four brakes: with three, the exact split where it needs no negative brake, else the best pair; with limits,
-// the best of the cases with one brake at 0 or at its limit; of four, the best three.
-std::vector<double> non_injecting(const std::vector<Brake>& brakes, const Symmetric<double>& target,
-                                  const Symmetric<double>& motion);
+// One brake beside what others make, B − d a aᵀ ≥ 0: the largest d.
+template <typename S>
+S alone(const Brake& brake, const Symmetric<S>& target) {
+  using std::max, std::min;
+  const auto [p, r, s] = along_brakes(dual(brake.along, turned(brake.along)), target);
+  return min(max(p - square(r) / max(s, S(smallest_damping)), S(0)), S(brake.most));
+}
+
+// Of one to four brakes, as a law computes it. Where R ≠ 0 its multiplier is y yᵀ, and (a_jᵀy)² = a_jᵀCa_j holds for
+// two directions at most: so all brakes but two sit at 0 or at their limits. Where R = 0 three dampings are determined,
+// and of four one can be moved to a bound. Of all these cases the one that takes most, tr(C D), is the best.
+template <typename S>
+class NonInjecting {
+ public:
+  NonInjecting(const std::vector<Brake>& brakes, const Symmetric<S>& target, const Symmetric<S>& motion)
+      : brakes_(brakes), target_(target), motion_(motion), best_(brakes.size(), S(0)) {}
+
+  std::vector<S> best() {
+    if (brakes_.size() == 1) return {alone(brakes_[0], target_)};
+    if (brakes_.size() == 2) return with_free(target_, {0, 1}, best_);
+    for (std::size_t i = 0; i < brakes_.size(); ++i)
+      for (std::size_t k = i + 1; k < brakes_.size(); ++k) try_bounds({i, k});
+    if (brakes_.size() == 3) try_exact(target_, {0, 1, 2}, best_, S(1));
+    for (std::size_t j = 0; brakes_.size() == 4 && j < 4; ++j)
+      for (const double bound : {0.0, brakes_[j].most}) {
+        if (bound >= unlimited) continue;
+        std::vector<S> dampings(4, S(0));
+        dampings[j] = S(bound);
+        const Symmetric<S> rest = without(target_, j, bound);
+        try_exact(rest, {j == 0 ? 1u : 0u, j <= 1 ? 2u : 1u, j <= 2 ? 3u : 2u}, dampings, S(1));
+      }
+    return best_;
+  }
+
+ private:
+  // What rounding leaves of a matrix that is no less than 0.
+  static constexpr double slack = 1e-13;
+
+  Symmetric<S> without(const Symmetric<S>& target, std::size_t j, double damping) const {
+    return damping == 0 ? target : target - S(damping) * outer(constant<S>(brakes_[j].along));
+  }
+
+  // Above 0 where the least eigenvalue is 0 or more.
+  S is_passive(const Symmetric<S>& rest) const {
+    using std::min;
+    const S size = target_.xx + target_.yy + S(smallest_damping);
+    return min(min(rest.xx, rest.yy) + S(slack) * size, rest.xx * rest.yy - square(rest.xy) + S(slack) * square(size));
+  }
+
+  std::vector<S> with_free(const Symmetric<S>& rest, const std::array<std::size_t, 2>& free,
+                           std::vector<S> dampings) const {
+    const Pair<Brake> pair{brakes_[free[0]], brakes_[free[1]]};
+    if (are_parallel(pair[0].along, pair[1].along)) {
+      dampings[free[0]] = alone(pair[0], rest);
+      dampings[free[1]] = alone(pair[1], rest - dampings[free[0]] * outer(constant<S>(pair[0].along)));
+      return dampings;
+    }
+    const Pair<S> d = non_injecting<S>(pair, rest, motion_);
+    dampings[free[0]] = d[0], dampings[free[1]] = d[1];
+    return dampings;
+  }
+
+  void try_bounds(const std::array<std::size_t, 2>& free) {
+    std::vector<std::size_t> fixed;
+    for (std::size_t j = 0; j < brakes_.size(); ++j)
+      if (j != free[0] && j != free[1]) fixed.push_back(j);
+    for (unsigned at_limit = 0; at_limit < 1u << fixed.size(); ++at_limit) {
+      std::vector<S> dampings(brakes_.size(), S(0));
+      Symmetric<S> rest = target_;
+      bool is_possible = true;
+      for (std::size_t i = 0; i < fixed.size(); ++i) {
+        if ((at_limit >> i & 1u) == 0) continue;
+        is_possible = is_possible && brakes_[fixed[i]].most < unlimited;
+        dampings[fixed[i]] = S(brakes_[fixed[i]].most);
+        rest = without(rest, fixed[i], brakes_[fixed[i]].most);
+      }
+      if (is_possible) take_if_better(with_free(rest, free, dampings), at_limit == 0 ? S(1) : is_passive(rest));
+    }
+  }
+
+  // B = Σ d_j a_j a_jᵀ, where no d_j is negative or beyond its limit.
+  void try_exact(const Symmetric<S>& rest, const std::array<std::size_t, 3>& of, std::vector<S> dampings,
+                 S is_possible) {
+    using std::min;
+    const Pair<double>&first = brakes_[of[0]].along, &second = brakes_[of[1]].along, &third = brakes_[of[2]].along;
+    if (are_parallel(first, second) || are_parallel(third, first) || are_parallel(third, second)) return;
+    const Pair<Pair<double>> base = dual(first, second);
+    const double a = dot(base[0], third), b = dot(base[1], third);
+    const auto [p, r, s] = along_brakes(base, rest);
+    const S last = S(1 / (a * b)) * r;
+    dampings[of[0]] = p - S(a * a) * last, dampings[of[1]] = s - S(b * b) * last, dampings[of[2]] = last;
+    for (const std::size_t j : of) {
+      is_possible = min(is_possible, dampings[j]);
+      if (brakes_[j].most < unlimited) is_possible = min(is_possible, S(brakes_[j].most) - dampings[j]);
+    }
+    take_if_better(dampings, is_possible);
+  }
+
+  void take_if_better(const std::vector<S>& dampings, const S& is_possible) {
+    using std::min;
+    S taken(0);
+    for (std::size_t j = 0; j < dampings.size(); ++j) {
+      const Pair<S> along = constant<S>(brakes_[j].along);
+      taken = taken + dampings[j] * form(along, motion_, along);
+    }
+    const S is_better = min(is_possible, taken - most_taken_);
+    for (std::size_t j = 0; j < dampings.size(); ++j) best_[j] = where(is_better, dampings[j], best_[j]);
+    most_taken_ = where(is_better, taken, most_taken_);
+  }
+
+  const std::vector<Brake>& brakes_;
+  const Symmetric<S> target_, motion_;
+  std::vector<S> best_;
+  S most_taken_ = S(0);
+};
+
+template <typename S>
+std::vector<S> non_injecting(const std::vector<Brake>& brakes, const Symmetric<S>& target, const Symmetric<S>& motion) {
+  return NonInjecting<S>(brakes, target, motion).best();
+}
 
 std::vector<double> choose(BrakeRule rule, const std::vector<Brake>& brakes, const Symmetric<double>& target,
                            const Symmetric<double>& motion);

@@ -24,6 +24,9 @@ S square(const S& x) {
   return x * x;
 }
 
+// `yes` where `condition` is above zero, else `no`.
+inline double where(double condition, double yes, double no) { return condition > 0 ? yes : no; }
+
 // part/whole, by the reciprocal of the whole, where |part| ≤ whole: an enclosure of it stays within −1 … 1.
 template <typename S>
 S fraction(const S& part, const S& reciprocal) {

@@ -202,11 +202,8 @@ class Merging {
   std::vector<Term> chosen(const Symmetric<Term>& target, const Pose<Term>& pose) const {
     switch (plan_.rule) {
       case axes::BrakeRule::diagonal: return axes::diagonal(plan_.brakes, target);
-      case axes::BrakeRule::non_injecting: {
-        const Pair<Term> pair = axes::non_injecting(Pair<axes::Brake>{plan_.brakes[0], plan_.brakes[1]}, target,
-                                                    axes::isotropic_motion(pose.column));
-        return {pair[0], pair[1]};
-      }
+      case axes::BrakeRule::non_injecting:
+        return axes::non_injecting(plan_.brakes, target, axes::isotropic_motion(pose.column));
       case axes::BrakeRule::virtual_brake: break;
     }
     return std::vector<Term>(plan_.brakes.size(), Term(0.0));

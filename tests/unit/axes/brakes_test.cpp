@@ -119,13 +119,13 @@ TEST(NonInjecting, NothingWantedIsNothingGiven) {
 // Two brakes on one shaft do what one of both limits would.
 TEST(NonInjecting, BrakesOnOneShaftAddUp) {
   const std::vector<Brake> twins{{{1, 0}, 0.5}, {{0, 1}}, {{2, 0}, 0.25}};
-  const std::vector<double> d = non_injecting(twins, {2, 0, 3}, {1, 0, 1});
+  const std::vector<double> d = non_injecting<double>(twins, {2, 0, 3}, {1, 0, 1});
   EXPECT_NEAR(d[0] + 4 * d[2], 1.5, 1e-12);
   EXPECT_NEAR(d[1], 3, 1e-12);
   const std::vector<double> diagonals = diagonal<double>(twins, {2, 0.3, 3});
   EXPECT_NEAR(diagonals[0] + 4 * diagonals[2], 1.5, 1e-12);
   const std::vector<Brake> same{{{1, 0}, 0.5}, {{1, 0}, 0.7}};
-  EXPECT_NEAR(non_injecting(same, {2, 0, 3}, {1, 0, 1})[1], 0.7, 1e-12);
+  EXPECT_NEAR(non_injecting<double>(same, {2, 0, 3}, {1, 0, 1})[1], 0.7, 1e-12);
   EXPECT_NEAR(diagonal<double>(same, {2, 0, 3})[1], 0.7, 1e-12);
 }
 
@@ -143,7 +143,7 @@ TEST(DelayProof, DiagonalAlwaysIsWithoutLimits) {
   }
   EXPECT_FALSE(is_delay_proof(made_by<double>(joint_brakes, {0.9, 1}), {2, 0, 2}));
   const auto split = [](double c) {
-    return is_delay_proof(made_by(joint_brakes, non_injecting(joint_brakes, {1, c, 1}, {1, -c, 1})), {1, c, 1});
+    return is_delay_proof(made_by(joint_brakes, non_injecting<double>(joint_brakes, {1, c, 1}, {1, -c, 1})), {1, c, 1});
   };
   EXPECT_TRUE(split(0.333) && split(-0.333));
   EXPECT_FALSE(split(0.334) || split(-0.334));

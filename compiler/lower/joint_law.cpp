@@ -1,6 +1,10 @@
 #include "lower/joint_law.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <type_traits>
 #include <utility>
 
 #include "discretise/law_writer.hpp"
@@ -21,6 +25,63 @@ struct PortTerms {
   Term depth;           // w
   Pair<Term> gradient;  // g
 };
+
+// A table of the cells of a grid looked up where the tip is. Its numbers are those of axes::place() and axes::corner().
+struct GridCell {
+  Term within_x, within_y;           // s and t [m]
+  std::array<Term, 16> coefficient;  // of the cell
+};
+
+GridCell cell_of(const axes::Grid& grid, const std::string& port, const Pair<Term>& tip) {
+  const auto table = [&](const std::string& name, const char* unit, const char* meaning, std::size_t size,
+                         const auto& value_at) {
+    TermTable made{joined(port, name), unit, meaning, {}};
+    for (std::size_t i = 0; i < size; ++i) made.values.push_back(value_at(i));
+    return made;
+  };
+  const auto place_along = [&](std::size_t axis) {
+    const Term cells = Term(1 / grid.spacing[axis]) * (tip[axis] - Term(grid.start[axis] - grid.spacing[axis]));
+    return max(min(cells, Term(double(grid.knots[axis]))), Term(0.0));
+  };
+  const auto within = [&](std::size_t axis, const Term& place) {
+    const char* const name = axis == 0 ? "map_corner_x" : "map_corner_y";
+    return tip[axis] - pick(table(name, "m", "of each cell", grid.knots[axis] + 1,
+                                  [&](std::size_t i) { return axes::corner(grid, axis, i); }),
+                            place);
+  };
+  const Term column = place_along(0), row = place_along(1);
+  const Term cell = pick(table("map_column", "1", "number of each column of cells", grid.knots[0] + 1,
+                               [](std::size_t i) { return double(i); }),
+                         column) +
+                    pick(table("map_row", "1", "number of the first cell of each row", grid.knots[1] + 1,
+                               [&](std::size_t i) { return double(i * grid.columns()); }),
+                         row);
+  GridCell found{within(0, column), within(1, row), {}};
+  for (std::size_t k = 0; k < found.coefficient.size(); ++k) {
+    const std::size_t power = k / 4 + k % 4;
+    const std::string unit = power == 0   ? "m"
+                             : power == 1 ? "1"
+                             : power == 2 ? "1/m"
+                                          : fmt::format("1/m^{}", power - 1);
+    found.coefficient[k] = pick(table(fmt::format("map_s{}_t{}", k / 4, k % 4), unit.c_str(), "of each cell",
+                                      grid.cell.size(), [&](std::size_t i) { return grid.cell[i].coefficient[k]; }),
+                                cell);
+  }
+  return found;
+}
+
+axes::Depth<Term> depth_of(const PortLaw& port, const Pair<Term>& tip) {
+  return std::visit(
+      [&](const auto& map) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(map)>, axes::Grid>) {
+          const GridCell cell = cell_of(map, port.name, tip);
+          return axes::bicubic(cell.coefficient, cell.within_x, cell.within_y);
+        } else {
+          return axes::depth(map, tip);
+        }
+      },
+      port.map);
+}
 
 // What becomes of a port's law in the one of all.
 struct Merged {
@@ -109,6 +170,16 @@ class Merging {
       }
       if (const auto* plane = std::get_if<axes::Plane>(&port.map))
         terms.call(plane->offset, joined(port.name, "offset"), "m", "of the plane from the origin");
+      if (const auto* grid = std::get_if<axes::Grid>(&port.map)) {
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const char* const of = axis == 0 ? "x" : "y";
+          terms.call(1 / grid->spacing[axis], joined(port.name, std::string("cells_per_length_") + of), "1/m",
+                     "of the grid");
+          terms.call(grid->start[axis] - grid->spacing[axis], joined(port.name, std::string("grid_before_") + of), "m",
+                     "a cell before the first knot");
+          terms.call(double(grid->knots[axis]), joined(port.name, std::string("last_cell_") + of), "1", "of the grid");
+        }
+      }
       if (const auto* band = std::get_if<axes::Band>(&port.map))
         terms.call(band->radius, joined(port.name, "radius"), "m", "of the band");
     }
@@ -190,7 +261,7 @@ class Merging {
   std::vector<PortTerms> port_terms(TermWriter& terms, const Pose<Term>& pose) const {
     std::vector<PortTerms> all;
     for (const PortLaw& port : ports_) {
-      const axes::Depth<Term> depth = axes::depth(port.map, pose.tip);
+      const axes::Depth<Term> depth = depth_of(port, pose.tip);
       all.push_back({depth.value, axes::at_joints(pose, depth.gradient)});
       for (std::size_t j = 0; j < 2; ++j)
         terms.call(all.back().gradient[j], joined(port.name, "by_q" + std::to_string(j + 1)), rotates() ? "m/rad" : "1",
@@ -284,7 +355,7 @@ class Merging {
     std::vector<std::pair<std::size_t, Term>> starts;
     for (std::size_t i = 0; i < ports_.size(); ++i) {
       if (merged_[i].rest_position == no_variable) continue;
-      Term start = axes::depth(ports_[i].map, pose.tip).value;
+      Term start = depth_of(ports_[i], pose.tip).value;
       if (const std::optional<double>& at = ports_[i].law.surface_at) start = max(start - Term(*at), Term(0.0));
       terms.count(start);
       starts.emplace_back(i, start);

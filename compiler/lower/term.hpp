@@ -4,6 +4,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "axes/brakes.hpp"
@@ -11,7 +13,13 @@
 
 namespace dashpot::compiler {
 
-enum class TermKind { number, variable, add, multiply, divide, negate, square_root, sine, cosine, where };
+enum class TermKind { number, variable, add, multiply, divide, negate, square_root, sine, cosine, where, pick };
+
+// Numbers of which a law reads the one that it counts to.
+struct TermTable {
+  std::string name, unit, meaning;
+  std::vector<double> values;
+};
 
 class Term {
  public:
@@ -20,6 +28,7 @@ class Term {
     double number = 0;         // of a number
     VariableId variable = {};  // of a variable
     std::vector<Term> operands = {};
+    std::shared_ptr<const TermTable> table = {};  // of a pick
   };
 
   Term() : Term(0.0) {}
@@ -27,6 +36,10 @@ class Term {
   explicit Term(VariableId variable) : node_(std::make_shared<Node>(Node{TermKind::variable, 0, variable})) {}
   Term(TermKind kind, std::vector<Term> operands)
       : node_(std::make_shared<Node>(Node{kind, 0, {}, std::move(operands)})) {}
+
+  Term(TermTable table, const Term& place)
+      : node_(std::make_shared<Node>(
+            Node{TermKind::pick, 0, {}, {place}, std::make_shared<const TermTable>(std::move(table))})) {}
 
   const Node& node() const { return *node_; }
 
@@ -79,6 +92,8 @@ inline bool is_never_negative(const Term& a) {
   }
 }
 inline Term max(const Term& a, const Term& b) { return is_zero(b) && is_never_negative(a) ? a : where(a - b, a, b); }
+// The number that stands at the whole part of a place, from 0, which lies within the table.
+inline Term pick(TermTable table, const Term& place) { return {std::move(table), place}; }
 inline Term abs(const Term& a) { return where(a, a, -a); }
 
 }  // namespace dashpot::compiler

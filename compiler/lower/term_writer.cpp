@@ -118,6 +118,7 @@ TermWriter::Signed TermWriter::unseen(const Term& term) {
     case TermKind::sine: return circular(of[0]).sine;
     case TermKind::cosine: return circular(of[0]).cosine;
     case TermKind::where: return where(of[0], of[1], of[2]);
+    case TermKind::pick: return pick(n.table, positive(of[0]));
   }
   return {};
 }
@@ -189,6 +190,17 @@ TermWriter::Signed TermWriter::where(Signed condition, Signed yes, Signed no) {
   }
   const NodeId asked = positive(condition), first = positive(yes), second = positive(no);
   return node(Kind::where, {asked, first, second});
+}
+
+TermWriter::Signed TermWriter::pick(const std::shared_ptr<const TermTable>& table, NodeId place) {
+  const auto found =
+      std::find_if(tables_.begin(), tables_.end(), [&](const auto& one) { return one->name == table->name; });
+  const auto which = double(found - tables_.begin());
+  if (found == tables_.end()) tables_.push_back(table);
+  const auto [known, is_new] =
+      known_.emplace(std::tuple(Kind::pick, which, VariableId{}, std::vector<NodeId>{place}), nodes_.size());
+  if (is_new) nodes_.push_back({Kind::pick, which, {}, {place}});
+  return {known->second};
 }
 
 TermWriter::NodeId TermWriter::positive(Signed value) {
@@ -286,6 +298,11 @@ ExpressionId TermWriter::written(std::vector<Statement>& program, NodeId id) {
     case Kind::divide: return writer_.divide(of[0], of[1]);
     case Kind::square_root: return writer_.square_root(of[0]);
     case Kind::where: return writer_.where(of[0], of[1], of[2]);
+    case Kind::pick: {
+      const TermTable& table = *tables_[std::size_t(nodes_[id].number)];
+      const std::vector<Real> values(table.values.begin(), table.values.end());
+      return writer_.pick(table.name, table.unit, table.meaning, values, of[0], ConstantRole::map);
+    }
     case Kind::number:
     case Kind::variable: break;
   }

@@ -46,10 +46,10 @@ class TermWriter {
     NodeId node;
     bool is_negative = false;
   };
-  enum class Kind { number, variable, add, subtract, multiply, divide, square_root, where };
+  enum class Kind { number, variable, add, subtract, multiply, divide, square_root, where, pick };
   struct Node {
     Kind kind;
-    double number = 0;
+    double number = 0;  // or which of tables_
     VariableId variable = {};
     std::vector<NodeId> operands = {};
     std::size_t uses = 0;
@@ -72,6 +72,7 @@ class TermWriter {
   Signed multiply(Signed a, Signed b);
   Signed divide(Signed a, Signed b);
   Signed where(Signed condition, Signed yes, Signed no);
+  Signed pick(const std::shared_ptr<const TermTable>& table, NodeId place);
   NodeId positive(Signed value);  // a node of that value
   Circular circular(Signed angle);
   Signed polynomial(const std::vector<Real>& coefficients, const char* name, Signed z);
@@ -89,6 +90,7 @@ class TermWriter {
   std::map<const Term::Node*, Signed> interned_;
   std::vector<Term> kept_;  // so that no address is used again
   std::map<NodeId, Circular> circular_;
+  std::vector<std::shared_ptr<const TermTable>> tables_;  // each of its name
   std::map<double, Label> labels_;
   std::size_t parts_ = 0, numbers_ = 0;
 };

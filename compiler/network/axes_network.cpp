@@ -15,12 +15,9 @@
 namespace dashpot::compiler {
 namespace {
 
-const std::vector<std::string> map_kinds = {"along", "ball", "cavity", "wall", "line"};
-constexpr std::string_view grid_kind = "grid";  // known, and not compiled yet
+const std::vector<std::string> map_kinds = {"along", "ball", "cavity", "wall", "line", "grid"};
 
-bool is_kind(const std::string& key) {
-  return key == grid_kind || std::find(map_kinds.begin(), map_kinds.end(), key) != map_kinds.end();
-}
+bool is_kind(const std::string& key) { return std::find(map_kinds.begin(), map_kinds.end(), key) != map_kinds.end(); }
 
 // The one member that says what the map is; null, reported, where there is none or more than one.
 const JsonMember* kind_of(const JsonValue& map, const ObjectReader& reader, Diagnostics& diagnostics) {
@@ -58,6 +55,10 @@ class MapReader {
   std::optional<axes::Pair<double>> direction(const char* key) const {
     const JsonMember* member = reader_.require(key);
     return member ? read_direction(key, member->value, diagnostics_) : std::nullopt;
+  }
+  const JsonValue* value(const char* key) const {
+    const JsonMember* member = reader_.require(key);
+    return member ? &member->value : nullptr;
   }
   std::optional<double> radius() const {
     const JsonMember* member = reader_.require("radius");
@@ -98,12 +99,73 @@ std::optional<axes::PortMap> read_line(const JsonMember& kind, Diagnostics& diag
   return axes::line(*through, *direction, *radius);
 }
 
-std::optional<axes::PortMap> read_map(const JsonMember& kind, Diagnostics& diagnostics) {
-  if (kind.key == grid_kind) {
-    diagnostics.report<DiagnosticCode::map_not_taken>(kind.key_span, kind.key,
-                                                      fmt::format("{}", fmt::join(map_kinds, ", ")));
+// A list of lengths, or of numbers in metres.
+std::optional<std::vector<double>> read_lengths(const std::string& key, const JsonValue& value,
+                                                Diagnostics& diagnostics) {
+  if (value.kind != JsonValue::Kind::array) {
+    report_wrong_type(key, value, "a list", diagnostics);
     return std::nullopt;
   }
+  std::vector<double> lengths;
+  for (const JsonValue& item : value.items) {
+    const std::optional<double> one = read_single(key, item, dimensions::length, diagnostics);
+    if (!one) return std::nullopt;
+    lengths.push_back(*one);
+  }
+  return lengths;
+}
+
+constexpr std::size_t most_knots_a_side = 64, most_knots = 1600;
+
+// The step between the knots of one side; nothing, reported, where they do not rise by equal ones. Steps that are
+// written in decimals differ by 1e-6 of one at most.
+std::optional<double> step_of(const std::string& key, const JsonValue& value, const std::vector<double>& knots,
+                              Diagnostics& diagnostics) {
+  const double step = (knots.back() - knots.front()) / double(knots.size() - 1);
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double due = knots.front() + double(i) * step;
+    if (step > 0 && std::abs(knots[i] - due) <= 1e-6 * step) continue;
+    diagnostics.report<DiagnosticCode::grid_spacing>(value.items[i].span, key, knots[i - 1], knots[i],
+                                                     step > 0 ? due : knots.front() + double(i) * std::abs(step));
+    return std::nullopt;
+  }
+  return step;
+}
+
+std::optional<axes::PortMap> read_grid(const JsonMember& kind, Diagnostics& diagnostics) {
+  const MapReader reader(kind.key, kind.value, {"x", "y", "values"}, diagnostics);
+  const JsonValue *const x = reader.value("x"), *const y = reader.value("y"), *const rows = reader.value("values");
+  if (x == nullptr || y == nullptr || rows == nullptr) return std::nullopt;
+  const auto columns_at = read_lengths("x", *x, diagnostics), rows_at = read_lengths("y", *y, diagnostics);
+  if (!columns_at || !rows_at) return std::nullopt;
+  const std::size_t columns = columns_at->size(), height = rows_at->size();
+  if (std::min(columns, height) < 2 || std::max(columns, height) > most_knots_a_side || columns * height > most_knots) {
+    diagnostics.report<DiagnosticCode::grid_size>(kind.value.span, columns, height, most_knots_a_side, most_knots);
+    return std::nullopt;
+  }
+  if (rows->kind != JsonValue::Kind::array || rows->items.size() != height) {
+    diagnostics.report<DiagnosticCode::grid_rows>(
+        rows->span, rows->kind == JsonValue::Kind::array ? fmt::format("{} rows", rows->items.size()) : "no rows",
+        height, columns);
+    return std::nullopt;
+  }
+  std::vector<std::vector<double>> values;
+  for (const JsonValue& row : rows->items) {
+    const auto of_row = read_lengths("values", row, diagnostics);
+    if (!of_row) return std::nullopt;
+    if (of_row->size() != columns) {
+      diagnostics.report<DiagnosticCode::grid_rows>(row.span, fmt::format("a row of {} numbers", of_row->size()),
+                                                    height, columns);
+      return std::nullopt;
+    }
+    values.push_back(*of_row);
+  }
+  const auto across = step_of("x", *x, *columns_at, diagnostics), up = step_of("y", *y, *rows_at, diagnostics);
+  if (!across || !up) return std::nullopt;
+  return axes::grid_map({columns_at->front(), rows_at->front()}, {*across, *up}, values);
+}
+
+std::optional<axes::PortMap> read_map(const JsonMember& kind, Diagnostics& diagnostics) {
   if (kind.key == "along") {
     const auto direction = read_direction(kind.key, kind.value, diagnostics);
     return direction ? std::optional<axes::PortMap>(axes::along(*direction)) : std::nullopt;
@@ -113,15 +175,14 @@ std::optional<axes::PortMap> read_map(const JsonMember& kind, Diagnostics& diagn
     return std::nullopt;
   }
   if (kind.key == "wall") return read_wall(kind, diagnostics);
+  if (kind.key == "grid") return read_grid(kind, diagnostics);
   return kind.key == "line" ? read_line(kind, diagnostics) : read_circle(kind, diagnostics);
 }
 
 std::optional<Port> build_port(const PortDecl& decl, const std::optional<Range>& device_band,
                                Diagnostics& diagnostics) {
   ObjectReader reader(decl.map, "'map'", diagnostics);
-  std::vector<std::string> known = map_kinds;
-  known.emplace_back(grid_kind);
-  reader.refuse_other_keys(known);
+  reader.refuse_other_keys(map_kinds);
   const JsonMember* kind = kind_of(decl.map, reader, diagnostics);
   const std::optional<axes::PortMap> map = kind ? read_map(*kind, diagnostics) : std::nullopt;
   std::optional<Network> network = build_network(decl.network, diagnostics, device_band);

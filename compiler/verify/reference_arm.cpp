@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "certify/slip_motor.hpp"
+#include "verify/reference_grid.hpp"
 #include "verify/reference_slips.hpp"
 
 namespace dashpot::compiler {
@@ -32,6 +33,7 @@ ReferencePair five_bar_tip(const axes::Arm& arm, const ReferencePair& q) {
   return plus(left, link(arm.distal, to_tip));
 }
 
+// Of a map that is no grid.
 Reference depth_at(const axes::PortMap& map, const ReferencePair& tip) {
   const Reference blunt = Reference(axes::blunting) * Reference(axes::blunting);
   const auto from = [&](const axes::Pair<double>& point) {
@@ -86,12 +88,17 @@ Differences differences(const std::function<Reference(const ReferencePair&)>& f,
 // What a port asks of the motors.
 struct PortForce {
   const Port* port;
-  Reference held = 0;             // S [N/m]
-  Reference grounded = 0;         // k0 [N/m]
-  Reference relaxing = 0;         // Σ k of the modes [N/m]
-  Reference yields = 0;           // of the slips, ± [N]
-  Reference least = 0, most = 0;  // w at the places [m]
+  std::optional<ReferenceGrid> grid;  // of its map, where that is one
+  Reference held = 0;                 // S [N/m]
+  Reference grounded = 0;             // k0 [N/m]
+  Reference relaxing = 0;             // Σ k of the modes [N/m]
+  Reference yields = 0;               // of the slips, ± [N]
+  Reference least = 0, most = 0;      // w at the places [m]
 };
+
+Reference depth_of(const PortForce& force, const ReferencePair& tip) {
+  return force.grid ? force.grid->depth(tip[0], tip[1]) : depth_at(force.port->map, tip);
+}
 
 // S of springs and dampers: k0/2 + Σ c/(1 + a).
 Reference held_of_linear(const ReferenceForm& form, const LawFacts& facts) {
@@ -113,7 +120,8 @@ PortForce force_of(const AxesCompilation& c, std::size_t i) {
   const Network& network = compiled.network;
   const double prompt = lateness(compiled.certificate.loop);  // on an ideal device
   const LawFacts facts = facts_of_port(c, i);
-  PortForce force{&c.network.ports[i]};
+  PortForce force{&c.network.ports[i], std::nullopt};
+  if (const auto* grid = std::get_if<axes::Grid>(&force.port->map)) force.grid.emplace(*grid);
   const SlipDecomposition& slips = compiled.decomposition.slips;
   const ReferenceTree tree = rendered_tree(reference_tree(network), network, slips);
   force.grounded = tree.linear.static_stiffness;
@@ -151,7 +159,7 @@ class Places {
       forces_.push_back(force_of(c, i));
       PortForce& force = forces_.back();
       for (std::size_t k = 0; k < joints_.size(); ++k) {
-        const Reference depth = depth_at(force.port->map, reference_tip(c.device.arm, joints_[k]));
+        const Reference depth = depth_of(force, reference_tip(c.device.arm, joints_[k]));
         force.least = k == 0 ? depth : std::min(force.least, depth);
         force.most = k == 0 ? depth : std::max(force.most, depth);
       }
@@ -190,8 +198,8 @@ class Places {
     SymmetricReference sum;
     std::vector<std::vector<SymmetricReference>> turned;  // of each pushed port, by the end of its force
     for (const PortForce& force : forces_) {
-      const Differences w = differences(
-          [&](const ReferencePair& q) { return depth_at(force.port->map, reference_tip(c_.device.arm, q)); }, joints);
+      const Differences w =
+          differences([&](const ReferencePair& q) { return depth_of(force, reference_tip(c_.device.arm, q)); }, joints);
       const std::vector<Reference> ends = ends_of(force, w.value);
       if (ends.empty()) continue;
       const auto& [first, second] = w.gradient;

@@ -78,6 +78,15 @@ void add_map(const Port& port, std::map<std::string, Reference>& all) {
   }
   if (const auto* plane = std::get_if<axes::Plane>(&port.map))
     all[port.name + "_offset"] = abs(Reference(plane->offset));
+  if (const auto* grid = std::get_if<axes::Grid>(&port.map)) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const char* const of = axis == 0 ? "x" : "y";
+      all[fmt::format("{}_cells_per_length_{}", port.name, of)] = in_double(1 / Reference(grid->spacing[axis]));
+      all[fmt::format("{}_grid_before_{}", port.name, of)] =
+          abs(in_double(Reference(grid->start[axis]) - Reference(grid->spacing[axis])));
+      all[fmt::format("{}_last_cell_{}", port.name, of)] = Reference(double(grid->knots[axis]));
+    }
+  }
   if (const auto* band = std::get_if<axes::Band>(&port.map)) all[port.name + "_radius"] = band->radius;
 }
 

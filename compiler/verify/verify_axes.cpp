@@ -1,10 +1,14 @@
 #include "verify/verify_axes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "verify/recompiled.hpp"
 #include "verify/reference_geometry.hpp"
+#include "verify/reference_grid.hpp"
 #include "verify/verify_header.hpp"
 
 namespace dashpot::compiler {
@@ -19,7 +23,8 @@ class AxesVerification {
         c_(compiled),
         diagnostics_(diagnostics),
         named_(reference_geometry(compiled)),
-        of_ports_(compiled.ports.size()) {
+        of_ports_(compiled.ports.size()),
+        grids_(compiled.ports.size()) {
     for (const auto& [name, values] : reference_constants({}, facts_of_port(compiled, 0)))
       if (name == "sample_period" || name == "threshold") named_[name] = values.front();
   }
@@ -29,6 +34,9 @@ class AxesVerification {
     std::size_t count = 0;
     for (const HeaderConstant& constant : header_.all) look_at(constant), count += constant.values.size();
     for (std::size_t i = 0; i < of_ports_.size(); ++i) recompute_port(i);
+    for (std::size_t i = 0; i < grids_.size(); ++i)
+      if (const auto* grid = std::get_if<axes::Grid>(&c_.network.ports[i].map))
+        recompute_grid(c_.network.ports[i].name, *grid, grids_[i]);
     return count;
   }
 
@@ -45,6 +53,9 @@ class AxesVerification {
     }
     const std::optional<std::size_t> port = port_of(constant.name);
     if (!port) return compare_with_written(constant);
+    if (std::holds_alternative<axes::Grid>(c_.network.ports[*port].map) &&
+        constant.name.starts_with(c_.network.ports[*port].name + "_map_"))
+      return grids_[*port].push_back(constant), compare_with_written(constant);
     HeaderConstant own = constant;
     own.name = name_in_port(*port, constant.name);
     of_ports_[*port].push_back(std::move(own));
@@ -115,12 +126,74 @@ class AxesVerification {
     else verify_constants(certificate, PortDevice::ideal(), header, compiled, diagnostics_);
   }
 
+  // Cells as a law reads them, at points of each, against what lies between the knots; and what it finds a cell by.
+  void recompute_grid(const std::string& port, const axes::Grid& grid, const std::vector<HeaderConstant>& tables) {
+    const auto values_of = [&](const std::string& name) {
+      for (const HeaderConstant& table : tables)
+        if (table.name == port + "_map_" + name) return table.values;
+      diagnostics_.report<DiagnosticCode::constant_missing>({}, port + "_map_" + name);
+      return std::vector<double>();
+    };
+    const auto expect = [&](const std::string& name, std::size_t place, double value, const Reference& due,
+                            double within) {
+      if (abs(Reference(value) - due) > Reference(within))
+        diagnostics_.report<DiagnosticCode::constant_wrong>({}, port + "_map_" + name, place + 1, value, due.str(20));
+    };
+    std::array<std::vector<double>, 16> cells;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      cells[k] = values_of(fmt::format("s{}_t{}", k / 4, k % 4));
+      if (cells[k].size() != grid.cell.size()) return;
+    }
+    const double rounding = header_.scalar == ScalarType::float64 ? 1e-15 : 1e-6;
+    const std::size_t counts[] = {grid.knots[0] + 1, grid.knots[1] + 1};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const std::string corner = axis == 0 ? "corner_x" : "corner_y", number = axis == 0 ? "column" : "row";
+      const std::vector<double> corners = values_of(corner), numbers = values_of(number);
+      if (corners.size() != counts[axis] || numbers.size() != counts[axis]) return;
+      for (std::size_t i = 0; i < counts[axis]; ++i) {
+        const double knot = i == 0 ? 0 : double(i - 1);
+        const double last = std::abs(grid.start[axis]) + double(counts[axis]) * grid.spacing[axis];
+        expect(corner, i, corners[i], Reference(grid.start[axis]) + Reference(knot) * Reference(grid.spacing[axis]),
+               rounding * last);
+        expect(number, i, numbers[i], Reference(double(axis == 0 ? i : i * counts[0])), 0);
+      }
+    }
+    recompute_cells(grid, cells, rounding, expect);
+  }
+
+  // At 16 points of a cell, which determine its 16 coefficients. Each is a difference of knots that rounds by some
+  // parts of the largest of them.
+  template <class Expect>
+  static void recompute_cells(const axes::Grid& grid, const std::array<std::vector<double>, 16>& cells, double rounding,
+                              const Expect& expect) {
+    const ReferenceGrid reference(grid);
+    double largest = 0;
+    for (const axes::BicubicCell& cell : grid.cell) largest = std::max(largest, std::abs(cell.coefficient[0]));
+    for (std::size_t i = 0; i < grid.cell.size(); ++i) {
+      const std::size_t place[] = {i % grid.columns(), i / grid.columns()};
+      for (std::size_t point = 0; point < 16; ++point) {
+        std::array<double, 2> within{double(point / 4) / 3, double(point % 4) / 3};
+        std::array<Reference, 2> at;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          within[axis] *= place[axis] == 0 ? -grid.spacing[axis] : grid.spacing[axis];
+          at[axis] = Reference(grid.start[axis]) + Reference(within[axis]) +
+                     Reference(place[axis] == 0 ? 0 : double(place[axis] - 1)) * Reference(grid.spacing[axis]);
+        }
+        std::array<double, 16> coefficient;
+        for (std::size_t k = 0; k < 16; ++k) coefficient[k] = cells[k][i];
+        const double value = axes::bicubic(coefficient, within[0], within[1]).value;
+        expect("s0_t0", i, value, reference.depth(at[0], at[1]), 100 * rounding * largest);
+      }
+    }
+  }
+
   const AxesCertificateFile& certificate_;
   const HeaderConstants& header_;
   const AxesCompilation& c_;
   Diagnostics& diagnostics_;
   std::map<std::string, Reference> named_;
   std::vector<std::vector<HeaderConstant>> of_ports_;  // without the ports' names
+  std::vector<std::vector<HeaderConstant>> grids_;     // tables of the ports' maps
 };
 
 }  // namespace

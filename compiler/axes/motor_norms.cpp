@@ -63,6 +63,33 @@ double largest_remainder(const Arm& arm, const Box& workspace, const std::vector
   });
 }
 
+double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                                   const Symmetric<double>& field, const Pair<Brake>& brakes,
+                                   const Pair<double>& weight) {
+  if (brakes[0].most >= unlimited && brakes[1].most >= unlimited) return 0;
+  const Pair<Pair<double>> base = dual(brakes[0].along, brakes[1].along);
+  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+    std::vector<Symmetric<Sloped>> remainders;
+    for (const Symmetric<Sloped>& wanted : wanted_by(ports, field, there.pose)) {
+      const Symmetric<Sloped> along = along_brakes(base, wanted);
+      const Sloped first = max(along.xx - Sloped(brakes[0].most), Sloped(0)),
+                   second = max(along.yy - Sloped(brakes[1].most), Sloped(0));
+      remainders.push_back(first * outer(constant<Sloped>(brakes[0].along)) +
+                           second * outer(constant<Sloped>(brakes[1].along)));
+    }
+    return remainders;
+  });
+}
+
+// Of [[0, σ], [σ, 0]] it is the same.
+double largest_curl(const Arm& arm, const Box& workspace, double turning, const Pair<double>& weight) {
+  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+    const auto& [first, second] = there.pose.column;
+    const Sloped determinant = first[0] * second[1] - first[1] * second[0];
+    return std::vector{Symmetric<Sloped>{Sloped(0), Sloped(turning) * determinant, Sloped(0)}};
+  });
+}
+
 double largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight) {
   return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
     return std::vector{outer(at_joints(there.pose, depth(map, there.pose.tip).gradient))};

@@ -23,6 +23,14 @@ double largest_remainder(const Arm& arm, const Box& workspace, const std::vector
                          const Symmetric<double>& field, const std::vector<Brake>& brakes, BrakeRule rule,
                          const Pair<double>& weight);
 
+// The same of two brakes by `diagonal`, without what couples them.
+double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                                   const Symmetric<double>& field, const Pair<Brake>& brakes,
+                                   const Pair<double>& weight);
+
+// ‖[[0, σ], [−σ, 0]]‖ of a field that turns, ½(a_12 − a_21) = `turning` at the tip [N·s/m].
+double largest_curl(const Arm& arm, const Box& workspace, double turning, const Pair<double>& weight);
+
 // ‖g gᵀ‖ of a port's gradient g.
 double largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight);
 

@@ -36,14 +36,15 @@ std::optional<double> curl_in_position(const Matrix<double>& stiffness) {
 
 // ω² is the mean, in logarithms, of the least and the largest d_1/d_2: then neither side of the minimum is always the
 // smaller one.
-double gate_ratio(const std::vector<JointField<double>>& fields) {
-  double least = std::log(fields.front().p / fields.front().s), most = least;
-  for (const JointField<double>& field : fields) {
-    const double ratio = std::log(field.p / field.s);
-    least = std::min(least, ratio);
-    most = std::max(most, ratio);
+double gate_ratio(const std::vector<Pair<double>>& dampings) {
+  std::optional<Pair<double>> range;
+  for (const auto& [p, s] : dampings) {
+    if (!(p > 0 && s > 0)) continue;
+    const double ratio = std::log(p / s);
+    if (!range) range = {ratio, ratio};
+    range = {std::min((*range)[0], ratio), std::max((*range)[1], ratio)};
   }
-  return std::exp(0.25 * (least + most));
+  return range ? std::exp(0.25 * ((*range)[0] + (*range)[1])) : 1;
 }
 
 }  // namespace dashpot::compiler::axes

@@ -44,38 +44,48 @@ JointField<S> at_joints(const Pose<S>& pose, const Matrix<S>& a) {
   return {element(0, 0), S(0.5) * (upper + lower), element(1, 1), S(0.5) * (upper - lower)};
 }
 
-// With brakes d = (p, s) on the joints the motors make the rest, g = (r + σ, r − σ): joint 1 gets g_1 v̂_2 and joint 2
-// g_2 v̂_1, each from an estimate of the other's velocity. Passive, whatever varies, if at all samples i and for j = 1 …
-// N
+// With brakes d = (p, s) the motors make what couples them, g = (r + σ, r − σ): brake 1's direction gets g_1 ŷ_2 and
+// brake 2's g_2 ŷ_1, each from an estimate of the other's velocity, h ŷ(k) = Σ_j e_j Δy(k + 1 − j), j = 1 …, after n
+// samples of delay. Passive, whatever varies, if at all samples i
 //
-//     |g_1(i)| + |g_2(i + j)| ≤ (2/ω)(1 − ε)(h/T_max) d_1(i),     |g_2(i)| + |g_1(i + j)| ≤ 2ω (1 − ε)(h/T_max) d_2(i)
+//     |g_1(i)| + Σ_j |e_j| |g_2(i + n + j)| ≤ (2/ω)(1 − ε_1)(h/T_max) d_1(i)
+//     |g_2(i)| + Σ_j |e_j| |g_1(i + n + j)| ≤ 2ω (1 − ε_2)(h/T_max) d_2(i)
 //
-// where the estimators, with weights whose sizes sum up to 1, and the loop's delay remember N samples, and ω > 0 is any
-// constant. So what one coupling leaves of a sample's allowance is the limit of the other for the next N samples.
-// `factor` is (1 − ε) h/T_max.
-template <typename S>
-Pair<S> gate_allowance(const Pair<S>& brake, double omega, double factor) {
-  return {S(2 * factor / omega) * brake[0], S(2 * factor * omega) * brake[1]};
-}
-
-// `wanted` is (r + σ, r − σ), `left` what gate_left() gave for each of the last N samples, 0 for those before the
-// first. Returns g.
-template <typename S>
-Pair<S> gated(const Pair<S>& wanted, const Pair<S>& allowance, const std::vector<Pair<S>>& left) {
-  using std::max, std::min;
-  Pair<S> limit = allowance;
-  for (const Pair<S>& one : left) limit = {min(limit[0], one[1]), min(limit[1], one[0])};
-  return {max(min(wanted[0], limit[0]), S(-1) * limit[0]), max(min(wanted[1], limit[1]), S(-1) * limit[1])};
-}
+// with any constant ω > 0. What one coupling leaves of its allowance, the right side, becomes the limit of the other,
+// and no limit grows by more than `recovery` a sample, for which `reserve` = recovery · Σ |e_j| (n + j − 1) is kept.
+struct CurlGate {
+  Pair<double> factor{2, 2};  // of d in the allowances
+  double gain = 1;            // Σ |e_j|, at least 1
+  double reserve = 0;         // [N·m·s/rad]
+  double recovery = 0;        // [N·m·s/rad]
+};
 
 template <typename S>
-Pair<S> gate_left(const Pair<S>& allowance, const Pair<S>& gated) {
-  using std::abs;
-  return {allowance[0] - abs(gated[0]), allowance[1] - abs(gated[1])};
+struct Gated {
+  Pair<S> coupling;  // g
+  Pair<S> left;      // by g_1, the limit of g_2 at the next sample, and by g_2 that of g_1
+};
+
+// `left` as it came of the sample before, 0 before the first. Where both couplings are wanted in full, neither gets so
+// much that nothing is left for the other: r and σ are limited alike.
+template <typename S>
+Gated<S> gated(const CurlGate& gate, const Pair<S>& brake, const S& r, const S& sigma, const Pair<S>& left) {
+  using std::abs, std::max, std::min;
+  const auto clamped = [](const S& x, const S& limit) { return max(min(x, limit), -limit); };
+  const auto allowance = [&](std::size_t j) { return max(S(gate.factor[j]) * brake[j] - S(gate.reserve), S(0)); };
+  const Pair<S> allowed{allowance(0), allowance(1)};
+  const S most = S(0.5 / gate.gain) * min(allowed[0], allowed[1]);
+  const S mixed = clamped(r, most), turning = clamped(sigma, most);
+  const Pair<S> g{clamped(mixed + turning, left[1]), clamped(mixed - turning, left[0])};
+  const auto left_by = [&](std::size_t j) {
+    return min(S(1 / gate.gain) * (allowed[j] - abs(g[j])), left[j] + S(gate.recovery));
+  };
+  return {g, {left_by(0), left_by(1)}};
 }
 
-// The ω that is good for a set of poses: ω² halfway between the least and the largest p/s, in logarithms. At one pose
-// alone max(|r|, |σ|) ≤ (1 − ε)(h/T_max) √(p s) then passes.
-double gate_ratio(const std::vector<JointField<double>>& fields);
+// The ω that is good for a set of p and s, those of poses: ω² halfway between the least and the largest p/s, in
+// logarithms. At one pose alone max(|r|, |σ|) ≤ (1 − ε)(h/T_max) √(p s) then passes. 1 where no pose has p > 0 and s >
+// 0.
+double gate_ratio(const std::vector<Pair<double>>& dampings);
 
 }  // namespace dashpot::compiler::axes

@@ -54,7 +54,8 @@ axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
 // Both joints' fastest rates over a hold, and one more for each sample of delay.
 axes::SampledLoop loop_of(const AxesDevice& device) {
   axes::SampledLoop loop;
-  loop.longest_period = device.loop().sample_period + device.loop().jitter;
+  loop.longest_period =
+      device.loop().sample_period + device.loop().jitter + (device.loop().write_latest - device.loop().write_earliest);
   loop.delay = static_cast<int>(device.loop().delay_samples);
   for (std::size_t i = 0; i < 2; ++i)
     loop.reach[i] = device.joints[i].encoder.max_speed * loop.longest_period * (1 + loop.delay);
@@ -65,14 +66,6 @@ Pair<double> weight_of(const axes::Arm& arm) {
   if (arm.kind == axes::Kinematics::cartesian) return {1, 1};
   const double near = arm.proximal * arm.proximal, far = arm.distal * arm.distal;
   return arm.kind == axes::Kinematics::five_bar ? Pair<double>{near, near} : Pair<double>{near, far};
-}
-
-// At the fastest that the joints go.
-double assured_share(const AlongBrake& brake, const AxesDevice& device) {
-  double fastest = 0;
-  for (std::size_t i = 0; i < 2; ++i) fastest += std::abs(brake.along[i]) * device.joints[i].encoder.max_speed;
-  const double turn = brake.brake.critical_speed > 0 ? fastest / brake.brake.critical_speed : 0;
-  return (1 - brake.brake.tolerance) / (1 + turn * turn);
 }
 
 // The damping that is wanted at the tip where all ports are pushed.
@@ -134,12 +127,13 @@ bool is_brakes_part_known(const AxesDevice& device, axes::BrakeRule rule) {
 }
 
 // What is there: the joints' own damping, and of the ports' damping what brakes are known to make of it with what they
-// have left beside `added`.
+// have left beside `added`, where no gate spends that on what couples them.
 axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
-                            const AxesDevice& device, axes::BrakeRule rule, const std::vector<double>& added) {
+                            const AxesDevice& device, axes::BrakeRule rule, bool is_gated,
+                            const std::vector<double>& added) {
   Symmetric<double> own{device.mechanics.damping[0], 0, device.mechanics.damping[1]};
   for (const AlongBrake& brake : device.brakes) own = own + brake.brake.residual_damping * axes::outer(brake.along);
-  const bool is_told = is_brakes_part_known(device, rule);
+  const bool is_told = !is_gated && is_brakes_part_known(device, rule);
   return [&network, &ports, &device, own, is_told, added](const Pair<Sloped>& joints) {
     Symmetric<Sloped> sum{Sloped(own.xx), Sloped(own.xy), Sloped(own.yy)};
     if (!is_told) return sum;
@@ -228,20 +222,6 @@ bool damps(const CertifiedPort& port) { return std::max(port.law->damping, port.
 // between.
 bool varies(const CertifiedPort& port) { return port.law->brake_changes() && port.form->has_slips(); }
 
-// The loop of a joint, as one axis has it.
-SampledLoop loop_of_joint(const device_description& joint) {
-  SampledLoop loop;
-  loop.has_device = true;
-  loop.sample_period = joint.loop.sample_period;
-  loop.jitter = joint.loop.jitter;
-  loop.write_earliest = joint.loop.write_earliest;
-  loop.write_latest = joint.loop.write_latest;
-  loop.amplifier_lag = joint.motor.amplifier_lag;
-  loop.velocity = joint.velocity;
-  loop.joint_encoder_step = joint.encoder.step;
-  return loop;
-}
-
 bool are_late(const AxesDevice& device) {
   return device.loop().delay_samples > 0 || device.loop().write_latest > 0 ||
          std::any_of(device.joints.begin(), device.joints.end(),
@@ -300,10 +280,11 @@ Sizes sizes_of(const std::vector<CertifiedPort>& ports, const std::vector<axes::
   return sizes;
 }
 
-// What the motors make of the damping of ports and field with so much of the brakes used up.
+// What the motors make, from estimates, of the damping of ports and field with so much of the brakes used up; behind a
+// gate but what couples the brakes.
 double remainder_beside(const std::vector<double>& added, const AxesNetwork& network,
                         const std::vector<CertifiedPort>& ports, const AxesDevice& device, axes::BrakeRule rule,
-                        const Pair<double>& weight) {
+                        bool is_gated, const Pair<double>& weight) {
   std::vector<axes::PortDamping> dampings;
   for (const CertifiedPort& port : ports)
     if (damps(port))
@@ -313,8 +294,13 @@ double remainder_beside(const std::vector<double>& added, const AxesNetwork& net
   for (std::size_t k = 0; k < brakes.size(); ++k)
     if (brakes[k].most < axes::unlimited) brakes[k].most = std::max(brakes[k].most - added[k], 0.0);
   const double mixed = (network.viscous[0][1] + network.viscous[1][0]) / 2;
-  return axes::largest_remainder(device.arm, device.workspace, dampings,
-                                 {network.viscous[0][0], mixed, network.viscous[1][1]}, brakes, rule, weight);
+  const Symmetric<double> field{network.viscous[0][0], mixed, network.viscous[1][1]};
+  if (is_gated)
+    return axes::largest_uncoupled_remainder(device.arm, device.workspace, dampings, field, {brakes[0], brakes[1]},
+                                             weight);
+  const double turning =
+      network.turning() == 0 ? 0 : axes::largest_curl(device.arm, device.workspace, network.turning(), weight);
+  return turning + axes::largest_remainder(device.arm, device.workspace, dampings, field, brakes, rule, weight);
 }
 
 // Whether the brakes can give an addition at all.
@@ -365,8 +351,10 @@ std::vector<PlacedShare> shares_over(const AxesNetwork& network, const std::vect
   return shares;
 }
 
-AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
-                             const AxesDevice& device, axes::BrakeRule rule) {
+namespace {
+
+AxesCertificate certified_with(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                               const AxesDevice& device, axes::BrakeRule rule, bool is_gated) {
   AxesCertificate c;
   c.added.assign(device.brakes.size(), 0);
   if (device.workspace[0].width() == 0) {
@@ -388,7 +376,7 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
     return axes::needed_damping(device.arm, device.workspace, loads, loop, c.weight, given);
   };
   const axes::NeededDamping whole = needed_beside({});
-  axes::NeededDamping rest = needed_beside(given_by(network, ports, device, rule, c.added));
+  axes::NeededDamping rest = needed_beside(given_by(network, ports, device, rule, is_gated, c.added));
   c.is_proved = std::isfinite(whole.proved);
   if (!c.is_proved) {
     c.reason = "the workspace bounds no force of a port";
@@ -403,7 +391,8 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   // What is added leaves the brakes less of the ports' damping, and the motors more: found in a few rounds, or not.
   bool is_settled = false;
   for (int round = 0; round < most_rounds && !is_settled; ++round) {
-    const double remainder = for_each > 0 ? remainder_beside(c.added, network, ports, device, rule, c.weight) : 0;
+    const double remainder =
+        for_each > 0 ? remainder_beside(c.added, network, ports, device, rule, is_gated, c.weight) : 0;
     c.for_estimates = for_each * (remainder + sizes.estimates);
     c.needed = whole.proved + c.for_estimates + c.for_lag;
     c.missing = std::max(0.0, rest.proved + c.for_estimates + c.for_lag);
@@ -433,22 +422,71 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   return c;
 }
 
+}  // namespace
+
+AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                             const AxesDevice& device, axes::BrakeRule rule) {
+  if (network.turning() == 0) return certified_with(network, ports, device, rule, false);
+  std::string why = why_no_gate(device, rule);
+  if (why.empty()) {
+    AxesCertificate gated = certified_with(network, ports, device, rule, true);
+    gated.gate = curl_gate(device, gated.added, network.viscous);
+    if (gated.gate) {
+      gated.passage = gate_passage(*gated.gate, device, gated.added, network.viscous);
+      return gated;
+    }
+    why = "somewhere in the workspace a brake makes nothing of the field";
+  }
+  AxesCertificate ungated = certified_with(network, ports, device, rule, false);
+  ungated.why_no_gate = why;
+  return ungated;
+}
+
 std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return c.reason;
   if (!c.uncovered.empty()) return c.uncovered;
   return at_joints(c.missing, c, device) + " of damping are missing at the joints, more than its brakes can give";
 }
 
+namespace {
+
+// How a field that turns is kept passive; nothing of another.
+std::vector<std::string> curl_lines(const AxesCertificate& c) {
+  if (c.gate) {
+    const GatePassage& passage = *c.passage;
+    const std::string least =
+        passage.least == 1 ? ""
+                           : fmt::format(", {:.3g} % at least, at ({:.4g}, {:.4g}) mm", 100 * passage.least,
+                                         in_millimetres(passage.least_at[0]), in_millimetres(passage.least_at[1]));
+    return {
+        fmt::format("  the field turns: what couples the brakes' directions is made by the motors, behind a gate "
+                    "that lets pass what the brakes' own share of the field pays for: {:.3g} % of it in the mean "
+                    "over the workspace{}, while the tool goes slowly",
+                    100 * passage.mean, least)};
+  }
+  if (c.why_no_gate.empty()) return {};
+  return {
+      fmt::format("  the field turns: the motors make that in full, and damping that is added for estimates pays for "
+                  "it; no gate lets the brakes' own share of the field pay, since {}",
+                  c.why_no_gate)};
+}
+
+}  // namespace
+
 std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDevice& device) {
-  if (!c.is_proved) return {"passivity: nothing is proved: " + c.reason};
+  if (!c.is_proved) {
+    std::vector<std::string> lines = curl_lines(c);
+    lines.insert(lines.begin(), "passivity: nothing is proved: " + c.reason);
+    return lines;
+  }
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
       "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints; their own "
-      "damping and the brakes' share of the network's leave {} of it to be added, most at ({:.4g}, {:.4g}) mm",
+      "damping{} {} of it to be added, most at ({:.4g}, {:.4g}) mm",
       c.certified ? "certified for any motion in the workspace, while the motors make their torques"
                   : "not certified, since " + why_not_certified(c, device),
-      at_joints(c.needed, c, device), at_joints(c.missing, c, device), in_millimetres(c.worst[0]),
-      in_millimetres(c.worst[1])));
+      at_joints(c.needed, c, device), c.gate ? " leaves" : " and the brakes' share of the network's leave",
+      at_joints(c.missing, c, device), in_millimetres(c.worst[0]), in_millimetres(c.worst[1])));
   if (c.for_estimates > 0)
     lines.push_back(
         fmt::format("  of what is needed, {} are for what the motors make of estimated velocities, however late",
@@ -457,6 +495,8 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
     lines.push_back(fmt::format("  of what is needed, {} are for {}", at_joints(c.for_lag, c, device),
                                 device.loop().write_latest > 0 ? "torques that come after their samples"
                                                                : "the lag of the motors' amplifiers"));
+  const std::vector<std::string> of_curl = curl_lines(c);
+  lines.insert(lines.end(), of_curl.begin(), of_curl.end());
   const std::string unit = port_units(device.joint_motion()).damping;
   std::string added;
   for (std::size_t k = 0; k < c.added.size(); ++k) added += fmt::format("{}{:.6g}", k == 0 ? "" : ", ", c.added[k]);

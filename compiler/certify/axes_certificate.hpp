@@ -10,6 +10,7 @@
 #include "axes/brakes.hpp"
 #include "axes/workspace_bound.hpp"
 #include "certify/certificate.hpp"
+#include "certify/curl_gate.hpp"
 #include "certify/slip_motor.hpp"
 #include "linear/normal_form.hpp"
 #include "network/axes_device.hpp"
@@ -41,6 +42,12 @@ struct AxesCertificate {
   bool lies_in_port = false;        // either of these: another network in a port may have a bound
   bool certified = false;
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
+
+  // Of a field that turns: what lets the brakes pay for what couples them, and what of the field it lets pass. Without
+  // a gate the damping that is added for estimates pays for it.
+  std::optional<axes::CurlGate> gate;
+  std::optional<GatePassage> passage;
+  std::string why_no_gate;  // a clause; empty where there is one, or no field that turns
 
   bool adds() const;
 

@@ -41,4 +41,13 @@ bool divides_by_varying_interval(const SampledLoop& loop);
 // nothing is known.
 std::optional<double> estimate_gain(const SampledLoop& loop);
 
+// How an estimate h v̂(k) = Σ_j e_j Δu(k + 1 − j), j = 1 …, hangs on what has been, not below it.
+struct EstimateMemory {
+  double gain;  // Σ |e_j|
+  double age;   // Σ |e_j| (j − 1) [samples]
+};
+
+// Empty for an estimator whose weights do not stay, and for one that remembers more than 100,000 samples.
+std::optional<EstimateMemory> estimate_memory(const SampledLoop& loop);
+
 }  // namespace dashpot::compiler

@@ -114,6 +114,12 @@ Json json_of(const axes::ShareMap& share) {
           {"delay_proof", share.delay_proof}};
 }
 
+// What of the field passes; null where there is no gate.
+Json json_of_gate(const AxesCertificate& c) {
+  if (!c.gate) return nullptr;
+  return {{"mean", c.passage->mean}, {"least", c.passage->least}, {"least_at", c.passage->least_at}};
+}
+
 std::string explain_json(const AxesCompilation& c) {
   Json ports = Json::array(), candidates = Json::array();
   for (std::size_t i = 0; i < c.ports.size(); ++i) {
@@ -150,6 +156,7 @@ std::string explain_json(const AxesCompilation& c) {
       {"missing_damping", is_proved ? Json(certificate.missing) : Json(nullptr)},
       {"worst_at", is_proved ? Json(certificate.worst) : Json(nullptr)},
       {"added_damping", certificate.added},
+      {"gate", json_of_gate(certificate)},
       {"certified", certificate.certified},
       {"operations", {{"output", operations(c.law, c.law.output)}, {"update", operations(c.law, c.law.update)}}}};
   return json.dump(2) + "\n";

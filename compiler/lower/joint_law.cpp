@@ -161,6 +161,16 @@ class Merging {
       terms.call(plan_.brakes[k].most, "most_damping_" + std::to_string(k + 1), damping_unit(),
                  "that the brake gives, less what is added");
     }
+    if (plan_.gate) {
+      const axes::CurlGate& gate = *plan_.gate;
+      for (std::size_t k = 0; k < 2; ++k)
+        terms.call(gate.factor[k], "gate_factor_" + std::to_string(k + 1), "1",
+                   "of the brake's damping, what couplings may use");
+      terms.call(gate.reserve, "gate_reserve", damping_unit(), "of that, for what limits may grow");
+      terms.call(gate.recovery, "gate_recovery", damping_unit(), "by what a limit may grow in a sample");
+      terms.call(0.5 / gate.gain, "gate_half", "1", "1/(2γ) of the velocity estimators");
+      terms.call(1 / gate.gain, "gate_share", "1", "1/γ of the velocity estimators");
+    }
     for (const PortLaw& port : ports_) {
       terms.call(port.law.damping, joined(port.name, "damping"), "N·s/m", "b of the port");
       if (const auto* circle = std::get_if<axes::Circle>(&port.map)) {
@@ -287,10 +297,13 @@ class Merging {
     name_pose(terms_, pose);
     const std::vector<PortTerms> ports = port_terms(terms_, pose);
     Symmetric<Term> target{Term(0.0), Term(0.0), Term(0.0)};
+    Term turning(0.0);
     if (plan_.viscous != axes::Matrix<double>{}) {
       const axes::Matrix<Term> field{axes::constant<Term>(plan_.viscous[0]), axes::constant<Term>(plan_.viscous[1])};
       const axes::JointField<Term> at_joints = axes::at_joints(pose, field);
       target = {at_joints.p, at_joints.r, at_joints.s};
+      turning = at_joints.sigma;
+      terms_.call(turning, "turning", damping_unit(), "σ, what the field turns the joints by");
     }
     Pair<Term> torque{Term(0.0), Term(0.0)};
     for (std::size_t i = 0; i < ports.size(); ++i) {
@@ -301,9 +314,14 @@ class Merging {
     terms_.call(target.xy, "wanted_12", damping_unit(), "B* between the joints");
     terms_.call(target.yy, "wanted_22", damping_unit(), "B* of joint 2");
     const std::vector<Term> brakes = chosen(target, pose);
-    const Symmetric<Term> rest = target - axes::made_by(plan_.brakes, brakes);
-    torque[0] = torque[0] + (rest.xx * v[0] + rest.xy * v[1]);
-    torque[1] = torque[1] + (rest.xy * v[0] + rest.yy * v[1]);
+    std::optional<axes::Gated<Term>> passed;
+    if (plan_.gate) {
+      passed = behind_gate(target, turning, brakes, v, torque);
+    } else {
+      const Symmetric<Term> rest = target - axes::made_by(plan_.brakes, brakes);
+      torque[0] = torque[0] + (rest.xx * v[0] + (rest.xy + turning) * v[1]);
+      torque[1] = torque[1] + ((rest.xy - turning) * v[0] + rest.yy * v[1]);
+    }
     std::vector<Term> commands;
     for (std::size_t k = 0; k < brakes.size(); ++k) commands.push_back(brakes[k] + Term(plan_.added[k]));
     const std::vector<Term> rates = rates_of(ports, v);
@@ -311,6 +329,8 @@ class Merging {
     for (const Term& rate : rates) terms_.count(rate);
     for (const Term& command : commands) terms_.count(command);
     for (const Term& one : torque) terms_.count(one);
+    if (passed)
+      for (const Term& one : passed->left) terms_.count(one);
     for (std::size_t i = 0; i < ports.size(); ++i) {
       terms_.assign(law_.output, merged_[i].position, ports[i].depth, "w of port " + ports_[i].name);
       if (reads_velocity(i)) terms_.assign(law_.output, merged_[i].velocity, rates[i], "ẇ = g·v");
@@ -320,7 +340,41 @@ class Merging {
       terms_.assign(law_.output, law_.joints->dampings[k], commands[k], k == 0 ? "D of B*" : "");
     for (std::size_t j = 0; j < 2; ++j)
       terms_.assign(law_.output, law_.joints->torques[j], torque[j], j == 0 ? "τ = Σ g M + (B* − D) v" : "");
+    if (passed) keep_limits(*passed);
     for (const VariableId damping : law_.joints->dampings) law_.joints->last_dampings.push_back(writer_.kept(damping));
+  }
+
+  // Adds to the torque what the motors make of ports and field, in the brakes' coordinates.
+  axes::Gated<Term> behind_gate(const Symmetric<Term>& target, const Term& turning, const std::vector<Term>& brakes,
+                                const Pair<Term>& v, Pair<Term>& torque) {
+    for (std::size_t k = 0; k < 2; ++k)
+      limits_[k] = writer_.scalar(writer_.unique("coupling_left_" + std::to_string(k + 1)), damping_unit(),
+                                  "what the gate has left of brake " + std::to_string(k + 1), Role::state);
+    const Pair<double> along[] = {plan_.brakes[0].along, plan_.brakes[1].along};
+    const Pair<Pair<double>> dual = axes::dual(along[0], along[1]);
+    const auto [p, r, s] = axes::along_brakes(dual, target);
+    const Term sigma = Term(axes::dot(axes::turned(dual[0]), dual[1])) * turning;
+    const axes::Gated<Term> passed =
+        axes::gated(*plan_.gate, Pair<Term>{brakes[0], brakes[1]}, r, sigma, {Term(limits_[0]), Term(limits_[1])});
+    const Pair<Term> rate{axes::dot(axes::constant<Term>(along[0]), v), axes::dot(axes::constant<Term>(along[1]), v)};
+    const Pair<Term> made{(p - brakes[0]) * rate[0] + passed.coupling[0] * rate[1],
+                          passed.coupling[1] * rate[0] + (s - brakes[1]) * rate[1]};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string number = std::to_string(k + 1);
+      terms_.call(passed.coupling[k], "coupling_" + number, damping_unit(),
+                  "what the gate lets the motors make along brake " + number);
+      torque = torque + made[k] * axes::constant<Term>(along[k]);
+    }
+    return passed;
+  }
+
+  void keep_limits(const axes::Gated<Term>& passed) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const VariableId now = writer_.scalar(writer_.unique("coupling_left_now_" + std::to_string(k + 1)),
+                                            damping_unit(), "what it will have left", Role::local);
+      terms_.assign(law_.output, now, passed.left[k], k == 0 ? "limit of the other coupling, at the next sample" : "");
+      writer_.assign(law_.update, limits_[k], writer_.read(writer_.kept(now)), "");
+    }
   }
 
   bool reads_velocity(std::size_t port) const {
@@ -374,6 +428,7 @@ class Merging {
   LawWriter writer_;
   TermWriter terms_;
   std::vector<Merged> merged_;
+  Pair<VariableId> limits_{};  // of the gate
 };
 
 }  // namespace

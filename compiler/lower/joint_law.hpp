@@ -3,9 +3,10 @@
 //
 //     w_i = w_i(x(q)),   g_i = J(q)ᵀ ∇w_i,   each port's own law of w_i and g_i·v gives its motor's part M_i and b_i,
 //     B* = Σ b_i g_i g_iᵀ + Jᵀ A J,          the brakes make D = Σ d_j a_j a_jᵀ, chosen by a rule,
-//     τ = Σ g_i M_i + (B* − D) v.
+//     τ = Σ g_i M_i + (B* − D) v, and of a field A that turns what it adds across, perhaps behind a gate.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ struct JointPlan {
   std::vector<axes::Brake> brakes;
   std::vector<double> added;  // to each brake's command, uncompensated [N·m·s/rad] or [N·s/m]
   axes::BrakeRule rule = axes::BrakeRule::diagonal;
-  axes::Matrix<double> viscous{};  // A, symmetric [N·s/m]
+  axes::Matrix<double> viscous{};  // A [N·s/m]
   motion joint_motion = motion::rotation;
+  std::optional<axes::CurlGate> gate = std::nullopt;  // for two brakes and `diagonal`
 };
 
 // Ensures: names begin with the port's name where they come from a port.

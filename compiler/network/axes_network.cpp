@@ -193,28 +193,38 @@ std::optional<Port> build_port(const PortDecl& decl, const std::optional<Range>&
   return Port{decl.name.text, kind->key, *map, std::move(*network), decl.map.span};
 }
 
-// [[a, b], [c, d]] in N s/m.
-std::optional<axes::Matrix<double>> read_matrix(const JsonValue& value, Diagnostics& diagnostics) {
+// [[a, b], [c, d]].
+std::optional<axes::Matrix<double>> read_matrix(const char* key, const JsonValue& value, const Dimension& due,
+                                                const char* example, Diagnostics& diagnostics) {
   if (value.kind != JsonValue::Kind::array || value.items.size() != 2) {
-    diagnostics.report<DiagnosticCode::not_a_list_of>(value.span, "viscous", "two rows",
-                                                      "[[\"5 N s/m\", 0], [0, \"5 N s/m\"]]");
+    diagnostics.report<DiagnosticCode::not_a_list_of>(value.span, key, "two rows", example);
     return std::nullopt;
   }
-  const auto first = read_pair("viscous", value.items[0], dimensions::damping, diagnostics);
-  const auto second = read_pair("viscous", value.items[1], dimensions::damping, diagnostics);
+  const auto first = read_pair(key, value.items[0], due, diagnostics);
+  const auto second = read_pair(key, value.items[1], due, diagnostics);
   if (!first || !second) return std::nullopt;
   return axes::Matrix<double>{*first, *second};
 }
 
 void read_field(const JsonValue& value, AxesNetwork& network, Diagnostics& diagnostics) {
-  const std::optional<axes::Matrix<double>> matrix = read_matrix(value, diagnostics);
+  const std::optional<axes::Matrix<double>> matrix =
+      read_matrix("viscous", value, dimensions::damping, "[[\"5 N s/m\", 0], [0, \"5 N s/m\"]]", diagnostics);
   if (!matrix) return;
   network.viscous = *matrix;
   if (const auto power = axes::driving(*matrix))
-    return diagnostics.report<DiagnosticCode::field_not_passive>(value.span, power->power, power->direction[0],
-                                                                 power->direction[1]);
-  const double curl = ((*matrix)[1][0] - (*matrix)[0][1]) / 2;
-  if (curl != 0) diagnostics.report<DiagnosticCode::field_curl>(value.span, std::abs(curl));
+    diagnostics.report<DiagnosticCode::field_not_passive>(value.span, power->power, power->direction[0],
+                                                          power->direction[1]);
+}
+
+// A force from position is no field, and drives the tool round where it turns.
+void refuse_stiffness(const JsonValue& value, Diagnostics& diagnostics) {
+  const std::optional<axes::Matrix<double>> matrix =
+      read_matrix("stiffness", value, dimensions::stiffness, "[[\"500 N/m\", 0], [0, \"500 N/m\"]]", diagnostics);
+  if (!matrix) return;
+  constexpr double area = 3.14159265358979323846 * 10e-3 * 10e-3;  // of the circle that the message names [m²]
+  if (const std::optional<double> curl = axes::curl_in_position(*matrix))
+    diagnostics.report<DiagnosticCode::field_curl>(value.span, std::abs(*curl), std::abs(*curl) * area);
+  else diagnostics.report<DiagnosticCode::field_of_position>(value.span);
 }
 
 void check_names(const AxesNetworkDecl& decl, Diagnostics& diagnostics) {
@@ -240,6 +250,7 @@ std::optional<AxesNetwork> build_axes_network(const AxesNetworkDecl& decl, Diagn
     else if (!port.network.parameters.empty()) break;
   }
   if (decl.viscous) read_field(*decl.viscous, network, diagnostics);
+  if (decl.stiffness) refuse_stiffness(*decl.stiffness, diagnostics);
   if (!decl.complete || diagnostics.error_count() > errors_before) return std::nullopt;
   return network;
 }

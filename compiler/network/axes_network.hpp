@@ -33,10 +33,12 @@ struct AxesNetwork {
   Span name_span;
 
   bool has_field() const { return viscous != axes::Matrix<double>{}; }
+  // ½(a_12 − a_21) of it [N·s/m].
+  double turning() const { return (viscous[0][1] - viscous[1][0]) / 2; }
 };
 
 // In: what the author wrote. Out: the network in SI. Refuses: what build_network() refuses of a port; maps of no kind
-// or of several, directions of no length; fields that give power, or turn; tunable parameters.
+// or of several, directions of no length; fields that give power; tunable parameters.
 std::optional<AxesNetwork> build_axes_network(const AxesNetworkDecl& decl, Diagnostics& diagnostics,
                                               const std::optional<Range>& device_band = std::nullopt);
 

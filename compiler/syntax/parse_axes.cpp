@@ -73,13 +73,16 @@ std::vector<PortDecl> parse_ports(const ObjectReader& reader, Diagnostics& diagn
   return ports;
 }
 
-std::optional<JsonValue> parse_field(const ObjectReader& file, Diagnostics& diagnostics) {
+// Of a field 'viscous', and 'stiffness', of which is told what is wrong with it.
+void parse_field(const ObjectReader& file, AxesNetworkDecl& decl, Diagnostics& diagnostics) {
   const JsonValue* object = file.object("field");
-  if (object == nullptr) return std::nullopt;
+  if (object == nullptr) return;
   ObjectReader reader(*object, "'field'", diagnostics);
-  reader.refuse_other_keys({"viscous"});
-  const JsonMember* viscous = reader.require("viscous");
-  return viscous != nullptr ? std::optional(viscous->value) : std::nullopt;
+  reader.refuse_other_keys({"viscous", "stiffness"});
+  const JsonMember* stiffness = reader.find("stiffness");
+  if (stiffness != nullptr) decl.stiffness = stiffness->value;
+  const JsonMember* viscous = stiffness != nullptr ? reader.find("viscous") : reader.require("viscous");
+  if (viscous != nullptr) decl.viscous = viscous->value;
 }
 
 // What stands under `key` for each of two: a list of two objects, or one object for both. Empty where there is nothing,
@@ -161,7 +164,7 @@ AxesNetworkDecl parse_keys(ObjectReader reader, Diagnostics& diagnostics) {
   decl.title = reader.text("title");
   decl.source = reader.text("source");
   decl.ports = parse_ports(reader, diagnostics);
-  decl.viscous = parse_field(reader, diagnostics);
+  parse_field(reader, decl, diagnostics);
   return decl;
 }
 

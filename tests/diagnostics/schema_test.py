@@ -24,7 +24,7 @@ BEYOND_THE_SCHEMAS = {
     "devices/estimator_cutoff_above_nyquist", "devices/estimator_without_encoder_step",
     "devices/rate_is_a_period", "devices/units_run_together", "devices/write_after_a_period", "devices/write_delay_reversed",
     # two axes: geometry and physics
-    "axes_field_gives_power", "axes_field_turns", "axes_grid_falls", "axes_grid_uneven", "axes_map_radius_of_zero", "axes_port_twice", "axes_tunable",
+    "axes_field_gives_power", "axes_grid_falls", "axes_grid_uneven", "axes_map_radius_of_zero", "axes_port_twice", "axes_tunable",
     "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel", "devices/axes_motion_of_serial",
     # names
     "ends_are_called_tip_and_gnd", "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",

@@ -2,9 +2,12 @@
 // not.
 #include <gtest/gtest.h>
 
+#include <dashpot/estimators/any_estimator.hpp>
+
 #include "arms.hpp"
 #include "axes/brakes.hpp"
 #include "axes/viscous_field.hpp"
+#include "certify/estimator_factors.hpp"
 #include "support/repetitions.hpp"
 
 namespace dashpot::testing {
@@ -78,14 +81,15 @@ TEST(ViscousField, JointsMakeTheFieldOfTheTip) {
 
 // A loop whose poses, and so dampings, couplings and curls, change at every sample. Of the work of brakes and motors
 //
-//     Σ_k (d_k,1 Δq_k+1,1² + d_k,2 Δq_k+1,2²)/T + g_k,1 v̂_k,2 Δq_k+1,1 + g_k,2 v̂_k,1 Δq_k+1,2
+//     Σ_k (d_k,1 Δq_k+n+1,1² + d_k,2 Δq_k+n+1,2²)/T + g_k,1 v̂_k,2 Δq_k+n+1,1 + g_k,2 v̂_k,1 Δq_k+n+1,2
 //
-// with v̂ of each joint a mean of its last differences over h, own weights for each, the least over all motions is an
-// eigenvalue.
+// with n samples of delay and v̂ of each joint a sum of its last differences over h, own weights for each, the least
+// over all motions is an eigenvalue.
 struct GatedLoop {
   std::vector<std::array<double, 2>> brake;
   std::vector<Pair<double>> coupling;         // g
   std::array<std::vector<double>, 2> weight;  // of the difference j samples ago
+  std::size_t delay = 0;                      // n
   double shortest, longest;                   // periods [s]
 
   std::vector<std::vector<double>> work() const {
@@ -96,8 +100,8 @@ struct GatedLoop {
         form[2 * k + joint][2 * k + joint] += brake[k][joint] / longest;
         const std::size_t other = 1 - joint;
         const double gain = coupling[k][joint] / shortest;
-        for (std::size_t j = 0; j < weight[other].size() && j < k; ++j) {
-          const std::size_t row = 2 * k + joint, column = 2 * (k - 1 - j) + other;
+        for (std::size_t j = 0; j < weight[other].size() && j + delay < k; ++j) {
+          const std::size_t row = 2 * k + joint, column = 2 * (k - 1 - j - delay) + other;
           form[row][column] += 0.5 * gain * weight[other][j];
           form[column][row] += 0.5 * gain * weight[other][j];
         }
@@ -122,32 +126,56 @@ bool is_positive(std::vector<std::vector<double>> m, double slack) {
   return true;
 }
 
+constexpr double least_damping = 1e-3;  // of a brake of a random loop
+
+// What an estimator's weights and the delay ask of a gate; half of the least allowance is kept for limits that grow.
+CurlGate gate_for(const GatedLoop& loop, double omega) {
+  CurlGate gate;
+  const double each = 2 * loop.shortest / loop.longest;
+  gate.factor = {each / omega, each * omega};
+  double age = 0;
+  for (const std::vector<double>& weights : loop.weight) {
+    double gain = 0, sum = 0;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+      gain += std::abs(weights[j]);
+      sum += std::abs(weights[j]) * double(j + loop.delay);
+    }
+    gate.gain = std::max(gate.gain, gain), age = std::max(age, sum);
+  }
+  gate.reserve = 0.5 * std::min(gate.factor[0], gate.factor[1]) * least_damping;
+  gate.recovery = age > 0 ? gate.reserve / age : 1;
+  if (age == 0) gate.reserve = 0;
+  return gate;
+}
+
 // Couplings are as large as the gate lets them be, and `stretch` times that; wanted are some that it lets pass and some
 // that it does not.
 GatedLoop random_loop(Random& random, double stretch) {
   GatedLoop loop;
   loop.shortest = 1e-3, loop.longest = 1e-3 * random.uniform(1, 1.3);
+  loop.delay = random.chance(0.5) ? 0 : random.between(1, 2);
   const std::size_t memory = random.between(1, 5);
   for (std::vector<double>& weights : loop.weight) {
     weights.assign(memory, 0.0);
-    if (random.chance(0.5)) weights[random.index(memory)] = 1;
-    else weights.assign(memory, 1 / double(memory));
+    if (random.chance(0.3)) weights[random.index(memory)] = 1;
+    else if (random.chance(0.5)) weights.assign(memory, 1 / double(memory));
+    else
+      for (double& one : weights) one = random.uniform(-0.2, 0.8);
   }
-  const double omega = random.log_uniform(0.5, 2);
-  std::vector<Pair<double>> left(memory, Pair<double>{0, 0});
-  for (std::size_t k = 0; k < 40; ++k) {
-    loop.brake.push_back({random.log_uniform(1e-3, 1e-2), random.log_uniform(1e-3, 1e-2)});
-    const Pair<double> allowance = gate_allowance(loop.brake[k], omega, loop.shortest / loop.longest);
-    const Pair<double> wanted{random.uniform(-0.03, 0.03), random.uniform(-0.03, 0.03)};
-    const Pair<double> passed = gated(wanted, allowance, left);
-    loop.coupling.push_back(stretch * passed);
-    left.erase(left.begin());
-    left.push_back(gate_left(allowance, passed));
+  const CurlGate gate = gate_for(loop, random.log_uniform(0.5, 2));
+  const double largest = random.log_uniform(0.003, 0.03);
+  Pair<double> left{0, 0};
+  for (std::size_t k = 0; k < 60; ++k) {
+    loop.brake.push_back({random.log_uniform(least_damping, 1e-2), random.log_uniform(least_damping, 1e-2)});
+    const Gated<double> passed = gated(gate, Pair<double>{loop.brake[k][0], loop.brake[k][1]},
+                                       random.uniform(-largest, largest), random.uniform(-largest, largest), left);
+    loop.coupling.push_back(stretch * passed.coupling);
+    left = passed.left;
   }
   return loop;
 }
 
-// No motion takes energy out of what the gate lets pass, and of half as much again some motion of some loop does.
+// No motion takes energy out of what the gate lets pass, and of twice as much some motion of some loop does.
 TEST(Gate, KeepsEveryMotionPassive) {
   Random random(32);
   int beyond = 0;
@@ -155,7 +183,7 @@ TEST(Gate, KeepsEveryMotionPassive) {
   for (int i = 0; i < cases; ++i) {
     EXPECT_TRUE(is_positive(random_loop(random, 1).work(), 1e-12))
         << i;  // of 1 to 10 N·s/m over a period: 1e-12 of scale
-    beyond += is_positive(random_loop(random, 1.5).work(), 0) ? 0 : 1;
+    beyond += is_positive(random_loop(random, 2).work(), 0) ? 0 : 1;
   }
   EXPECT_GT(beyond, cases / 20);
 }
@@ -165,13 +193,15 @@ TEST(Gate, KeepsEveryMotionPassive) {
 TEST(Gate, PassesWhateverIsPassiveWhereNothingVaries) {
   for (const auto& [r, sigma] : {Pair<double>{0, 2}, Pair<double>{2, 0}, Pair<double>{-2, 2}, Pair<double>{1.3, -2}}) {
     const JointField<double> field{4, r, 1, sigma};
-    const double omega = gate_ratio({field});
+    const double omega = gate_ratio({{field.p, field.s}});
     EXPECT_NEAR(omega, 2, 1e-12);
-    const Pair<double> allowance = gate_allowance(Pair<double>{field.p, field.s}, omega, 1.0),
-                       wanted{r + sigma, r - sigma};
-    const std::vector<Pair<double>> left(3, gate_left(allowance, wanted));
-    EXPECT_NEAR(gated(wanted, allowance, left)[0], wanted[0], 1e-12);
-    EXPECT_NEAR(gated(wanted, allowance, left)[1], wanted[1], 1e-12);
+    CurlGate gate;
+    gate.factor = {2 / omega, 2 * omega}, gate.recovery = 0.1;
+    Gated<double> passed{};
+    for (int k = 0; k < 100; ++k) passed = gated(gate, Pair<double>{field.p, field.s}, r, sigma, passed.left);
+    const Pair<double> wanted{r + sigma, r - sigma};
+    EXPECT_NEAR(passed.coupling[0], wanted[0], 1e-12);
+    EXPECT_NEAR(passed.coupling[1], wanted[1], 1e-12);
     for (const double stretch : {1.0, 1.02}) {
       GatedLoop loop;
       loop.shortest = loop.longest = 1;
@@ -183,24 +213,79 @@ TEST(Gate, PassesWhateverIsPassiveWhereNothingVaries) {
   }
 }
 
+// Where more is wanted than passes, the gate settles: both couplings come to equal parts, and stay within what limits
+// grow by in a sample.
+TEST(Gate, SettlesWhereItLimits) {
+  CurlGate gate;
+  gate.recovery = 0.02, gate.reserve = 0.02;
+  Gated<double> passed{};
+  for (int k = 0; k < 1000; ++k) {
+    passed = gated(gate, Pair<double>{1, 1}, 0.0, 3.0, passed.left);
+    if (k < 100) continue;
+    EXPECT_NEAR(passed.coupling[0], 0.99, 0.02) << k;
+    EXPECT_NEAR(passed.coupling[1], -0.99, 0.02) << k;
+  }
+  // One that had all of it leaves half of it to the other.
+  for (int k = 0; k < 1000; ++k) passed = gated(gate, Pair<double>{1, 1}, 3.0, 3.0, passed.left);
+  EXPECT_NEAR(passed.coupling[0], 1.98, 0.02);
+  for (int k = 0; k < 1000; ++k) passed = gated(gate, Pair<double>{1, 1}, 0.0, 3.0, passed.left);
+  EXPECT_NEAR(passed.coupling[0], 0.99, 0.02);
+  EXPECT_NEAR(passed.coupling[1], -0.99, 0.02);
+}
+
 // Couplings that are each passive while they stay are not while they change: at one sample joint 1 has all of what
 // joint 2 has at the next. A gate that looks at max(|r|, |σ|) alone lets this pass.
 TEST(Gate, LimitsCouplingsAcrossSamples) {
   GatedLoop loop;
   loop.shortest = loop.longest = 1;
   loop.weight = {std::vector<double>{1}, std::vector<double>{1}};
-  std::vector<Pair<double>> left(1, Pair<double>{0, 0});
+  CurlGate gate;
+  gate.recovery = 4;
+  Pair<double> left{0, 0};
   GatedLoop ungated = loop;
   for (int k = 0; k < 20; ++k) {
-    const Pair<double> brake{1, 1}, wanted = k % 2 == 0 ? Pair<double>{2, 0} : Pair<double>{0, 2};  // r = 1, σ = ±1
-    const Pair<double> allowance = gate_allowance(brake, 1.0, 1.0), passed = gated(wanted, allowance, left);
-    left = {gate_left(allowance, passed)};
+    const double sigma = k % 2 == 0 ? 1 : -1;
+    const Gated<double> passed = gated(gate, Pair<double>{1, 1}, 1.0, sigma, left);
+    left = passed.left;
     for (GatedLoop* one : {&loop, &ungated}) one->brake.push_back({1, 1});
-    loop.coupling.push_back(passed);
-    ungated.coupling.push_back(wanted);
+    loop.coupling.push_back(passed.coupling);
+    ungated.coupling.push_back({1 + sigma, 1 - sigma});
   }
   EXPECT_TRUE(is_positive(loop.work(), 1e-12));
   EXPECT_FALSE(is_positive(ungated.work(), 0.1));
+}
+
+// What a gate is told of an estimator is what the runtime's answers to one step: its weights, and how old they are.
+TEST(EstimateMemory, IsThatOfTheRuntimesEstimators) {
+  using compiler::SampledLoop;
+  std::vector<velocity_description> all(5);
+  all[0].estimator = estimator_kind::backward_difference, all[0].window = 1;
+  all[1].estimator = estimator_kind::backward_difference, all[1].window = 10;
+  all[2].estimator = estimator_kind::butterworth, all[2].order = 2, all[2].cutoff = 200;
+  all[3].estimator = estimator_kind::butterworth, all[3].order = 4, all[3].cutoff = 20;
+  all[4].estimator = estimator_kind::least_squares, all[4].window = 16;
+  for (const velocity_description& velocity : all) {
+    SampledLoop loop;
+    loop.has_device = true, loop.sample_period = 1e-4, loop.velocity = velocity, loop.joint_encoder_step = 1e-4;
+    const auto memory = compiler::estimate_memory(loop);
+    ASSERT_TRUE(memory) << name_of(velocity.estimator);
+    any_estimator<double> estimator(velocity, loop.sample_period, loop.joint_encoder_step);
+    estimator.reset(0);
+    double gain = 0, age = 0;
+    for (int j = 0; j < 20000; ++j) {
+      device_sample sample;
+      sample.position = 1;
+      const double weight = std::abs(estimator.update(sample)) * loop.sample_period;
+      gain += weight, age += j * weight;
+    }
+    // It is told too large by 1e-9.
+    EXPECT_NEAR(memory->gain, gain, 1e-8 * gain) << name_of(velocity.estimator);
+    EXPECT_NEAR(memory->age, age, 1e-8 * age + 1e-15) << name_of(velocity.estimator);
+  }
+  SampledLoop adaptive;
+  adaptive.has_device = true, adaptive.sample_period = 1e-4, adaptive.joint_encoder_step = 1e-4;
+  adaptive.velocity.estimator = estimator_kind::foaw, adaptive.velocity.window = 16;
+  EXPECT_FALSE(compiler::estimate_memory(adaptive));
 }
 
 }  // namespace

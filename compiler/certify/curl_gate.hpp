@@ -1,0 +1,38 @@
+// The gate behind which the motors make a field that turns the tool (theory, section 12): whether a device has one, its
+// numbers, and how much passes.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "axes/brakes.hpp"
+#include "axes/viscous_field.hpp"
+#include "certify/sampled_loop.hpp"
+#include "network/axes_device.hpp"
+
+namespace dashpot::compiler {
+
+// Why brakes cannot pay, sample by sample, for what couples them, as a clause; empty where they can.
+std::string why_no_gate(const AxesDevice& device, axes::BrakeRule rule);
+
+// In: a device for which why_no_gate() is empty, what of its brakes is used up, and a viscous field. Empty where a
+// brake makes nothing of the field at some place of the workspace, so that nothing would pass there.
+std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vector<double>& added,
+                                        const axes::Matrix<double>& viscous);
+
+// What passes of max(|r|, |σ|) of the field while the tool goes slowly through the workspace, in shares of 1.
+struct GatePassage {
+  double mean, least;
+  axes::Pair<double> least_at;  // tip [m]
+};
+GatePassage gate_passage(const axes::CurlGate& gate, const AxesDevice& device, const std::vector<double>& added,
+                         const axes::Matrix<double>& viscous);
+
+// What a brake makes of its command at least, at the fastest that the joints go [1].
+double assured_share(const AlongBrake& brake, const AxesDevice& device);
+
+// The loop of a joint, as one axis has it.
+SampledLoop loop_of_joint(const device_description& joint);
+
+}  // namespace dashpot::compiler

@@ -7,6 +7,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 
 #include "decompose/slip_laws.hpp"
+#include "emit/cpp_tunable.hpp"
 #include "law/cost.hpp"
 #include "source/wrapped_text.hpp"
 
@@ -86,6 +87,16 @@ const char* in_words(StateInput input) {
   return "";
 }
 
+void describe_cost(const UpdateLaw& law, std::vector<std::string>& facts) {
+  const Cost output = cost_of(law, law.output), update = cost_of(law, law.update);
+  facts.push_back(cost_line("cost of output():", output));
+  if (output.coupled > 0)
+    facts.push_back(
+        fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
+  facts.push_back(cost_line("cost of update():", update) +
+                  fmt::format("; {} numbers are kept between samples", output.states));
+}
+
 // What may change, what follows it, and what that costs.
 void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, std::vector<std::string>& facts) {
   const TunableTables& tables = *law.tunable;
@@ -99,25 +110,19 @@ void describe_tunables(const UpdateLaw& law, const std::string& damping_unit, st
   facts.push_back(fmt::format("  b [{}] follows {}", damping_unit, tables.brake.text));
   if (!elements.empty())
     facts.push_back("  by backward Euler, since their relaxations mix with a tunable or at several slips: " + elements);
+  const std::string of_set = fmt::format("cost of set(): at most {} additions, multiplications and divisions",
+                                         operations_of(cost_of(law, law.tune)));
+  if (!calls_runtime(law)) {
+    describe_cost(law, facts);
+    return facts.push_back(of_set);
+  }
   facts.push_back(fmt::format("cost of output(): at most {} additions, multiplications and divisions",
                               operations_of(cost_of(law, law.output))));
   facts.push_back(
       fmt::format("cost of update(): at most {} additions and multiplications; {} numbers are kept between samples",
                   operations_of(cost_of(law, law.update)), tables.springs.size()));
   facts.push_back(
-      fmt::format("cost of set(): at most {} additions, multiplications and divisions for the constants, {} for the "
-                  "springs' energy",
-                  operations_of(cost_of(law, law.tune)), operations_of_energy(tables)));
-}
-
-void describe_cost(const Compilation& c, std::vector<std::string>& facts) {
-  const Cost output = cost_of(c.law, c.law.output), update = cost_of(c.law, c.law.update);
-  facts.push_back(cost_line("cost of output():", output));
-  if (output.coupled > 0)
-    facts.push_back(
-        fmt::format("  and at most {} additions, multiplications and divisions for the coupled slips", output.coupled));
-  facts.push_back(cost_line("cost of update():", update) +
-                  fmt::format("; {} numbers are kept between samples", output.states));
+      fmt::format("{} for the constants, {} for the springs' energy", of_set, operations_of_energy(tables)));
 }
 
 std::string form_text(ModeForm form) {
@@ -159,7 +164,7 @@ std::vector<Fields> as_list(const std::vector<std::string>& lines) {
   return list;
 }
 
-std::vector<std::string> banner(const Compilation& c, Timing timing) {
+std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timing timing) {
   const Candidate& choice = c.decomposition.choice();
   const std::string unit = damping_unit(c.network);
   const std::vector<SlipLikes> slips = likes_of(c.decomposition.slips, c.network);
@@ -202,8 +207,8 @@ std::vector<std::string> banner(const Compilation& c, Timing timing) {
                                        : "none is named: exact brake, no delay, and for velocity the difference of the "
                                          "last two positions over the period. Pass that one: a smoother estimate is "
                                          "later, and of it nothing is certified here"));
-  if (c.law.tunable) describe_tunables(c.law, unit, facts);
-  else describe_cost(c, facts);
+  if (law.tunable) describe_tunables(law, unit, facts);
+  else describe_cost(law, facts);
   if (timing == Timing::constant) facts.push_back("constant time: output() and update() decide by masks, not by jumps");
   if (c.law.lanes > 1) facts.push_back(loops_line(c.law));
   if (c.law.relative_error_bound > 0)

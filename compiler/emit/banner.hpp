@@ -20,7 +20,7 @@ std::string string_text(const std::string& text);
 std::vector<Fields> as_list(const std::vector<std::string>& lines);
 
 // Lines of a comment: where the network comes from, its law, what is proved, and what a step costs.
-std::vector<std::string> banner(const Compilation& compilation, Timing timing);
+std::vector<std::string> banner(const Compilation& compilation, const UpdateLaw& law, Timing timing);
 
 // The fields that say which device the law was certified for.
 void describe_device(const Compilation& compilation, Fields& fields);

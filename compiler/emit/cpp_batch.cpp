@@ -8,6 +8,7 @@
 
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_program.hpp"
+#include "emit/cpp_tunable.hpp"
 #include "law/expression_text.hpp"
 #include "law/walk.hpp"
 
@@ -25,19 +26,27 @@ class BatchPrinter {
     for (std::string& line : lines_of(law_.update)) batch.update.push_back(std::move(line));
     batch.energy = lines_of(law_.energy);
     batch.loads = loads();
+    batch.loaded = batch.loads.size();
     for (const Statement* sum : derived_)
       append(batch.loads, fmt::format("const vector {} = {};", name(sum->target, 0), expression(sum->value, 0)),
              sum->purpose);
     batch.energy_loads = energy_loads();
     batch.commands = commands();
+    const std::set<VariableId> changed = assigned_by({&law_.keep, &law_.update});
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
       batch.states = number + 1;
-      batch.reset.push_back(fmt::format("put(state, {}, {});", number, rest_value(law_.variables[id])));
+      if (law_.variables[id].role == Role::state)
+        batch.reset.push_back(fmt::format("put(state, {}, {});", number, rest_value(law_.variables[id])));
+      if (changed.count(id) == 0) return;
+      ++batch.stored;
       batch.stores.push_back(
           fmt::format("vector::put(state, {0} * block, vector::where(sampled, {1}, vector::at(state, {0} * block)));",
                       number, state));
     });
+    for (std::string& line : lines_of_point(law_.rest)) batch.reset.push_back(std::move(line));
+    batch.headers = headers();
     batch.constants = constants();
+    if (law_.tunable) append_set(batch);
     return batch;
   }
 
@@ -51,7 +60,14 @@ class BatchPrinter {
         find_reads(statement.value, assigned, kept_);
         assigned.insert(statement.target);
       }
-    for (const Statement& statement : law_.energy) find_reads(statement.value, {}, kept_);
+    for (const auto* program : {&law_.energy, &law_.rest})
+      for (const Statement& statement : *program) find_reads(statement.value, {}, kept_);
+    std::set<VariableId> tuned;
+    for (const Statement& statement : law_.tune) {
+      find_reads(statement.value, tuned, kept_);
+      tuned.insert(statement.target);
+    }
+    for (const Tunable& parameter : law_.parameters()) kept_.insert(parameter.value);
     if (law_.last_brake != no_variable) kept_.insert(law_.last_brake);
     for (const Statement& statement : law_.update)
       if (law_.expressions[statement.value].operation == Operation::sum && kept_.erase(statement.target) != 0)
@@ -61,7 +77,7 @@ class BatchPrinter {
   // States that the expression reads, but for those that are `assigned`.
   void find_reads(ExpressionId id, const std::set<VariableId>& assigned, std::set<VariableId>& found) const {
     each_read(law_, id, [&](VariableId read) {
-      if (law_.variables[read].role == Role::state && assigned.count(read) == 0) found.insert(read);
+      if (law_.variables[read].is_kept() && assigned.count(read) == 0) found.insert(read);
     });
   }
 
@@ -79,6 +95,68 @@ class BatchPrinter {
     return std::find(derived_.begin(), derived_.end(), &statement) != derived_.end();
   }
 
+  static std::set<VariableId> assigned_by(std::initializer_list<const std::vector<Statement>*> programs) {
+    std::set<VariableId> assigned;
+    for (const std::vector<Statement>* program : programs)
+      for (const Statement& statement : *program) assigned.insert(statement.target);
+    return assigned;
+  }
+
+  // A program of one point between samples, in scalars: what it reads is fetched and what it assigns put back.
+  std::vector<std::string> lines_of_point(const std::vector<Statement>& program, bool sets_parameters = false) {
+    std::set<VariableId> read, assigned;
+    for (const Statement& statement : program) {
+      find_reads(statement.value, assigned, read);
+      assigned.insert(statement.target);
+    }
+    std::vector<std::string> lines, stores;
+    const std::vector<Tunable> parameters = law_.parameters();
+    each_state([&](VariableId id, const std::string& state, std::size_t number) {
+      const bool is_parameter = sets_parameters && std::any_of(parameters.begin(), parameters.end(),
+                                                               [id](const Tunable& t) { return t.value == id; });
+      const bool is_assigned = assigned.count(id) != 0 || is_parameter;
+      if (read.count(id) != 0 || is_assigned)
+        lines.push_back(fmt::format("{}scalar {} = state[{} * block];", is_assigned ? "" : "const ", state, number));
+      if (is_assigned) stores.push_back(fmt::format("put(state, {}, {});", number, state));
+    });
+    if (sets_parameters)
+      for (std::string& line : taken_values(law_)) lines.push_back(std::move(line));
+    for (std::string& line : lines_of(program, Language::cpp)) lines.push_back(std::move(line));
+    lines.insert(lines.end(), stores.begin(), stores.end());
+    return lines;
+  }
+
+  // Every point has parameters of its own, in the storage.
+  void append_set(CppBatch& batch) {
+    batch.parameters = parameters_of(law_);
+    batch.parameters.push_back("");
+    const std::vector<std::string> begin = {
+        "// Every point's parameters are those that are there to begin with.",
+        "void begin() noexcept {",
+        "  for (long long point = 0; point < points_; ++point) {",
+        "    for (int number = 0; number < states; ++number) put(state_of(point), number, 0);",
+        "    set(point, {});",
+        "  }",
+        "}",
+        ""};
+    batch.constants.insert(batch.constants.begin(), begin.begin(), begin.end());
+    batch.set = {"// Between samples, of one point. Injects no energy. Bit i of the result: parameter i was beyond its",
+                 "// range and is at its bound now, or it was no number and is as it was.",
+                 "unsigned set(long long point, const parameters& wanted) noexcept {",
+                 "  scalar* const state = state_of(point);"};
+    for (const std::string& line : lines_of_point(law_.tune, true)) batch.set.push_back("  " + line);
+    for (const char* line : {"  return clamped;", "}", ""}) batch.set.push_back(line);
+  }
+
+  std::vector<std::string> headers() const {
+    std::vector<std::string> headers = {"dashpot/command.hpp"};
+    if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
+    if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
+    if (law_.tunable) headers.push_back("dashpot/tunable/tables.hpp");
+    headers.push_back("dashpot/vector.hpp");
+    return headers;
+  }
+
   // With the number of each in the storage.
   template <class Visit>
   void each_state(Visit visit) const {
@@ -89,7 +167,15 @@ class BatchPrinter {
 
   std::vector<std::string> loads() const {
     std::vector<std::string> lines;
+    std::set<VariableId> read = assigned_by({&law_.keep, &law_.update}), assigned;
+    if (law_.last_brake != no_variable) read.insert(law_.last_brake);
+    for (const auto* program : {&law_.output, &law_.keep, &law_.update})
+      for (const Statement& statement : *program) {
+        find_reads(statement.value, assigned, read);
+        assigned.insert(statement.target);
+      }
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
+      if (read.count(id) == 0) return;
       const Variable& variable = law_.variables[id];
       lines.push_back(fmt::format("vector {} = vector::at(state, {} * block);  // {} [{}]", state, number,
                                   variable.meaning, variable.unit));
@@ -108,16 +194,17 @@ class BatchPrinter {
     return lines;
   }
 
-  std::vector<std::string> lines_of(const std::vector<Statement>& program) {
+  std::vector<std::string> lines_of(const std::vector<Statement>& program, Language language = Language::vectors) {
+    const std::string type = language == Language::vectors ? "const vector " : "const scalar ";
     std::vector<std::string> lines;
     for (const Statement& statement : program) {
       if (is_derived(statement)) continue;
       const Variable& target = law_.variables[statement.target];
       if (!statement.purpose.empty()) lines.push_back("// " + statement.purpose);
-      const char* declared = kept_.count(statement.target) != 0 ? "" : "const vector ";
+      const std::string declared = kept_.count(statement.target) != 0 ? "" : type;
       for (std::size_t place = 0; place < target.size; ++place)
-        append(lines,
-               fmt::format("{}{} = {};", declared, name(statement.target, place), expression(statement.value, place)));
+        append(lines, fmt::format("{}{} = {};", declared, name(statement.target, place),
+                                  expression(statement.value, place, language)));
     }
     return lines;
   }
@@ -134,12 +221,12 @@ class BatchPrinter {
   std::string name(VariableId id, std::size_t place) const {
     const Variable& variable = law_.variables[id];
     return (variable.element_names.empty() ? variable.name : variable.element_names[place]) +
-           (variable.role == Role::state ? "_" : "");
+           (variable.is_kept() ? "_" : "");
   }
 
-  std::string expression(ExpressionId id, std::size_t place) {
+  std::string expression(ExpressionId id, std::size_t place, Language language = Language::vectors) {
     Spelling spelling;
-    spelling.language = Language::vectors;
+    spelling.language = language;
     spelling.variable = [&](VariableId variable) {
       return name(variable, law_.variables[variable].size == 1 ? 0 : place);
     };
@@ -181,6 +268,7 @@ class BatchPrinter {
                       cpp_literal(law_.flush_threshold, law_.scalar)));
     for (CoefficientId read : constants_read(law_))
       append_constant_of_each(law_.coefficients[read], law_.scalar, lines);
+    append_tables_of_tunables(law_, lines);
     return lines;
   }
 

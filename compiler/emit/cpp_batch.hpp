@@ -9,10 +9,12 @@
 namespace dashpot::compiler {
 
 struct CppBatch {
-  std::size_t states = 0;  // scalars that a point keeps from one sample to the next
-  std::vector<std::string> constants;
-  std::vector<std::string> reset;  // of the state of one point
-  std::vector<std::string> loads;  // states into locals
+  std::size_t states = 0;                       // scalars that a point keeps from one sample to the next
+  std::size_t loaded = 0, stored = 0;           // of those, what a sample reads and what it changes
+  std::vector<std::string> headers, constants;  // of the latter, also what a new object begins with
+  std::vector<std::string> parameters, set;     // of laws whose parameters can be set: of each point by itself
+  std::vector<std::string> reset;               // of the state of one point
+  std::vector<std::string> loads;               // states into locals
   std::vector<std::string> output;
   std::vector<std::string> commands;  // `sampled` says at which places the sample is one that can be kept
   std::vector<std::string> update;
@@ -21,7 +23,7 @@ struct CppBatch {
   std::vector<std::string> energy;
 };
 
-// Of laws without couplings, networks and tunables, and whose guards take no turns.
+// Of laws without couplings, networks and calls, and whose guards take no turns.
 CppBatch cpp_batch(const UpdateLaw& law);
 
 }  // namespace dashpot::compiler

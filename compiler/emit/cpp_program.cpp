@@ -17,7 +17,11 @@ namespace {
 class CppPrinter {
  public:
   CppPrinter(const UpdateLaw& law, const Network& network, Timing timing)
-      : law_(law), timing_(timing), statements_(law, network, timing) {}
+      : law_(law),
+        name_(network.name),
+        timing_(timing),
+        statements_(law, network, timing),
+        between_samples_(law, network, Timing::any) {}
 
   CppProgram print() {
     CppProgram program;
@@ -35,7 +39,8 @@ class CppPrinter {
     for (auto* lines : {&program.update, &program.energy}) put_alias_before(*lines);
     put_alias_before(program.output, program.keep);
     program.parameters = parameters_of(law_);
-    program.set = set_of(law_, statements_.lines_of(law_.tune));
+    if (is_constructed()) append_constructor(program.parameters);
+    program.set = set_of(law_, between_samples_.lines_of(law_.tune));
     if (law_.sheds()) append_kept_share(program.set);
     program.reset = reset();
     program.constants = constants();
@@ -53,7 +58,7 @@ class CppPrinter {
     if (uses(law_, Operation::mean_decay)) headers.push_back("dashpot/exponential.hpp");
     if (uses(law_, Operation::square_root)) headers.push_back("dashpot/elementary.hpp");
     if (!law_.couplings.empty()) headers.push_back("dashpot/slip_tree.hpp");
-    if (law_.tunable) headers.push_back("dashpot/tunable_law.hpp");
+    if (law_.tunable) headers.push_back(calls_runtime(law_) ? "dashpot/tunable_law.hpp" : "dashpot/tunable/tables.hpp");
     if (law_.lanes > 1) headers.push_back("dashpot/vector.hpp");
     return headers;
   }
@@ -207,8 +212,18 @@ class CppPrinter {
           lines.push_back(fmt::format("{}_ = {};", name, rest_value(variable)));
     }
     for (const GuardInTurn& guard : law_.guards) lines.push_back(guard.name + "_ = 0;");
-    for (std::string& line : statements_.lines_of(law_.rest)) lines.push_back(std::move(line));
+    for (std::string& line : between_samples_.lines_of(law_.rest)) lines.push_back(std::move(line));
     return lines;
+  }
+
+  // Where what a new object has is the work of statements.
+  bool is_constructed() const { return law_.tunable && !calls_runtime(law_); }
+
+  void append_constructor(std::vector<std::string>& lines) const {
+    for (const std::string& line :
+         {std::string(), std::string("// At rest at 0, with the parameters that are there to begin with."),
+          name_ + "() noexcept {", std::string("  set({});"), std::string("  reset();"), std::string("}")})
+      lines.push_back(line);
   }
 
   bool is_of_rest(VariableId state) const {
@@ -251,7 +266,8 @@ class CppPrinter {
   std::vector<const Variable*> states_in_order() const {
     std::vector<const Variable*> all;
     for (const Variable& variable : law_.variables)
-      if (variable.role == Role::state && !is_of_rest(law_.variables.id_of(variable))) all.push_back(&variable);
+      if (variable.role == Role::state && (is_constructed() || !is_of_rest(law_.variables.id_of(variable))))
+        all.push_back(&variable);
     if (law_.rest_position != no_variable)
       std::stable_partition(all.begin(), all.end(),
                             [&](const Variable* v) { return v != &law_.variables[law_.rest_position]; });
@@ -287,6 +303,7 @@ class CppPrinter {
       lines.push_back(fmt::format("scalar {} = {};  // {} [{}]", CppStatements::scalar_name(variable),
                                   literal(variable.rest_value), variable.meaning, variable.unit));
     }
+    if (is_constructed()) return append_numbers(lines);
     append_state_of_tunables(law_, lines);
     for (const std::vector<Statement>* program : {&law_.tune, &law_.rest})
       for (const Statement& statement : *program) {
@@ -300,6 +317,18 @@ class CppPrinter {
                              statements_.expression(statement.value, 0)),
                  fmt::format("{} [{}]", variable.meaning, variable.unit));
       }
+  }
+
+  // What set() finds.
+  void append_numbers(std::vector<std::string>& lines) const {
+    const std::vector<Tunable> parameters = law_.parameters();
+    for (const Variable& variable : law_.variables) {
+      const bool is_parameter = std::any_of(parameters.begin(), parameters.end(),
+                                            [&](const Tunable& t) { return &law_.variables[t.value] == &variable; });
+      if (variable.role == Role::tuned && !is_parameter)
+        lines.push_back(fmt::format("scalar {} = 0;  // {} [{}]", CppStatements::scalar_name(variable),
+                                    variable.meaning, variable.unit));
+    }
   }
 
   std::vector<std::string> functions() const {
@@ -325,8 +354,10 @@ class CppPrinter {
   std::string literal(double value) const { return cpp_literal(value, law_.scalar); }
 
   const UpdateLaw& law_;
+  std::string name_;
   Timing timing_;
   CppStatements statements_;
+  CppStatements between_samples_;  // of set() and reset(), whose time no sample waits for
   bool uses_clear_ = false;
 };
 

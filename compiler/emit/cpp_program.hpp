@@ -31,7 +31,7 @@ struct CppProgram {
 // Whether steps may decide by jumps, which are free where they are predicted, or take the same time for all values.
 enum class Timing { any, constant };
 
-// In constant time: laws without couplings, networks and tunables.
+// In constant time: laws without couplings, networks and calls.
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing = Timing::any);
 
 // A line for each place of the coefficient.

@@ -16,12 +16,17 @@ class TablesPrinter {
  public:
   explicit TablesPrinter(const UpdateLaw& law) : law_(law), tables_(*law.tunable) {}
 
-  std::vector<std::string> constants() const {
+  std::vector<std::string> ranges() const {
     std::vector<std::string> lines;
     list(lines, "dashpot::tunable_range<scalar>", "tunables", tables_.tunables, [this](const Tunable& t, std::size_t) {
       return fmt::format("{{{}, {}, {}}},  // {} [{}]", number(t.range.value), number(t.range.min), number(t.range.max),
                          t.name, t.unit);
     });
+    return lines;
+  }
+
+  std::vector<std::string> constants() const {
+    std::vector<std::string> lines;
     list(lines, "int", "springs", tables_.springs,
          [this](int n, std::size_t i) { return fmt::format("{},  // {}", n, tables_.spring_names[i]); });
     list(lines, "dashpot::tunable_part", "parts", tables_.parts, [this](const tunable_part& p, std::size_t) {
@@ -136,6 +141,13 @@ const char* name_of(tunable_kind kind) {
   return "";
 }
 
+bool calls_runtime(const UpdateLaw& law) {
+  for (const std::vector<Statement>* program : {&law.output, &law.update, &law.energy, &law.tune, &law.rest})
+    for (const Statement& statement : *program)
+      if (std::holds_alternative<CallTunable>(statement.step)) return true;
+  return false;
+}
+
 std::vector<std::string> parameters_of(const UpdateLaw& law) {
   if (!law.tunable) return {"struct parameters {};"};
   std::vector<std::string> lines = {"struct parameters {"};
@@ -143,6 +155,15 @@ std::vector<std::string> parameters_of(const UpdateLaw& law) {
     lines.push_back(fmt::format("  scalar {} = {};  // {} to {} [{}]", t.name, cpp_literal(t.range.value, law.scalar),
                                 t.range.min, t.range.max, t.unit));
   lines.push_back("};");
+  return lines;
+}
+
+std::vector<std::string> taken_values(const UpdateLaw& law) {
+  std::vector<std::string> lines = {"unsigned clamped = 0;"};
+  const std::vector<Tunable> parameters = law.parameters();
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    lines.push_back(fmt::format("clamped |= dashpot::take_value(tunables[{0}], wanted.{1}, {2}) << {0};", i,
+                                parameters[i].name, CppStatements::scalar_name(law.variables[parameters[i].value])));
   return lines;
 }
 
@@ -154,11 +175,8 @@ std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::str
   std::vector<std::string> lines = {
       "// Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its",
       "// bound now, or it was no number and is as it was.", "unsigned set(const parameters& wanted) noexcept {",
-      "  update();", "  unsigned clamped = 0;"};
-  const std::vector<Tunable> parameters = law.parameters();
-  for (std::size_t i = 0; i < parameters.size(); ++i)
-    lines.push_back(fmt::format("  clamped |= dashpot::take_value(tunables[{0}], wanted.{1}, {2}) << {0};", i,
-                                parameters[i].name, CppStatements::scalar_name(law.variables[parameters[i].value])));
+      "  update();"};
+  for (const std::string& line : taken_values(law)) lines.push_back("  " + line);
   for (const std::string& line : tune) lines.push_back("  " + line);
   for (const char* line : {"  return clamped;", "}"}) lines.push_back(line);
   return lines;
@@ -166,7 +184,10 @@ std::vector<std::string> set_of(const UpdateLaw& law, const std::vector<std::str
 
 void append_tables_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines) {
   if (!law.tunable) return;
-  for (std::string& line : TablesPrinter(law).constants()) lines.push_back(std::move(line));
+  const TablesPrinter printer(law);
+  for (std::string& line : printer.ranges()) lines.push_back(std::move(line));
+  if (!calls_runtime(law)) return;
+  for (std::string& line : printer.constants()) lines.push_back(std::move(line));
 }
 
 void append_state_of_tunables(const UpdateLaw& law, std::vector<std::string>& lines) {

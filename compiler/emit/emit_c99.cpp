@@ -146,7 +146,7 @@ CodeModel c_header_model(const Compilation& c) {
   model.lists["set_of_struct"] = as_list(set_of_struct(c.law, name));
   model.lists["share"] = as_list(program.kept_share.empty() ? Lines{"(void)self;", "return 1;"}
                                                             : Lines{fmt::format("return {};", program.kept_share)});
-  model.lists["banner"] = as_list(banner(c, Timing::any));
+  model.lists["banner"] = as_list(banner(c, c.law, Timing::any));
   model.lists["states"] = as_list(program.states);
   model.lists["reset"] = as_list(program.reset);
   model.lists["output"] = as_list(program.output);

@@ -8,19 +8,21 @@
 #include "emit/response_test.hpp"
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
+#include "lower/spell_out.hpp"
 
 namespace dashpot::compiler {
 namespace {
 
 CodeModel header_model(const Compilation& c, Timing timing) {
-  const CppProgram program = cpp_program(c.law, c.network, timing);
+  const UpdateLaw law = timing == Timing::constant ? spelled_out(c.law, c.network.port_motion) : c.law;
+  const CppProgram program = cpp_program(law, c.network, timing);
   CodeModel model;
   Fields& fields = model.fields;
   describe_file(c, fields);
   describe_device(c, fields);
   fields["command"] = program.command;
   for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
-  model.lists["banner"] = as_list(banner(c, timing));
+  model.lists["banner"] = as_list(banner(c, law, timing));
   fields["energy_contract"] =
       c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
                     : "In the springs after the last update() [J].";
@@ -55,16 +57,21 @@ void describe_outputs(const UpdateLaw& law, CodeModel& model) {
 }
 
 CodeModel batch_model(const Compilation& c) {
-  const CppBatch batch = cpp_batch(c.law);
+  const UpdateLaw law = spelled_out(c.law, c.network.port_motion);
+  const CppBatch batch = cpp_batch(law);
   CodeModel model;
   describe_file(c, model.fields);
-  describe_outputs(c.law, model);
-  model.fields["checked"] = c.law.variables[c.law.checked()].name;
+  describe_outputs(law, model);
+  model.fields["checked"] = law.variables[law.checked()].name;
+  model.fields["begins"] = law.tunable ? "begin(); " : "";
   model.fields["states"] = std::to_string(batch.states);
-  model.fields["reads"] = std::to_string(batch.states + 2);
-  model.fields["writes"] = std::to_string(batch.states + (c.law.brake_changes() ? 2 : 1));
+  model.fields["reads"] = std::to_string(batch.loaded + 2);
+  model.fields["writes"] = std::to_string(batch.stored + (law.brake_changes() ? 2 : 1));
   model.fields["energy_contract"] = "In the springs of the point [J].";
-  model.lists["banner"] = as_list(banner(c, Timing::any));
+  for (const std::string& header : batch.headers) model.lists["headers"].push_back({{"header", header}});
+  model.lists["banner"] = as_list(banner(c, law, Timing::any));
+  model.lists["parameters"] = as_list(batch.parameters);
+  model.lists["set"] = as_list(batch.set);
   model.lists["constants"] = as_list(batch.constants);
   model.lists["reset"] = as_list(batch.reset);
   model.lists["loads"] = as_list(batch.loads);

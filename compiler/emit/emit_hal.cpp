@@ -102,7 +102,7 @@ CodeModel component_model(const Compilation& c, std::string source) {
   fields["damping_unit"] = fmt::format("[{}]", units.damping);
   fields["safe_damping"] = cpp_literal(c.device ? c.device->description.brake.safe_damping : 0, ScalarType::float64);
   std::string notes;
-  for (const std::string& line : banner(c, Timing::any))
+  for (const std::string& line : banner(c, c.law, Timing::any))
     notes += (notes.empty() ? "" : line.starts_with(' ') ? "\n" : "\n.br\n") + in_quotes(line);
   fields["notes"] = notes;
   model.lists["tunables"] = tunable_fields(c);

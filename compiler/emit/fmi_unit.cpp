@@ -144,7 +144,7 @@ std::string documentation(const Compilation& c) {
   Fields file;
   describe_file(c, file);
   std::string text;
-  for (const std::string& line : banner(c, Timing::any)) text += xml_text(line) + "\n";
+  for (const std::string& line : banner(c, c.law, Timing::any)) text += xml_text(line) + "\n";
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<meta "
       "charset=\"utf-8\">\n<title>{0}</title>\n<h1>{0}</h1>\n<pre>\n{1}</pre>\n"

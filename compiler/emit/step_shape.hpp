@@ -6,7 +6,7 @@
 namespace dashpot::compiler {
 
 // True where nothing asked for stands against the law. Refuses: --constant-time and --batch for coupled slips and
-// tunables, whose steps take as long as their values have it.
+// slips beside tunables, whose steps take as long as their values have it.
 bool can_be_emitted(const Compilation& compilation, const EmissionOptions& options, Diagnostics& diagnostics);
 
 // The same of C99, where the network's name is also that of a type.

@@ -45,7 +45,8 @@ template <class Visit>
 void each_expression(const UpdateLaw& law, const Visit& visit) {
   for (const std::vector<Statement>* program : programs(law))
     for (const Statement& statement : *program) each_expression(law, statement, visit);
-  for (const Statement& statement : law.start) each_expression(law, statement, visit);
+  for (const std::vector<Statement>* program : {&law.start, &law.rest})
+    for (const Statement& statement : *program) each_expression(law, statement, visit);
 }
 
 }  // namespace

@@ -16,8 +16,11 @@ bool drop_once(UpdateLaw& law) {
   if (law.joints)
     for (const auto* commands : {&law.joints->dampings, &law.joints->torques})
       read.insert(commands->begin(), commands->end());
-  for (const std::vector<Statement>* program : programs(law))
-    for (const Statement& statement : *program) each_read(law, statement, [&](VariableId id) { read.insert(id); });
+  const auto add_reads = [&](const std::vector<Statement>& program) {
+    for (const Statement& statement : program) each_read(law, statement, [&](VariableId id) { read.insert(id); });
+  };
+  for (const std::vector<Statement>* program : programs(law)) add_reads(*program);
+  add_reads(law.rest);
   for (SlipNetwork& network : law.networks)
     for (VariableId& moved : network.moved)
       if (read.count(moved) == 0) moved = no_variable;
@@ -25,7 +28,7 @@ bool drop_once(UpdateLaw& law) {
     for (VariableId& sign : coupling.sign)
       if (read.count(sign) == 0) sign = no_variable;
   std::size_t dropped = 0;
-  for (auto* program : {&law.output, &law.update, &law.energy})
+  for (auto* program : {&law.output, &law.update, &law.energy, &law.tune, &law.rest})
     dropped += std::erase_if(*program, [&](const Statement& statement) {
       return law.variables[statement.target].role == Role::local && read.count(statement.target) == 0;
     });

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "certify/estimator_factors.hpp"
+#include "lower/spell_out.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
 
@@ -23,14 +24,17 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
                               head.motor_limit, head.motor_step})
     pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(tables.brake.observed)].base);
-  for (const Coefficient& constant : compiled.law.coefficients) add_pool_of(constant);
+  // A header in constant time has constants more.
+  const UpdateLaw law =
+      can_be_spelled_out(compiled.law) ? spelled_out(compiled.law, compiled.network.port_motion) : compiled.law;
+  for (const Coefficient& constant : law.coefficients) add_pool_of(constant);
   pool_["sample_period"] = {1 / Reference(facts_.rate)};
   pool_["added_damping"] = pool_["steady_damping"] = {compiled.certificate.added_damping};
   pool_["threshold"] = {compiled.law.flush_threshold};
   pool_["surface_at"] = {head.contact.at};
   pool_["encoder_step"] = {head.contact.encoder_step};
   pool_["none"] = {0};
-  for (const Variable& variable : compiled.law.variables)
+  for (const Variable& variable : law.variables)
     if (variable.role == Role::state) pool_[literals_in_code].push_back(variable.rest_value);
 }
 

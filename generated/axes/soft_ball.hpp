@@ -225,7 +225,8 @@ class soft_ball {
     // f = 0 at Δs = −π/g
     const scalar ball_surface_recovery = ball_recovery_compliance * ball_held_force;
     // f ≥ 0
-    const scalar ball_surface_change = ball_surface_recovery - ball_approach > 0 ? ball_surface_recovery : ball_approach;
+    const scalar ball_surface_change = ball_surface_recovery - ball_approach > 0 ? ball_surface_recovery :
+        ball_approach;
     // gap = s − u
     const scalar ball_gap = ball_surface_change - ball_approach;
     // s = s₋ + Δs
@@ -376,7 +377,8 @@ class soft_ball {
     // f = 0 at Δs = −π/g
     const scalar ball_surface_recovery = ball_recovery_compliance * ball_held_force;
     // f ≥ 0
-    const scalar ball_surface_change = ball_surface_recovery - ball_approach > 0 ? ball_surface_recovery : ball_approach;
+    const scalar ball_surface_change = ball_surface_recovery - ball_approach > 0 ? ball_surface_recovery :
+        ball_approach;
     // gap = s − u
     const scalar ball_gap = ball_surface_change - ball_approach;
     // s = s₋ + Δs

@@ -202,7 +202,8 @@ class viscous_wall {
     // f = 0 at Δs = −π/g
     const scalar wall_surface_recovery = wall_recovery_compliance * wall_held_force;
     // f ≥ 0
-    const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery : wall_approach;
+    const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery :
+        wall_approach;
     // gap = s − u
     const scalar wall_gap = wall_surface_change - wall_approach;
     // s = s₋ + Δs
@@ -342,7 +343,8 @@ class viscous_wall {
     // f = 0 at Δs = −π/g
     const scalar wall_surface_recovery = wall_recovery_compliance * wall_held_force;
     // f ≥ 0
-    const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery : wall_approach;
+    const scalar wall_surface_change = wall_surface_recovery - wall_approach > 0 ? wall_surface_recovery :
+        wall_approach;
     // gap = s − u
     const scalar wall_gap = wall_surface_change - wall_approach;
     // s = s₋ + Δs

@@ -57,6 +57,19 @@ auto output(Batch& batch, const Scalar* p, const Scalar* v, Scalar* d, Scalar* f
   batch.output(p, v, d, f);
 }
 
+// Parameters are set now and then, to other values at each point: within their ranges, beyond them, and to no number.
+template <class Scalar, class Parameters>
+Parameters parameters_of(int point, int n, const Scalar* largest, std::size_t count) {
+  Parameters wanted;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = 0.55 + 0.55 * std::sin(1.7 * n + 0.9 * point + 2.3 * static_cast<double>(i));
+    Scalar value = static_cast<Scalar>(share) * largest[i];
+    if ((n + point + static_cast<int>(i)) % 29 == 28) value = std::numeric_limits<Scalar>::quiet_NaN();
+    std::memcpy(reinterpret_cast<char*>(&wanted) + i * sizeof value, &value, sizeof value);
+  }
+  return wanted;
+}
+
 template <class Law, class Timed, class Batch>
 struct Run {
   using scalar = typename Law::scalar;
@@ -83,6 +96,34 @@ struct Run {
     split.reset(start);
     dampings_of(batch, d.data(), points);
     split_d = d;
+  }
+
+  // With the largest value of each parameter, where there are some.
+  template <std::size_t Count>
+  bool differs_after_set(int n, const scalar (&largest)[Count]) {
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+      const int point = static_cast<int>(i);
+      if ((n + 3 * point) % 5 != 0) continue;
+      const auto wanted = parameters_of<scalar, typename Law::parameters>(point, n, largest, Count);
+      const unsigned expected = laws[i].set(wanted);
+      const auto for_timed = parameters_of<scalar, typename Timed::parameters>(point, n, largest, Count);
+      const auto for_batch = parameters_of<scalar, typename Batch::parameters>(point, n, largest, Count);
+      if (timed[i].set(for_timed) != expected || batch.set(point, for_batch) != expected ||
+          split.set(point, for_batch) != expected)
+        return std::printf("set() of sample %d, point %d says otherwise\n", n, point) > 0;
+    }
+    return false;
+  }
+
+  // As a law that has been used is put to rest again.
+  void reset_some(int n) {
+    for (std::size_t i = static_cast<std::size_t>(n) % 7; i < laws.size(); i += 7) {
+      const auto at = static_cast<scalar>(1e-3 * static_cast<double>(n % 5) - 2e-3);
+      laws[i].reset(at);
+      timed[i].reset(at);
+      batch.reset_point(static_cast<long long>(i), at);
+      split.reset_point(static_cast<long long>(i), at);
+    }
   }
 
   bool differs_at(int n) {
@@ -129,6 +170,22 @@ bool differ(const char* name) {
         std::printf("  in %s with %d points\n", name, points);
         return true;
       }
+  }
+  return false;
+}
+
+// The same with parameters that change between samples.
+template <class Law, class Timed, class Batch, std::size_t Count>
+bool differ_when_set(const char* name, const typename Law::scalar (&largest)[Count]) {
+  for (int points : {1, 3, 37}) {
+    Run<Law, Timed, Batch> run(points);
+    for (int n = 0; n < 1500; ++n) {
+      if (n % 97 == 96) run.reset_some(n);
+      if (run.differs_after_set(n, largest) || run.differs_at(n)) {
+        std::printf("  in %s with %d points\n", name, points);
+        return true;
+      }
+    }
   }
   return false;
 }

@@ -7,6 +7,7 @@
 #include "support/random_network.hpp"
 #include "support/repetitions.hpp"
 #include "support/shell_command.hpp"
+#include "support/tunable_run.hpp"
 #include "support/written_network.hpp"
 
 namespace dashpot::testing {
@@ -43,6 +44,30 @@ std::vector<std::string> networks(const fs::path& folder) {
   return files;
 }
 
+// Branches, trees, meshes and what is behind a surface, with parameters; and those that dashpot brings along.
+std::vector<std::string> tunable_networks(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const char* name : {"second_order_maxwell", "springpot", "standard_solid"})
+    files.push_back(fmt::format(DASHPOT_NETWORKS "/tunable/{}_tunable.json", name));
+  constexpr Kind without_slips[] = {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::touched};
+  for (std::uint64_t seed = 1; seed <= repetitions(4, 40); ++seed) {
+    files.push_back((folder / fmt::format("tunable_{}.json", seed)).string());
+    write_text(files.back(), tunable_network(seed, without_slips[seed % 4]));
+  }
+  return files;
+}
+
+// The largest value of each parameter; nothing of a network without any.
+std::string largest_values(const std::string& file) {
+  const std::string text = text_of(file);
+  if (text.find("tunable\": true") == text.npos) return "";
+  std::string values;
+  const TunableLaw law(text);
+  for (const compiler::Tunable& tunable : law.tunables())
+    values += fmt::format("{}scalar({})", values.empty() ? "" : ", ", tunable.range.max);
+  return values;
+}
+
 std::string class_of(const std::string& file) { return fs::path(file).stem().string(); }
 
 // The class in constant time stands in a namespace of another name.
@@ -52,6 +77,14 @@ std::string program_of(const std::vector<std::string>& files) {
     const std::string name = class_of(file);
     headers += fmt::format("#include \"plain/{0}.hpp\"\n#include \"plain/{0}_batch.hpp\"\n", name);
     timed += fmt::format("#include \"timed/{}.hpp\"\n", name);
+    if (const std::string largest = largest_values(file); !largest.empty()) {
+      calls += fmt::format(
+          "  {{\n    using scalar = dashpot::generated::{0}::scalar;\n    const scalar largest[] = {{{1}}};\n"
+          "    failed |= points::differ_when_set<dashpot::generated::{0}, dashpot::timed::{0}, "
+          "dashpot::generated::{0}_batch>(\"{0}\", largest);\n  }}\n",
+          name, largest);
+      continue;
+    }
     calls += fmt::format(
         "  failed |= points::differ<dashpot::generated::{0}, dashpot::timed::{0}, "
         "dashpot::generated::{0}_batch>(\"{0}\");\n",
@@ -105,6 +138,23 @@ TEST(Points, are_single_networks_in_float) { expect_agreement("--scalar float --
 
 // Fails likewise where rounding is carried along.
 TEST(Points, are_single_networks_with_compensation) { expect_agreement("--scalar float --rate 100000"); }
+
+// Fails likewise where parameters change between samples, each point's by themselves, and points are put to rest.
+TEST(Points, are_single_networks_with_parameters_of_their_own) {
+  const TemporaryFolder folder;
+  expect_agreement(folder, tunable_networks(folder.path()), "--rate 1000");
+}
+
+// Fails likewise in float, on a motor that makes little of what is asked for, so that forces are let go of.
+TEST(Points, are_single_networks_with_parameters_on_a_weak_motor) {
+  const TemporaryFolder folder;
+  const std::string device = (folder.path() / "weak.device").string();
+  write_text(device, R"({ "dashpot_device": 1, "name": "weak", "motion": "translation", "loop": { "rate": "1 kHz" },
+                          "encoder": { "resolution": "10 um" }, "motor": { "max_torque": "0.05 N", "slew": "20 N/s" },
+                          "velocity": { "estimator": "backward_difference", "window": 1 } })");
+  expect_agreement(folder, tunable_networks(folder.path()),
+                   fmt::format("--device '{}' --decomposition paper --uncertified --scalar float", device));
+}
 
 // Fails likewise where the brake's coil needs twenty samples from one regime to another, and the motor makes up for it
 // on its way.

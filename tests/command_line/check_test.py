@@ -196,7 +196,7 @@ class CheckTest(CommandTest):
                     is_linear, certificate = False, fig_5
                 else:
                     network = next(path for path in (SOURCE / "networks" / folder / f"{stem}.json", PAPER / f"{stem}.json",
-                                                     TWENTY.with_stem(stem)) if path.exists())
+                                                     SOURCE / "networks/tunable" / f"{stem}.json", TWENTY.with_stem(stem)) if path.exists())
                     header, certificate = self.compiled([network, *FORMS.get(folder, [])])
                     self.assertEqual(header, committed.read_text())
                     is_linear = not (certificate["passivity"]["any_regime"] or certificate["passivity"]["any_value"])

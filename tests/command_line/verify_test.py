@@ -100,6 +100,8 @@ OTHER_LAWS = [
     ["loops.json", "--scheme", "backward-euler", "--state-input", "nodal"],
     [SOURCE / "networks/tunable/friction_tunable.json", "--device", BOARD], [SOURCE / "networks/tunable/second_order_maxwell_tunable.json"],
     [SOURCE / "networks/tunable/standard_solid_tunable.json", "--device", PANTOGRAPH, "--scalar", "float"],
+    [SOURCE / "networks/tunable/standard_solid_tunable.json", "--device", BOARD, "--constant-time"],
+    [SOURCE / "networks/tunable/second_order_maxwell_tunable.json", "--constant-time", "--batch"],
     ["tuned.json", "--device", BOARD, "--decomposition", "1.25"], ["tuned.json", "--scheme", "backward-euler"], ["pushed_tuned.json"],
     [SOURCE / "networks/tunable/layers_tunable.json", "--device", PANTOGRAPH], [SOURCE / "networks/tunable/layers_tunable.json", "--scheme", "backward-euler", "--scalar", "float"],
 ]

@@ -50,13 +50,17 @@ std::vector<Recording> recordings() {
       {"forms/float_compensated", "--scalar float --rate 100000", {paper / "second_order_maxwell.json"}},
       {"forms/rolled", "", {source / "tests/responses/networks/twenty_branches.json"}},
       {"forms/rolled_avx512", "--vector avx512", {source / "tests/responses/networks/twenty_branches.json"}},
-      {"forms/constant_time", "--constant-time", {paper / "visco_elasto_plastic.json"}},
+      {"forms/constant_time",
+       "--constant-time",
+       {paper / "visco_elasto_plastic.json", source / "networks/tunable/second_order_maxwell_tunable.json"}},
       {"forms/c99",
        "--target c99",
        {paper / "second_order_maxwell.json", paper / "visco_elasto_plastic.json",
         source / "networks/tunable/friction_tunable.json"}},
       {"forms/hal", "--target hal", {paper / "second_order_maxwell.json"}},
-      {"forms/batch", "--batch", {paper / "second_order_maxwell.json"}},
+      {"forms/batch",
+       "--batch",
+       {paper / "second_order_maxwell.json", source / "networks/tunable/second_order_maxwell_tunable.json"}},
   };
 }
 

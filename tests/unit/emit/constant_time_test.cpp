@@ -85,13 +85,15 @@ int loops_in(const std::string& header) {
   return loops;
 }
 
-// Linear, with slips of every closed form, with a contact; few states and many.
+// Linear, with slips of every closed form, with a contact, with parameters that change; few states and many.
 std::vector<std::string> networks(const std::filesystem::path& folder) {
   write_text(folder / "branches.json", parallel_branches("branches", 512));
   std::vector<std::string> files = {(folder / "branches.json").string()};
   for (const char* name : {"second_order_maxwell", "visco_elasto_plastic", "visco_elasto_plastic_organ",
                            "maxwell_slip_ten", "virtual_wall"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
+  for (const char* name : {"second_order_maxwell", "standard_solid"})
+    files.push_back(fmt::format(DASHPOT_NETWORKS "/tunable/{}_tunable.json", name));
   return files;
 }
 

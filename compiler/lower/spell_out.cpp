@@ -1,0 +1,578 @@
+#include "lower/spell_out.hpp"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "discretise/law_writer.hpp"
+#include "law/check_law.hpp"
+#include "law/walk.hpp"
+#include "lower/drop_unread.hpp"
+#include "lower/spelled_mesh.hpp"
+#include "lower/spelled_numbers.hpp"
+
+namespace dashpot::compiler {
+namespace {
+
+// What is known of a spring.
+struct SpringNames {
+  std::string name;
+  VariableId elongation = nothing;   // z [m]
+  VariableId offset = nothing;       // r [m]; nothing where it is 0 at all times
+  VariableId carried = nothing;      // k for which the force was carried over last; nothing where it never changes
+  ExpressionId stiffness = nothing;  // k [N/m]
+  bool changes = false;              // its force may change with the parameters: carried over by set()
+
+  // Of a change of parameters, in set().
+  VariableId force = nothing, kept = nothing;
+  ExpressionId wanted_energy = nothing;
+};
+
+class SpellingOut {
+ public:
+  SpellingOut(UpdateLaw law, motion port_motion)
+      : law_(std::move(law)),
+        writer_(law_, port_motion),
+        tables_(*law_.tunable),
+        head_(tables_.head),
+        numbers_(writer_) {}
+
+  UpdateLaw result() {
+    find_given();
+    declare();
+    for (std::vector<Statement>* program : {&law_.tune, &law_.output, &law_.update, &law_.energy, &law_.rest})
+      spell_out(*program);
+    check_law(law_, "spelling out");
+    return without_unread_locals(std::move(law_));
+  }
+
+ private:
+  void find_given() {
+    for (const Statement& statement : law_.tune)
+      if (const auto* call = std::get_if<CallTunable>(&statement.step); call && call->call == TunableCall::set)
+        given_ = call->given;
+  }
+
+  void declare() {
+    for (std::size_t i = 0; i < tables_.springs.size(); ++i) {
+      SpringNames spring;
+      spring.name = tables_.spring_names[i];
+      spring.stiffness = given(tables_.springs[i]);
+      springs_.push_back(std::move(spring));
+    }
+    const auto is_tuned = [&](const SpringNames& s) {
+      return law_.expressions[s.stiffness].operation != Operation::constant;
+    };
+    const bool some_change = std::any_of(springs_.begin(), springs_.end(), is_tuned);
+    for (SpringNames& spring : springs_) {
+      spring.changes = is_tuned(spring) || (some_change && &spring == static_spring());
+      spring.elongation = state(spring, "elongation", writer_.length(), "z");
+      if (is_tuned(spring))
+        spring.carried = numbers_.scalar(joined(spring.name, "carried_stiffness"), writer_.stiffness(),
+                                         "k for which the force is what it is", Role::tuned);
+    }
+    each_part([&](const tunable_part& part) {
+      if (part.kind == tunable_kind::mesh) meshes_.emplace(&part, SpelledMesh(numbers_, part, tables_.edges));
+      each_spring(part, [&](SpringNames& spring) {
+        if (keeps_offset(part) && (spring.changes || (sheds() && !has_contact())))
+          spring.offset = state(spring, "offset", writer_.length(), "r, how far its rest length is from home");
+      });
+    });
+    if (some_change || has_offsets())
+      tank_ = numbers_.scalar("tank", "J", "T, set free by changes of parameters", Role::state);
+    if (!sheds()) return;
+    if (has_offsets() && !has_contact())
+      shed_ = numbers_.scalar("shed", "1", "1 where an offset is left of forces that were shed", Role::state);
+    if (head_.motor_step > 0)
+      last_command_ = numbers_.scalar("last_command", writer_.force(), "m of the sample before", Role::state);
+    if (has_contact())
+      dent_ = numbers_.scalar("dent", writer_.length(), "of the surface, by what was shed", Role::state);
+  }
+
+  VariableId state(const SpringNames& spring, const char* what, const std::string& unit, const char* meaning) {
+    return numbers_.scalar(joined(spring.name, what), unit, meaning, Role::state);
+  }
+
+  bool sheds() const { return tables_.sheds(); }
+  bool has_contact() const { return head_.contact.is_there; }
+  bool has_offsets() const {
+    return std::any_of(springs_.begin(), springs_.end(), [](const SpringNames& s) { return s.offset != nothing; });
+  }
+  SpringNames* static_spring() {
+    return head_.static_spring == no_index ? nullptr : &springs_[static_cast<std::size_t>(head_.static_spring)];
+  }
+
+  // Between tool and ground, or in a mesh: else what is next to the spring makes room.
+  static bool keeps_offset(const tunable_part& part) {
+    return part.kind == tunable_kind::mesh || (part.kind == tunable_kind::spring && !part.is_loose);
+  }
+
+  template <class Visit>
+  void each_part(Visit visit) {
+    for (const tunable_part& part : tables_.parts) visit(part);
+  }
+  template <class Visit>
+  void each_spring(const tunable_part& part, Visit visit) {
+    if (part.spring != no_index) visit(springs_[static_cast<std::size_t>(part.spring)]);
+    for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i)
+      if (const int spring = tables_.edges[static_cast<std::size_t>(i)].spring; spring != no_index)
+        visit(springs_[static_cast<std::size_t>(spring)]);
+  }
+
+  ExpressionId given(int number) const { return given_[static_cast<std::size_t>(number)]; }
+
+  void spell_out(std::vector<Statement>& program) {
+    const std::vector<Statement> statements = std::exchange(program, {});
+    numbers_.begin(program);
+    for (const Statement& statement : statements)
+      if (const auto* call = std::get_if<CallTunable>(&statement.step)) write(statement, *call);
+      else program.push_back(statement);
+  }
+
+  void write(const Statement& at, const CallTunable& call) {
+    switch (call.call) {
+      case TunableCall::set: return write_set(at.target);
+      case TunableCall::meshes: return write_meshes(at, call);
+      case TunableCall::viscosity: return write_viscosity(at.target);
+      case TunableCall::held: return assign(at.target, held(), "π");
+      case TunableCall::reset: return write_reset(at.target, call.given[0]);
+      case TunableCall::limit: return write_limit(at, call);
+      case TunableCall::follow: return write_follow(at.target, call.given[0], call.given[1]);
+      case TunableCall::update: return write_update(at.target, call.given[0], call.given[1]);
+      case TunableCall::stored_energy: return write_energy(at.target, at.purpose);
+      case TunableCall::resting_brake:
+      case TunableCall::slip:
+      case TunableCall::push:
+      case TunableCall::slip_brake: throw std::logic_error("spelling out: a solver of slips");
+    }
+  }
+
+  // set(): what springs answer in a sample, and their forces once more.
+  void write_set(VariableId target) {
+    for (SpringNames& spring : springs_)
+      if (spring.changes)
+        spring.force = local(joined(spring.name, "force_before"), writer_.force(), force(spring, before(spring)), "");
+    ExpressionId sum = zero();
+    each_part([&](const tunable_part& part) {
+      if (part.kind == tunable_kind::mesh) meshes_.at(&part).tune(given(part), rate());
+      if (part.kind == tunable_kind::spring) sum = writer_.add(sum, stiffness_of(part));
+      if (part.kind == tunable_kind::relaxation)
+        sum = writer_.add(sum, writer_.multiply(stiffness_of(part), given(part.share)));
+    });
+    assign(target, sum, "g of what joins tool and ground");
+    carry_forces_over();
+  }
+
+  // The numbers of a mesh's edges.
+  std::vector<ExpressionId> given(const tunable_part& part) const {
+    std::vector<ExpressionId> all;
+    for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
+      const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(i)];
+      all.push_back(edge.spring != no_index ? springs_[static_cast<std::size_t>(edge.spring)].stiffness
+                                            : given_[static_cast<std::size_t>(edge.damping)]);
+    }
+    return all;
+  }
+
+  ExpressionId stiffness_of(const tunable_part& part) {
+    return springs_[static_cast<std::size_t>(part.spring)].stiffness;
+  }
+
+  // Each force stays as it is as far as energy allows that springs and tank already hold.
+  void carry_forces_over() {
+    for (SpringNames& spring : springs_)
+      if (spring.changes) keep_what_it_can(spring);
+    for (SpringNames& spring : springs_)
+      if (spring.changes) pay_for_the_rest(spring);
+    make_up_for_others();
+    each_part([&](const tunable_part& part) {
+      each_spring(part, [&](SpringNames& spring) {
+        if (spring.changes) keeps_offset(part) ? move_offset(spring) : move_end(spring);
+      });
+    });
+    for (SpringNames& spring : springs_)
+      if (spring.carried != nothing) assign(spring.carried, spring.stiffness, "");
+  }
+
+  ExpressionId before(const SpringNames& spring) {
+    return spring.carried == nothing ? spring.stiffness : read(spring.carried);
+  }
+
+  // A stiffer spring keeps its force, a softer one F √(k′/k); what a stiffer one sets free goes into the tank. A
+  // stiffness that no parameter changes leaves both as they are.
+  void keep_what_it_can(SpringNames& spring) {
+    spring.kept = spring.force;
+    if (spring.carried == nothing) return;
+    const ExpressionId k = before(spring), next = spring.stiffness, f = read(spring.force);
+    const ExpressionId softer = writer_.multiply(f, writer_.square_root(writer_.divide(next, k)));
+    spring.kept = local(joined(spring.name, "force_kept"), writer_.force(),
+                        writer_.where(writer_.subtract(k, next), writer_.where(next, softer, zero()), f),
+                        "F, or F √(k′/k) of a softer spring");
+    const ExpressionId now = local_of(joined(spring.name, "energy_before"), "J", energy(f, k));
+    spring.wanted_energy = local_of(joined(spring.name, "energy_after"), "J", energy(f, next));
+    const ExpressionId freed =
+        writer_.where(writer_.subtract(next, k), writer_.subtract(now, spring.wanted_energy), zero());
+    assign(tank_, writer_.add(writer_.add(read(tank_), freed), writer_.where(next, zero(), now)), "");
+  }
+
+  // Up to F as far as the tank pays.
+  void pay_for_the_rest(SpringNames& spring) {
+    if (spring.carried == nothing) return;
+    const ExpressionId next = spring.stiffness, f = read(spring.force), kept = read(spring.kept), tank = read(tank_);
+    const ExpressionId held = local_of(joined(spring.name, "energy_held"), "J", energy(kept, next));
+    const ExpressionId cost =
+        local_of(joined(spring.name, "energy_missing"), "J", writer_.subtract(spring.wanted_energy, held));
+    const ExpressionId most =
+        local_of(joined(spring.name, "force_most"), writer_.force(),
+                 writer_.square_root(writer_.multiply(writer_.multiply(two(), next), writer_.add(held, tank))));
+    const ExpressionId differs =
+        local_of(joined(spring.name, "falls_short"), writer_.force(),
+                 writer_.where(next, size_of(writer_.subtract(kept, f), joined(spring.name, "force_short")), zero()));
+    const ExpressionId unpaid = local_of(joined(spring.name, "energy_unpaid"), "J", writer_.subtract(cost, tank));
+    const ExpressionId minus_one = numbers_.constant("reversed", "1", "minus one", -1);
+    const ExpressionId signed_most = writer_.where(f, most, writer_.multiply(minus_one, most));
+    const VariableId result =
+        local(joined(spring.name, "force_after"), writer_.force(),
+              writer_.where(differs, writer_.where(unpaid, signed_most, f), kept), "F, as far as the tank pays");
+    assign(tank_, writer_.where(differs, writer_.where(unpaid, zero(), writer_.subtract(tank, cost)), read(tank_)), "");
+    spring.kept = result;
+  }
+
+  // The spring between tool and ground makes up for what others could not keep.
+  void make_up_for_others() {
+    SpringNames* spring = static_spring();
+    if (spring == nullptr || !spring->changes) return;
+    ExpressionId sum = zero();
+    each_part([&](const tunable_part& part) {
+      if (part.spring == no_index) return;
+      const SpringNames& other = springs_[static_cast<std::size_t>(part.spring)];
+      if (other.changes) sum = writer_.add(sum, writer_.subtract(read(other.force), read(other.kept)));
+    });
+    const ExpressionId k = spring->stiffness, kept = read(spring->kept);
+    const ExpressionId missing = local_of("missing_force", writer_.force(), sum);
+    const ExpressionId all = local_of("energy_at_hand", "J", writer_.add(energy(kept, k), read(tank_)));
+    const ExpressionId most =
+        local_of("most_force", writer_.force(), writer_.square_root(writer_.multiply(writer_.multiply(two(), k), all)));
+    const ExpressionId wanted = local_of("wanted_force", writer_.force(), writer_.add(kept, missing));
+    const ExpressionId minus_one = numbers_.constant("reversed", "1", "minus one", -1);
+    const ExpressionId lowest = local_of("least_force", writer_.force(), writer_.multiply(minus_one, most));
+    const ExpressionId within =
+        local_of("made_up_force", writer_.force(),
+                 writer_.where(writer_.subtract(wanted, most), most,
+                               writer_.where(writer_.subtract(lowest, wanted), lowest, wanted)));
+    const ExpressionId is_missing =
+        local_of("is_missing", writer_.force(), writer_.where(k, size_of(missing, "missing"), zero()));
+    const ExpressionId rest = local_of("energy_left", "J", writer_.subtract(all, energy(within, k)));
+    spring->kept = local(joined(spring->name, "force_made_up"), writer_.force(),
+                         writer_.where(is_missing, within, kept), "F of the static spring");
+    assign(tank_, writer_.where(is_missing, writer_.where(rest, rest, zero()), read(tank_)), "");
+  }
+
+  // Above zero where the force or the stiffness has changed.
+  ExpressionId change_of(const SpringNames& spring) {
+    const ExpressionId of_force =
+        size_of(writer_.subtract(read(spring.kept), read(spring.force)), joined(spring.name, "force_change"));
+    if (spring.carried == nothing) return of_force;
+    const ExpressionId of_stiffness =
+        size_of(writer_.subtract(spring.stiffness, read(spring.carried)), joined(spring.name, "stiffness_change"));
+    return local_of(joined(spring.name, "is_changed"), "1", writer_.add(of_force, of_stiffness));
+  }
+
+  void move_end(SpringNames& spring) {
+    const ExpressionId changed = change_of(spring);
+    const ExpressionId there =
+        writer_.where(spring.stiffness, writer_.divide(read(spring.kept), spring.stiffness), zero());
+    assign(spring.elongation, writer_.where(changed, there, read(spring.elongation)), "z = F/k");
+  }
+
+  // r = z − F/k; what is no more than rounding of z is none.
+  void move_offset(SpringNames& spring) {
+    const ExpressionId changed = change_of(spring), z = read(spring.elongation);
+    const ExpressionId offset =
+        local_of(joined(spring.name, "offset_exact"), writer_.length(),
+                 writer_.where(spring.stiffness,
+                               writer_.subtract(z, writer_.divide(read(spring.kept), spring.stiffness)), zero()));
+    const ExpressionId quarter = numbers_.constant("quarter", "1", "a quarter", 0.25);
+    const ExpressionId seen = size_of(writer_.subtract(writer_.add(z, writer_.multiply(offset, quarter)), z),
+                                      joined(spring.name, "offset_seen"));
+    assign(spring.offset, writer_.where(changed, writer_.where(seen, offset, zero()), read(spring.offset)),
+           "r = z − F/k");
+  }
+
+  void write_meshes(const Statement& at, const CallTunable& call) {
+    ExpressionId stiffness = zero(), through = zero();
+    each_part([&](const tunable_part& part) {
+      if (part.kind != tunable_kind::mesh) return;
+      const SpelledMesh& mesh = meshes_.at(&part);
+      stiffness =
+          writer_.add(stiffness, writer_.subtract(mesh.stiffness(), writer_.multiply(mesh.feedthrough(), rate())));
+      through = writer_.add(through, mesh.feedthrough());
+    });
+    const auto answer = [&](TunableResult result) { return result == TunableResult::stiffness ? stiffness : through; };
+    assign(at.target, answer(call.result), "g − b∞/T of meshes");
+    for (const auto& [result, variable] : call.found) assign(variable, answer(result), "b∞ of meshes");
+  }
+
+  void write_viscosity(VariableId target) {
+    ExpressionId sum = zero();
+    each_part([&](const tunable_part& part) {
+      if (part.kind == tunable_kind::mesh) sum = writer_.add(sum, meshes_.at(&part).viscosity(given(part)));
+    });
+    assign(target, sum, "b of meshes as s → 0");
+  }
+
+  // At rest at a position: what joins tool and ground is loaded by it.
+  void write_reset(VariableId target, ExpressionId position) {
+    if (const SpringNames* spring = static_spring()) assign(spring->elongation, position, "z = u");
+    each_part([&](const tunable_part& part) {
+      if (part.kind == tunable_kind::mesh) stretch(part, meshes_.at(&part).loaded(given(part), position), false);
+    });
+    assign(target, held(), "π");
+  }
+
+  // The force within the motor's limits, and the share of all forces that is kept for it.
+  void write_limit(const Statement& at, const CallTunable& call) {
+    const ExpressionId wanted = call.given[0];
+    ExpressionId now = within(wanted);
+    if (head_.motor_step > 0) {
+      const ExpressionId step = numbers_.constant("motor_step", writer_.force(),
+                                                  "what the motor can change by in a period", head_.motor_step);
+      const ExpressionId most = local_of("most", writer_.force(), within(writer_.add(read(last_command_), step)));
+      const ExpressionId least =
+          local_of("least", writer_.force(), within(writer_.subtract(read(last_command_), step)));
+      now = writer_.where(writer_.subtract(wanted, most), most,
+                          writer_.where(writer_.subtract(least, wanted), least, wanted));
+    }
+    assign(at.target, now, at.purpose);
+    const ExpressionId force = read(at.target);
+    const ExpressionId beyond = writer_.multiply(writer_.subtract(wanted, force), wanted);
+    const ExpressionId share = writer_.where(writer_.multiply(force, wanted), writer_.divide(force, wanted), zero());
+    for (const auto& [result, variable] : call.found)
+      assign(variable, writer_.where(beyond, share, one()), "s = m/wanted where that is beyond m");
+    if (last_command_ != nothing) command_ = writer_.kept(at.target);
+  }
+
+  ExpressionId within(ExpressionId force) {
+    if (!(head_.motor_limit > 0)) return force;
+    return writer_.clamp(
+        force, numbers_.constant("motor_limit", writer_.force(), "what the motor can give", head_.motor_limit));
+  }
+
+  // Where a surface stands when it and its dent have followed a tool that has left.
+  void write_follow(VariableId target, ExpressionId surface, ExpressionId depth) {
+    if (!sheds()) return assign(target, surface, "s");
+    const ExpressionId gap = local_of("gap_behind", writer_.length(), writer_.subtract(surface, depth));
+    const ExpressionId dent = read(dent_);
+    const ExpressionId least = writer_.where(writer_.subtract(dent, gap), gap, dent);
+    const VariableId returned =
+        local("returned", writer_.length(), writer_.where(gap, writer_.where(dent, least, zero()), zero()),
+              "the lesser of gap and dent");
+    assign(target, writer_.subtract(surface, read(returned)), "a dent comes back with the tool");
+    returned_ = writer_.kept(returned);
+  }
+
+  void write_update(VariableId target, ExpressionId change, ExpressionId position) {
+    each_part([&](const tunable_part& part) { advance(part, change); });
+    if (sheds()) shed(position);
+    else if (const SpringNames* spring = static_spring()) assign(spring->elongation, position, "z = u");
+    bring_offsets_home();
+    assign(target, held(), "π");
+  }
+
+  void advance(const tunable_part& part, ExpressionId change) {
+    if (part.kind == tunable_kind::damper) return;
+    if (part.kind == tunable_kind::mesh) return stretch(part, meshes_.at(&part).moved(change), true);
+    SpringNames& spring = springs_[static_cast<std::size_t>(part.spring)];
+    if (&spring == static_spring()) return;
+    const ExpressionId z = read(spring.elongation);
+    const ExpressionId way =
+        part.kind == tunable_kind::spring
+            ? change
+            : writer_.subtract(writer_.multiply(given(part.share), change), writer_.multiply(given(part.loss), z));
+    assign(spring.elongation, writer_.flush(writer_.add(z, way)),
+           part.kind == tunable_kind::spring ? "z ← z + δ" : "z ← z + φ δ − α z");
+  }
+
+  // The springs of a mesh by their elongations in a sample, from where they were or from nothing.
+  void stretch(const tunable_part& part, const std::vector<ExpressionId>& elongations, bool goes_on) {
+    for (std::size_t i = 0; i < elongations.size(); ++i) {
+      const tunable_edge& edge = tables_.edges[static_cast<std::size_t>(part.first_edge) + i];
+      if (edge.spring == no_index) continue;
+      const SpringNames& spring = springs_[static_cast<std::size_t>(edge.spring)];
+      const ExpressionId z = goes_on ? writer_.add(read(spring.elongation), elongations[i]) : elongations[i];
+      assign(spring.elongation, writer_.flush(z), goes_on ? "z ← z + δ" : "z = δ");
+    }
+  }
+
+  // All but a share of all forces is let go of.
+  void shed(ExpressionId position) {
+    const ExpressionId share = read(law_.share);
+    const ExpressionId binds = local_of("let_go", "1", writer_.subtract(one(), share));
+    ExpressionId at = position;
+    if (has_contact()) {
+      assign(dent_, writer_.subtract(read(dent_), read(returned_)), "what has come back is no dent");
+      const ExpressionId left = writer_.multiply(share, writer_.subtract(position, read(dent_)));
+      assign(dent_, writer_.where(binds, writer_.subtract(position, left), read(dent_)), "d ← s − share (s − d)");
+      at = writer_.subtract(position, read(dent_));
+    } else if (const SpringNames* spring = static_spring()) {
+      assign(spring->elongation, at, "z = u");
+    }
+    each_part([&](const tunable_part& part) {
+      each_spring(part, [&](SpringNames& spring) { shed(part, spring, share, binds); });
+    });
+    if (const SpringNames* spring = static_spring(); spring != nullptr && has_contact())
+      assign(spring->elongation, at, "z = s − d");
+    if (shed_ != nothing) {
+      assign(shed_, writer_.where(binds, one(), read(shed_)), "");
+      for (SpringNames& spring : springs_)
+        if (spring.offset != nothing) bring_shed_offset_home(spring);
+    }
+    if (last_command_ != nothing) assign(last_command_, read(command_), "m₋ = m");
+  }
+
+  void shed(const tunable_part& part, SpringNames& spring, ExpressionId share, ExpressionId binds) {
+    const ExpressionId z = read(spring.elongation);
+    const auto choose = [&](VariableId changed, ExpressionId value, const char* purpose) {
+      assign(changed, writer_.where(binds, value, read(changed)), purpose);
+    };
+    if (has_contact()) {
+      if (&spring != static_spring()) choose(spring.elongation, writer_.multiply(z, share), "z ← share z");
+      if (spring.offset != nothing) choose(spring.offset, writer_.multiply(read(spring.offset), share), "r ← share r");
+    } else if (keeps_offset(part)) {
+      choose(spring.offset, writer_.subtract(z, writer_.multiply(share, writer_.subtract(z, read(spring.offset)))),
+             "r ← z − share (z − r)");
+    } else {
+      choose(spring.elongation, writer_.add(zero(), writer_.multiply(share, z)), "z ← share z");
+    }
+  }
+
+  // No further from home than the spring: the middle one of 0, r and z.
+  void bring_shed_offset_home(SpringNames& spring) {
+    const ExpressionId r = read(spring.offset), z = read(spring.elongation);
+    const ExpressionId beyond = writer_.subtract(z, r);
+    const ExpressionId least =
+        local_of(joined(spring.name, "offset_least"), writer_.length(), writer_.where(beyond, r, z));
+    const ExpressionId most =
+        local_of(joined(spring.name, "offset_most"), writer_.length(), writer_.where(beyond, z, r));
+    const ExpressionId below = writer_.subtract(zero(), most);
+    const ExpressionId middle = writer_.where(least, least, writer_.where(below, most, zero()));
+    assign(spring.offset, writer_.where(read(shed_), middle, r), "r: the middle one of 0, r and z");
+  }
+
+  // By a part of the way, where the tank pays for it.
+  void bring_offsets_home() {
+    ExpressionId owed = nothing;
+    for (SpringNames& spring : springs_) {
+      if (spring.offset == nothing) continue;
+      const ExpressionId r = read(spring.offset), z = read(spring.elongation);
+      const ExpressionId retention =
+          numbers_.constant("retention", "1", "what an offset keeps in a sample", head_.retention);
+      const ExpressionId after = local_of(joined(spring.name, "offset_after"), writer_.length(),
+                                          writer_.flush(writer_.multiply(retention, r)));
+      const ExpressionId both = writer_.add(writer_.subtract(z, after), writer_.subtract(z, r));
+      const ExpressionId cost =
+          local_of(joined(spring.name, "offset_cost"), "J",
+                   writer_.multiply(
+                       writer_.multiply(writer_.multiply(spring.stiffness, writer_.subtract(r, after)), both), half()));
+      const ExpressionId unpaid =
+          local_of(joined(spring.name, "offset_unpaid"), "J", writer_.subtract(cost, read(tank_)));
+      assign(spring.offset, writer_.where(unpaid, r, after), "r goes home where the tank pays");
+      assign(tank_, writer_.where(unpaid, read(tank_), writer_.subtract(read(tank_), cost)), "");
+      if (shed_ != nothing) owed = writer_.plus(owed, size_of(read(spring.offset), joined(spring.name, "offset_left")));
+    }
+    if (shed_ != nothing) assign(shed_, writer_.where(owed, read(shed_), zero()), "nothing is left of what was shed");
+  }
+
+  // π of what joins tool and ground; leaves meshes ready to be moved.
+  ExpressionId held() {
+    ExpressionId sum = zero();
+    each_part([&](const tunable_part& part) {
+      if (part.kind == tunable_kind::damper) return;
+      if (part.kind == tunable_kind::mesh) {
+        std::vector<ExpressionId> forces;
+        for (int i = part.first_edge; i < part.first_edge + part.edge_count; ++i) {
+          const int spring = tables_.edges[static_cast<std::size_t>(i)].spring;
+          forces.push_back(spring == no_index ? nothing : force_of_edge(springs_[static_cast<std::size_t>(spring)]));
+        }
+        sum = writer_.add(sum, meshes_.at(&part).held(forces));
+        return;
+      }
+      const SpringNames& spring = springs_[static_cast<std::size_t>(part.spring)];
+      ExpressionId part_force = force(spring, spring.stiffness);
+      if (part.kind == tunable_kind::relaxation)
+        part_force = writer_.subtract(
+            part_force,
+            writer_.multiply(spring.stiffness, writer_.multiply(given(part.loss), read(spring.elongation))));
+      sum = writer_.add(sum, part_force);
+    });
+    return sum;
+  }
+
+  ExpressionId force_of_edge(const SpringNames& spring) {
+    return local_of(joined(spring.name, "force"), writer_.force(), force(spring, spring.stiffness));
+  }
+
+  void write_energy(VariableId target, const std::string& purpose) {
+    ExpressionId sum = tank_ == nothing ? zero() : read(tank_);
+    for (const SpringNames& spring : springs_)
+      sum = writer_.add(sum,
+                        writer_.multiply(writer_.multiply(force(spring, spring.stiffness), stretched(spring)), half()));
+    assign(target, sum, purpose);
+  }
+
+  ExpressionId stretched(const SpringNames& spring) {
+    const ExpressionId z = read(spring.elongation);
+    return spring.offset == nothing ? z : writer_.subtract(z, read(spring.offset));
+  }
+  ExpressionId force(const SpringNames& spring, ExpressionId stiffness) {
+    return writer_.multiply(stiffness, stretched(spring));
+  }
+  // F²/2k; nothing where there is no spring.
+  ExpressionId energy(ExpressionId force, ExpressionId stiffness) {
+    const ExpressionId all = writer_.multiply(force, writer_.divide(force, stiffness));
+    return writer_.where(stiffness, writer_.divide(all, two()), zero());
+  }
+
+  ExpressionId read(VariableId variable) { return writer_.read(variable); }
+  void assign(VariableId target, ExpressionId value, std::string purpose) {
+    numbers_.assign(target, value, std::move(purpose));
+  }
+  VariableId local(const std::string& name, const std::string& unit, ExpressionId value, std::string purpose) {
+    return numbers_.local(name, unit, value, std::move(purpose));
+  }
+  ExpressionId local_of(const std::string& name, const std::string& unit, ExpressionId value) {
+    return numbers_.named(name, unit, value);
+  }
+  // |x|, so that it is above zero where x is not zero.
+  ExpressionId size_of(ExpressionId value, const std::string& name) {
+    const ExpressionId x = local_of(name, "1", value);
+    return local_of(joined(name, "size"), "1", writer_.where(x, x, writer_.subtract(zero(), x)));
+  }
+  ExpressionId zero() { return numbers_.zero(); }
+  ExpressionId one() { return numbers_.one(); }
+  ExpressionId two() { return numbers_.constant("two", "1", "two", 2); }
+  ExpressionId half() { return numbers_.constant("half_of", "1", "a half", 0.5); }
+  ExpressionId rate() { return writer_.constant("rate", "Hz", "1/T", head_.rate, ConstantRole::sampling); }
+
+  UpdateLaw law_;
+  LawWriter writer_;
+  const TunableTables& tables_;
+  const tunable_tables<double>& head_;
+  SpelledNumbers numbers_;
+  std::vector<ExpressionId> given_;  // the law's numbers
+  std::vector<SpringNames> springs_;
+  std::map<const tunable_part*, SpelledMesh> meshes_;
+  VariableId tank_ = nothing, shed_ = nothing, last_command_ = nothing, command_ = nothing, dent_ = nothing,
+             returned_ = nothing;
+};
+
+}  // namespace
+
+bool can_be_spelled_out(const UpdateLaw& law) { return !law.tunable || law.tunable->head.slip_count == 0; }
+
+UpdateLaw spelled_out(const UpdateLaw& law, motion port_motion) {
+  return law.tunable ? SpellingOut(law, port_motion).result() : law;
+}
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,18 @@
+// Calls of dashpot::tunable_law as the statements that it would run, in their order: springs, meshes, the tank and the
+// motor's limits are then states and numbers of the law like all others. Decisions become choices between two numbers,
+// so that a sample takes the same steps whatever the values.
+#pragma once
+
+#include <dashpot/command.hpp>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+// Whether a law's calls can be statements: those for slips are solvers, whose steps follow the values.
+bool can_be_spelled_out(const UpdateLaw& law);
+
+// The same law to the bit. Of a law without calls that law; of those that can be spelled out alone.
+UpdateLaw spelled_out(const UpdateLaw& law, motion port_motion);
+
+}  // namespace dashpot::compiler

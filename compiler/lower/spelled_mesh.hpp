@@ -1,0 +1,76 @@
+// Springs and dampers between inner nodes as statements: those of dashpot::tunable_mesh, in their order. A conductance
+// that is not there is `nothing`, and what it would be multiplied with or added to is left out: no bit changes, since
+// none is below zero.
+#pragma once
+
+#include <vector>
+
+#include "law/tunable_tables.hpp"
+#include "lower/spelled_numbers.hpp"
+
+namespace dashpot::compiler {
+
+class SpelledMesh {
+ public:
+  // All outlive this.
+  SpelledMesh(SpelledNumbers& numbers, const tunable_part& part, const std::vector<tunable_edge>& edges);
+
+  // In what follows `values` are stiffness or damping of each edge.
+
+  // In set(): the numbers of the steps.
+  void tune(const std::vector<ExpressionId>& values, ExpressionId rate);
+  // After that, in the same program: g, and b∞.
+  ExpressionId stiffness() const { return stiffness_; }
+  ExpressionId feedthrough() const { return feedthrough_; }
+  // At low frequency.
+  ExpressionId viscosity(const std::vector<ExpressionId>& values);
+
+  // How far each edge is stretched when its end at the port has moved by `change`; under the load alone that the
+  // springs make of `position`.
+  std::vector<ExpressionId> moved(ExpressionId change);
+  std::vector<ExpressionId> loaded(const std::vector<ExpressionId>& values, ExpressionId position);
+
+  // By the force of each spring, of a damper nothing: what is held at the port. Leaves the pushes for moved().
+  ExpressionId held(const std::vector<ExpressionId>& forces);
+
+ private:
+  using Row = std::vector<ExpressionId>;
+  struct Conductances {
+    std::vector<Row> weight;  // above the diagonal
+    Row to_port, to_held;
+    ExpressionId through = nothing;
+  };
+  // Ready for spreading: what stands for Σ g_i is its inverse, and weights are their shares of it.
+  struct Shares {
+    std::vector<Row> weight;
+    Row to_port, inverse;
+    ExpressionId through = nothing;
+  };
+  struct FirstOrder {
+    ExpressionId lead = nothing, next = nothing;
+  };
+
+  Conductances joined_up(const Row& of_edges) const;
+  Shares eliminated(const Row& of_edges, const std::string& prefix, bool is_kept);
+  ExpressionId inverse(ExpressionId pivot, const std::string& name);
+  // A local, or with `is_kept` a number of its own that stays until the next set().
+  ExpressionId told(const std::string& name, const char* unit, ExpressionId value, bool is_kept);
+  std::vector<ExpressionId> spread(const Shares& shares, const Row& pushes, ExpressionId change,
+                                   const std::string& prefix);
+  void bridge(FirstOrder a, FirstOrder b, FirstOrder p, FirstOrder& sum);
+  ExpressionId& place_of(const tunable_edge& edge, Conductances& all) const;
+  std::string node_name(int node) const { return "node_" + std::to_string(part_.first_node + node + 1); }
+  std::string link_name(int from, int to) const { return node_name(from) + "_to_" + node_name(to); }
+  const tunable_edge& edge(int i) const { return edges_[static_cast<std::size_t>(part_.first_edge + i)]; }
+  ExpressionId or_zero(ExpressionId value) { return value == nothing ? numbers_.zero() : value; }
+
+  SpelledNumbers& numbers_;
+  LawWriter& writer_;
+  const tunable_part& part_;
+  const std::vector<tunable_edge>& edges_;
+  Shares shares_;
+  std::vector<VariableId> push_;  // forces on the nodes [N]; nothing where no spring pushes
+  ExpressionId stiffness_ = nothing, feedthrough_ = nothing;
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,52 @@
+#include "lower/spelled_numbers.hpp"
+
+#include <utility>
+
+namespace dashpot::compiler {
+
+SpelledNumbers::SpelledNumbers(LawWriter& writer) : writer_(writer) {
+  for (const Variable& variable : writer.law().variables) writer.unique(variable.name);
+  for (const Coefficient& coefficient : writer.law().coefficients) writer.unique(coefficient.name);
+}
+
+void SpelledNumbers::begin(std::vector<Statement>& program) {
+  program_ = &program;
+  assigned_.clear();
+}
+
+VariableId SpelledNumbers::scalar(const std::string& name, const std::string& unit, const std::string& meaning,
+                                  Role role) {
+  return writer_.scalar(writer_.unique(name), unit, meaning, role);
+}
+
+void SpelledNumbers::assign(VariableId target, ExpressionId value, std::string purpose) {
+  writer_.assign(*program_, target, value, std::move(purpose));
+}
+
+// A local is of one program, and another program may have one of the same name.
+VariableId SpelledNumbers::local(const std::string& name, const std::string& unit, ExpressionId value,
+                                 std::string purpose) {
+  const auto known = locals_.find(name);
+  const bool is_free = known != locals_.end() && assigned_.count(known->second) == 0;
+  const VariableId variable = is_free ? known->second : scalar(name, unit, "", Role::local);
+  locals_.emplace(name, variable);
+  assigned_.insert(variable);
+  assign(variable, value, std::move(purpose));
+  return variable;
+}
+
+ExpressionId SpelledNumbers::named(const std::string& name, const std::string& unit, ExpressionId value) {
+  if (facts_of(writer_.law().expressions[value].operation).operands == 0) return value;
+  return writer_.read(local(name, unit, value, ""));
+}
+
+ExpressionId SpelledNumbers::constant(const std::string& name, const std::string& unit, const std::string& meaning,
+                                      double value) {
+  const auto [known, is_new] = constants_.emplace(name, ExpressionId());
+  if (is_new)
+    known->second = writer_.constant(writer_.unique(name), unit, meaning, value,
+                                     value == 0 ? ConstantRole::zero : ConstantRole::brake_choice);
+  return known->second;
+}
+
+}  // namespace dashpot::compiler

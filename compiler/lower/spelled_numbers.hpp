@@ -1,0 +1,41 @@
+// Names, constants and locals of statements that take the place of calls (spell_out.hpp).
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "discretise/law_writer.hpp"
+
+namespace dashpot::compiler {
+
+class SpelledNumbers {
+ public:
+  // The writer outlives this; what is in its law keeps its name.
+  explicit SpelledNumbers(LawWriter& writer);
+
+  // Statements are from here on those of `program`, which stays where it is.
+  void begin(std::vector<Statement>& program);
+
+  // A variable of a name of its own.
+  VariableId scalar(const std::string& name, const std::string& unit, const std::string& meaning, Role role);
+  void assign(VariableId target, ExpressionId value, std::string purpose);
+  VariableId local(const std::string& name, const std::string& unit, ExpressionId value, std::string purpose);
+  // The value itself where that is a variable or a constant, else a local that has it.
+  ExpressionId named(const std::string& name, const std::string& unit, ExpressionId value);
+  ExpressionId constant(const std::string& name, const std::string& unit, const std::string& meaning, double value);
+  ExpressionId zero() { return constant("nothing", "1", "zero", 0); }
+  ExpressionId one() { return constant("all", "1", "one", 1); }
+
+  LawWriter& writer() { return writer_; }
+
+ private:
+  LawWriter& writer_;
+  std::vector<Statement>* program_ = nullptr;
+  std::map<std::string, VariableId> locals_;  // by what they are asked for as
+  std::set<VariableId> assigned_;             // in the program at hand
+  std::map<std::string, ExpressionId> constants_;
+};
+
+}  // namespace dashpot::compiler

@@ -1,0 +1,296 @@
+// General viscoelastic solid, Fig. 2e, with two values that change while it runs
+//
+// source: Gosline & Hayward 2009, Fig. 5; the ranges are ours
+// scheme: exact at 1000 Hz, double: a motion that is straight between two samples is answered exactly
+// brake: makes b = 11 N·s/m of damping, and the motor the rest of the force; by the rule 'paper': in series, B1
+//   turns 100 % of the energy into heat at low frequency, and the brake follows it; in series, damper_3 turns 100
+//   % of the energy into heat at low frequency, and the brake follows it
+// states: what is kept of the past follows the measured position (position driven, so that a change of parameters
+//   injects no energy)
+// late velocity: with 0 N·s/m more in an exact brake, no lateness of the estimate alone costs passivity
+// passivity: not certified for any motion, any values within their ranges between changes, however the brake
+//   changes above its least command: needs 5.5652 N·s/m, counted sample by sample over a hold of up to 0.001 s, at
+//   least 5.5 N·s/m is there, 0.0652 N·s/m more is missing in the brake's command
+//   on an ideal device with the difference of two samples for a velocity; nothing is added for passivity
+// energy: whatever the values within their ranges, no motion gets more work out of the law than stored_energy()
+//   falls; rounding adds at most 6.6e-15 of the sum of the force's terms
+// device: none is named: exact brake, no delay, and for velocity the difference of the last two positions over the
+//   period. Pass that one: a smoother estimate is later, and of it nothing is certified here
+// tunable: K1 (0 to 100 N/m), B2 (0.5 to 20 N s/m)
+//   set() brings no energy in: a rise of stiffness while the tool presses stays owed until the springs can pay
+//   b [N·s/m] follows B1 + damper_3
+// cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
+// cost of update(): 16 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
+//   between samples
+// cost of set(): at most 344 additions, multiplications and divisions
+// constant time: output() and update() decide by masks, not by jumps
+// words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
+//
+// Written by dashpot 0.1.0 from a network with digest
+// 5c194d7008f5fe1bb0e1c8f01d1156815ca3b1ae3e5903a351efbfbd8297cdca. It belongs to whoever had it
+// written. Compile it with -ffp-contract=off where results are compared bit for bit.
+#pragma once
+
+#include <dashpot/branch_free.hpp>
+#include <dashpot/command.hpp>
+#include <dashpot/exponential.hpp>
+#include <dashpot/elementary.hpp>
+#include <dashpot/tunable/tables.hpp>
+
+namespace dashpot::generated {
+
+class second_order_maxwell_tunable {
+ public:
+  using scalar = double;
+  static constexpr scalar sample_period = 0.001;  // [s]
+  static constexpr dashpot::motion port_motion = dashpot::motion::translation;
+
+  // The part of the brake's command that is there for passivity alone: what is felt is the network and this damping.
+  static constexpr scalar added_damping = 0.0;
+
+  // What the servo loop compares with the device that it drives.
+  struct certified_for {
+    static constexpr bool any_device = true;
+    static constexpr const char* device = "ideal";
+    static constexpr const char* device_digest = "";
+    static constexpr const char* estimator = "exact";
+    static constexpr unsigned loop_delay = 0;  // [samples]
+    static constexpr bool is_certified = false;
+  };
+
+  struct parameters {
+    scalar K1 = 12.0;  // 0 to 100 [N/m]
+    scalar B2 = 6.0;  // 0.5 to 20 [N s/m]
+  };
+
+  // At rest at 0, with the parameters that are there to begin with.
+  second_order_maxwell_tunable() noexcept {
+    set({});
+    reset();
+  }
+
+  // At rest at `position` [m], springs relaxed at 0 but for the static load. A NaN or infinite one counts as 0.
+  void reset(scalar position = 0) noexcept {
+    last_position_ = dashpot::all_finite(position, position, position) ? position : 0;
+    sampled_position_ = 0;
+    sampled_position_change_ = 0;
+    B1_spring_2_elongation_ = 0;
+    damper_3_K2_elongation_ = 0;
+    K3_offset_ = 0;
+    tank_ = 0;
+    // z = u
+    K3_elongation_ = last_position_;
+    // π
+    held_force_ = nothing + K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
+    last_brake_ = steady_brake_;
+    sampled_ = false;
+  }
+
+  // The command for this sample: port position [m] and an estimate of its velocity [m/s]. After a
+  // non-finite input the states stay as they were and the motor's force is 0.
+  dashpot::command<scalar> output(scalar position, scalar velocity) noexcept {
+    // Δu = u − u₋
+    const scalar position_change = position - last_position_;
+    // m = f − b u̇
+    const scalar force = step_stiffness_ * position_change + held_force_ + velocity_gain_ * velocity;
+    // b
+    const scalar brake = steady_brake_;
+    sampled_ = dashpot::all_finite(position, velocity, force);
+    const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);
+    last_brake_ = dashpot::branch_free::chosen(sampled, brake, last_brake_);
+    sampled_position_ = dashpot::branch_free::chosen(sampled, position, sampled_position_);
+    sampled_position_change_ = dashpot::branch_free::chosen(sampled, position_change, sampled_position_change_);
+    return {last_brake_, dashpot::branch_free::chosen(sampled, force, scalar(0))};
+  }
+
+  // Takes the states to the next sample; to be called once after each output(), when the command has left.
+  void update() noexcept {
+    const auto sampled = dashpot::branch_free::mask_of<scalar>(sampled_);
+    sampled_ = false;
+    // z ← z + φ δ − α z
+    B1_spring_2_elongation_ = dashpot::branch_free::chosen(sampled, dashpot::branch_free::flush_below(threshold,
+        B1_spring_2_elongation_ +
+        (B1_spring_2_kept_ * sampled_position_change_ - B1_spring_2_loss_ * B1_spring_2_elongation_)),
+        B1_spring_2_elongation_);
+    // z ← z + φ δ − α z
+    damper_3_K2_elongation_ = dashpot::branch_free::chosen(sampled, dashpot::branch_free::flush_below(threshold,
+        damper_3_K2_elongation_ +
+        (damper_3_K2_kept_ * sampled_position_change_ - damper_3_K2_loss_ * damper_3_K2_elongation_)),
+        damper_3_K2_elongation_);
+    // z = u
+    K3_elongation_ = dashpot::branch_free::chosen(sampled, sampled_position_, K3_elongation_);
+    const scalar K3_offset_after = dashpot::branch_free::flush_below(threshold, retention * K3_offset_);
+    const scalar K3_offset_cost = K3 * (K3_offset_ - K3_offset_after) * (K3_elongation_ - K3_offset_after +
+        (K3_elongation_ - K3_offset_)) * half_of;
+    const scalar K3_offset_unpaid = K3_offset_cost - tank_;
+    // r goes home where the tank pays
+    K3_offset_ = dashpot::branch_free::chosen(sampled, dashpot::branch_free::where(K3_offset_unpaid, K3_offset_,
+        K3_offset_after), K3_offset_);
+    tank_ = dashpot::branch_free::chosen(sampled, dashpot::branch_free::where(K3_offset_unpaid, tank_,
+        tank_ - K3_offset_cost), tank_);
+    // π
+    held_force_ = dashpot::branch_free::chosen(sampled, nothing + K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_)), held_force_);
+    // u₋ = u
+    last_position_ = dashpot::branch_free::chosen(sampled, sampled_position_, last_position_);
+  }
+
+  // output() and then update(), where nothing else has to happen in between: one program, with the same bits.
+  dashpot::command<scalar> step(scalar position, scalar velocity) noexcept {
+    const dashpot::command<scalar> now = output(position, velocity);
+    update();
+    return now;
+  }
+
+  // Between samples. Injects no energy. Bit i of the result: parameter i was beyond its range and is at its
+  // bound now, or it was no number and is as it was.
+  unsigned set(const parameters& wanted) noexcept {
+    update();
+    unsigned clamped = 0;
+    clamped |= dashpot::take_value(tunables[0], wanted.K1, K1_) << 0;
+    clamped |= dashpot::take_value(tunables[1], wanted.B2, B2_) << 1;
+    // x = T k/b
+    B1_spring_2_ratio_ = dashpot::clamp_to(largest_ratio, K1_ * period / B1);
+    // φ = (1 − e^(−x))/x
+    B1_spring_2_kept_ = dashpot::mean_decay(B1_spring_2_ratio_);
+    // α = x φ
+    B1_spring_2_loss_ = B1_spring_2_ratio_ * B1_spring_2_kept_;
+    // x = T k/b
+    damper_3_K2_ratio_ = dashpot::clamp_to(largest_ratio, K2 * period / B2_);
+    // φ = (1 − e^(−x))/x
+    damper_3_K2_kept_ = dashpot::mean_decay(damper_3_K2_ratio_);
+    // α = x φ
+    damper_3_K2_loss_ = damper_3_K2_ratio_ * damper_3_K2_kept_;
+    const scalar K3_force_before = K3 * (K3_elongation_ - K3_offset_);
+    const scalar B1_spring_2_force_before = B1_spring_2_carried_stiffness_ * B1_spring_2_elongation_;
+    // g of what joins tool and ground
+    step_stiffness_ = nothing + K3 + K1_ * B1_spring_2_kept_ + K2 * damper_3_K2_kept_;
+    // F, or F √(k′/k) of a softer spring
+    const scalar B1_spring_2_force_kept = B1_spring_2_carried_stiffness_ - K1_ > 0 ? (K1_ > 0 ?
+        B1_spring_2_force_before *
+        dashpot::square_root(K1_ / B1_spring_2_carried_stiffness_) : nothing) : B1_spring_2_force_before;
+    const scalar B1_spring_2_energy_before = B1_spring_2_carried_stiffness_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / B1_spring_2_carried_stiffness_) / two : nothing;
+    const scalar B1_spring_2_energy_after = K1_ > 0 ? B1_spring_2_force_before *
+        (B1_spring_2_force_before / K1_) / two : nothing;
+    tank_ = tank_ + (K1_ - B1_spring_2_carried_stiffness_ > 0 ?
+        B1_spring_2_energy_before - B1_spring_2_energy_after : nothing) +
+        (K1_ > 0 ? nothing : B1_spring_2_energy_before);
+    const scalar B1_spring_2_energy_held = K1_ > 0 ? B1_spring_2_force_kept *
+        (B1_spring_2_force_kept / K1_) / two : nothing;
+    const scalar B1_spring_2_energy_missing = B1_spring_2_energy_after - B1_spring_2_energy_held;
+    const scalar B1_spring_2_force_most = dashpot::square_root(two * K1_ * (B1_spring_2_energy_held + tank_));
+    const scalar B1_spring_2_force_short = B1_spring_2_force_kept - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_short_size = B1_spring_2_force_short > 0 ? B1_spring_2_force_short :
+        nothing - B1_spring_2_force_short;
+    const scalar B1_spring_2_falls_short = K1_ > 0 ? B1_spring_2_force_short_size : nothing;
+    const scalar B1_spring_2_energy_unpaid = B1_spring_2_energy_missing - tank_;
+    // F, as far as the tank pays
+    const scalar B1_spring_2_force_after = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ?
+        (B1_spring_2_force_before > 0 ? B1_spring_2_force_most : reversed *
+        B1_spring_2_force_most) : B1_spring_2_force_before) : B1_spring_2_force_kept;
+    tank_ = B1_spring_2_falls_short > 0 ? (B1_spring_2_energy_unpaid > 0 ? nothing :
+        tank_ - B1_spring_2_energy_missing) : tank_;
+    const scalar missing_force = nothing + (K3_force_before - K3_force_before) +
+        (B1_spring_2_force_before - B1_spring_2_force_after);
+    const scalar energy_at_hand = (K3 > 0 ? K3_force_before * (K3_force_before / K3) / two : nothing) + tank_;
+    const scalar most_force = dashpot::square_root(two * K3 * energy_at_hand);
+    const scalar wanted_force = K3_force_before + missing_force;
+    const scalar least_force = reversed * most_force;
+    const scalar made_up_force = wanted_force - most_force > 0 ? most_force : (least_force - wanted_force > 0 ?
+        least_force : wanted_force);
+    const scalar missing_size = missing_force > 0 ? missing_force : nothing - missing_force;
+    const scalar is_missing = K3 > 0 ? missing_size : nothing;
+    const scalar energy_left = energy_at_hand - (K3 > 0 ? made_up_force * (made_up_force / K3) / two : nothing);
+    // F of the static spring
+    const scalar K3_force_made_up = is_missing > 0 ? made_up_force : K3_force_before;
+    tank_ = is_missing > 0 ? (energy_left > 0 ? energy_left : nothing) : tank_;
+    const scalar K3_force_change = K3_force_made_up - K3_force_before;
+    const scalar K3_force_change_size = K3_force_change > 0 ? K3_force_change : nothing - K3_force_change;
+    const scalar K3_offset_exact = K3 > 0 ? K3_elongation_ - K3_force_made_up / K3 : nothing;
+    const scalar K3_offset_seen = K3_elongation_ + K3_offset_exact * quarter - K3_elongation_;
+    const scalar K3_offset_seen_size = K3_offset_seen > 0 ? K3_offset_seen : nothing - K3_offset_seen;
+    // r = z − F/k
+    K3_offset_ = K3_force_change_size > 0 ? (K3_offset_seen_size > 0 ? K3_offset_exact : nothing) : K3_offset_;
+    const scalar B1_spring_2_force_change = B1_spring_2_force_after - B1_spring_2_force_before;
+    const scalar B1_spring_2_force_change_size = B1_spring_2_force_change > 0 ? B1_spring_2_force_change :
+        nothing - B1_spring_2_force_change;
+    const scalar B1_spring_2_stiffness_change = K1_ - B1_spring_2_carried_stiffness_;
+    const scalar B1_spring_2_stiffness_change_size = B1_spring_2_stiffness_change > 0 ?
+        B1_spring_2_stiffness_change : nothing - B1_spring_2_stiffness_change;
+    const scalar B1_spring_2_is_changed = B1_spring_2_force_change_size + B1_spring_2_stiffness_change_size;
+    // z = F/k
+    B1_spring_2_elongation_ = B1_spring_2_is_changed > 0 ? (K1_ > 0 ? B1_spring_2_force_after / K1_ : nothing) :
+        B1_spring_2_elongation_;
+    B1_spring_2_carried_stiffness_ = K1_;
+    // π
+    held_force_ = nothing + K3 * (K3_elongation_ - K3_offset_) +
+        (K1_ * B1_spring_2_elongation_ - K1_ * (B1_spring_2_loss_ * B1_spring_2_elongation_)) +
+        (K2 * damper_3_K2_elongation_ - K2 * (damper_3_K2_loss_ * damper_3_K2_elongation_));
+    B1_damper_3_sum_ = B1_damper_3 + B2_;
+    // b follows B1 + damper_3
+    steady_brake_ = B1_damper_3_sum_;
+    // b∞ − b
+    velocity_gain_ = no_damping - steady_brake_;
+    return clamped;
+  }
+
+  // In the springs, and set free by changes of parameters, after the last update() [J].
+  scalar stored_energy() const noexcept {
+    // V + T: in the springs, and what changes of parameters have set free
+    const scalar stored = tank_ + K3 * (K3_elongation_ - K3_offset_) * (K3_elongation_ - K3_offset_) * half_of +
+        K1_ * B1_spring_2_elongation_ * B1_spring_2_elongation_ * half_of +
+        K2 * damper_3_K2_elongation_ * damper_3_K2_elongation_ * half_of;
+    return stored;
+  }
+
+ private:
+  static constexpr scalar threshold = 6.223015277861142e-61;  // below, a force is zero: no subnormal state
+  static constexpr scalar K3 = 5.0;  // as in the network [N/m]
+  static constexpr scalar B1 = 5.0;  // as in the network [N s/m]
+  static constexpr scalar K2 = 10.0;  // as in the network [N/m]
+  static constexpr scalar largest_ratio = 1.2676506002282294e+30;  // beyond, nothing is left after a sample [1]
+  static constexpr scalar period = 0.001;  // T [s]
+  static constexpr scalar no_damping = 0.0;  // none [N·s/m]
+  static constexpr scalar B1_damper_3 = 5.0;  // of what does not change [N s/m]
+  static constexpr scalar nothing = 0.0;  // zero [1]
+  static constexpr scalar two = 2.0;  // two [1]
+  static constexpr scalar reversed = -1.0;  // minus one [1]
+  static constexpr scalar quarter = 0.25;  // a quarter [1]
+  static constexpr scalar retention = 0.9900498337491681;  // what an offset keeps in a sample [1]
+  static constexpr scalar half_of = 0.5;  // a half [1]
+  static constexpr dashpot::tunable_range<scalar> tunables[2] = {
+      {12.0, 0.0, 100.0},  // K1 [N/m]
+      {6.0, 0.5, 20.0},  // B2 [N s/m]
+  };
+
+  scalar held_force_ = 0;  // π, what springs hold [N]
+  scalar last_brake_ = 0;  // b of the sample before [N·s/m]
+  scalar sampled_position_ = 0;  // port displacement u, at this sample [m]
+  scalar sampled_position_change_ = 0;  // Δu since the sample before, at this sample [m]
+  scalar K3_elongation_ = 0;  // z [m]
+  scalar B1_spring_2_elongation_ = 0;  // z [m]
+  scalar damper_3_K2_elongation_ = 0;  // z [m]
+  scalar K3_offset_ = 0;  // r, how far its rest length is from home [m]
+  scalar tank_ = 0;  // T, set free by changes of parameters [J]
+  scalar last_position_ = 0;  // u of the sample before [m]
+  scalar K1_ = 12.0;  // parameter [N/m]
+  scalar B2_ = 6.0;  // parameter [N s/m]
+  scalar B1_spring_2_ratio_ = 0;  // a sample over the relaxation time [1]
+  scalar B1_spring_2_kept_ = 0;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar B1_spring_2_loss_ = 0;  // α, what is lost in a sample [1]
+  scalar damper_3_K2_ratio_ = 0;  // a sample over the relaxation time [1]
+  scalar damper_3_K2_kept_ = 0;  // φ, of a displacement within a sample, what its spring has at the end [1]
+  scalar damper_3_K2_loss_ = 0;  // α, what is lost in a sample [1]
+  scalar step_stiffness_ = 0;  // what springs answer in a sample [N/m]
+  scalar B1_damper_3_sum_ = 0;  // of these together [N s/m]
+  scalar steady_brake_ = 0;  // b of what no slip changes [N·s/m]
+  scalar velocity_gain_ = 0;  // b∞ − b [N·s/m]
+  scalar B1_spring_2_carried_stiffness_ = 0;  // k for which the force is what it is [N/m]
+  bool sampled_ = false;  // a finite sample waits for update()
+};
+
+}  // namespace dashpot::generated

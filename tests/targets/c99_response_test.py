@@ -11,6 +11,7 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
 DASHPOT = os.environ["DASHPOT"]
+IS_LONG = os.environ.get("DASHPOT_LONG") == "1"
 COMPILERS = [os.environ["GCC"], os.environ["CLANG"]]
 STRICT = ["-std=c99", "-O2", "-ffp-contract=off", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wshadow",
           "-Wdouble-promotion", "-Werror"]
@@ -43,7 +44,8 @@ class C99Response(unittest.TestCase):
             for network in NETWORKS:
                 with self.subTest(network=network.stem, options=options[:2]):
                     self.written(network, *options)
-                    for compiler in COMPILERS:
+                    # The second compiler reads each test once: in float and on a device only numbers are others.
+                    for compiler in COMPILERS if IS_LONG or not options else COMPILERS[:1]:
                         ran = self.ran(network.stem, compiler)
                         self.assertEqual((ran.returncode, ran.stdout), (0, f"{network.stem}: passed\n"))
 

@@ -15,9 +15,9 @@
 namespace dashpot::paper {
 
 std::vector<Section> all_experiments(bool thinned) {
-  return {show(measure_fig3()),         show(measure_fig5()),  show(measure_fig6()),  show(measure_fig7()),
-          show(measure_fig8()),         show(measure_fig9()),  show(measure_fig11()), show(measure_fig12()),
-          show(measure_fig13(thinned)), show(measure_pareto())};
+  return {show(measured_fig3()),        show(measure_fig5()),   show(measure_fig6()),  show(measure_fig7()),
+          show(measure_fig8()),         show(measure_fig9()),   show(measure_fig11()), show(measure_fig12()),
+          show(measure_fig13(thinned)), show(measured_pareto())};
 }
 
 Table table_of_choices() {

@@ -234,6 +234,11 @@ Fig3 measure_fig3() {
   return fig3;
 }
 
+const Fig3& measured_fig3() {
+  static const Fig3 measured = measure_fig3();
+  return measured;
+}
+
 Section show(const Fig3& fig3) {
   Figure figure{"Fig. 3: which of two Kelvin elements in series to observe", {}, {}};
   for (const Fig3::Case& each : fig3.cases) {

@@ -44,6 +44,7 @@ struct Fig3 {
 };
 
 Fig3 measure_fig3();
+const Fig3& measured_fig3();  // once a process
 Section show(const Fig3& fig3);
 
 }  // namespace dashpot::paper

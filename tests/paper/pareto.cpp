@@ -216,6 +216,11 @@ Pareto measure_pareto() {
   return pareto;
 }
 
+const Pareto& measured_pareto() {
+  static const Pareto measured = measure_pareto();
+  return measured;
+}
+
 Section show(const Pareto& pareto) {
   return {"pareto",
           "Pareto: what every split costs",

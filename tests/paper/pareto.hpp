@@ -32,6 +32,7 @@ struct Pareto {
 };
 
 Pareto measure_pareto();
+const Pareto& measured_pareto();  // once a process
 Section show(const Pareto& pareto);
 
 }  // namespace dashpot::paper

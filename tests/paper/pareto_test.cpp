@@ -8,10 +8,7 @@ namespace {
 
 using namespace dashpot::paper;
 
-const Pareto& pareto() {
-  static const Pareto measured = measure_pareto();
-  return measured;
-}
+const Pareto& pareto() { return measured_pareto(); }
 
 const Pareto::Sweep& sweep(const char* network, const char* state_input, std::size_t estimator) {
   std::size_t seen = 0;

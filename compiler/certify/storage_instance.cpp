@@ -142,10 +142,14 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   const std::size_t n = loop.states.size();
   const std::vector<dashpot_check::Hold> holds = dashpot_check::holds(device);
   const bool lags = device.amplifier_lag > 0;
+  // Of a late command ρ is what the tool moves until it acts, less the share of w that is so on an even way, rounded.
+  const std::size_t columns = n + (device.write_latest > 0 ? 2 : 1);
+  const Rational all = holds.back().before + holds.back().after;
+  const Rational late = scaled(Rational(holds.back().after / all), 60) * power_of_two(-60);
   const std::size_t corners = lags ? 4 : 1;  // of each part of the holds
   const std::size_t lacking_at = 0;  // what an amplifier's lag keeps back, if anything: Coq's holds differ there
   std::vector<int> unit(n);
-  std::map<std::string, std::size_t> place = {{"w", n}};
+  std::map<std::string, std::size_t> place = {{"w", n}, {"late", n + 1}};
   for (std::size_t i = 0; i < n; ++i) place[loop.states[i]] = lags ? (i + 1) % n : i;
   RationalMatrix P(n, std::vector<Rational>(n));
   for (std::size_t i = 0; i < n; ++i)
@@ -155,11 +159,13 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
       P[row][column] = P[column][row] = Rational(stored[j]) + (stored.size() > i + 1 ? stored[i + 1 + j] : 0);
     }
   const auto recursion = [&](const Rational& decay) {
-    RationalMatrix A(n, std::vector<Rational>(n + 1));
+    RationalMatrix A(n, std::vector<Rational>(columns));
     for (const std::string& next : loop.states)
       for (const auto& [state, value] : loop.next.at(next)) {
         const std::size_t row = place.at(next), column = place.at(state);
-        A[row][column] = value * power_of_two((column < n ? unit[column] : 0) - unit[row]);
+        const Rational factor = value * power_of_two((column < n ? unit[column] : 0) - unit[row]);
+        A[row][column] += factor;
+        if (column == n + 1) A[row][n] += factor * late;
       }
     if (lags) A[lacking_at][lacking_at] += decay;
     return A;
@@ -198,9 +204,16 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
   Integer magnitude = 0;  // of all of P
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) magnitude += abs(stored[i][j]);
-  // β and γ of Loop.v.
+  // β and γ of Loop.v. Of a late command b (w − c)²/A + b c²/D with c = ρ + s w, where what rounding s leaves of w ρ is
+  // taken off both.
   const auto dissipation = [&](const dashpot_check::Hold& longest) {
     const Rational damping = proof.damping;
+    if (longest.after > 0) {
+      const Rational before = damping / longest.before, after = damping / longest.after, rest = 1 - late;
+      const Rational both = abs(after * late - before * rest);
+      return std::pair(scaled(Rational(before * rest * rest + after * late * late - both), S_digits),
+                       scaled(Rational(before + after - both), S_digits));
+    }
     return std::pair(scaled(Rational(damping / longest.before), S_digits),
                      lags ? scaled(Rational(damping / longest.spread), S_digits) : Integer(0));
   };
@@ -212,13 +225,13 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
       for (Integer& value : row) value = without_last(value, dropped);
     const Integer s = slack << (2 * precision.kept), t = s << P_digits;
     const Integer more = (slack + 1) << (S_digits + 1);
-    IntegerMatrix M(n + 2, std::vector<Integer>(n + 2)), PA(n, std::vector<Integer>(n + 1));
+    IntegerMatrix M(n + 2, std::vector<Integer>(n + 2)), PA(n, std::vector<Integer>(columns));
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < n; ++k)
-        for (std::size_t j = 0; j <= n; ++j)
+        for (std::size_t j = 0; j < columns; ++j)
           if (A[k][j] != 0) PA[i][j] += stored[i][k] * A[k][j];
-    for (std::size_t i = 0; i <= n; ++i)
-      for (std::size_t j = 0; j <= n; ++j) {
+    for (std::size_t i = 0; i < columns; ++i)
+      for (std::size_t j = 0; j < columns; ++j) {
         Integer sum = 0;
         for (std::size_t k = 0; k < n; ++k)
           if (A[k][i] != 0) sum += A[k][i] * PA[k][j];
@@ -231,7 +244,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
     }
     M[n][n] += t * (2 * beta - stiffness);
     M[n + 1][n + 1] += t * 2 * gamma;
-    for (std::size_t i = 0; i <= n; ++i) M[i][i] -= more * slack * magnitude * (n + 1);
+    for (std::size_t i = 0; i < columns; ++i) M[i][i] -= more * slack * magnitude * columns;
     return M;
   };
   IntegerMatrix fine = stored;
@@ -294,7 +307,7 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
                                                   : "";
   return fmt::format(
       "(* '{}': whatever the tool does, no energy is taken out of the loop with {} N.s/m of damping (N.m.s/rad of a\n"
-      "   rotation) at holds of {}{} s. Written by dashpot. In a copy of compiler/certify/proof, or of an\n"
+      "   rotation) at holds of {}{} s{}. Written by dashpot. In a copy of compiler/certify/proof, or of an\n"
       "   installation's share/dashpot/proof, with this file beside the others, coqc accepts it:\n"
       "     coqc -R . Dashpot Forms.v\n     coqc -R . Dashpot Loop.v\n     coqc -R . Dashpot THIS_FILE.v *)\n"
       "Require Import ZArith List Reals Forms Loop.\nImport ListNotations.\nLocal Open Scope Z_scope.\n\n"
@@ -308,7 +321,8 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
       "  (0 <= work law 0 (repeat 0 (states law)) holds)%R.\n"
       "Proof. exact (nothing_is_extracted law law_is_sound). Qed.\nPrint Assumptions "
       "nothing_is_extracted_from_this_law.\n",
-      name, proof.damping, lengths, holds.back().before.convert_to<double>(), lags ? " (decay : Z)" : "",
+      name, proof.damping, lengths, all.convert_to<double>(),
+      columns > n + 1 ? ", each from when a\n   command acts until the next one does" : "", lags ? " (decay : Z)" : "",
       list_of(A_rows), lags ? " (share : Z)" : "", list_of(C_row), n, row_text(lags ? lacking : std::vector<Integer>{}),
       number_text(stiffness), form_text(stored), power(P_digits), power(A_digits), power(S_digits), list_of(part_texts),
       power(precision.kept), dropped, power(precision.slack), *of_P, list_of(witness_texts));
@@ -319,11 +333,12 @@ std::optional<std::string> coq_instance(const std::string& name, const dashpot_c
 std::optional<std::string> coq_instance(const std::string& name, const PassivityBound& bound,
                                         const std::optional<MotorConstants>& motor, SampledLoop loop,
                                         bool joins_holds) {
-  if (!motor || bound.proof == Proof::none || loop.motor_slew > 0 || loop.write_latest > 0) return std::nullopt;
+  const bool is_late_twice = loop.write_latest > 0 && loop.amplifier_lag > 0;  // two inputs beside w
+  if (!motor || bound.proof == Proof::none || loop.motor_slew > 0 || is_late_twice) return std::nullopt;
   const bool is_one_recursion =
       !adaptive_window_gain(loop) && loop.velocity.estimator != estimator_kind::interval_difference;
   if (motor->follows_estimate() && !is_one_recursion) return std::nullopt;  // of which the theorem is
-  if (bound.constant_period_only) loop.jitter = 0;
+  if (bound.constant_period_only) loop = punctual(loop);
   std::optional<StorageProof> proof;
   if (bound.storage) proof = {bound.needed, *bound.storage};
   else if (bound.proof == Proof::hold) proof = storage_proof(*motor, loop);

@@ -35,10 +35,11 @@ void write_instances(int laws, int most_states, const std::string& folder) {
     const auto motor = compiler::motor_constants(one.compilation->law);
     const bool divides = loop.velocity.estimator == estimator_kind::interval_difference;
     const bool is_one_recursion = !motor->follows_estimate() || (compiler::estimator_factors(loop) && !divides);
-    if (!is_one_recursion || int(bound.storage->size()) > most_states || bound.needed == 0) continue;
+    const bool is_late_twice = loop.write_latest > 0 && loop.amplifier_lag > 0;  // of which there is no theorem
+    if (!is_one_recursion || is_late_twice || int(bound.storage->size()) > most_states || bound.needed == 0) continue;
     const bool has_one_part = bound.storage->back().size() == bound.storage->size();
     if (++found % 3 == 0 && has_one_part) bound.storage = in_two_parts(*bound.storage);
-    if (bound.constant_period_only) loop.jitter = 0;
+    if (bound.constant_period_only) loop = compiler::punctual(loop);
     const double all = bound.needed;
     const int whole = number;
     Random random(seed);

@@ -163,20 +163,11 @@ class Verify(CommandTest):
             self.write(f"{name}.json", network(extreme, name, '"contact": { "at": -0.003 },' if name == "nothing" else ""))
         self.write("touched.json", network(DAMPED, "touched", '"contact": { "at": 0 },'))
 
-    written = {}  # what a law was compiled to, by its arguments and by what stands in the files of this room among them
-
     def emitted(self, law, folder):
-        """Header and certificate of a law, as text; its files are in `folder`."""
-        own = [argument for argument in map(str, law) if "/" not in argument and (self.folder / argument).is_file()]
-        key = (*map(str, law), *((self.folder / name).read_text() for name in own))
-        if key not in Verify.written:
-            self.dashpot("compile", *law, "--uncertified", "-o", folder, "--certificate", self.folder / folder / "certificate.json")
-            Verify.written[key] = {path.name: path.read_text() for path in (self.folder / folder).iterdir()}
-        files = Verify.written[key]
-        (self.folder / folder).mkdir(exist_ok=True)
-        for name, text in files.items(): (self.folder / folder / name).write_text(text)
-        header = min((name for name in files if name.endswith(".hpp")), key=len)  # NAME.hpp is before NAME_batch.hpp
-        return files[header], files["certificate.json"]
+        """Header and certificate of a law, as text."""
+        self.dashpot("compile", *law, "--uncertified", "-o", folder, "--certificate", self.folder / folder / "certificate.json")
+        header = min((self.folder / folder).glob("*.hpp"), key=lambda path: len(path.name))  # NAME.hpp is before NAME_batch.hpp
+        return header.read_text(), (self.folder / folder / "certificate.json").read_text()
 
     def verify(self, header, certificate, name, status=0):
         self.write(f"{name}.hpp", header)

@@ -39,7 +39,7 @@ struct SampledLoop {
   // Whether all holds are of one length.
   bool is_punctual() const { return jitter == 0 && write_latest == write_earliest; }
   // Whether a sample may be read before the command of the one before it acts, of which nothing is proved.
-  bool may_overtake() const { return write_latest > sample_period - jitter; }
+  bool may_overtake() const { return write_latest > 0 && write_latest > sample_period - jitter; }
 };
 
 // The same without jitter, every command at its latest.

@@ -62,6 +62,19 @@ TEST(HoldBound, CountsTheDelay) {
   }
 }
 
+// Nothing would be proved where samples stray by more than a period; or something where one may be read before the
+// command before it acts.
+TEST(HoldBound, LeavesNoSampleBeforeTheCommandBeforeIt) {
+  SampledLoop loop = plain_loop(0.001);
+  loop.jitter = 0.0015;
+  EXPECT_NEAR(passivity_bound(spring_motor(1000), loop).needed, 500 * 0.0025, 1e-12);
+  loop.jitter = 0.0005;
+  loop.write_earliest = loop.write_latest = 0.0004;
+  EXPECT_EQ(passivity_bound(spring_motor(1000), loop).proof, Proof::hold);
+  loop.write_latest = 0.0006;
+  EXPECT_EQ(passivity_bound(spring_motor(1000), loop).proof, Proof::none);
+}
+
 // More would be asked of a late network than one of the two statements asks.
 TEST(HoldBound, GivesWayWhereTheOtherAsksLess) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {

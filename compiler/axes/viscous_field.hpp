@@ -34,11 +34,15 @@ struct JointField {
 };
 
 template <typename S>
-JointField<S> at_joints(const Pose<S>& pose, const Matrix<S>& a) {
+JointField<S> at_joints(const Pose<S>& pose, const Matrix<double>& a) {
+  if (a[0][1] == a[1][0]) {
+    const Symmetric<S> there = at_joints(pose, Symmetric<S>{S(a[0][0]), S(a[0][1]), S(a[1][1])});
+    return {there.xx, there.xy, there.yy, S(0.0)};
+  }
   const auto element = [&](std::size_t i, std::size_t j) {
     const Pair<S>& right = pose.column[j];
     return dot(pose.column[i],
-               Pair<S>{a[0][0] * right[0] + a[0][1] * right[1], a[1][0] * right[0] + a[1][1] * right[1]});
+               Pair<S>{S(a[0][0]) * right[0] + S(a[0][1]) * right[1], S(a[1][0]) * right[0] + S(a[1][1]) * right[1]});
   };
   const S upper = element(0, 1), lower = element(1, 0);
   return {element(0, 0), S(0.5) * (upper + lower), element(1, 1), S(0.5) * (upper - lower)};

@@ -54,8 +54,7 @@ axes::PortLoad load_of(const CertifiedPort& port, double sample_period) {
 // Both joints' fastest rates over a hold, and one more for each sample of delay.
 axes::SampledLoop loop_of(const AxesDevice& device) {
   axes::SampledLoop loop;
-  loop.longest_period =
-      device.loop().sample_period + device.loop().jitter + (device.loop().write_latest - device.loop().write_earliest);
+  loop.longest_period = loop_of_joint(device.joints[0]).longest_hold();
   loop.delay = static_cast<int>(device.loop().delay_samples);
   for (std::size_t i = 0; i < 2; ++i)
     loop.reach[i] = device.joints[i].encoder.max_speed * loop.longest_period * (1 + loop.delay);
@@ -140,10 +139,8 @@ axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<Certif
     const Pair<Sloped> dampings = dampings_over(network, ports, device, joints);
     for (std::size_t k = 0; k < 2; ++k) {
       const AlongBrake& brake = device.brakes[k];
-      const Sloped damping = brake.brake.kind == brake_kind::none
-                                 ? dampings[k]
-                                 : min(dampings[k], Sloped(std::max(brake.brake.max_damping - added[k], 0.0)));
-      sum = sum + Sloped(assured_share(brake, device) * (1 - 1e-12)) * damping *
+      sum = sum + Sloped(assured_share(brake, device) * (1 - 1e-12)) *
+                      within_brake(dampings[k], brake.brake, added[k]) *
                       axes::outer(axes::constant<Sloped>(brake.along));
     }
     return sum;

@@ -21,8 +21,7 @@ constexpr double share_in_reserve = 0.02;  // of the least allowance
 // [[p, r + σ], [r − σ, s]] in the coordinates of the two brakes.
 template <typename S>
 axes::JointField<S> along_brakes(const AxesDevice& device, const Pair<S>& joints, const axes::Matrix<double>& viscous) {
-  const axes::Matrix<S> field{axes::constant<S>(viscous[0]), axes::constant<S>(viscous[1])};
-  const axes::JointField<S> there = axes::at_joints(axes::pose(device.arm, joints), field);
+  const axes::JointField<S> there = axes::at_joints(axes::pose(device.arm, joints), viscous);
   const Pair<Pair<double>> dual = axes::dual(device.brakes[0].along, device.brakes[1].along);
   const auto [p, r, s] = axes::along_brakes(dual, Symmetric<S>{there.p, there.r, there.s});
   return {p, r, s, S(axes::dot(axes::turned(dual[0]), dual[1])) * there.sigma};
@@ -31,13 +30,9 @@ axes::JointField<S> along_brakes(const AxesDevice& device, const Pair<S>& joints
 // What brakes make of it, by `diagonal`.
 template <typename S>
 Pair<S> made_of(const axes::JointField<S>& field, const AxesDevice& device, const std::vector<double>& added) {
-  using std::max, std::min;
-  const auto limited = [&](const S& wanted, std::size_t k) {
-    const brake_description& brake = device.brakes[k].brake;
-    const S some = max(wanted, S(0));
-    return brake.kind == brake_kind::none ? some : min(some, S(std::max(brake.max_damping - added[k], 0.0)));
-  };
-  return {limited(field.p, 0), limited(field.s, 1)};
+  using std::max;
+  return {within_brake(max(field.p, S(0)), device.brakes[0].brake, added[0]),
+          within_brake(max(field.s, S(0)), device.brakes[1].brake, added[1])};
 }
 
 std::vector<axes::Place> gate_places(const AxesDevice& device) {

@@ -2,6 +2,7 @@
 // numbers, and how much passes.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,13 @@ GatePassage gate_passage(const axes::CurlGate& gate, const AxesDevice& device, c
 
 // What a brake makes of its command at least, at the fastest that the joints go [1].
 double assured_share(const AlongBrake& brake, const AxesDevice& device);
+
+// Of a damping that is wanted of a brake, what it can make beside what is added to its command already.
+template <typename S>
+S within_brake(const S& wanted, const brake_description& brake, double added) {
+  using std::min;
+  return brake.kind == brake_kind::none ? wanted : min(wanted, S(std::max(brake.max_damping - added, 0.0)));
+}
 
 // The loop of a joint, as one axis has it.
 SampledLoop loop_of_joint(const device_description& joint);

@@ -299,8 +299,7 @@ class Merging {
     Symmetric<Term> target{Term(0.0), Term(0.0), Term(0.0)};
     Term turning(0.0);
     if (plan_.viscous != axes::Matrix<double>{}) {
-      const axes::Matrix<Term> field{axes::constant<Term>(plan_.viscous[0]), axes::constant<Term>(plan_.viscous[1])};
-      const axes::JointField<Term> at_joints = axes::at_joints(pose, field);
+      const axes::JointField<Term> at_joints = axes::at_joints(pose, plan_.viscous);
       target = {at_joints.p, at_joints.r, at_joints.s};
       turning = at_joints.sigma;
       terms_.call(turning, "turning", damping_unit(), "σ, what the field turns the joints by");

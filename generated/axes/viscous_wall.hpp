@@ -19,7 +19,7 @@
 //   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip: up
 //   to 11.3 N s/m more
 // device: pantograph_2dof
-// cost of output(): 92 additions, 115 multiplications, 29 selections, 1 guards against subnormal numbers
+// cost of output(): 87 additions, 111 multiplications, 29 selections, 1 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
 //   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
@@ -221,32 +221,27 @@ class viscous_wall {
     const scalar wall_force = wall_released > 0 ? wall_none : wall_opposing;
     // ∂x/∂q1
     const scalar x_by_q1 = part_18 * part_20;
-    const scalar part_22 = x_by_q1 * number_1;
-    const scalar part_23 = y_by_q1 * number_1;
     // B* of joint 1
-    const scalar wanted_11 = x_by_q1 * part_22 + y_by_q1 * part_23 + wall_brake * (y_by_q1 * y_by_q1);
-    const scalar part_24 = wanted_11 > 0 ? wanted_11 : nothing;
-    const scalar part_25 = most_damping_1 - part_24 > 0 ? part_24 : most_damping_1;
+    const scalar wanted_11 = x_by_q1 * (x_by_q1 * number_1) + y_by_q1 * (y_by_q1 * number_1) +
+        wall_brake * (y_by_q1 * y_by_q1);
+    const scalar part_22 = wanted_11 > 0 ? wanted_11 : nothing;
+    const scalar part_23 = most_damping_1 - part_22 > 0 ? part_22 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_25 + added_damping_1;
+    const scalar damping_1 = part_23 + added_damping_1;
     // −∂x/∂q2
     const scalar x_by_q2 = part_13 * part_21;
-    const scalar part_26 = x_by_q2 * number_1;
-    const scalar part_27 = y_by_q2 * number_1;
+    const scalar part_24 = x_by_q2 * number_1;
+    const scalar part_25 = y_by_q2 * number_1;
     // B* of joint 2
-    const scalar wanted_22 = x_by_q2 * part_26 + y_by_q2 * part_27 + wall_brake * (y_by_q2 * y_by_q2);
-    const scalar part_28 = wanted_22 > 0 ? wanted_22 : nothing;
-    const scalar part_29 = most_damping_1 - part_28 > 0 ? part_28 : most_damping_1;
-    const scalar damping_2 = added_damping_1 + part_29;
-    const scalar part_30 = y_by_q1 * part_27 - x_by_q1 * part_26;
-    const scalar part_31 = y_by_q2 * part_23 - x_by_q2 * part_22;
-    // σ, what the field turns the joints by
-    const scalar turning = half * (part_30 - part_31);
+    const scalar wanted_22 = x_by_q2 * part_24 + y_by_q2 * part_25 + wall_brake * (y_by_q2 * y_by_q2);
+    const scalar part_26 = wanted_22 > 0 ? wanted_22 : nothing;
+    const scalar part_27 = most_damping_1 - part_26 > 0 ? part_26 : most_damping_1;
+    const scalar damping_2 = added_damping_1 + part_27;
     // B* between the joints
-    const scalar wanted_12 = half * (part_30 + part_31) + wall_brake * (y_by_q1 * y_by_q2);
+    const scalar wanted_12 = y_by_q1 * part_25 - x_by_q1 * part_24 + wall_brake * (y_by_q1 * y_by_q2);
     // τ = Σ g M + (B* − D) v
-    const scalar torque_1 = y_by_q1 * wall_force + (v1 * (wanted_11 - part_25) + v2 * (turning + wanted_12));
-    const scalar torque_2 = y_by_q2 * wall_force + (v1 * (wanted_12 - turning) + v2 * (wanted_22 - part_29));
+    const scalar torque_1 = y_by_q1 * wall_force + (v1 * (wanted_11 - part_23) + wanted_12 * v2);
+    const scalar torque_2 = y_by_q2 * wall_force + (wanted_12 * v1 + v2 * (wanted_22 - part_27));
     sampled_ = false;
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) return {{sampled_damping_1_, sampled_damping_2_}, {}};
     sampled_ = true;
@@ -365,32 +360,27 @@ class viscous_wall {
     const scalar wall_force = wall_released > 0 ? wall_none : wall_opposing;
     // ∂x/∂q1
     const scalar x_by_q1 = part_18 * part_20;
-    const scalar part_22 = x_by_q1 * number_1;
-    const scalar part_23 = y_by_q1 * number_1;
     // B* of joint 1
-    const scalar wanted_11 = x_by_q1 * part_22 + y_by_q1 * part_23 + wall_brake * (y_by_q1 * y_by_q1);
-    const scalar part_24 = wanted_11 > 0 ? wanted_11 : nothing;
-    const scalar part_25 = most_damping_1 - part_24 > 0 ? part_24 : most_damping_1;
+    const scalar wanted_11 = x_by_q1 * (x_by_q1 * number_1) + y_by_q1 * (y_by_q1 * number_1) +
+        wall_brake * (y_by_q1 * y_by_q1);
+    const scalar part_22 = wanted_11 > 0 ? wanted_11 : nothing;
+    const scalar part_23 = most_damping_1 - part_22 > 0 ? part_22 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_25 + added_damping_1;
+    const scalar damping_1 = part_23 + added_damping_1;
     // −∂x/∂q2
     const scalar x_by_q2 = part_13 * part_21;
-    const scalar part_26 = x_by_q2 * number_1;
-    const scalar part_27 = y_by_q2 * number_1;
+    const scalar part_24 = x_by_q2 * number_1;
+    const scalar part_25 = y_by_q2 * number_1;
     // B* of joint 2
-    const scalar wanted_22 = x_by_q2 * part_26 + y_by_q2 * part_27 + wall_brake * (y_by_q2 * y_by_q2);
-    const scalar part_28 = wanted_22 > 0 ? wanted_22 : nothing;
-    const scalar part_29 = most_damping_1 - part_28 > 0 ? part_28 : most_damping_1;
-    const scalar damping_2 = added_damping_1 + part_29;
-    const scalar part_30 = y_by_q1 * part_27 - x_by_q1 * part_26;
-    const scalar part_31 = y_by_q2 * part_23 - x_by_q2 * part_22;
-    // σ, what the field turns the joints by
-    const scalar turning = half * (part_30 - part_31);
+    const scalar wanted_22 = x_by_q2 * part_24 + y_by_q2 * part_25 + wall_brake * (y_by_q2 * y_by_q2);
+    const scalar part_26 = wanted_22 > 0 ? wanted_22 : nothing;
+    const scalar part_27 = most_damping_1 - part_26 > 0 ? part_26 : most_damping_1;
+    const scalar damping_2 = added_damping_1 + part_27;
     // B* between the joints
-    const scalar wanted_12 = half * (part_30 + part_31) + wall_brake * (y_by_q1 * y_by_q2);
+    const scalar wanted_12 = y_by_q1 * part_25 - x_by_q1 * part_24 + wall_brake * (y_by_q1 * y_by_q2);
     // τ = Σ g M + (B* − D) v
-    const scalar torque_1 = y_by_q1 * wall_force + (v1 * (wanted_11 - part_25) + v2 * (turning + wanted_12));
-    const scalar torque_2 = y_by_q2 * wall_force + (v1 * (wanted_12 - turning) + v2 * (wanted_22 - part_29));
+    const scalar torque_1 = y_by_q1 * wall_force + (v1 * (wanted_11 - part_23) + wanted_12 * v2);
+    const scalar torque_2 = y_by_q2 * wall_force + (wanted_12 * v1 + v2 * (wanted_22 - part_27));
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) {
       sampled_ = false;
       return {{sampled_damping_1_, sampled_damping_2_}, {}};

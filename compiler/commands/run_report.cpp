@@ -15,7 +15,10 @@ ExitStatus report_axes(const SourceFile& network, const DeviceChoice& device, co
                        Diagnostics& diagnostics) {
   const std::optional<AxesCompilation> compilation = compile_axes(network, options, device, diagnostics);
   if (!compilation || diagnostics.has_errors()) return ExitStatus::input_refused;
-  const std::optional<std::string> page = report(*compilation, diagnostics);
+  // Without a device there is no workspace to lead the tool through.
+  const std::optional<std::string> module =
+      compilation->has_device ? web_module(*compilation, diagnostics) : std::nullopt;
+  const std::optional<std::string> page = report(*compilation, module, diagnostics);
   if (!page || diagnostics.has_errors()) return ExitStatus::input_refused;
   return write_files("", {{*options.output, *page}}, diagnostics) ? ExitStatus::done : ExitStatus::input_refused;
 }

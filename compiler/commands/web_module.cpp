@@ -27,13 +27,23 @@ int compile_to_wasm(const std::string& compiler, const std::filesystem::path& fo
       (folder / "compiler.log").string());
 }
 
+std::optional<std::vector<OutputFile>> live_files(const Compilation& c, const EmissionOptions& options,
+                                                  Diagnostics& d) {
+  return emit_cpp(c, options, d);
+}
+std::optional<std::vector<OutputFile>> live_files(const AxesCompilation& c, const EmissionOptions& options,
+                                                  Diagnostics& d) {
+  return emit_axes_cpp(c, options, d);
+}
+
 // Empty, with a diagnostic, where the templates do not fit; empty, with reasons, where nothing makes WebAssembly.
-std::optional<std::string> module_or_reasons(const Compilation& compilation, const EmissionOptions& wanted,
+template <typename AnyCompilation>
+std::optional<std::string> module_or_reasons(const AnyCompilation& compilation, const EmissionOptions& wanted,
                                              std::string& reasons, Diagnostics& diagnostics) {
   EmissionOptions options;
   options.with_live = true;
   options.templates = wanted.templates;
-  auto files = emit_cpp(compilation, options, diagnostics);
+  auto files = live_files(compilation, options, diagnostics);
   if (files) files->push_back({"cstdint", cstdint});
   const TemporaryFolder folder;
   if (folder.path().empty()) {
@@ -56,9 +66,8 @@ void note_remedy(const std::string& reasons, Diagnostics& diagnostics) {
   else diagnostics.note<DiagnosticCode::temporary_folder_remedy>({});
 }
 
-}  // namespace
-
-std::optional<std::string> web_module(const Compilation& compilation, Diagnostics& diagnostics) {
+template <typename AnyCompilation>
+std::optional<std::string> module_or_warning(const AnyCompilation& compilation, Diagnostics& diagnostics) {
   std::string reasons;
   std::optional<std::string> module = module_or_reasons(compilation, {}, reasons, diagnostics);
   if (!reasons.empty() && !module) {
@@ -66,6 +75,15 @@ std::optional<std::string> web_module(const Compilation& compilation, Diagnostic
     note_remedy(reasons, diagnostics);
   }
   return module;
+}
+
+}  // namespace
+
+std::optional<std::string> web_module(const Compilation& compilation, Diagnostics& diagnostics) {
+  return module_or_warning(compilation, diagnostics);
+}
+std::optional<std::string> web_module(const AxesCompilation& compilation, Diagnostics& diagnostics) {
+  return module_or_warning(compilation, diagnostics);
 }
 
 std::optional<std::string> web_module_for_target(const Compilation& compilation, const EmissionOptions& options,

@@ -38,7 +38,7 @@ std::optional<axes::ShareMap> share_by(const AxesCompilation& compilation, axes:
 // The same at the centres of `side` × `side` equal parts of the workspace.
 std::vector<PlacedShare> shares_over(const AxesCompilation& compilation, axes::BrakeRule rule, int side);
 
-// <name>.hpp. Refuses: templates that do not fit.
+// <name>.hpp, and <name>_live.cpp where it is asked for. Refuses: templates that do not fit.
 std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,
                                                      Diagnostics& diagnostics);
 

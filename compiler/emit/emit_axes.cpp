@@ -134,9 +134,17 @@ std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& comp
                                                      Diagnostics& diagnostics) {
   const SourceFile* shape = find_template("axes.hpp.in", options.templates, diagnostics);
   if (!shape) return std::nullopt;
+  const std::string& name = compilation.network.name;
   std::optional<std::string> text = fill(*shape, header_model(compilation), diagnostics);
   if (!text) return std::nullopt;
-  return std::vector<OutputFile>{{compilation.network.name + ".hpp", std::move(*text)}};
+  std::vector<OutputFile> files = {{name + ".hpp", std::move(*text)}};
+  if (options.with_live) {
+    const SourceFile* live = find_template("axes_live.cpp.in", options.templates, diagnostics);
+    std::optional<std::string> source = live ? fill(*live, {{{"name", name}}, {}}, diagnostics) : std::nullopt;
+    if (!source) return std::nullopt;
+    files.push_back({name + "_live.cpp", std::move(*source)});
+  }
+  return files;
 }
 
 }  // namespace dashpot::compiler

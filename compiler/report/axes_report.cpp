@@ -7,6 +7,7 @@
 
 #include "emit/template_text.hpp"
 #include "law/cost.hpp"
+#include "report/base64.hpp"
 #include "report/markup.hpp"
 #include "report/number_text.hpp"
 #include "report/page_parts.hpp"
@@ -84,14 +85,13 @@ void add_surfaces(const AxesCompilation& c, const axes::Box& box, std::vector<Dr
   }
 }
 
-std::string arm_figure(const AxesCompilation& c) {
+// The workspace, and around it what of the arm is seen with its tip in the middle.
+WorkspaceMap map_of_arm(const AxesCompilation& c) {
   const axes::Box& workspace = c.device.workspace;
   WorkspaceMap map;
-  map.title = "The arm, with its tip in the middle of the workspace";
-  const Pair<double> middle = axes::middle_of(workspace);
-  const auto joints = axes::joints_at(c.device.arm, middle);
   map.shown = workspace;
-  if (joints) map.lines = links_of(c.device.arm, *joints);
+  if (const auto joints = axes::joints_at(c.device.arm, axes::middle_of(workspace)))
+    map.lines = links_of(c.device.arm, *joints);
   for (const DrawnLine& link : map.lines)
     for (const Pair<double>& end : {link.from, link.to})
       for (std::size_t i = 0; i < 2; ++i) {
@@ -100,11 +100,27 @@ std::string arm_figure(const AxesCompilation& c) {
       }
   const double room = 0.04 * std::max(map.shown[0].width(), map.shown[1].width());
   for (axes::Interval& one : map.shown) one = {one.low - room, one.high + room};
-  for (const DrawnLine& line : bounds_of(workspace)) map.lines.push_back(line);
-  add_surfaces(c, workspace, map.lines);
-  map.dots.push_back({middle, ""});
+  return map;
+}
+
+std::string arm_figure(const AxesCompilation& c) {
+  WorkspaceMap map = map_of_arm(c);
+  map.title = "The arm, with its tip in the middle of the workspace";
+  for (const DrawnLine& line : bounds_of(c.device.workspace)) map.lines.push_back(line);
+  add_surfaces(c, c.device.workspace, map.lines);
+  map.dots.push_back({axes::middle_of(c.device.workspace), ""});
   map.note = fmt::format("{}, {}. Dashed: the workspace.", escaped(c.device.name), name_of(c.device.arm.kind));
   return map_figure(map);
+}
+
+// The same without the arm, which the page's script draws where the pointer leads it.
+WorkspaceMap map_to_drag_through(const AxesCompilation& c) {
+  WorkspaceMap map = map_of_arm(c);
+  map.title = "Drag the tool";
+  map.lines = bounds_of(c.device.workspace);
+  add_surfaces(c, c.device.workspace, map.lines);
+  map.note = "Arrow: the force on the tip. With the map in focus the arrow keys lead the tool too.";
+  return map;
 }
 
 // What all springs that do not relax oppose where the tip is held [N].
@@ -215,9 +231,45 @@ std::string ports_html(const AxesCompilation& c) {
   return html;
 }
 
+// What the page's script needs to lead the tool: the arm, where it is drawn, and the emitted code.
+std::string drag_json(const AxesCompilation& c, const WorkspaceMap& map, const std::string& module) {
+  const axes::Arm& arm = c.device.arm;
+  const axes::Box& box = c.device.workspace;
+  const MapFrame frame = frame_of(map);
+  const bool rotates = c.device.joint_motion() == motion::rotation;
+  std::string brakes;
+  for (const AlongBrake& brake : c.device.brakes)
+    brakes +=
+        fmt::format("{}[{},{}]", brakes.empty() ? "" : ",", json_literal(brake.along[0]), json_literal(brake.along[1]));
+  return fmt::format(
+      "{{\"name\":{},\"drag\":{{\"period\":{},\"rate\":{},\"arm\":{{\"kind\":\"{}\",\"proximal\":{},\"distal\":{},"
+      "\"base\":{}}},\"workspace\":[[{},{}],[{},{}]],\"frame\":{{\"x\":{},\"y\":{},\"metre\":{}}},\"brakes\":[{}],"
+      "\"torque_unit\":\"{}\",\"damping_unit\":\"{}\",\"module\":\"{}\"}}}}",
+      json_literal(c.network.name), json_literal(c.law.sample_period), json_literal(c.rate), name_of(arm.kind),
+      json_literal(arm.proximal), json_literal(arm.distal), json_literal(arm.base), json_literal(box[0].low),
+      json_literal(box[0].high), json_literal(box[1].low), json_literal(box[1].high), json_literal(frame.x_of_origin),
+      json_literal(frame.y_of_origin), json_literal(frame.metre), brakes, rotates ? "N·m" : "N",
+      rotates ? "N·m·s/rad" : "N·s/m", base64(module));
+}
+
+void add_drag_part(const AxesCompilation& c, const std::optional<std::string>& module, CodeModel& model,
+                   Diagnostics& diagnostics) {
+  for (const char* list : {"live", "scripts", "still"}) model.lists[list];
+  model.fields["script_rule"] = module ? "; script-src 'unsafe-inline' 'wasm-unsafe-eval'" : "";
+  model.fields["page_class"] = module ? " class=\"static\"" : "";
+  if (c.has_device && !module) model.lists["still"].push_back({});
+  if (!module) return;
+  const WorkspaceMap map = map_to_drag_through(c);
+  model.lists["live"].push_back({{"figure", map_figure(map)}});
+  model.lists["scripts"].push_back({});
+  model.fields["data"] = drag_json(c, map, *module);
+  for (const char* part : {"page.js", "drag.js", "start.js"}) model.fields["script"] += built_in(part, diagnostics);
+}
+
 }  // namespace
 
-std::optional<std::string> report(const AxesCompilation& c, Diagnostics& diagnostics) {
+std::optional<std::string> report(const AxesCompilation& c, const std::optional<std::string>& module,
+                                  Diagnostics& diagnostics) {
   CodeModel model;
   Fields& fields = model.fields;
   fields["title"] = escaped(c.network.title.empty() ? c.network.name : c.network.title);
@@ -248,6 +300,7 @@ std::optional<std::string> report(const AxesCompilation& c, Diagnostics& diagnos
       if (by.rule != axes::BrakeRule::virtual_brake) figures += share_figure(c, by);
     model.lists["shares"].push_back({{"table", shares_html(c, all)}, {"figures", figures}});
   }
+  add_drag_part(c, module, model, diagnostics);
   const SourceFile* shape = find_template("axes_report.html.in", std::nullopt, diagnostics);
   return shape ? fill(*shape, model, diagnostics) : std::nullopt;
 }

@@ -1,4 +1,4 @@
-// What the compiler knows about a network of two axes as one HTML page without scripts.
+// What the compiler knows about a network of two axes as one HTML page that asks for nothing beyond itself.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,9 @@
 
 namespace dashpot::compiler {
 
-// In: everything about a network and its choices. Refuses: a template that does not fit.
-std::optional<std::string> report(const AxesCompilation& compilation, Diagnostics& diagnostics);
+// In: everything about a network and its choices, and the emitted code as a module of WebAssembly, with which the page
+// lets its reader drag the tool; without a module it has no scripts. Refuses: a template that does not fit.
+std::optional<std::string> report(const AxesCompilation& compilation, const std::optional<std::string>& module,
+                                  Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

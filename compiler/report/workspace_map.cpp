@@ -27,6 +27,8 @@ class MapDrawing {
     right_ = left + scale_ * across, bottom_ = top + scale_ * up;
   }
 
+  MapFrame frame() const { return {x_at(0), y_at(0), scale_}; }
+
   std::string svg() const {
     const double scale_height = map_.scale.empty() ? 0 : 40;
     std::string text = fmt::format(
@@ -173,6 +175,8 @@ class MapDrawing {
 };
 
 }  // namespace
+
+MapFrame frame_of(const WorkspaceMap& map) { return MapDrawing(map).frame(); }
 
 std::string map_figure(const WorkspaceMap& map) {
   return "<figure>\n<figcaption>" + escaped(map.title) + "</figcaption>\n" + MapDrawing(map).svg() +

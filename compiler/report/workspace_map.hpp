@@ -45,6 +45,12 @@ struct WorkspaceMap {
   std::string note;   // below, as HTML
 };
 
+// Where x = 0, y = 0 is drawn, and how large a metre is; y grows upward on the map and downward in SVG.
+struct MapFrame {
+  double x_of_origin, y_of_origin, metre;
+};
+MapFrame frame_of(const WorkspaceMap& map);
+
 // A <figure>.
 std::string map_figure(const WorkspaceMap& map);
 

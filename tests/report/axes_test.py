@@ -1,13 +1,17 @@
 """The page of `dashpot report` for networks of two axes: its maps, read back from the drawing, against closed forms and `explain`."""
 import json
+import itertools
 import math
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
+
+from browser import Browser
 
 DASHPOT = os.environ["DASHPOT"]
 SOURCE = pathlib.Path(os.environ["DASHPOT_SOURCE"])
@@ -46,7 +50,7 @@ class Map:
         return found
 
 
-class AxesReport(unittest.TestCase):
+class Pages(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
         self.addCleanup(temporary.cleanup)
@@ -62,6 +66,8 @@ class AxesReport(unittest.TestCase):
     def maps(self, page):
         return [Map(figure) for figure in re.findall("<figure>.*?</figure>", page, re.DOTALL)]
 
+
+class AxesReport(Pages):
     def test_shares(self):
         """Fails if the shades of a map are not the shares that `explain` sums up, or the place of the least is another."""
         for network in (FIELD, WALL):
@@ -117,11 +123,10 @@ class AxesReport(unittest.TestCase):
             self.assertLess(math.dist(link[1], (0, 95)), 0.2)
 
     def test_what_it_says(self):
-        """Fails if the page hides that nothing is certified, has scripts, or takes a name for markup."""
+        """Fails if the page hides that nothing is certified, asks for anything, or takes a name for markup."""
         page = self.page(BALL, "--device", PANTOGRAPH)
         self.assertIn("<dt>certified</dt><dd>no ", page)
         self.assertEqual(page.count("<p>Not certified, since port &#39;ball&#39;: "), 1)
-        self.assertEqual(page.count("<script"), 0)
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:)', page), [])
         self.assertLess(len(page), 200_000)
         net = json.loads(FIELD.read_text()) | {"title": "<b>&", "comment": "of <i>"}
@@ -143,7 +148,140 @@ class AxesReport(unittest.TestCase):
                 told["mechanics"] = {"inertia": [["0.1 kg", "0 kg"], ["0 kg", "0.1 kg"]]}
             told.pop("assumed")
             (self.folder / "device.json").write_text(json.dumps(told))
-            self.assertEqual(len(self.maps(self.page(FIELD, "--device", "device.json"))), 4)
+            self.assertEqual(len(self.maps(self.page(FIELD, "--device", "device.json"))), 5)
+
+    def test_without_a_compiler_or_a_device(self):
+        """Fails if a page that cannot run the law has scripts, or does not say why it cannot."""
+        os.environ["DASHPOT_CLANG"] = "/nowhere/clang"
+        self.addCleanup(os.environ.pop, "DASHPOT_CLANG")
+        for choices, reasons in ((("--device", PANTOGRAPH), 1), ((), 0)):
+            page = self.page(FIELD, *choices)
+            self.assertEqual(page.count("<script"), 0)
+            self.assertEqual(page.count("no clang with lld"), reasons)
+
+
+# The law in the page, over rows of joint positions and velocities.
+STEPPED = """
+  const [rows] = arguments, bytes = Uint8Array.from(atob(data.drag.module), (c) => c.charCodeAt(0));
+  return WebAssembly.instantiate(bytes).then(({ instance: { exports: law } }) => {
+    law.reset(0, 0);
+    return rows.map((row) => {
+      law.step(...row);
+      return [...data.drag.brakes.map((_, k) => law.damping(k)), law.torque(0), law.torque(1)];
+    });
+  });"""
+# Where the tool is drawn, and its map's middle, in pixels of the window.
+TOOL = """
+  const tool = document.querySelector('#drag .tool').getBoundingClientRect(),
+        map = document.querySelector('#drag svg').getBoundingClientRect();
+  return [tool.x + tool.width / 2 - map.x - map.width / 2, tool.y + tool.height / 2 - map.y - map.height / 2];"""
+# The tip as it is drawn, in metres.
+TIP = """
+  const tool = document.querySelector('#drag .tool'), { x, y, metre } = data.drag.frame;
+  return [(tool.getAttribute('cx') - x) / metre, (y - tool.getAttribute('cy')) / metre];"""
+WORKSPACE = {"x": ["-40 mm", "40 mm"], "y": ["70 mm", "120 mm"]}
+FOUR_ARMS = {"serial": {"links": ["80 mm", "75 mm"]}, "parallelogram": {"links": ["80 mm", "75 mm"]},
+             "five_bar": {"links": ["63 mm", "75 mm"], "base": "25 mm"}, "cartesian": {}}
+
+
+def ideal_device(kind, kinematics):
+    """An arm of that kind with brakes at its joints and no imperfection."""
+    turns = kind != "cartesian"
+    return {"dashpot_device": 1, "axes": 2, "name": "arm", "kinematics": {"kind": kind, **kinematics, "workspace": WORKSPACE},
+            "loop": {"rate": "2 kHz"}, "velocity": {"estimator": "backward_difference", "window": 1}, "motors": {},
+            "brakes": [{"along": direction, "kind": "eddy_current", "max_damping": "50 mN m s/rad" if turns else "50 N s/m"}
+                       for direction in ([1, 0], [0, 1])],
+            "mechanics": {"link_masses": ["20 g", "15 g"], "damping": "10 mN m s/rad"} if turns else
+                         {"inertia": [["0.1 kg", "0 kg"], ["0 kg", "0.1 kg"]], "damping": "20 N s/m"}}
+
+
+class Dragged(Pages):
+    """The page in a browser."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = cls.enterClassContext(Browser())
+
+    def open(self, network, device, *choices):
+        self.page(network, "--device", device, *choices)
+        self.browser.open(self.folder / "page.html")
+        self.wait_for(lambda: self.browser.run("return document.getElementById('felt-stored')?.textContent ?? ''"))
+
+    def wait_for(self, what):
+        for _ in range(400):
+            if what(): return
+        self.fail("the page does not come to rest")
+
+    def number(self, name):
+        """What the page says, as it rounds it."""
+        text = self.browser.run(f"return document.getElementById('felt-{name}').textContent").replace("−", "-")
+        mantissa, _, power = text.partition("×10")
+        return float(mantissa) * 10.0 ** int(power.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")) or 0)
+
+    def drag(self, ways):
+        """The tool by so many pixels, one way after the other, until it rests."""
+        x, y = self.browser.run(TOOL)
+        places = [(round(x + a), round(y + b)) for a, b in itertools.accumulate([(0, 0), *ways], lambda p, q: (p[0] + q[0], p[1] + q[1]))]
+        before = self.browser.run(TIP)
+        self.browser.drag("#drag svg", places)
+        self.wait_for_rest(before)
+
+    def wait_for_rest(self, before):
+        """Somewhere else than before."""
+        self.wait_for(lambda: self.browser.run(TIP) != before and self.number("speed") == 0)
+
+    def assert_feels_the_field(self):
+        """The springs of FIELD, 100 N/m about (0, 100 mm), by the three digits that are shown."""
+        x, y = self.browser.run(TIP)
+        for shown, wanted in (("force", 100 * math.hypot(x, y - 0.1)), ("stored", 50e3 * (x ** 2 + (y - 0.1) ** 2))):
+            self.assertAlmostEqual(self.number(shown), wanted, delta=5.1e-3 * wanted + 1e-9)
+
+    def test_the_tool_feels_the_network(self):
+        """Fails if the tool does not follow, a held tip feels another force than the field's springs make, or energy is lost."""
+        self.open(FIELD, PANTOGRAPH)
+        start = self.browser.run(TIP)
+        stored = self.number("stored")
+        for ways in ([(0, 25)], [(40, -10), (-90, 0)], [(20, 15), (0, -30)]):
+            self.drag(ways)
+            self.assert_feels_the_field()
+        self.assertGreater(math.dist(start, self.browser.run(TIP)), 0.003)
+        hand, heat, given = map(self.number, ("hand", "heat", "given"))
+        self.assertAlmostEqual(hand, heat - given, delta=5.1e-3 * (hand + heat + abs(given)))
+        self.assertGreater(hand, self.number("stored") - stored)  # the field's damper took the rest
+        self.browser.click("#start-over")
+        self.assertEqual([self.number(name) for name in ("hand", "heat", "given")], [0, 0, 0])
+        self.assertEqual((self.browser.log("browser"), self.browser.requested()), ([], []))
+
+    def test_the_law_is_what_simulate_runs(self):
+        """Fails if the page's law is another one, in either type of numbers, of a ball, a contact that damps, or a field."""
+        rows = []
+        for k in range(300):
+            q = [2.1 + 0.2 * math.sin(0.05 * k), 1.0 + 0.2 * math.cos(0.03 * k)]
+            rows.append([*q, *((a - b) * 1e4 for a, b in zip(q, rows[-1][:2] if rows else q))])
+        (self.folder / "motion.csv").write_text("time,q1,q2,v1,v2\n" + "".join(
+            f"{k / 1e4!r}," + ",".join(map(repr, row)) + "\n" for k, row in enumerate(rows)))
+        for network, scalar in ((FIELD, "double"), (BALL, "float"), (WALL, "double")):
+            self.open(network, PANTOGRAPH, "--scalar", scalar)
+            lines = self.dashpot("simulate", network, "--device", PANTOGRAPH, "--scalar", scalar, "--input", "motion.csv").splitlines()
+            kind = {"double": "d", "float": "f"}[scalar]
+            names = lines[0].split(",")
+            wanted = [names.index(name) for name in names if name.startswith(("damping", "torque"))]
+            pack = lambda value: struct.pack(kind, value + 0.0)  # on its way from the page −0 becomes 0
+            told = [[pack(float(line.split(",")[i])) for i in wanted] for line in lines[1:]]
+            self.assertEqual([[pack(value) for value in row] for row in self.browser.run(STEPPED, rows)], told)
+
+    def test_every_arm(self):
+        """Fails if the page's own kinematics of an arm are not the law's: a held tip would feel another force."""
+        for kind, kinematics in FOUR_ARMS.items():
+            with self.subTest(kind=kind):
+                (self.folder / "arm.json").write_text(json.dumps(ideal_device(kind, kinematics)))
+                self.open(FIELD, "arm.json")
+                self.drag([(12, 9)])
+                before = self.browser.run(TIP)
+                self.browser.run("document.querySelector('#drag svg').focus()")
+                self.browser.type("#drag svg", "\ue012\ue013")  # left, up
+                self.wait_for_rest(before)
+                self.assert_feels_the_field()
 
 
 if __name__ == "__main__":

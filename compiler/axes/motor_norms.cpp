@@ -35,10 +35,9 @@ double largest_size(const Arm& arm, const Box& workspace, const Pair<double>& we
 }
 
 // Every sum of which some ports are left out.
-std::vector<Symmetric<Sloped>> wanted_by(const std::vector<PortDamping>& ports, const Symmetric<double>& field,
+std::vector<Symmetric<Sloped>> wanted_by(const std::vector<PortDamping>& ports, const ViscousField& field,
                                          const Pose<Sloped>& pose) {
-  std::vector<Symmetric<Sloped>> sums{
-      at_joints(pose, Symmetric<Sloped>{Sloped(field.xx), Sloped(field.xy), Sloped(field.yy)})};
+  std::vector<Symmetric<Sloped>> sums{at_joints(pose, symmetric_part(field_at(field, pose.tip)))};
   for (const PortDamping& port : ports) {
     const Symmetric<Sloped> on = Sloped(port.damping) * outer(at_joints(pose, depth(port.map, pose.tip).gradient));
     const std::size_t so_far = sums.size();
@@ -53,7 +52,7 @@ std::vector<Symmetric<Sloped>> wanted_by(const std::vector<PortDamping>& ports, 
 }  // namespace
 
 double largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                         const Symmetric<double>& field, const std::vector<Brake>& brakes, BrakeRule rule,
+                         const ViscousField& field, const std::vector<Brake>& brakes, BrakeRule rule,
                          const Pair<double>& weight) {
   return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
     std::vector<Symmetric<Sloped>> remainders;
@@ -64,8 +63,7 @@ double largest_remainder(const Arm& arm, const Box& workspace, const std::vector
 }
 
 double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                                   const Symmetric<double>& field, const Pair<Brake>& brakes,
-                                   const Pair<double>& weight) {
+                                   const ViscousField& field, const Pair<Brake>& brakes, const Pair<double>& weight) {
   if (brakes[0].most >= unlimited && brakes[1].most >= unlimited) return 0;
   const Pair<Pair<double>> base = dual(brakes[0].along, brakes[1].along);
   return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
@@ -82,11 +80,12 @@ double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const s
 }
 
 // Of [[0, σ], [σ, 0]] it is the same.
-double largest_curl(const Arm& arm, const Box& workspace, double turning, const Pair<double>& weight) {
+double largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight) {
   return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
     const auto& [first, second] = there.pose.column;
     const Sloped determinant = first[0] * second[1] - first[1] * second[0];
-    return std::vector{Symmetric<Sloped>{Sloped(0), Sloped(turning) * determinant, Sloped(0)}};
+    const Matrix<Sloped> a = field_at(field, there.pose.tip);
+    return std::vector{Symmetric<Sloped>{Sloped(0), Sloped(0.5) * (a[0][1] - a[1][0]) * determinant, Sloped(0)}};
   });
 }
 

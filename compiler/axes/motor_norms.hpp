@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "axes/brakes.hpp"
+#include "axes/viscous_field.hpp"
 #include "axes/workspace_bound.hpp"
 
 namespace dashpot::compiler::axes {
@@ -20,16 +21,15 @@ struct PortDamping {
 // ‖R‖, R = B* − D of what ports and field want and what the brakes make of it by a rule, whichever ports are off [N·s/m
 // for a weight in m²]. By `non_injecting` 0 ≤ R ≤ B*, and ‖B*‖ is taken.
 double largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                         const Symmetric<double>& field, const std::vector<Brake>& brakes, BrakeRule rule,
+                         const ViscousField& field, const std::vector<Brake>& brakes, BrakeRule rule,
                          const Pair<double>& weight);
 
 // The same of two brakes by `diagonal`, without what couples them.
 double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                                   const Symmetric<double>& field, const Pair<Brake>& brakes,
-                                   const Pair<double>& weight);
+                                   const ViscousField& field, const Pair<Brake>& brakes, const Pair<double>& weight);
 
-// ‖[[0, σ], [−σ, 0]]‖ of a field that turns, ½(a_12 − a_21) = `turning` at the tip [N·s/m].
-double largest_curl(const Arm& arm, const Box& workspace, double turning, const Pair<double>& weight);
+// ‖[[0, σ], [−σ, 0]]‖ of a field that turns.
+double largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight);
 
 // ‖g gᵀ‖ of a port's gradient g.
 double largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight);

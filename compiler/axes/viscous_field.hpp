@@ -7,11 +7,47 @@
 #include <vector>
 
 #include "axes/kinematics.hpp"
+#include "axes/sloped.hpp"
 
 namespace dashpot::compiler::axes {
 
 template <typename S>
 using Matrix = std::array<std::array<S, 2>, 2>;  // by rows
+
+// A(x): the same everywhere, or given at uniform knots and bilinear in each cell between them; beyond the outer knots
+// as at the nearest place of their box. Each A is a mean of those at four knots, so that a field takes power everywhere
+// if it does at its knots. It need not be differentiable: a damping that jumps in its slope stays a damping.
+struct ViscousField {
+  Pair<double> start{0, 0};                               // the first knot [m]
+  Pair<double> spacing{1, 1};                             // [m]
+  std::array<std::size_t, 2> knots{1, 1};                 // in x and in y; both 1: the same everywhere
+  std::vector<Matrix<double>> at_knot{Matrix<double>{}};  // rows of equal y, from below [N·s/m]
+
+  bool is_uniform() const { return at_knot.size() == 1; }
+  bool is_zero() const;
+  bool is_symmetric() const;  // nowhere turns
+};
+
+// Over a cell of the field, one entry of A with s and t the distances from the cell's corner [m]: [0] + [1] s + [2] t +
+// [3] s t.
+using BilinearCell = std::array<double, 4>;
+
+// A field's cells lie between its knots, rows of equal y from below.
+std::array<std::size_t, 2> cells_of(const ViscousField& field);
+BilinearCell cell_entry(const ViscousField& field, std::size_t column, std::size_t row, std::size_t i, std::size_t j);
+
+template <typename S>
+S bilinear(const std::array<S, 4>& c, const S& s, const S& t) {
+  return c[0] + s * c[1] + t * (c[2] + s * c[3]);
+}
+
+Matrix<double> field_at(const ViscousField& field, const Pair<double>& x);
+Matrix<Sloped> field_at(const ViscousField& field, const Pair<Sloped>& x);
+
+template <typename S>
+Symmetric<S> symmetric_part(const Matrix<S>& a) {
+  return {a[0][0], S(0.5) * (a[0][1] + a[1][0]), a[1][1]};
+}
 
 // A field that drives the tool somewhere.
 struct Driving {
@@ -33,19 +69,25 @@ struct JointField {
   S p, r, s, sigma;
 };
 
+// Of an A that is known to be symmetric, σ = 0.
 template <typename S>
-JointField<S> at_joints(const Pose<S>& pose, const Matrix<double>& a) {
-  if (a[0][1] == a[1][0]) {
-    const Symmetric<S> there = at_joints(pose, Symmetric<S>{S(a[0][0]), S(a[0][1]), S(a[1][1])});
+JointField<S> at_joints(const Pose<S>& pose, const Matrix<S>& a, bool is_symmetric) {
+  if (is_symmetric) {
+    const Symmetric<S> there = at_joints(pose, Symmetric<S>{a[0][0], a[0][1], a[1][1]});
     return {there.xx, there.xy, there.yy, S(0.0)};
   }
   const auto element = [&](std::size_t i, std::size_t j) {
     const Pair<S>& right = pose.column[j];
     return dot(pose.column[i],
-               Pair<S>{S(a[0][0]) * right[0] + S(a[0][1]) * right[1], S(a[1][0]) * right[0] + S(a[1][1]) * right[1]});
+               Pair<S>{a[0][0] * right[0] + a[0][1] * right[1], a[1][0] * right[0] + a[1][1] * right[1]});
   };
   const S upper = element(0, 1), lower = element(1, 0);
   return {element(0, 0), S(0.5) * (upper + lower), element(1, 1), S(0.5) * (upper - lower)};
+}
+
+template <typename S>
+JointField<S> at_joints(const Pose<S>& pose, const ViscousField& field) {
+  return at_joints(pose, field_at(field, pose.tip), field.is_symmetric());
 }
 
 // With brakes d = (p, s) the motors make what couples them, g = (r + σ, r − σ): brake 1's direction gets g_1 ŷ_2 and

@@ -70,8 +70,7 @@ Pair<double> weight_of(const axes::Arm& arm) {
 // The damping that is wanted at the tip where all ports are pushed.
 axes::TipDamping wanted_at_tip(const AxesNetwork& network, const std::vector<CertifiedPort>& ports) {
   return [&network, ports](const Pair<double>& tip) {
-    const double mixed = (network.viscous[0][1] + network.viscous[1][0]) / 2;
-    Symmetric<double> sum{network.viscous[0][0], mixed, network.viscous[1][1]};
+    Symmetric<double> sum = axes::symmetric_part(axes::field_at(network.field, tip));
     for (const CertifiedPort& port : ports)
       sum = sum + std::max(port.law->damping, port.law->largest_damping) *
                       axes::outer(axes::depth(port.port->map, tip).gradient);
@@ -107,8 +106,7 @@ std::optional<axes::TipDamping> definite_at_tip(const AxesNetwork& network, cons
 Pair<Sloped> dampings_over(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                            const AxesDevice& device, const Pair<Sloped>& joints) {
   const axes::Pose<Sloped> pose = axes::pose(device.arm, joints);
-  const double mixed = (network.viscous[0][1] + network.viscous[1][0]) / 2;
-  Symmetric<Sloped> at_tip{Sloped(network.viscous[0][0]), Sloped(mixed), Sloped(network.viscous[1][1])};
+  Symmetric<Sloped> at_tip = axes::symmetric_part(axes::field_at(network.field, pose.tip));
   for (const CertifiedPort& port : ports)
     if (!port.port->network.contact)
       at_tip = at_tip + Sloped(port.law->damping) * axes::outer(axes::depth(port.port->map, pose.tip).gradient);
@@ -290,13 +288,11 @@ double remainder_beside(const std::vector<double>& added, const AxesNetwork& net
   std::vector<axes::Brake> brakes = brakes_of(device);
   for (std::size_t k = 0; k < brakes.size(); ++k)
     if (brakes[k].most < axes::unlimited) brakes[k].most = std::max(brakes[k].most - added[k], 0.0);
-  const double mixed = (network.viscous[0][1] + network.viscous[1][0]) / 2;
-  const Symmetric<double> field{network.viscous[0][0], mixed, network.viscous[1][1]};
+  const axes::ViscousField& field = network.field;
   if (is_gated)
     return axes::largest_uncoupled_remainder(device.arm, device.workspace, dampings, field, {brakes[0], brakes[1]},
                                              weight);
-  const double turning =
-      network.turning() == 0 ? 0 : axes::largest_curl(device.arm, device.workspace, network.turning(), weight);
+  const double turning = field.is_symmetric() ? 0 : axes::largest_curl(device.arm, device.workspace, field, weight);
   return turning + axes::largest_remainder(device.arm, device.workspace, dampings, field, brakes, rule, weight);
 }
 
@@ -423,13 +419,13 @@ AxesCertificate certified_with(const AxesNetwork& network, const std::vector<Cer
 
 AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                              const AxesDevice& device, axes::BrakeRule rule) {
-  if (network.turning() == 0) return certified_with(network, ports, device, rule, false);
+  if (network.field.is_symmetric()) return certified_with(network, ports, device, rule, false);
   std::string why = why_no_gate(device, rule);
   if (why.empty()) {
     AxesCertificate gated = certified_with(network, ports, device, rule, true);
-    gated.gate = curl_gate(device, gated.added, network.viscous);
+    gated.gate = curl_gate(device, gated.added, network.field);
     if (gated.gate) {
-      gated.passage = gate_passage(*gated.gate, device, gated.added, network.viscous);
+      gated.passage = gate_passage(*gated.gate, device, gated.added, network.field);
       return gated;
     }
     why = "somewhere in the workspace a brake makes nothing of the field";

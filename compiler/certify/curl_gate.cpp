@@ -20,7 +20,7 @@ constexpr double share_in_reserve = 0.02;  // of the least allowance
 
 // [[p, r + σ], [r − σ, s]] in the coordinates of the two brakes.
 template <typename S>
-axes::JointField<S> along_brakes(const AxesDevice& device, const Pair<S>& joints, const axes::Matrix<double>& viscous) {
+axes::JointField<S> along_brakes(const AxesDevice& device, const Pair<S>& joints, const axes::ViscousField& viscous) {
   const axes::JointField<S> there = axes::at_joints(axes::pose(device.arm, joints), viscous);
   const Pair<Pair<double>> dual = axes::dual(device.brakes[0].along, device.brakes[1].along);
   const auto [p, r, s] = axes::along_brakes(dual, Symmetric<S>{there.p, there.r, there.s});
@@ -35,14 +35,24 @@ Pair<S> made_of(const axes::JointField<S>& field, const AxesDevice& device, cons
           within_brake(max(field.s, S(0)), device.brakes[1].brake, added[1])};
 }
 
-std::vector<axes::Place> gate_places(const AxesDevice& device) {
-  if (device.workspace[0].width() == 0) return {{{0, 0}, 1}};
-  return axes::places_in(device.arm, device.workspace, gate_places_a_side);
+// Without a workspace, where the tip is what is measured, all that the field is anywhere is over its knots.
+axes::Box room_of(const AxesDevice& device, const axes::ViscousField& viscous) {
+  if (device.workspace[0].width() > 0 || viscous.is_uniform()) return device.workspace;
+  axes::Box room;
+  for (std::size_t i = 0; i < 2; ++i)
+    room[i] = {viscous.start[i], viscous.start[i] + double(viscous.knots[i] - 1) * viscous.spacing[i]};
+  return room;
+}
+
+std::vector<axes::Place> gate_places(const AxesDevice& device, const axes::ViscousField& viscous) {
+  const axes::Box room = room_of(device, viscous);
+  if (room[0].width() == 0) return {{{0, 0}, 1}};
+  return axes::places_in(device.arm, room, gate_places_a_side);
 }
 
 // Not above the least over the workspace, and not below nine tenths of it.
 double least_allowance(const Pair<double>& factor, const AxesDevice& device, const std::vector<double>& added,
-                       const axes::Matrix<double>& viscous) {
+                       const axes::ViscousField& viscous) {
   double attained = axes::infinity;
   const auto least_over = [&](const axes::Box& tip) {
     const std::optional<Pair<axes::Sloped>> joints = axes::enclosed_joints(device.arm, axes::variables(tip));
@@ -54,7 +64,7 @@ double least_allowance(const Pair<double>& factor, const AxesDevice& device, con
     attained = std::min(attained, least_over(axes::constant<axes::Interval>(axes::middle_of(tip))));
     return -least_over(tip);
   };
-  const double bound = axes::best_first(device.workspace, axes::most_boxes, measured,
+  const double bound = axes::best_first(room_of(device, viscous), axes::most_boxes, measured,
                                         [&](double worst) { return attained + worst <= 0.1 * attained; });
   return std::max(-bound, 0.0);
 }
@@ -109,7 +119,7 @@ std::string why_no_gate(const AxesDevice& device, axes::BrakeRule rule) {
 }
 
 std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vector<double>& added,
-                                        const axes::Matrix<double>& viscous) {
+                                        const axes::ViscousField& viscous) {
   axes::CurlGate gate;
   double age = 0;
   for (const device_description& joint : device.joints) {
@@ -118,7 +128,7 @@ std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vec
     age = std::max(age, memory.age + memory.gain * double(device.loop().delay_samples));
   }
   std::vector<Pair<double>> dampings;
-  for (const axes::Place& place : gate_places(device))
+  for (const axes::Place& place : gate_places(device, viscous))
     dampings.push_back(made_of(along_brakes(device, place.joints, viscous), device, added));
   const double omega = axes::gate_ratio(dampings);
   const double holds = device.loop().sample_period / (device.loop().sample_period + device.loop().jitter);
@@ -133,10 +143,10 @@ std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vec
 }
 
 GatePassage gate_passage(const axes::CurlGate& gate, const AxesDevice& device, const std::vector<double>& added,
-                         const axes::Matrix<double>& viscous) {
+                         const axes::ViscousField& viscous) {
   GatePassage passage{0, 1, {0, 0}};
   double area = 0;
-  for (const axes::Place& place : gate_places(device)) {
+  for (const axes::Place& place : gate_places(device, viscous)) {
     const axes::JointField<double> field = along_brakes(device, place.joints, viscous);
     const Pair<double> made = made_of(field, device, added);
     const double allowed = std::min(gate.factor[0] * made[0], gate.factor[1] * made[1]) - gate.reserve;

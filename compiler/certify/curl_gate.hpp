@@ -20,7 +20,7 @@ std::string why_no_gate(const AxesDevice& device, axes::BrakeRule rule);
 // In: a device for which why_no_gate() is empty, what of its brakes is used up, and a viscous field. Empty where a
 // brake makes nothing of the field at some place of the workspace, so that nothing would pass there.
 std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vector<double>& added,
-                                        const axes::Matrix<double>& viscous);
+                                        const axes::ViscousField& viscous);
 
 // What passes of max(|r|, |σ|) of the field while the tool goes slowly through the workspace, in shares of 1.
 struct GatePassage {
@@ -28,7 +28,7 @@ struct GatePassage {
   axes::Pair<double> least_at;  // tip [m]
 };
 GatePassage gate_passage(const axes::CurlGate& gate, const AxesDevice& device, const std::vector<double>& added,
-                         const axes::Matrix<double>& viscous);
+                         const axes::ViscousField& viscous);
 
 // What a brake makes of its command at least, at the fastest that the joints go [1].
 double assured_share(const AlongBrake& brake, const AxesDevice& device);

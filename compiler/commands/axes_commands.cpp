@@ -43,9 +43,7 @@ std::string ports_text(const AxesCompilation& c) {
                         port.form.linear.modes.size(), port.decomposition.choice().name,
                         port.network.contact ? ", contact" : "");
   }
-  if (c.network.has_field())
-    text += fmt::format("viscous field [[{}, {}], [{}, {}]] N s/m\n", c.network.viscous[0][0], c.network.viscous[0][1],
-                        c.network.viscous[1][0], c.network.viscous[1][1]);
+  if (c.network.has_field()) text += to_text(c.network.field) + '\n';
   return text;
 }
 
@@ -115,6 +113,18 @@ Json json_of(const axes::ShareMap& share) {
 }
 
 // What of the field passes; null where there is no gate.
+// As a file has it: by rows, or over knots.
+Json json_of(const axes::ViscousField& field) {
+  if (field.is_uniform()) return field.at_knot.front();
+  Json along[2];
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    for (std::size_t i = 0; i < field.knots[axis]; ++i)
+      along[axis].push_back(field.start[axis] + double(i) * field.spacing[axis]);
+  Json rows;
+  for (std::size_t i = 0; i < field.at_knot.size(); ++i) rows[i / field.knots[0]].push_back(field.at_knot[i]);
+  return {{"x", along[0]}, {"y", along[1]}, {"viscous", rows}};
+}
+
 Json json_of_gate(const AxesCertificate& c) {
   if (!c.gate) return nullptr;
   return {{"mean", c.passage->mean}, {"least", c.passage->least}, {"least_at", c.passage->least_at}};
@@ -146,7 +156,7 @@ std::string explain_json(const AxesCompilation& c) {
       {"axes", most_axes},
       {"device", c.has_device ? Json(c.device.name) : Json(nullptr)},
       {"kinematics", name_of(c.device.arm.kind)},
-      {"viscous", c.network.viscous},
+      {"viscous", json_of(c.network.field)},
       {"ports", ports},
       {"candidates", candidates},
       {"chosen", name_of(c.rule)},

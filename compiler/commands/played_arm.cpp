@@ -105,7 +105,7 @@ class ArmForce {
     const simulated::joints_motion here = joints_.point(sample.time);
     const Pair<double> v{here.velocity[0], here.velocity[1]};
     const auto pose = axes::pose(c_.device.arm, Pair<double>{here.position[0], here.position[1]});
-    const auto field = axes::at_joints(pose, c_.network.viscous);
+    const auto field = axes::at_joints(pose, c_.network.field);
     Pair<double> torque{field.p * v[0] + (field.r + field.sigma) * v[1],
                         (field.r - field.sigma) * v[0] + field.s * v[1]};
     for (std::size_t i = 0; i < forces_.size(); ++i) {

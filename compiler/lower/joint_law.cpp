@@ -83,6 +83,86 @@ axes::Depth<Term> depth_of(const PortLaw& port, const Pair<Term>& tip) {
       port.map);
 }
 
+// A of a field given over knots: the cell's numbers looked up where the tip is.
+class FieldCell {
+ public:
+  FieldCell(const axes::ViscousField& field, const Pair<Term>& tip)
+      : field_(field), cells_(axes::cells_of(field)), within_{along(0, tip), along(1, tip)} {
+    cell_ = pick(table("field_column", "1", "number of each column of cells", cells_[0],
+                       [](std::size_t i) { return double(i); }),
+                 place(0)) +
+            pick(table("field_row", "1", "number of the first cell of each row", cells_[1],
+                       [this](std::size_t i) { return double(i * cells_[0]); }),
+                 place(1));
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      from_corner_[axis] = within_[axis] - pick(table(axis == 0 ? "field_corner_x" : "field_corner_y", "m",
+                                                      "of each cell, from the first knot", cells_[axis],
+                                                      [&](std::size_t i) { return double(i) * field_.spacing[axis]; }),
+                                                place(axis));
+  }
+
+  Term entry(std::size_t i, std::size_t j) const {
+    std::array<Term, 4> c;
+    for (std::size_t power = 0; power < 4; ++power) {
+      const TermTable numbers = numbers_of(i, j, power);
+      const bool is_one = std::all_of(numbers.values.begin(), numbers.values.end(),
+                                      [&](double number) { return number == numbers.values.front(); });
+      c[power] = is_one ? Term(numbers.values.front()) : pick(numbers, cell_);
+    }
+    return axes::bilinear(c, from_corner_[0], from_corner_[1]);
+  }
+
+ private:
+  // From the first knot, but not beyond the outer ones.
+  Term along(std::size_t axis, const Pair<Term>& tip) const {
+    const double length = double(field_.knots[axis] - 1) * field_.spacing[axis];
+    return max(min(tip[axis] - Term(field_.start[axis]), Term(length)), Term(0.0));
+  }
+  // At the last knot it is that of no cell any more: tables repeat their last number there.
+  Term place(std::size_t axis) const { return Term(1 / field_.spacing[axis]) * within_[axis]; }
+
+  template <typename ValueAt>
+  static TermTable table(const char* name, const char* unit, const char* meaning, std::size_t cells,
+                         const ValueAt& value_at) {
+    TermTable made{name, unit, meaning, {}};
+    for (std::size_t i = 0; i <= cells; ++i) made.values.push_back(value_at(std::min(i, cells - 1)));
+    return made;
+  }
+  TermTable numbers_of(std::size_t i, std::size_t j, std::size_t power) const {
+    static constexpr const char* powers[] = {"", "_by_x", "_by_y", "_by_xy"};
+    static constexpr const char* units[] = {"N·s/m", "N·s/m²", "N·s/m²", "N·s/m³"};
+    TermTable made{fmt::format("field_{}{}{}", i + 1, j + 1, powers[power]), units[power], "of each cell", {}};
+    for (std::size_t row = 0; row < cells_[1]; ++row)
+      for (std::size_t column = 0; column < cells_[0]; ++column)
+        made.values.push_back(axes::cell_entry(field_, column, row, i, j)[power]);
+    return made;
+  }
+
+  const axes::ViscousField& field_;
+  std::array<std::size_t, 2> cells_;
+  Pair<Term> within_;
+  Term cell_;
+  Pair<Term> from_corner_;
+};
+
+// Entries that are alike everywhere are looked up once.
+axes::Matrix<Term> field_terms(const axes::ViscousField& field, const Pair<Term>& tip) {
+  if (field.is_uniform()) {
+    const axes::Matrix<double>& a = field.at_knot.front();
+    return {axes::constant<Term>(a[0]), axes::constant<Term>(a[1])};
+  }
+  const FieldCell cell(field, tip);
+  const auto everywhere = [&](const auto& is_so) {
+    return std::all_of(field.at_knot.begin(), field.at_knot.end(), is_so);
+  };
+  const Term first = cell.entry(0, 0), upper = cell.entry(0, 1);
+  const Term lower = field.is_symmetric()                                            ? upper
+                     : everywhere([](const auto& a) { return a[1][0] == -a[0][1]; }) ? -upper
+                                                                                     : cell.entry(1, 0);
+  const Term last = everywhere([](const auto& a) { return a[0][0] == a[1][1]; }) ? first : cell.entry(1, 1);
+  return {{{first, upper}, {lower, last}}};
+}
+
 // What becomes of a port's law in the one of all.
 struct Merged {
   VariableId position, velocity;  // locals: w and its rate
@@ -193,6 +273,14 @@ class Merging {
       if (const auto* band = std::get_if<axes::Band>(&port.map))
         terms.call(band->radius, joined(port.name, "radius"), "m", "of the band");
     }
+    if (!plan_.field.is_uniform())
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const std::string of = axis == 0 ? "x" : "y";
+        const double length = double(plan_.field.knots[axis] - 1) * plan_.field.spacing[axis];
+        terms.call(plan_.field.start[axis], "field_start_" + of, "m", "the first knot of the field's grid");
+        terms.call(length, "field_length_" + of, "m", "from the first knot to the last");
+        terms.call(1 / plan_.field.spacing[axis], "field_cells_per_length_" + of, "1/m", "of the field's grid");
+      }
     terms.call(axes::blunting * axes::blunting, "blunting_squared", "m²", "keeps the distance from zero");
   }
 
@@ -298,8 +386,9 @@ class Merging {
     const std::vector<PortTerms> ports = port_terms(terms_, pose);
     Symmetric<Term> target{Term(0.0), Term(0.0), Term(0.0)};
     Term turning(0.0);
-    if (plan_.viscous != axes::Matrix<double>{}) {
-      const axes::JointField<Term> at_joints = axes::at_joints(pose, plan_.viscous);
+    if (!plan_.field.is_zero()) {
+      const axes::JointField<Term> at_joints =
+          axes::at_joints(pose, field_terms(plan_.field, pose.tip), plan_.field.is_symmetric());
       target = {at_joints.p, at_joints.r, at_joints.s};
       turning = at_joints.sigma;
       terms_.call(turning, "turning", damping_unit(), "σ, what the field turns the joints by");

@@ -29,7 +29,7 @@ struct JointPlan {
   std::vector<axes::Brake> brakes;
   std::vector<double> added;  // to each brake's command, uncompensated [N·m·s/rad] or [N·s/m]
   axes::BrakeRule rule = axes::BrakeRule::diagonal;
-  axes::Matrix<double> viscous{};  // A [N·s/m]
+  axes::ViscousField field = {};  // A [N·s/m]
   motion joint_motion = motion::rotation;
   std::optional<axes::CurlGate> gate = std::nullopt;  // for two brakes and `diagonal`
 };

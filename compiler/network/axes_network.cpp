@@ -132,15 +132,24 @@ std::optional<double> step_of(const std::string& key, const JsonValue& value, co
   return step;
 }
 
-std::optional<axes::PortMap> read_grid(const JsonMember& kind, Diagnostics& diagnostics) {
-  const MapReader reader(kind.key, kind.value, {"x", "y", "values"}, diagnostics);
-  const JsonValue *const x = reader.value("x"), *const y = reader.value("y"), *const rows = reader.value("values");
+// Uniform knots, and what is written for each.
+struct KnotValues {
+  axes::Pair<double> start, spacing;     // [m]
+  std::array<std::size_t, 2> knots;      // in x and in y
+  std::vector<const JsonValue*> values;  // rows of equal y, from below
+};
+
+// An object of x, y and rows of values under `what`.
+std::optional<KnotValues> read_grid_of(const std::string& key, const JsonValue& value, const char* what,
+                                       Diagnostics& diagnostics) {
+  const MapReader reader(key, value, {"x", "y", what}, diagnostics);
+  const JsonValue *const x = reader.value("x"), *const y = reader.value("y"), *const rows = reader.value(what);
   if (x == nullptr || y == nullptr || rows == nullptr) return std::nullopt;
   const auto columns_at = read_lengths("x", *x, diagnostics), rows_at = read_lengths("y", *y, diagnostics);
   if (!columns_at || !rows_at) return std::nullopt;
   const std::size_t columns = columns_at->size(), height = rows_at->size();
   if (std::min(columns, height) < 2 || std::max(columns, height) > most_knots_a_side || columns * height > most_knots) {
-    diagnostics.report<DiagnosticCode::grid_size>(kind.value.span, columns, height, most_knots_a_side, most_knots);
+    diagnostics.report<DiagnosticCode::grid_size>(value.span, columns, height, most_knots_a_side, most_knots);
     return std::nullopt;
   }
   if (rows->kind != JsonValue::Kind::array || rows->items.size() != height) {
@@ -149,20 +158,35 @@ std::optional<axes::PortMap> read_grid(const JsonMember& kind, Diagnostics& diag
         height, columns);
     return std::nullopt;
   }
-  std::vector<std::vector<double>> values;
+  KnotValues grid{{columns_at->front(), rows_at->front()}, {0, 0}, {columns, height}, {}};
   for (const JsonValue& row : rows->items) {
-    const auto of_row = read_lengths("values", row, diagnostics);
-    if (!of_row) return std::nullopt;
-    if (of_row->size() != columns) {
-      diagnostics.report<DiagnosticCode::grid_rows>(row.span, fmt::format("a row of {} numbers", of_row->size()),
+    if (row.kind != JsonValue::Kind::array) {
+      report_wrong_type(what, row, "a list", diagnostics);
+      return std::nullopt;
+    }
+    if (row.items.size() != columns) {
+      diagnostics.report<DiagnosticCode::grid_rows>(row.span, fmt::format("a row of {} numbers", row.items.size()),
                                                     height, columns);
       return std::nullopt;
     }
-    values.push_back(*of_row);
+    for (const JsonValue& item : row.items) grid.values.push_back(&item);
   }
   const auto across = step_of("x", *x, *columns_at, diagnostics), up = step_of("y", *y, *rows_at, diagnostics);
   if (!across || !up) return std::nullopt;
-  return axes::grid_map({columns_at->front(), rows_at->front()}, {*across, *up}, values);
+  grid.spacing = {*across, *up};
+  return grid;
+}
+
+std::optional<axes::PortMap> read_grid(const JsonMember& kind, Diagnostics& diagnostics) {
+  const auto grid = read_grid_of(kind.key, kind.value, "values", diagnostics);
+  if (!grid) return std::nullopt;
+  std::vector<std::vector<double>> values(grid->knots[1]);
+  for (std::size_t i = 0; i < grid->values.size(); ++i) {
+    const auto one = read_single("values", *grid->values[i], dimensions::length, diagnostics);
+    if (!one) return std::nullopt;
+    values[i / grid->knots[0]].push_back(*one);
+  }
+  return axes::grid_map(grid->start, grid->spacing, values);
 }
 
 std::optional<axes::PortMap> read_map(const JsonMember& kind, Diagnostics& diagnostics) {
@@ -206,14 +230,36 @@ std::optional<axes::Matrix<double>> read_matrix(const char* key, const JsonValue
   return axes::Matrix<double>{*first, *second};
 }
 
-void read_field(const JsonValue& value, AxesNetwork& network, Diagnostics& diagnostics) {
+// Nothing, reported, where it gives power.
+std::optional<axes::Matrix<double>> read_viscous(const JsonValue& value, Diagnostics& diagnostics) {
   const std::optional<axes::Matrix<double>> matrix =
       read_matrix("viscous", value, dimensions::damping, "[[\"5 N s/m\", 0], [0, \"5 N s/m\"]]", diagnostics);
-  if (!matrix) return;
-  network.viscous = *matrix;
-  if (const auto power = axes::driving(*matrix))
+  if (!matrix) return std::nullopt;
+  if (const auto power = axes::driving(*matrix)) {
     diagnostics.report<DiagnosticCode::field_not_passive>(value.span, power->power, power->direction[0],
                                                           power->direction[1]);
+    return std::nullopt;
+  }
+  return matrix;
+}
+
+std::optional<axes::ViscousField> read_field_grid(const JsonValue& value, Diagnostics& diagnostics) {
+  const auto frame = read_grid_of("grid", value, "viscous", diagnostics);
+  if (!frame) return std::nullopt;
+  axes::ViscousField field{frame->start, frame->spacing, frame->knots, {}};
+  for (const JsonValue* knot : frame->values) {
+    const std::optional<axes::Matrix<double>> there = read_viscous(*knot, diagnostics);
+    if (!there) return std::nullopt;
+    field.at_knot.push_back(*there);
+  }
+  return field;
+}
+
+void read_field(const AxesNetworkDecl& decl, AxesNetwork& network, Diagnostics& diagnostics) {
+  if (decl.viscous)
+    if (const auto matrix = read_viscous(*decl.viscous, diagnostics)) network.field.at_knot = {*matrix};
+  if (!decl.field_grid) return;
+  if (auto field = read_field_grid(*decl.field_grid, diagnostics)) network.field = std::move(*field);
 }
 
 // A force from position is no field, and drives the tool round where it turns.
@@ -249,7 +295,7 @@ std::optional<AxesNetwork> build_axes_network(const AxesNetworkDecl& decl, Diagn
     // The parameters are those of every port: what is wrong with them is told once.
     else if (!port.network.parameters.empty()) break;
   }
-  if (decl.viscous) read_field(*decl.viscous, network, diagnostics);
+  read_field(decl, network, diagnostics);
   if (decl.stiffness) refuse_stiffness(*decl.stiffness, diagnostics);
   if (!decl.complete || diagnostics.error_count() > errors_before) return std::nullopt;
   return network;
@@ -259,10 +305,15 @@ std::string to_text(const AxesNetwork& network) {
   std::string text = fmt::format("network {}, two axes\n", network.name);
   for (const Port& port : network.ports)
     text += fmt::format("port {} behind the map '{}'\n", port.name, port.map_kind) + to_text(port.network);
-  if (network.has_field())
-    text += fmt::format("viscous field [[{}, {}], [{}, {}]] N s/m\n", network.viscous[0][0], network.viscous[0][1],
-                        network.viscous[1][0], network.viscous[1][1]);
+  if (network.has_field()) text += to_text(network.field) + '\n';
   return text;
+}
+
+std::string to_text(const axes::ViscousField& field) {
+  if (!field.is_uniform())
+    return fmt::format("viscous field over a grid of {} x {} knots", field.knots[0], field.knots[1]);
+  const axes::Matrix<double>& a = field.at_knot.front();
+  return fmt::format("viscous field [[{}, {}], [{}, {}]] N s/m", a[0][0], a[0][1], a[1][0], a[1][1]);
 }
 
 }  // namespace dashpot::compiler

@@ -27,14 +27,12 @@ struct AxesNetwork {
   std::string title;
   std::string source;
   std::vector<Port> ports;
-  axes::Matrix<double> viscous{};  // force [N] over the tip's velocity [m/s]
+  axes::ViscousField field;  // force [N] over the tip's velocity [m/s]
   std::vector<Comment> comments;
   std::string digest;
   Span name_span;
 
-  bool has_field() const { return viscous != axes::Matrix<double>{}; }
-  // ½(a_12 − a_21) of it [N·s/m].
-  double turning() const { return (viscous[0][1] - viscous[1][0]) / 2; }
+  bool has_field() const { return !field.is_zero(); }
 };
 
 // In: what the author wrote. Out: the network in SI. Refuses: what build_network() refuses of a port; maps of no kind
@@ -43,5 +41,8 @@ std::optional<AxesNetwork> build_axes_network(const AxesNetworkDecl& decl, Diagn
                                               const std::optional<Range>& device_band = std::nullopt);
 
 std::string to_text(const AxesNetwork& network);
+
+// The field in a line: its numbers by rows, or of how many knots it is.
+std::string to_text(const axes::ViscousField& field);
 
 }  // namespace dashpot::compiler

@@ -208,6 +208,14 @@ std::string shares_html(const AxesCompilation& c, const std::vector<SharedBy>& a
          rows + "</table></div>\n";
 }
 
+std::string field_html(const axes::ViscousField& field) {
+  if (!field.is_uniform())
+    return fmt::format("viscous field over a grid of {} × {} knots", field.knots[0], field.knots[1]);
+  const axes::Matrix<double>& a = field.at_knot.front();
+  return fmt::format("viscous field, by rows: {}, {}; {}, {} N·s/m", number_text(a[0][0]), number_text(a[0][1]),
+                     number_text(a[1][0]), number_text(a[1][1]));
+}
+
 std::string ports_html(const AxesCompilation& c) {
   std::string rows;
   for (std::size_t i = 0; i < c.ports.size(); ++i) {
@@ -224,10 +232,7 @@ std::string ports_html(const AxesCompilation& c) {
       "<div class=\"wide\"><table>\n<thead><tr><th>port</th><th class=\"word\">map</th><th>b [N·s/m]</th><th>k₀ [N/m]"
       "</th><th>b∞ [N·s/m]</th><th>modes</th><th class=\"word\">rule</th></tr></thead>\n<tbody>\n" +
       rows + "</tbody></table></div>\n";
-  if (c.network.has_field())
-    html += fmt::format("<p>Beside them a viscous field, by rows: {}, {}; {}, {} N·s/m.</p>\n",
-                        number_text(c.network.viscous[0][0]), number_text(c.network.viscous[0][1]),
-                        number_text(c.network.viscous[1][0]), number_text(c.network.viscous[1][1]));
+  if (c.network.has_field()) html += "<p>Beside them a " + field_html(c.network.field) + ".</p>\n";
   return html;
 }
 

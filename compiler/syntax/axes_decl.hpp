@@ -23,8 +23,9 @@ struct AxesNetworkDecl {
   std::optional<Text> title;
   std::optional<Text> source;
   std::vector<PortDecl> ports;
-  std::optional<JsonValue> viscous;    // of the field
-  std::optional<JsonValue> stiffness;  // of the field: refused
+  std::optional<JsonValue> viscous;     // of the field
+  std::optional<JsonValue> field_grid;  // of the field, an object: 'viscous' over knots
+  std::optional<JsonValue> stiffness;   // of the field: refused
   std::vector<CommentDecl> comments;
   std::string digest;    // of the file's bytes
   bool complete = true;  // false: problems were reported, so only what is here can be checked further

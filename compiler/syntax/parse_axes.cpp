@@ -73,12 +73,17 @@ std::vector<PortDecl> parse_ports(const ObjectReader& reader, Diagnostics& diagn
   return ports;
 }
 
-// Of a field 'viscous', and 'stiffness', of which is told what is wrong with it.
+// Of a field 'viscous' or a 'grid' of it, and 'stiffness', of which is told what is wrong with it.
 void parse_field(const ObjectReader& file, AxesNetworkDecl& decl, Diagnostics& diagnostics) {
   const JsonValue* object = file.object("field");
   if (object == nullptr) return;
   ObjectReader reader(*object, "'field'", diagnostics);
-  reader.refuse_other_keys({"viscous", "stiffness"});
+  if (reader.find("grid") != nullptr) {
+    reader.refuse_other_keys({"grid"});
+    if (const JsonValue* grid = reader.object("grid")) decl.field_grid = *grid;
+    return;
+  }
+  reader.refuse_other_keys({"viscous", "grid", "stiffness"});
   const JsonMember* stiffness = reader.find("stiffness");
   if (stiffness != nullptr) decl.stiffness = stiffness->value;
   const JsonMember* viscous = stiffness != nullptr ? reader.find("viscous") : reader.require("viscous");

@@ -114,6 +114,14 @@ std::map<std::string, Reference> reference_geometry(const AxesCompilation& c) {
       all[fmt::format("most_damping_{}", k + 1)] = in_double(Reference(brake.max_damping) - added);
   }
   for (const Port& port : c.network.ports) add_map(port, all);
+  const axes::ViscousField& field = c.network.field;
+  for (std::size_t axis = 0; axis < 2 && !field.is_uniform(); ++axis) {
+    const char* const of = axis == 0 ? "x" : "y";
+    all[fmt::format("field_start_{}", of)] = abs(Reference(field.start[axis]));
+    all[fmt::format("field_length_{}", of)] =
+        in_double(Reference(double(field.knots[axis] - 1)) * Reference(field.spacing[axis]));
+    all[fmt::format("field_cells_per_length_{}", of)] = in_double(1 / Reference(field.spacing[axis]));
+  }
   for (std::size_t i = 0; i < c.ports.size(); ++i)
     all[c.network.ports[i].name + "_damping"] = c.ports[i].decomposition.choice().damping;
   return all;

@@ -52,7 +52,7 @@ class AxesVerification {
       return;
     }
     const std::optional<std::size_t> port = port_of(constant.name);
-    if (!port) return compare_with_written(constant);
+    if (!port) return recompute_field_table(constant), compare_with_written(constant);
     if (std::holds_alternative<axes::Grid>(c_.network.ports[*port].map) &&
         constant.name.starts_with(c_.network.ports[*port].name + "_map_"))
       return grids_[*port].push_back(constant), compare_with_written(constant);
@@ -124,6 +124,55 @@ class AxesVerification {
     if (is_plainly_linear(compiled.network))
       verify_linear_constants(certificate, compiled.network, PortDevice::ideal(), header, diagnostics_);
     else verify_constants(certificate, PortDevice::ideal(), header, compiled, diagnostics_);
+  }
+
+  // Of a field over a grid: what finds a cell, and differences between its knots. Tables by which a cell is found have
+  // their last number twice.
+  void recompute_field_table(const HeaderConstant& table) {
+    const axes::ViscousField& field = c_.network.field;
+    if (field.is_uniform() || !table.name.starts_with("field_")) return;
+    const std::array<std::size_t, 2> cells{field.knots[0] - 1, field.knots[1] - 1};
+    const std::string name = table.name.substr(6);
+    const double rounding = header_.scalar == ScalarType::float64 ? 1e-15 : 1e-6;
+    const auto expect = [&](std::size_t place, const Reference& due, double within) {
+      if (abs(Reference(table.values[place]) - due) > Reference(within))
+        diagnostics_.report<DiagnosticCode::constant_wrong>({}, table.name, place + 1, table.values[place],
+                                                            due.str(20));
+    };
+    for (const std::size_t axis : {0u, 1u}) {
+      if (name != (axis == 0 ? "column" : "row") && name != (axis == 0 ? "corner_x" : "corner_y")) continue;
+      for (std::size_t k = 0; k < table.values.size(); ++k) {
+        const std::size_t cell = std::min(k, cells[axis] - 1);
+        const double length = double(cells[axis]) * field.spacing[axis];
+        if (name.starts_with("corner"))
+          expect(k, Reference(double(cell)) * Reference(field.spacing[axis]), rounding * length);
+        else expect(k, Reference(double(axis == 0 ? cell : cell * cells[0])), 0);
+      }
+      return;
+    }
+    recompute_field_entry(table, name.substr(0, 2), name.substr(2), rounding, expect);
+  }
+
+  // `by`: "", "_by_x", "_by_y" or "_by_xy", of the entry "11" to "22".
+  template <class Expect>
+  void recompute_field_entry(const HeaderConstant& table, const std::string& entry, const std::string& by,
+                             double rounding, const Expect& expect) {
+    const axes::ViscousField& field = c_.network.field;
+    const std::size_t across = field.knots[0] - 1, i = std::size_t(entry[0] - '1'), j = std::size_t(entry[1] - '1');
+    const bool in_x = by == "_by_x" || by == "_by_xy", in_y = by == "_by_y" || by == "_by_xy";
+    if (i > 1 || j > 1 || table.values.size() != across * (field.knots[1] - 1)) return;
+    double largest = 0;
+    for (const axes::Matrix<double>& a : field.at_knot) largest = std::max(largest, std::abs(a[i][j]));
+    const Reference width = in_x ? Reference(field.spacing[0]) : 1, height = in_y ? Reference(field.spacing[1]) : 1;
+    for (std::size_t k = 0; k < table.values.size(); ++k) {
+      const std::size_t row = k / across, column = k % across;
+      const auto at = [&](std::size_t right, std::size_t up) {
+        return Reference(field.at_knot[(row + up) * field.knots[0] + column + right][i][j]);
+      };
+      const auto difference = [&](std::size_t up) -> Reference { return in_x ? at(1, up) - at(0, up) : at(0, up); };
+      const Reference due = (in_y ? difference(1) - difference(0) : difference(0)) / (width * height);
+      expect(k, due, 8 * rounding * largest / Reference(width * height).convert_to<double>());
+    }
   }
 
   // Cells as a law reads them, at points of each, against what lies between the knots; and what it finds a cell by.

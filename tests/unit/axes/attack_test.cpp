@@ -218,13 +218,19 @@ struct FieldCase {
 
 const std::vector<Brake> on_both_joints{{{1, 0}}, {{0, 1}}};
 
+// Alike in all directions and everywhere [N·s/m].
+ViscousField uniform(double damping) {
+  ViscousField field;
+  field.at_knot = {{{{damping, 0}, {0, damping}}}};
+  return field;
+}
+
 FieldCase random_field(Random& random) {
   FieldCase one{
       every_arm[random.index(4)], {1, 1}, random.log_uniform(0.1, 10), 0, 1 + random.index(5), random.index(3), 0};
   one.weight = {one.arm.proximal * one.arm.proximal, one.arm.distal * one.arm.distal};
   if (random.chance(0.5)) one.lag = period * random.log_uniform(0.1, 5);
-  one.size =
-      largest_remainder(one.arm, room, {}, {one.field, 0, one.field}, on_both_joints, BrakeRule::diagonal, one.weight);
+  one.size = largest_remainder(one.arm, room, {}, uniform(one.field), on_both_joints, BrakeRule::diagonal, one.weight);
   return one;
 }
 

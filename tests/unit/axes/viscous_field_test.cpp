@@ -2,6 +2,8 @@
 // not.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <dashpot/estimators/any_estimator.hpp>
 
 #include "arms.hpp"
@@ -61,13 +63,63 @@ TEST(ViscousField, CurlInPositionIsToldByTheLoop) {
   EXPECT_NEAR(work, *curl * pi * radius * radius, 1e-12);
 }
 
+ViscousField random_field(Random& random) {
+  ViscousField field{{-0.03, 0.07}, {0.02, 0.01}, {4, 3}, {}};
+  for (int i = 0; i < 12; ++i)
+    field.at_knot.push_back(
+        {{{random.uniform(1, 2), random.uniform(-1, 1)}, {random.uniform(-1, 1), random.uniform(1, 2)}}});
+  return field;
+}
+
+// Between knots a field is the mean of four, beyond them what is nearest, and an enclosure over a box holds all of it.
+TEST(ViscousField, OverAGridItIsBilinear) {
+  Random random(32);
+  for (int i = 0; i < 100; ++i) {
+    const ViscousField field = random_field(random);
+    const auto weight = [&](std::size_t axis, std::size_t knot, double x) {
+      const double place =
+          std::clamp((x - field.start[axis]) / field.spacing[axis], 0.0, double(field.knots[axis] - 1));
+      return std::max(0.0, 1 - std::abs(place - double(knot)));
+    };
+    const Box box{Interval(random.uniform(-0.05, 0.04)), Interval(random.uniform(0.06, 0.1))};
+    const Box wide{Interval{box[0].low, box[0].low + random.uniform(0, 0.03)},
+                   Interval{box[1].low, box[1].low + random.uniform(0, 0.02)}};
+    const Matrix<Sloped> enclosed = field_at(field, variables(wide));
+    for (int k = 0; k < 20; ++k) {
+      const Pair<double> x{random.uniform(wide[0].low, wide[0].high), random.uniform(wide[1].low, wide[1].high)};
+      Field due{};
+      for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 4; ++column)
+          for (std::size_t entry = 0; entry < 4; ++entry)
+            due[entry / 2][entry % 2] +=
+                weight(0, column, x[0]) * weight(1, row, x[1]) * field.at_knot[4 * row + column][entry / 2][entry % 2];
+      const Field there = field_at(field, x);
+      for (std::size_t entry = 0; entry < 4; ++entry) {
+        const double value = there[entry / 2][entry % 2];
+        const Sloped& over = enclosed[entry / 2][entry % 2];
+        EXPECT_NEAR(value, due[entry / 2][entry % 2], 1e-13);
+        EXPECT_GE(value, over.value.low - 1e-13);
+        EXPECT_LE(value, over.value.high + 1e-13);
+        // From the middle it goes no further than its slopes say.
+        Interval reached = over.middle;
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const double half = wide[axis].width() / 2;
+          if (half > 0) reached = reached + over.slope[axis] * Interval((x[axis] - wide[axis].middle()) / half);
+        }
+        EXPECT_GE(value, reached.low - 1e-13);
+        EXPECT_LE(value, reached.high + 1e-13);
+      }
+    }
+  }
+}
+
 // At the joints the same force is made: [[p, r + σ], [r − σ, s]] = JᵀAJ, and a curl stays one: σ = ½(a12 − a21) det J.
 TEST(ViscousField, JointsMakeTheFieldOfTheTip) {
   const Field a{{{5, -1}, {2, 3}}};
   Random random(31);
   for (int i = 0; i < 50; ++i) {
     const Pose<double> at = pose(five_bar_arm, *joints_at(five_bar_arm, random_tip(random)));
-    const JointField<double> field = at_joints(at, a);
+    const JointField<double> field = at_joints(at, a, false);
     const Pair<double> rate{random.uniform(-1, 1), random.uniform(-1, 1)};
     const Pair<double> v = rate[0] * at.column[0] + rate[1] * at.column[1];
     const Pair<double> torque =

@@ -9,6 +9,7 @@
 #include "verify/recompiled.hpp"
 #include "verify/reference_geometry.hpp"
 #include "verify/reference_grid.hpp"
+#include "verify/verify_gate.hpp"
 #include "verify/verify_header.hpp"
 
 namespace dashpot::compiler {
@@ -37,6 +38,7 @@ class AxesVerification {
     for (std::size_t i = 0; i < grids_.size(); ++i)
       if (const auto* grid = std::get_if<axes::Grid>(&c_.network.ports[i].map))
         recompute_grid(c_.network.ports[i].name, *grid, grids_[i]);
+    if (c_.certificate.gate) verify_gate(*c_.certificate.gate, c_.device, header_, diagnostics_);
     return count;
   }
 

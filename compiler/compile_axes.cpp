@@ -112,8 +112,11 @@ std::string_view axes::name_of(BrakeRule rule) {
   return "";
 }
 
-std::optional<axes::ShareMap> share_by(const AxesCompilation& c, axes::BrakeRule rule) {
-  return share_of(c.network, certified_ports(c), c.device, rule);
+std::optional<axes::ShareMap> share_by(const AxesCompilation& c, axes::BrakeRule rule,
+                                       const std::vector<AlongBrake>& more) {
+  AxesDevice device = c.device;
+  device.brakes.insert(device.brakes.end(), more.begin(), more.end());
+  return share_of(c.network, certified_ports(c), device, rule);
 }
 
 std::vector<PlacedShare> shares_over(const AxesCompilation& c, axes::BrakeRule rule, int side) {

@@ -58,6 +58,47 @@ std::string share_row(std::string_view name, const axes::ShareMap& share, bool i
                      100 * share.delay_proof, is_chosen ? "  chosen" : "");
 }
 
+// Brakes like the first of two, on what couples the joints, along directions that have none; none for a device that has
+// more than two, or no brakes.
+struct MoreBrakes {
+  std::string name;
+  std::vector<AlongBrake> brakes;
+};
+std::vector<MoreBrakes> more_brakes(const AxesDevice& device) {
+  if (device.brakes.size() != 2 || device.brakes[0].brake.kind == brake_kind::none) return {};
+  const std::pair<const char*, axes::Pair<double>> directions[] = {
+      {"one on q1 - q2", {1, -1}}, {"one on q1 + q2", {1, 1}}, {"one on q1", {1, 0}}, {"one on q2", {0, 1}}};
+  std::vector<MoreBrakes> all;
+  for (const auto& [name, along] : directions) {
+    const axes::Pair<double> across = axes::turned(along);
+    const auto is_parallel = [&](const AlongBrake& brake) { return axes::dot(across, brake.along) == 0; };
+    if (all.size() < 2 && std::none_of(device.brakes.begin(), device.brakes.end(), is_parallel))
+      all.push_back({name, {{along, device.brakes[0].brake}}});
+  }
+  if (all.size() == 2) all.push_back({"both", {all[0].brakes[0], all[1].brakes[0]}});
+  return all;
+}
+
+// Whether the tip's polar coordinates turn with the sum of the joints' angles and with their difference.
+bool is_polar(const axes::Arm& arm) {
+  if (arm.kind == axes::Kinematics::parallelogram) return arm.proximal == arm.distal;
+  return arm.kind == axes::Kinematics::five_bar && arm.base == 0;
+}
+
+std::string more_brakes_text(const AxesCompilation& c) {
+  const axes::BrakeRule rule = axes::BrakeRule::non_injecting;
+  const std::optional<axes::ShareMap> as_it_is = share_by(c, rule);
+  const std::vector<MoreBrakes> all = more_brakes(c.device);
+  if (!as_it_is || all.empty()) return "";
+  std::string text = "\nwhat more brakes like brake 1 would make without the motors bringing energy in\n" +
+                     share_row("as it is", *as_it_is, false);
+  for (const MoreBrakes& more : all)
+    if (const auto share = share_by(c, rule, more.brakes)) text += share_row(more.name, *share, false);
+  if (is_polar(c.device.arm))
+    text += "on this arm two brakes, on q1 - q2 and on q1 + q2, make every damping that is alike in all directions\n";
+  return text;
+}
+
 std::string shares_text(const AxesCompilation& c) {
   std::string text = fmt::format(
       "how much of the ports' damping the brakes make, over the workspace\n"
@@ -67,7 +108,7 @@ std::string shares_text(const AxesCompilation& c) {
       "median", "least", "[%]");
   for (const axes::BrakeRule rule : axes::all_brake_rules)
     if (const auto share = share_by(c, rule)) text += share_row(name_of(rule), *share, rule == c.rule);
-  return text;
+  return text + more_brakes_text(c);
 }
 
 std::string legend(const AxesCompilation& c) {
@@ -112,7 +153,6 @@ Json json_of(const axes::ShareMap& share) {
           {"delay_proof", share.delay_proof}};
 }
 
-// What of the field passes; null where there is no gate.
 // As a file has it: by rows, or over knots.
 Json json_of(const axes::ViscousField& field) {
   if (field.is_uniform()) return field.at_knot.front();
@@ -125,6 +165,7 @@ Json json_of(const axes::ViscousField& field) {
   return {{"x", along[0]}, {"y", along[1]}, {"viscous", rows}};
 }
 
+// What of the field passes; null where there is no gate.
 Json json_of_gate(const AxesCertificate& c) {
   if (!c.gate) return nullptr;
   return {{"mean", c.passage->mean}, {"least", c.passage->least}, {"least_at", c.passage->least_at}};
@@ -149,6 +190,13 @@ std::string explain_json(const AxesCompilation& c) {
     const auto share = share_by(c, rule);
     candidates.push_back({{"name", name_of(rule)}, {"share", share ? json_of(*share) : Json(nullptr)}});
   }
+  Json with_more = Json::array();
+  for (const MoreBrakes& more : more_brakes(c.device)) {
+    Json along = Json::array();
+    for (const AlongBrake& brake : more.brakes) along.push_back(brake.along);
+    if (const auto share = share_by(c, axes::BrakeRule::non_injecting, more.brakes))
+      with_more.push_back({{"along", along}, {"share", json_of(*share)}});
+  }
   const AxesCertificate& certificate = c.certificate;
   const bool is_proved = certificate.is_proved;
   const Json json = {
@@ -159,6 +207,7 @@ std::string explain_json(const AxesCompilation& c) {
       {"viscous", json_of(c.network.field)},
       {"ports", ports},
       {"candidates", candidates},
+      {"more_brakes", with_more},
       {"chosen", name_of(c.rule)},
       {"needed_damping", is_proved ? Json(certificate.needed) : Json(nullptr)},
       {"damping_for_estimates", is_proved ? Json(certificate.for_estimates) : Json(nullptr)},

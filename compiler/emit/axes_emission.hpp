@@ -32,8 +32,10 @@ inline constexpr BrakeRule all_brake_rules[] = {BrakeRule::diagonal, BrakeRule::
 
 }  // namespace axes
 
-// What the brakes would make of the ports' damping by another rule; nothing without a workspace.
-std::optional<axes::ShareMap> share_by(const AxesCompilation& compilation, axes::BrakeRule rule);
+// What the brakes would make of the ports' damping by another rule, or with `more` of them; nothing without a
+// workspace.
+std::optional<axes::ShareMap> share_by(const AxesCompilation& compilation, axes::BrakeRule rule,
+                                       const std::vector<AlongBrake>& more = {});
 
 // The same at the centres of `side` × `side` equal parts of the workspace.
 std::vector<PlacedShare> shares_over(const AxesCompilation& compilation, axes::BrakeRule rule, int side);

@@ -208,6 +208,30 @@ class AxesTest(CommandTest):
         cost = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)["operations"]
         self.assertLessEqual(cost["output"] + cost["update"], 150)
 
+    # If this fails, explain promises something else of more brakes than an isotropic field gets of them.
+    def test_explain_tells_what_more_brakes_would_make(self):
+        arm = json.loads(PANTOGRAPH.read_text())
+        arm["kinematics"]["workspace"]["y"] = ["70 mm", "110 mm"]
+        for brake in arm["brakes"]: brake["max_damping"] = "1 N m s/rad"
+        arm["assumed"] = []
+        self.write("arm.json", json.dumps(arm))
+        told = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)["more_brakes"]
+        self.assertEqual([more["along"] for more in told], [[[1, -1]], [[1, 1]], [[1, -1], [1, 1]]])
+        # The table of theory, section 12, for 63/75/25 mm and this workspace.
+        for more, (median, least) in zip(told, ((1, 0.732), (0.867, 0.652), (1, 1))):
+            self.assertAlmostEqual(more["share"]["median"], median, delta=0.003)
+            # It is least in a corner, of which 40 x 40 places see the next one: a little more.
+            self.assertGreater(more["share"]["worst"], least - 0.003)
+            self.assertLess(more["share"]["worst"], least + 0.015)
+        self.assertNotIn("on this arm two brakes", self.dashpot("explain", FIELD, "--device", "arm.json").stdout)
+        arm["kinematics"] = {"kind": "parallelogram", "links": ["80 mm", "80 mm"], "workspace": arm["kinematics"]["workspace"]}
+        arm["brakes"] = [{**brake, "along": along} for brake, along in zip(arm["brakes"], ([1, -1], [1, 1]))]
+        self.write("arm.json", json.dumps(arm))
+        self.assertIn("two brakes, on q1 - q2 and on q1 + q2, make every damping", self.dashpot("explain", FIELD, "--device", "arm.json").stdout)
+        told = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)
+        share = next(one["share"] for one in told["candidates"] if one["name"] == "non-injecting")
+        self.assertAlmostEqual(share["worst"], 1, delta=1e-6)
+
     # If this fails, explain is silent about ports, brakes or what is proved.
     def test_explain_tells_ports_shares_and_certificate(self):
         told = json.loads(self.dashpot("explain", FIELD, "--device", PANTOGRAPH, "--json").stdout)

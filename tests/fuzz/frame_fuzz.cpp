@@ -19,10 +19,12 @@ struct Seen {
 
 encoded_frame frame_of(std::uint8_t choice) {
   const std::uint32_t sequence = choice * 0x01010101u;
-  switch (choice % 4) {
+  switch (choice % 6) {
     case 0: return encode(hello_message{}, sequence);
     case 1: return encode(command_message{}, sequence);
     case 2: return encode(sample_message{}, sequence);
+    case 3: return encode(arm_command_message{}, sequence);
+    case 4: return encode(arm_sample_message{}, sequence);
     default: return encode(statistics_message{}, sequence);
   }
 }

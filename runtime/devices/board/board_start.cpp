@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "described_parts.hpp"
+
 namespace dashpot {
 namespace {
 
@@ -37,29 +39,55 @@ units units_of(motion kind) noexcept {
   return kind == motion::rotation ? units{" rad", " N m", " N m s/rad"} : units{" m", " N", " N s/m"};
 }
 
-std::string compare(const char* what, double board, double described, const char* unit) {
-  return std::string(what) + " of the board is " + text_of(board) + unit + ", the device file says " +
-         text_of(described) + unit;
+std::string compare(const std::string& what, double board, double described, const char* unit) {
+  return what + " of the board is " + text_of(board) + unit + ", the device file says " + text_of(described) + unit;
+}
+
+// " of joint 2", where there is more than one.
+std::string which(const char* part, unsigned number, unsigned count) {
+  return count == 1 ? "" : " of " + std::string(part) + " " + std::to_string(number + 1);
+}
+
+std::string difference_of_joint(double step, double max_torque, const device_description& described,
+                                const std::string& which) {
+  const units unit = units_of(described.motion);
+  const double described_step = described.encoder.step;
+  if (!(std::fabs(step - described_step) <= step_tolerance * std::fabs(described_step)))
+    return compare("encoder step" + which, step, described_step, unit.step);
+  if (!(max_torque >= 0)) return "the board's largest motor effort" + which + " is no number";
+  if (described.motor.max_torque == 0 && max_torque < std::numeric_limits<double>::infinity())
+    return "largest motor effort" + which + " of the board is " + text_of(max_torque) + unit.torque +
+           ", the device file states no 'max_torque', which means any";
+  if (max_torque < static_cast<double>(static_cast<float>(described.motor.max_torque)))
+    return compare("largest motor effort" + which, max_torque, described.motor.max_torque, unit.torque);
+  return {};
+}
+
+std::string difference_of_brake(double max_damping, double described, const char* unit, const std::string& which) {
+  if (!(max_damping >= 0)) return "the board's largest damping" + which + " is no number";
+  if (max_damping < static_cast<double>(static_cast<float>(described)))
+    return compare("largest damping" + which, max_damping, described, unit);
+  return {};
 }
 
 // What makes the board another one than the described; empty where nothing does. A board that can do more is welcome.
-std::string difference(const board::description_message& board, const device_description& described) {
-  if (board.motion != described.motion) return "one of board and device file turns, the other slides";
-  const units unit = units_of(described.motion);
-  const double step = described.encoder.step;
-  if (!(std::fabs(board.encoder_step - step) <= step_tolerance * std::fabs(step)))
-    return compare("encoder step", board.encoder_step, step, unit.step);
-  if (!(board.max_torque >= 0)) return "the board's largest motor effort is no number";
-  if (!(board.max_damping >= 0)) return "the board's largest damping is no number";
-  if (described.motor.max_torque == 0 && board.max_torque < std::numeric_limits<float>::infinity())
-    return "largest motor effort of the board is " + text_of(static_cast<double>(board.max_torque)) + unit.torque +
-           ", the device file states no 'max_torque', which means any";
-  if (board.max_torque < static_cast<float>(described.motor.max_torque))
-    return compare("largest motor effort", static_cast<double>(board.max_torque), described.motor.max_torque,
-                   unit.torque);
-  if (board.max_damping < static_cast<float>(described.brake.max_damping))
-    return compare("largest damping", static_cast<double>(board.max_damping), described.brake.max_damping,
-                   unit.damping);
+template <unsigned Axes>
+std::string difference(const board::basic_description_message<Axes>& board,
+                       const typename board::loop_types<Axes>::description& described) {
+  const motion kind = board::described_joint(described, 0).motion;
+  if (board.motion != kind) return "one of board and device file turns, the other slides";
+  for (unsigned j = 0; j < Axes; ++j) {
+    const std::string found =
+        difference_of_joint(board::nth(board.encoder_step, j), static_cast<double>(board::nth(board.max_torque, j)),
+                            board::described_joint(described, j), which("joint", j, Axes));
+    if (!found.empty()) return found;
+  }
+  for (unsigned i = 0; i < board::brakes_of<Axes>; ++i) {
+    const std::string found = difference_of_brake(static_cast<double>(board::nth(board.max_damping, i)),
+                                                  board::described_brake(described, i).max_damping,
+                                                  units_of(kind).damping, which("brake", i, board::brakes_of<Axes>));
+    if (!found.empty()) return found;
+  }
   return {};
 }
 
@@ -80,10 +108,11 @@ const char* meaning(board::verdict verdict) noexcept {
 
 }  // namespace
 
-bool board_device::start(std::string& error) {
+template <unsigned Axes>
+bool basic_board_device<Axes>::start(std::string& error) {
   started_ = false;
   samples_.restart();
-  counter_.restart();
+  for (unsigned j = 0; j < Axes; ++j) board::nth(counters_, j).restart();
   gauge_.restart();
   commands_this_session_ = 0;
   configures_sent_ = configures_answered_ = 0;
@@ -95,20 +124,29 @@ bool board_device::start(std::string& error) {
   return started_;
 }
 
-bool board_device::greet(std::string& error) {
+template <unsigned Axes>
+bool basic_board_device<Axes>::greet(std::string& error) {
   description_of_board_.reset();
+  of_other_axes_ = false;
   const auto greeting = [] { return board::hello_message(); };
-  if (!ask_until(greeting, [this] { return description_of_board_.has_value(); }))
+  if (!ask_until(greeting, [this] { return description_of_board_.has_value() || of_other_axes_; }))
     return explain_silence("hello", error);
-  error = difference(*description_of_board_, description_);
+  if (description_of_board_) {
+    error = difference<Axes>(*description_of_board_, description_);
+  } else {
+    error = Axes == 1 ? "the board has two axes, the device file one" : "the board has one axis, the device file two";
+  }
   return error.empty();
 }
 
-bool board_device::configure(std::string& error) {
-  board::configure_message wish;
-  wish.period = to_nanoseconds(description_.loop.sample_period);
-  wish.safe_damping = static_cast<float>(description_.brake.safe_damping);
-  wish.max_speed = static_cast<float>(description_.encoder.max_speed);
+template <unsigned Axes>
+bool basic_board_device<Axes>::configure(std::string& error) {
+  board::basic_configure_message<Axes> wish;
+  wish.period = to_nanoseconds(board::described_loop(description_).sample_period);
+  for (unsigned i = 0; i < board::brakes_of<Axes>; ++i)
+    board::nth(wish.safe_damping, i) = static_cast<float>(board::described_brake(description_, i).safe_damping);
+  for (unsigned j = 0; j < Axes; ++j)
+    board::nth(wish.max_speed, j) = static_cast<float>(board::described_joint(description_, j).encoder.max_speed);
   wish.watchdog_periods = watchdog_periods();
   wish.sampling = options_.sampling;
   wish.controller = options_.controller;
@@ -123,7 +161,8 @@ bool board_device::configure(std::string& error) {
 
 // Every configure that was repeated makes the board idle once more, with another number of stops: a reset between two
 // of their answers would be undone. A board that lost some is not waited for without end.
-void board_device::hear_of_every_configuration() {
+template <unsigned Axes>
+void basic_board_device<Axes>::hear_of_every_configuration() {
   const std::uint64_t enough = board::monotonic_nanoseconds() + longest_patience * nanoseconds_per_millisecond;
   const std::uint64_t end = std::min(enough, deadline_);
   while (configures_answered_ < configures_sent_ && !link_.closed() && board::monotonic_nanoseconds() < end) {
@@ -133,7 +172,8 @@ void board_device::hear_of_every_configuration() {
 }
 
 // The number of stops is the newest that the board has told, each time: a late configure may have raised it meanwhile.
-bool board_device::set_running(std::string& error) {
+template <unsigned Axes>
+bool basic_board_device<Axes>::set_running(std::string& error) {
   fresh_ = false;
   const auto question = [this] { return board::reset_message{stops_}; };
   const auto runs = [this] {
@@ -142,14 +182,16 @@ bool board_device::set_running(std::string& error) {
   return ask_until(question, runs) || explain_silence("reset", error);
 }
 
-std::uint16_t board_device::watchdog_periods() const noexcept {
+template <unsigned Axes>
+std::uint16_t basic_board_device<Axes>::watchdog_periods() const noexcept {
   if (options_.watchdog_periods) return *options_.watchdog_periods;
-  const double periods = 2.0 * description_.loop.missed_deadlines_allowed + 2;
+  const double periods = 2.0 * board::described_loop(description_).missed_deadlines_allowed + 2;
   return static_cast<std::uint16_t>(std::min(periods, 65535.0));
 }
 
+template <unsigned Axes>
 template <class Question, class Answered>
-bool board_device::ask_until(Question&& question, Answered&& answered) {
+bool basic_board_device<Axes>::ask_until(Question&& question, Answered&& answered) {
   for (int patience = first_patience; !link_.closed() && board::monotonic_nanoseconds() < deadline_;
        patience = std::min(2 * patience, longest_patience)) {
     link_.send(question());
@@ -164,7 +206,8 @@ bool board_device::ask_until(Question&& question, Answered&& answered) {
 }
 
 // What came instead of the answer is the best hint that there is.
-bool board_device::explain_silence(const char* question, std::string& error) const {
+template <unsigned Axes>
+bool basic_board_device<Axes>::explain_silence(const char* question, std::string& error) const {
   const board::decoder_statistics& seen = link_.statistics();
   error = std::string("no answer to ") + question;
   if (link_.closed()) {
@@ -177,5 +220,8 @@ bool board_device::explain_silence(const char* question, std::string& error) con
   }
   return false;
 }
+
+template bool basic_board_device<1>::start(std::string&);
+template bool basic_board_device<arm_axes>::start(std::string&);
 
 }  // namespace dashpot

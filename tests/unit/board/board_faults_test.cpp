@@ -26,12 +26,15 @@ board_options by_hand() {
 }
 
 // Host and board with a wire between them that harms both ways.
+template <class Plant = test_plant>
 struct harmed_session {
+  static constexpr unsigned axes = Plant::axes;
   explicit harmed_session(unsigned seed, stream_pair host_side = connected_pair(),
                           stream_pair board_side = connected_pair())
       : board(std::move(board_side.far)),
-        device(std::move(host_side.near), described_board(), by_hand()),
-        wire(std::move(host_side.far), std::move(board_side.near), seed) {
+        device(std::move(host_side.near), described_board_with<Plant>(), by_hand()),
+        wire(std::move(host_side.far), std::move(board_side.near), seed, basic_command_message<axes>::type,
+             basic_sample_message<axes>::type) {
     host_time = 0;
     std::string error;
     EXPECT_TRUE(board.while_serving([&] { return device.start(error); }, [&] { wire.carry(); })) << error;
@@ -39,8 +42,12 @@ struct harmed_session {
     device.read(sample);
   }
 
+  // Of a board of two axes the last joint is driven.
   device_status exchange(double torque) {
-    EXPECT_EQ(device.write({torque, 5}), device_status::ok);
+    typename loop_types<axes>::actuation command;
+    nth(command.motor_torque, axes - 1) = torque;
+    nth(command.brake_damping, axes - 1) = 0.005;
+    EXPECT_EQ(device.write(command), device_status::ok);
     wire.carry();
     board.serve();
     wire.carry();
@@ -50,37 +57,40 @@ struct harmed_session {
     return status;
   }
 
-  in_process_board<> board;
-  board_device device;
+  float driven() { return nth(board.hardware().driven().motor_torque, axes - 1); }
+
+  in_process_board<no_model, Plant> board;
+  basic_board_device<axes> device;
   faulty_wire wire;
-  device_sample sample;
+  typename loop_types<axes>::sample sample;
 };
 
 // Of 3,000 exchanges one in five comes to harm each way. The host must hand out as new only what the board measured,
 // once and in order; the board must apply only what the host sent, in order; every mishap must be counted as what it
 // is; and the session must go on.
-TEST(BoardFaults, are_survived_and_counted) {
+template <class Plant>
+void expect_faults_to_be_survived(float step) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE(seed);
-    harmed_session with(seed);
+    harmed_session<Plant> with(seed);
     with.exchange(0);
     with.wire.set_rate(0.2);
     std::uint32_t newest = with.sample.sequence;
     float applied = 0;
     for (int i = 1; i <= 3000; ++i) {
       if (i == 2990) with.wire.set_rate(0);
-      const encoder_reading truth = with.board.hardware().read_encoder();
-      if (with.exchange(0.01 * i) == device_status::ok) {
+      const auto truth = with.board.hardware().read_encoder();
+      if (with.exchange(static_cast<double>(step) * i) == device_status::ok) {
         ASSERT_LT(newest, with.sample.sequence);
         ASSERT_LE(with.sample.timestamp_ns, truth.timestamp);
         if (with.sample.timestamp_ns == truth.timestamp) {
-          ASSERT_EQ(with.sample.counts, truth.counts);
+          for (unsigned j = 0; j < Plant::axes; ++j) ASSERT_EQ(nth(with.sample.counts, j), nth(truth.counts, j));
         }
         newest = with.sample.sequence;
       }
-      const float torque = with.board.hardware().driven().motor_torque;
+      const float torque = with.driven();
       ASSERT_GE(torque, applied);
-      ASSERT_NEAR(torque / 0.01F, std::round(torque / 0.01F), 0.01F) << "no multiple of what was sent";
+      ASSERT_NEAR(torque / step, std::round(torque / step), 0.01F) << "no multiple of what was sent";
       applied = torque;
     }
     const mishap_counts& up = with.wire.up().counts();
@@ -104,9 +114,12 @@ TEST(BoardFaults, are_survived_and_counted) {
   }
 }
 
+TEST(BoardFaults, are_survived_and_counted) { expect_faults_to_be_survived<test_plant>(0.01F); }
+TEST(BoardFaults, are_survived_and_counted_on_two_axes) { expect_faults_to_be_survived<test_arm>(0.0001F); }
+
 // A wire dead towards the board must end with the motor off, and that only when the host asks for it.
 TEST(BoardFaults, silence_of_the_host_stops_the_motor) {
-  harmed_session with(1);
+  harmed_session<> with(1);
   with.exchange(2);
   with.wire.down().cut(true);
   for (int i = 0; i < 48; ++i) with.exchange(2);  // the exchange above ended with a period too
@@ -123,7 +136,7 @@ TEST(BoardFaults, silence_of_the_host_stops_the_motor) {
 
 // A wire dead towards the host must be told apart from a handle at rest.
 TEST(BoardFaults, silence_of_the_board_is_stale) {
-  harmed_session with(1);
+  harmed_session<> with(1);
   with.exchange(2);
   with.wire.up().cut(true);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(with.exchange(2), device_status::no_data);

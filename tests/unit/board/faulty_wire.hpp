@@ -119,11 +119,10 @@ class faulty_way {
 
 class faulty_wire {
  public:
-  faulty_wire(transport to_host, transport to_board, unsigned seed)
-      : to_host_(std::move(to_host)),
-        to_board_(std::move(to_board)),
-        down_(message_type::command, seed),
-        up_(message_type::sample, seed + 1) {}
+  // Commands and samples come to harm, by default those of a board of one axis.
+  faulty_wire(transport to_host, transport to_board, unsigned seed, message_type command = message_type::command,
+              message_type sample = message_type::sample)
+      : to_host_(std::move(to_host)), to_board_(std::move(to_board)), down_(command, seed), up_(sample, seed + 1) {}
 
   void carry() {
     down_.carry(to_host_, to_board_);

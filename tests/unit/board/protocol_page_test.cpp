@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <dashpot/board/frame.hpp>
+#include "frame_text.hpp"
 
 namespace dashpot::board {
 namespace {
@@ -15,16 +15,6 @@ std::string protocol_page() {
   std::stringstream all;
   all << file.rdbuf();
   return all.str();
-}
-
-std::string in_hex(const encoded_frame& frame) {
-  std::string text;
-  for (std::size_t i = 0; i < frame.size; ++i) {
-    char digits[4];
-    std::snprintf(digits, sizeof digits, i == 0 ? "%02x" : " %02x", unsigned{frame.bytes[i]});
-    text += digits;
-  }
-  return text;
 }
 
 template <class Message>
@@ -41,6 +31,11 @@ TEST(ProtocolPage, examples_are_what_is_sent) {
   expect_on_page(command_message{-0.5F, 3.0F}, 258);
   expect_on_page(sample_message{2'000'000'000, 1'999'500'000, -1234, -0.5F, 3.0F, 258, 1, board_state::running, {}},
                  772);
+  expect_on_page(arm_command_message{{-0.5F, 0.25F}, {3, 2}}, 258);
+  expect_on_page(
+      arm_sample_message{
+          2'000'000'000, {1'999'500'000, 0}, {-1234, 5678}, {-0.5F, 0.25F}, {3, 2}, 258, 1, board_state::running, {}},
+      772);
 }
 
 template <class Message>
@@ -65,6 +60,10 @@ TEST(ProtocolPage, types_and_lengths_are_the_codes) {
   expect_length_on_page<sample_message>("sample");
   expect_length_on_page<ask_statistics_message>("ask statistics");
   expect_length_on_page<statistics_message>("statistics");
+  expect_length_on_page<arm_description_message>("description");
+  expect_length_on_page<arm_configure_message>("configure");
+  expect_length_on_page<arm_command_message>("command");
+  expect_length_on_page<arm_sample_message>("sample");
 }
 
 }  // namespace

@@ -24,14 +24,17 @@ inline std::uint64_t stepped_time = 0;  // of the host [ns]
 inline std::uint64_t stepped_now() noexcept { return stepped_time; }
 
 // A device of the servo loop.
-template <class Model>
+template <class Model, class Plant = test_plant>
 class stepped_session {
+  static constexpr unsigned axes = Plant::axes;
+  using types = loop_types<axes>;
+
  public:
   static constexpr std::uint64_t period = 1'000'000;  // [ns]
 
-  explicit stepped_session(const device_description& described, board_options options = {},
-                           const board_facts& facts = facts_of_board(), const board_age& age = {},
-                           std::uint64_t host_time = 77 * period)
+  explicit stepped_session(const typename types::description& described, board_options options = {},
+                           const basic_board_facts<axes>& facts = facts_of_board_with<Plant>(),
+                           const board_age& age = {}, std::uint64_t host_time = 77 * period)
       : host_side_(connected_pair()),
         board_side_(connected_pair()),
         driver((options.now = stepped_now, std::move(host_side_.near)), described, options),
@@ -43,13 +46,13 @@ class stepped_session {
     return board.while_serving([&] { return driver.start(error); }, [&] { carry_as_it_is(); });
   }
 
-  device_status write(const actuation& command) noexcept {
+  device_status write(const typename types::actuation& command) noexcept {
     const device_status status = driver.write(command);
     carry(host_side_.far, board_side_.near, down);
     board.serve();
     return status;
   }
-  device_status read(device_sample& sample) noexcept {
+  device_status read(typename types::sample& sample) noexcept {
     if (stepping_) {
       board.pass_period();
       stepped_time += period;
@@ -61,7 +64,7 @@ class stepped_session {
   }
   device_status reset() noexcept { return driver.reset(); }
   const char* cause() const noexcept { return driver.cause(); }
-  const device_description& description() const noexcept { return driver.description(); }
+  const typename types::description& description() const noexcept { return driver.description(); }
 
  private:
   stream_pair host_side_;
@@ -71,8 +74,8 @@ class stepped_session {
  public:
   mischief down;  // host → board
   mischief up;    // board → host
-  board_device driver;
-  in_process_board<Model> board;
+  basic_board_device<axes> driver;
+  in_process_board<Model, Plant> board;
   std::uint64_t periods = 0;  // that the loop has read
 
  private:

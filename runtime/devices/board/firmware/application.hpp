@@ -4,6 +4,7 @@
 // Hardware is any type with
 //     encoder_reading read_encoder() noexcept;
 //     void drive(const outputs&) noexcept;               // motor and brake, at once
+// or, with two axes, arm_reading and arm_outputs, and
 //     void set_period(std::uint32_t nanoseconds) noexcept;
 //     bool send(const encoded_frame&) noexcept;          // the whole frame or, with false, nothing of it
 // and calls of pass_period() from its timer, at that period. One thread: no call from within an interrupt.
@@ -11,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include <dashpot/board/frame.hpp>
 #include <dashpot/board/frame_decoder.hpp>
@@ -22,13 +24,16 @@
 namespace dashpot::board {
 
 // What a firmware states about its board at compile time.
-struct board_facts {
-  description_message description;  // model_period is filled in by the application
-  float power_on_damping = 0;       // safe damping until the host states another [N·m·s/rad] or [N·s/m]
-  float arm_radius = 1;             // of the own model (model_runner.hpp) [m]
-  velocity_description velocity;    // of the own model
-  std::uint32_t first_sample = 0;   // the number of the first sample: any will do, and all wrap around
+template <unsigned Axes>
+struct basic_board_facts {
+  basic_description_message<Axes> description;             // model_period is filled in by the application
+  one_each<float, brakes_of<Axes>> power_on_damping = {};  // until the host states another [N·m·s/rad] or [N·s/m]
+  float arm_radius = 1;                                    // of the own model (model_runner.hpp) [m]
+  one_each<velocity_description, Axes> velocity;           // of the own model
+  std::uint32_t first_sample = 0;                          // its number: any will do, and all wrap around
 };
+using board_facts = basic_board_facts<1>;
+using arm_board_facts = basic_board_facts<arm_axes>;
 
 struct model_cost {
   std::uint32_t ticks = 0;  // of the board's clock
@@ -37,8 +42,14 @@ struct model_cost {
 
 template <class Hardware, class Model>
 class application {
+  using reading_type = decltype(std::declval<Hardware&>().read_encoder());
+  static constexpr unsigned axes = reading_type::axes;
+  using description_type = basic_description_message<axes>;
+  using configure_type = basic_configure_message<axes>;
+  using command_type = basic_command_message<axes>;
+
  public:
-  application(Hardware& hardware, const board_facts& facts, model_cost cost = {}) noexcept
+  application(Hardware& hardware, const basic_board_facts<axes>& facts, model_cost cost = {}) noexcept
       : hardware_(hardware),
         description_(with_model(facts.description)),
         cost_(cost),
@@ -61,11 +72,11 @@ class application {
     take_sample(periods);
   }
 
-  const supervisor& state() const noexcept { return supervisor_; }
+  const basic_supervisor<axes>& state() const noexcept { return supervisor_; }
 
  private:
-  static description_message with_model(description_message facts) noexcept {
-    facts.model_period = model_runner<Model>::period;
+  static description_type with_model(description_type facts) noexcept {
+    facts.model_period = model_runner<Model, axes>::period;
     return facts;
   }
 
@@ -73,19 +84,20 @@ class application {
     return supervisor_.configured() && supervisor_.configuration().sampling == sampling::free_running;
   }
 
-  // Frames that only a board sends are an echo: nothing to do.
+  // Frames that only a board sends are an echo, and those of another number of axes are not for this board: nothing to
+  // do.
   void serve(const frame& from) noexcept {
     switch (from.type) {
       case message_type::hello: send(description_); break;
-      case message_type::configure: configure(decode<configure_message>(from)); break;
+      case configure_type::type: configure(decode<configure_type>(from)); break;
       case message_type::reset: reset(decode<reset_message>(from)); break;
-      case message_type::command: obey(from.sequence, decode<command_message>(from)); break;
+      case command_type::type: obey(from.sequence, decode<command_type>(from)); break;
       case message_type::ask_statistics: send(statistics()); break;
       default: break;
     }
   }
 
-  void configure(const configure_message& wish) noexcept {
+  void configure(const configure_type& wish) noexcept {
     const configured_message answer = supervisor_.configure(wish);
     hardware_.drive(supervisor_.applied());
     if (answer.verdict == verdict::accepted) hardware_.set_period(wish.period);
@@ -98,7 +110,7 @@ class application {
     send_sample(hardware_.read_encoder());
   }
 
-  void obey(std::uint32_t sequence, const command_message& wish) noexcept {
+  void obey(std::uint32_t sequence, const command_type& wish) noexcept {
     if (!supervisor_.obey(sequence, wish)) return;
     hardware_.drive(supervisor_.applied());
     if (!free_running()) take_sample(1);
@@ -106,11 +118,11 @@ class application {
 
   // `periods` after the one before. The command leaves before anything else is done with the sample.
   void take_sample(unsigned periods) noexcept {
-    const encoder_reading reading = hardware_.read_encoder();
-    const std::int32_t moved = runner_.watch(reading);
+    const reading_type reading = hardware_.read_encoder();
+    const auto moved = runner_.watch(reading);
     if (supervisor_.running() && supervisor_.own_model()) {
-      if (supervisor_.accept_move(moved, periods)) {
-        const model_answer answer = runner_.step(reading);
+      if (supervisor_.accept_move(moved.counts, periods)) {
+        const auto answer = runner_.step(reading);
         supervisor_.obey_model(answer.wish, answer.speed);
       }
       hardware_.drive(supervisor_.applied());
@@ -118,11 +130,13 @@ class application {
     send_sample(reading);
   }
 
-  void send_sample(const encoder_reading& reading) noexcept {
-    sample_message sample;
-    sample.counts = reading.counts;
+  void send_sample(const reading_type& reading) noexcept {
+    basic_sample_message<axes> sample;
+    for (unsigned j = 0; j < axes; ++j) {
+      nth(sample.counts, j) = nth(reading.counts, j);
+      nth(sample.edge_time, j) = nth(reading.edge_time, j);
+    }
     sample.timestamp = reading.timestamp;
-    sample.edge_time = reading.edge_time;
     supervisor_.describe(sample);
     send(sample, samples_sent_++);
   }
@@ -149,10 +163,10 @@ class application {
   }
 
   Hardware& hardware_;
-  description_message description_;
+  description_type description_;
   model_cost cost_;
-  supervisor supervisor_;
-  model_runner<Model> runner_;
+  basic_supervisor<axes> supervisor_;
+  model_runner<Model, axes> runner_;
   frame_decoder decoder_;
   std::uint32_t samples_sent_;
   std::uint32_t dropped_ = 0;

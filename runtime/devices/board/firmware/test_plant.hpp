@@ -13,8 +13,22 @@
 
 namespace dashpot::board {
 
+// Of an encoder that rounds down.
+inline std::int32_t counts_at(float position, float step) noexcept {
+  const float steps = position / step;
+  const auto towards_zero = static_cast<std::int32_t>(steps);
+  return static_cast<float>(towards_zero) > steps ? towards_zero - 1 : towards_zero;
+}
+
+// Rises from 0 to 1 in `rise` steps, falls in as many, and so on.
+inline float triangle(std::uint32_t step, std::uint32_t rise) noexcept {
+  const std::uint32_t phase = step % (2 * rise);
+  return static_cast<float>(phase < rise ? phase : 2 * rise - phase) / static_cast<float>(rise);
+}
+
 class test_plant {
  public:
+  static constexpr unsigned axes = 1;
   static constexpr double encoder_step = 1e-5;  // [m] a count, rounded down
 
   // One step of `period` [s] under these outputs.
@@ -26,11 +40,7 @@ class test_plant {
     position_ += period * velocity_;
   }
 
-  std::int32_t counts() const noexcept {
-    const float steps = position_ / static_cast<float>(encoder_step);
-    const auto towards_zero = static_cast<std::int32_t>(steps);
-    return static_cast<float>(towards_zero) > steps ? towards_zero - 1 : towards_zero;
-  }
+  std::int32_t counts(unsigned = 0) const noexcept { return counts_at(position_, static_cast<float>(encoder_step)); }
 
  private:
   static constexpr float mass = 0.1F;              // [kg]
@@ -38,10 +48,7 @@ class test_plant {
   static constexpr float hand_damping = 3.0F;      // [N·s/m]
   static constexpr float amplitude = 0.02F;        // [m]
 
-  float wanted() const noexcept {
-    const std::uint32_t phase = steps_ % 1024U;
-    return amplitude * static_cast<float>(phase < 512U ? phase : 1024U - phase) / 512.0F;
-  }
+  float wanted() const noexcept { return amplitude * triangle(steps_, 512); }
 
   std::uint32_t steps_ = 0;
   float position_ = 0;  // [m]

@@ -1,4 +1,5 @@
-// A board at the other end of a byte stream, as a device of the servo loop (dashpot/device.hpp).
+// A board at the other end of a byte stream, as a device of the servo loop (dashpot/device.hpp, and for two axes
+// dashpot/arm_device.hpp).
 //
 //     std::string error;
 //     auto stream = dashpot::board::open_transport("serial:/dev/ttyACM0?baud=921600", error);
@@ -6,13 +7,15 @@
 //     device.start(error);                            // speaks to the board, compares, configures, resets
 //     device.read(sample); device.write(actuation);   // once a period; no heap, no lock, no blocking call
 //
-// One thread at a time.
+// arm_board_device is the same with an arm_description, arm_sample and arm_actuation. One thread at a time.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
+#include <dashpot/arm_device.hpp>
+#include <dashpot/board/axes.hpp>
 #include <dashpot/board/delay_gauge.hpp>
 #include <dashpot/board/link.hpp>
 #include <dashpot/board/sequence_tracker.hpp>
@@ -22,8 +25,26 @@
 namespace dashpot {
 
 namespace board {
+
 std::uint64_t monotonic_nanoseconds() noexcept;  // CLOCK_BOOTTIME, which goes on while the machine is suspended [ns]
-}
+
+// What the servo loop calls the parts of a device of so many axes.
+template <unsigned Axes>
+struct loop_types {
+  using description = arm_description;
+  using sample = arm_sample;
+  using actuation = arm_actuation;
+  using report = arm_report;
+};
+template <>
+struct loop_types<1> {
+  using description = device_description;
+  using sample = device_sample;
+  using actuation = dashpot::actuation;
+  using report = device_report;
+};
+
+}  // namespace board
 
 struct board_options {
   board::sampling sampling = board::sampling::on_command;  // on_command: the host's clock paces the board
@@ -46,14 +67,20 @@ struct board_statistics {
   std::uint32_t commands_dropped = 0;  // not sent because the stream was full
 };
 
-class board_device {
+template <unsigned Axes>
+class basic_board_device {
+  using description_type = typename board::loop_types<Axes>::description;
+  using sample_type = typename board::loop_types<Axes>::sample;
+  using actuation_type = typename board::loop_types<Axes>::actuation;
+  using report_type = typename board::loop_types<Axes>::report;
+
  public:
-  board_device(board::transport stream, const device_description& description, board_options options = {}) noexcept;
+  basic_board_device(board::transport stream, const description_type& description, board_options options = {}) noexcept;
 
   // Brings the board to running: hello, comparison of its description with ours, configure, reset. Blocks up to
   // options.start_time; repeats what is not answered. False with the reason in `error`: silence, another protocol
-  // version, a board that is not the described one, a configuration that the board refuses. No sample from before its
-  // end is ever read: by the time that a loop runs, the handle may be elsewhere.
+  // version or number of axes, a board that is not the described one, a configuration that the board refuses. No sample
+  // from before its end is ever read: by the time that a loop runs, the handle may be elsewhere.
   bool start(std::string& error);
 
   // ok            `sample` is new
@@ -64,15 +91,15 @@ class board_device {
   // fault         the board has left running (cause(), board_state(), stop_cause()); `sample` is new
   // disconnected  the stream is closed, or start() has not succeeded
   // Where `sample` is not new it is left as it was. `velocity` is never measured; `report` is what the board says.
-  device_status read(device_sample& sample) noexcept;
+  device_status read(sample_type& sample) noexcept;
 
   // ok            the command has left
   // stale         the stream is full; the board still obeys an older command
   // fault         not finite; motor 0 and the safe damping were sent instead
   // disconnected  as above
-  device_status write(const actuation& command) noexcept;
+  device_status write(const actuation_type& command) noexcept;
 
-  const device_description& description() const noexcept { return description_; }
+  const description_type& description() const noexcept { return description_; }
 
   // Blocks until something came from the board or the time is over. Not for the loop.
   void wait_for_sample(int milliseconds) noexcept { link_.stream().wait_readable(milliseconds); }
@@ -89,9 +116,9 @@ class board_device {
   board::stop_cause stop_cause() const noexcept { return newest_.cause; }
   const char* cause() const noexcept;  // of the board's not running, in words
   // After start() has succeeded.
-  const board::description_message& description_of_board() const noexcept { return *description_of_board_; }
+  const board::basic_description_message<Axes>& description_of_board() const noexcept { return *description_of_board_; }
   // As the board sent it: with the commands in force and the newest command it knows.
-  const board::sample_message& newest_sample() const noexcept { return newest_; }
+  const board::basic_sample_message<Axes>& newest_sample() const noexcept { return newest_; }
 
  private:
   bool greet(std::string& error);
@@ -99,8 +126,6 @@ class board_device {
   bool set_running(std::string& error);
   void hear_of_every_configuration();
   std::uint16_t watchdog_periods() const noexcept;
-  template <class Message, class Answer>
-  bool ask(const Message& question, std::optional<Answer>& answer);
   template <class Question, class Answered>
   bool ask_until(Question&& question, Answered&& answered);
   bool explain_silence(const char* question, std::string& error) const;
@@ -112,20 +137,20 @@ class board_device {
   void take(const board::frame& from) noexcept;
   void take_sample(const board::frame& from) noexcept;
   void take_configured(const board::frame& from) noexcept;
-  device_status hand_out(device_sample& sample) noexcept;
-  device_report report() const noexcept;
+  device_status hand_out(sample_type& sample) noexcept;
+  report_type report() const noexcept;
 
   board::link link_;
-  device_description description_;
+  description_type description_;
   board_options options_;
   std::int64_t late_limit_;  // [ns]
   board::sequence_tracker samples_;
   board::delay_gauge gauge_;
-  std::optional<board::description_message> description_of_board_;
+  std::optional<board::basic_description_message<Axes>> description_of_board_;
   std::optional<board::configured_message> configured_;
-  board::sample_message newest_;
+  board::basic_sample_message<Axes> newest_;
   std::optional<board::statistics_message> counts_of_board_;
-  board::wide_counter counter_;
+  board::one_each<board::wide_counter, Axes> counters_;
   std::uint64_t deadline_ = 0;  // of start() [ns]
   std::uint32_t next_command_;
   std::uint32_t commands_sent_ = 0;          // since construction
@@ -139,6 +164,10 @@ class board_device {
   bool backlog_ = false;        // what came between start() and the first read() may wait
   bool fresh_ = false;          // that read() has not handed out
   bool started_ = false;
+  bool of_other_axes_ = false;  // the board has described itself as one
 };
+
+using board_device = basic_board_device<1>;
+using arm_board_device = basic_board_device<arm_axes>;
 
 }  // namespace dashpot

@@ -1,12 +1,14 @@
 // What host and board say to each other, protocol version 1: the payloads of README.md, field by field in wire order.
 //
-// Everything is in the joint's own coordinate: [rad], [N·m], [N·m·s/rad] where motion is rotation, [m], [N], [N·s/m]
-// where it is translation.
+// Everything is in the joints' own coordinates: [rad], [N·m], [N·m·s/rad] where motion is rotation, [m], [N], [N·s/m]
+// where it is translation. Four messages hold one value for each joint and brake, and are messages of their own for a
+// board of two axes; the others are the same for every board.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
+#include <dashpot/board/axes.hpp>
 #include <dashpot/board/wire_scalars.hpp>
 #include <dashpot/command.hpp>
 
@@ -24,6 +26,11 @@ enum class message_type : std::uint8_t {
   configured = 0x99,      // board → host, answers configure
   sample = 0xA5,          // board → host, answers reset and, as configured, command or the board's clock
   statistics = 0xC3,      // board → host, answers ask_statistics
+  // In place of those of the same name, with a board of two axes:
+  arm_description = 0x66,
+  arm_configure = 0x69,
+  arm_command = 0xAA,
+  arm_sample = 0xCC,
 };
 
 enum class sampling : std::uint8_t { on_command, free_running };
@@ -60,15 +67,16 @@ struct hello_message {
   static constexpr void fields(Self&, Visitor&&) noexcept {}
 };
 
-struct description_message {
-  static constexpr message_type type = message_type::description;
-  double encoder_step = 0;            // [rad] or [m] a count
-  float max_torque = 0;               // [N·m] or [N]; infinite: unlimited
-  float max_damping = 0;              // [N·m·s/rad] or [N·s/m]
-  std::uint32_t shortest_period = 0;  // [ns]
-  std::uint32_t model_period = 0;     // of the board's own model [ns]; 0: it has none
+template <unsigned Axes>
+struct basic_description_message {
+  static constexpr message_type type = Axes == 1 ? message_type::description : message_type::arm_description;
+  one_each<double, Axes> encoder_step = {};           // [rad] or [m] a count
+  one_each<float, Axes> max_torque = {};              // [N·m] or [N]; infinite: unlimited
+  one_each<float, brakes_of<Axes>> max_damping = {};  // [N·m·s/rad] or [N·s/m]; 0: there is no such brake
+  std::uint32_t shortest_period = 0;                  // [ns]
+  std::uint32_t model_period = 0;                     // of the board's own model [ns]; 0: it has none
   dashpot::motion motion = dashpot::motion::translation;
-  char name[16] = {};  // of the firmware; filled up with zeros, not necessarily ended by one
+  char name[Axes == 1 ? 16 : 15] = {};  // of the firmware; filled up with zeros, not necessarily ended by one
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& m, Visitor&& visit) noexcept {
@@ -76,12 +84,13 @@ struct description_message {
   }
 };
 
-struct configure_message {
-  static constexpr message_type type = message_type::configure;
-  std::uint32_t period = 0;            // [ns]
-  float safe_damping = 0;              // [N·m·s/rad] or [N·s/m]
-  float max_speed = 0;                 // above it the board's own model is stopped [rad/s] or [m/s]; 0: none
-  std::uint16_t watchdog_periods = 0;  // without a command, before the board goes safe; 0: never (own model only)
+template <unsigned Axes>
+struct basic_configure_message {
+  static constexpr message_type type = Axes == 1 ? message_type::configure : message_type::arm_configure;
+  std::uint32_t period = 0;                            // [ns]
+  one_each<float, brakes_of<Axes>> safe_damping = {};  // [N·m·s/rad] or [N·s/m]
+  one_each<float, Axes> max_speed = {};  // above it the board's own model is stopped [rad/s] or [m/s]; 0: none
+  std::uint16_t watchdog_periods = 0;    // without a command, before the board goes safe; 0: never (own model only)
   board::sampling sampling = sampling::on_command;
   board::controller controller = controller::host;
 
@@ -113,10 +122,11 @@ struct reset_message {
   }
 };
 
-struct command_message {
-  static constexpr message_type type = message_type::command;
-  float motor_torque = 0;   // along +q [N·m] or [N]
-  float brake_damping = 0;  // [N·m·s/rad] or [N·s/m]
+template <unsigned Axes>
+struct basic_command_message {
+  static constexpr message_type type = Axes == 1 ? message_type::command : message_type::arm_command;
+  one_each<float, Axes> motor_torque = {};              // along +q [N·m] or [N]
+  one_each<float, brakes_of<Axes>> brake_damping = {};  // [N·m·s/rad] or [N·s/m]
 
   template <class Self, class Visitor>
   static constexpr void fields(Self& m, Visitor&& visit) noexcept {
@@ -124,15 +134,16 @@ struct command_message {
   }
 };
 
-struct sample_message {
-  static constexpr message_type type = message_type::sample;
-  std::uint64_t timestamp = 0;         // board clock when the counts were taken [ns]
-  std::uint64_t edge_time = 0;         // board clock at the newest encoder edge [ns]; 0: not measured
-  std::int32_t counts = 0;             // encoder; wraps around
-  float motor_torque = 0;              // in force from this sample on [N·m] or [N]
-  float brake_damping = 0;             // in force from this sample on [N·m·s/rad] or [N·s/m]
-  std::uint32_t command_sequence = 0;  // of the newest command, obeyed or not; 0 before the first
-  std::uint16_t stops = 0;             // how often the board has left running or was configured
+template <unsigned Axes>
+struct basic_sample_message {
+  static constexpr message_type type = Axes == 1 ? message_type::sample : message_type::arm_sample;
+  std::uint64_t timestamp = 0;                          // board clock when the counts were taken [ns]
+  one_each<std::uint64_t, Axes> edge_time = {};         // board clock at the newest encoder edge [ns]; 0: not measured
+  one_each<std::int32_t, Axes> counts = {};             // encoder; wraps around
+  one_each<float, Axes> motor_torque = {};              // in force from this sample on [N·m] or [N]
+  one_each<float, brakes_of<Axes>> brake_damping = {};  // in force from this sample on [N·m·s/rad] or [N·s/m]
+  std::uint32_t command_sequence = 0;                   // of the newest command, obeyed or not; 0 before the first
+  std::uint16_t stops = 0;                              // how often the board has left running or was configured
   board_state state = board_state::idle;
   stop_cause cause = stop_cause::none;  // of the newest stop
 
@@ -142,6 +153,15 @@ struct sample_message {
           m.cause);
   }
 };
+
+using description_message = basic_description_message<1>;
+using configure_message = basic_configure_message<1>;
+using command_message = basic_command_message<1>;
+using sample_message = basic_sample_message<1>;
+using arm_description_message = basic_description_message<arm_axes>;
+using arm_configure_message = basic_configure_message<arm_axes>;
+using arm_command_message = basic_command_message<arm_axes>;
+using arm_sample_message = basic_sample_message<arm_axes>;
 
 struct ask_statistics_message {
   static constexpr message_type type = message_type::ask_statistics;
@@ -193,6 +213,10 @@ constexpr std::size_t payload_size(std::uint8_t type) noexcept {
     case message_type::configured: return payload_size<configured_message>();
     case message_type::sample: return payload_size<sample_message>();
     case message_type::statistics: return payload_size<statistics_message>();
+    case message_type::arm_description: return payload_size<arm_description_message>();
+    case message_type::arm_configure: return payload_size<arm_configure_message>();
+    case message_type::arm_command: return payload_size<arm_command_message>();
+    case message_type::arm_sample: return payload_size<arm_sample_message>();
   }
   return no_such_message;
 }

@@ -32,10 +32,9 @@ class byte_writer {
     std::memcpy(&bits, &value, sizeof bits);
     for (std::size_t i = 0; i < sizeof bits; ++i) *out_++ = static_cast<std::uint8_t>(bits >> (8 * i));
   }
-  template <std::size_t Size>
-  void put(const char (&text)[Size]) noexcept {
-    std::memcpy(out_, text, Size);
-    out_ += Size;
+  template <class Scalar, std::size_t Count>
+  void put(const Scalar (&values)[Count]) noexcept {
+    for (const Scalar& value : values) put(value);
   }
 
   std::uint8_t* out_;
@@ -60,10 +59,9 @@ class byte_reader {
       bits = static_cast<word>(bits | static_cast<word>(word{*in_++} << (8 * i)));
     std::memcpy(&value, &bits, sizeof bits);
   }
-  template <std::size_t Size>
-  void get(char (&text)[Size]) noexcept {
-    std::memcpy(text, in_, Size);
-    in_ += Size;
+  template <class Scalar, std::size_t Count>
+  void get(Scalar (&values)[Count]) noexcept {
+    for (Scalar& value : values) get(value);
   }
 
   const std::uint8_t* in_;

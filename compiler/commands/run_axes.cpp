@@ -45,13 +45,17 @@ simulated::tip_path path_in(const axes::Box& workspace) {
   };
 }
 
+std::string log_name(const Options& options, const AxesCompilation& compilation) {
+  return options.output.value_or(compilation.network.name + "_run.csv");
+}
+
 ExitStatus play_motion(const Options& options, const AxesCompilation& compilation, SourceFiles& files,
                        Diagnostics& diagnostics) {
   const SourceFile* input = files.open(*options.motion, diagnostics);
   const std::optional<JointMotion> motion = input ? parse_joint_motion(*input, diagnostics) : std::nullopt;
   if (!motion || !suits(motion->clock, compilation.device.joint_motion(), diagnostics))
     return ExitStatus::input_refused;
-  const std::string log = options.output.value_or(compilation.network.name + "_run.csv");
+  const std::string log = log_name(options, compilation);
   if (!spares_inputs(options, {log}, diagnostics)) return ExitStatus::command_line_wrong;
   const std::optional<PlayedMotion> played = play(compilation, *motion, options.seed.value_or(0), diagnostics);
   if (!played || diagnostics.has_errors()) return ExitStatus::input_refused;
@@ -59,6 +63,28 @@ ExitStatus play_motion(const Options& options, const AxesCompilation& compilatio
   return write_standard_output(
       options.json ? to_json(*played, compilation, log) : to_text(*played, compilation) + "log: " + log + "\n",
       diagnostics);
+}
+
+simulated::arm_scenario scene_of(const Options& options, const simulated::hand& user,
+                                 const AxesCompilation& compilation) {
+  simulated::arm_scenario scene;
+  scene.user = simulated::planar(user.mass, user.damping, user.input[0] * user.output[0]);  // alike in all directions
+  scene.seed = options.seed.value_or(0);
+  scene.intended = path_in(compilation.device.workspace);
+  const simulated::tip_motion start = scene.intended(0);
+  const auto joints = axes::joints_at(compilation.device.arm, {start.position[0], start.position[1]});
+  for (unsigned j = 0; joints && j < arm_axes; ++j) scene.initial_position[j] = (*joints)[j];
+  return scene;
+}
+
+std::optional<arm_servo_summary> run_simulated(const arm_description& arm, const simulated::arm_scenario& scene,
+                                               bool fast, LoadedArmModel& model,
+                                               any_estimator<double> (&estimators)[arm_axes],
+                                               const arm_servo_options& loop, const std::string& log,
+                                               Diagnostics& diagnostics) {
+  simulated_arm device(arm, scene);
+  return fast ? run_on(device, model, estimators, loop, simulated_clock{}, log, diagnostics)
+              : run_on(device, model, estimators, loop, monotonic_clock{}, log, diagnostics);
 }
 
 telemetry_record largest_of(const arm_telemetry_record& record) {
@@ -94,21 +120,12 @@ ExitStatus run_axes(const Options& options, const simulated::hand& user, const S
                     const DeviceChoice& device, SourceFiles& files, Diagnostics& diagnostics) {
   const auto compilation = compile_axes(network, options, device, diagnostics);
   if (!compilation) return ExitStatus::input_refused;
-  if (options.port) {
-    diagnostics.report<DiagnosticCode::option_on_two_axes>(compilation->network.name_span, "--port");
-    return ExitStatus::command_line_wrong;
-  }
   if (!compilation->certificate.certified) warn_of_uncertified(*compilation, diagnostics);
   if (options.motion) return play_motion(options, *compilation, files, diagnostics);
   const arm_description arm = arm_description_of(compilation->device);
-  simulated::arm_scenario scene;
-  scene.user = simulated::planar(user.mass, user.damping, user.input[0] * user.output[0]);  // alike in all directions
-  scene.seed = options.seed.value_or(0);
-  scene.intended = path_in(compilation->device.workspace);
-  const simulated::tip_motion start = scene.intended(0);
-  const auto joints = axes::joints_at(compilation->device.arm, {start.position[0], start.position[1]});
-  for (unsigned j = 0; joints && j < arm_axes; ++j) scene.initial_position[j] = (*joints)[j];
-  if (const char* refusal = simulated_arm::refusal(arm, scene)) {
+  const simulated::arm_scenario scene = scene_of(options, user, *compilation);
+  const char* const refusal = options.port ? nullptr : simulated_arm::refusal(arm, scene);
+  if (refusal != nullptr) {
     diagnostics.report<DiagnosticCode::cannot_start_device>({}, compilation->device.name, std::string(refusal));
     return ExitStatus::input_refused;
   }
@@ -121,10 +138,10 @@ ExitStatus run_axes(const Options& options, const simulated::hand& user, const S
   loop.duration = options.duration.value_or(0);
   loop.outputs.observe = [&live](const arm_telemetry_record& record) { live.show(largest_of(record)); };
   any_estimator<double> estimators[arm_axes] = {estimator_of(arm.joints[0]), estimator_of(arm.joints[1])};
-  simulated_arm simulation(arm, scene);
-  const std::string log = options.output.value_or(compilation->network.name + "_run.csv");
-  const auto summary = options.fast ? run_on(simulation, *model, estimators, loop, simulated_clock{}, log, diagnostics)
-                                    : run_on(simulation, *model, estimators, loop, monotonic_clock{}, log, diagnostics);
+  const std::string log = log_name(options, *compilation);
+  const std::optional<arm_servo_summary> summary =
+      options.port ? run_on_board<arm_board_device>(*options.port, arm, *model, estimators, loop, log, diagnostics)
+                   : run_simulated(arm, scene, options.fast, *model, estimators, loop, log, diagnostics);
   live.finish();
   return summary ? conclude(*summary, range_of(*summary, arm.brake_count, port_units(arm.motion())), log, diagnostics)
                  : ExitStatus::input_refused;

@@ -1,4 +1,5 @@
-// `dashpot run` with a network of two axes: on the simulated device, led by a hand round the middle of the workspace.
+// `dashpot run` with a network of two axes: on a board, or on the simulated device, led by a hand round the middle of
+// the workspace.
 #pragma once
 
 #include <dashpot/simulated/hand.hpp>

@@ -8,7 +8,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include <dashpot/board/board_device.hpp>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/servo/servo_loop.hpp>
 
@@ -40,6 +42,22 @@ auto run_on(Port& device, Model& model, Estimator& estimator, LoopOptions option
   servo_loop<Model, Port, Estimator, Clock> loop(model, device, estimator, options, clock);
   const stop_on_signals ctrl_c(loop.control());
   return std::optional<Summary>(loop.run());
+}
+
+// The same on the board behind --port, a board_device or an arm_board_device.
+template <class Board, class Description, class Model, class Estimator, class LoopOptions>
+auto run_on_board(const std::string& port, const Description& described, Model& model, Estimator& estimator,
+                  const LoopOptions& options, const std::string& log_name, Diagnostics& diagnostics) {
+  using Ran = decltype(run_on(*static_cast<Board*>(nullptr), model, estimator, options, monotonic_clock{}, log_name,
+                              diagnostics));
+  std::string error;
+  auto stream = board::open_transport(port, error);
+  if (stream) {
+    Board device(std::move(*stream), described);
+    if (device.start(error)) return run_on(device, model, estimator, options, monotonic_clock{}, log_name, diagnostics);
+  }
+  diagnostics.report<DiagnosticCode::cannot_start_device>({}, port, error);
+  return Ran();
 }
 
 // Prints the summary, with `range` of what moved; `log` is where the run was written to.

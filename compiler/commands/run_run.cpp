@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <dashpot/board/board_device.hpp>
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/simulated/simulated_device.hpp>
 
@@ -52,22 +51,9 @@ servo_options loop_options(const Options& options, const Compilation& compilatio
   return loop;
 }
 
-std::optional<servo_summary> run_on_board(const Options& options, const Compilation& compilation, LoadedModel& model,
-                                          const servo_options& loop, Diagnostics& diagnostics) {
-  std::string error;
-  auto stream = board::open_transport(*options.port, error);
-  if (stream) {
-    board_device device(std::move(*stream), compilation.device->description);
-    any_estimator<double> estimator = estimator_of(device.description());
-    if (device.start(error))
-      return run_on(device, model, estimator, loop, monotonic_clock{}, log_name(options, compilation), diagnostics);
-  }
-  diagnostics.report<DiagnosticCode::cannot_start_device>({}, *options.port, error);
-  return std::nullopt;
-}
-
 std::optional<servo_summary> run_simulated(const Options& options, const Compilation& compilation, LoadedModel& model,
-                                           const servo_options& loop, Diagnostics& diagnostics) {
+                                           any_estimator<double>& estimator, const servo_options& loop,
+                                           const std::string& log, Diagnostics& diagnostics) {
   const simulated::scenario scene = scene_of(options, compilation);
   const device_description& description = compilation.device->description;
   if (const char* refusal = simulated_device::refusal(description, scene)) {
@@ -75,8 +61,6 @@ std::optional<servo_summary> run_simulated(const Options& options, const Compila
     return std::nullopt;
   }
   simulated_device device(description, scene);
-  any_estimator<double> estimator = estimator_of(description);
-  const std::string log = log_name(options, compilation);
   return options.fast ? run_on(device, model, estimator, loop, simulated_clock{}, log, diagnostics)
                       : run_on(device, model, estimator, loop, monotonic_clock{}, log, diagnostics);
 }
@@ -159,12 +143,15 @@ ExitStatus run_run(const Options& options, SourceFiles& files, Diagnostics& diag
     tell(options, diagnostics);  // before anything moves; a program reads one array, at the end
   LiveLine live(compilation->network.port_motion == motion::rotation);
   const servo_options loop = loop_options(options, *compilation, live);
-  const std::optional<servo_summary> summary = options.port
-                                                   ? run_on_board(options, *compilation, *model, loop, diagnostics)
-                                                   : run_simulated(options, *compilation, *model, loop, diagnostics);
+  const device_description& described = compilation->device->description;
+  any_estimator<double> estimator = estimator_of(described);
+  const std::string log = log_name(options, *compilation);
+  const std::optional<servo_summary> summary =
+      options.port ? run_on_board<board_device>(*options.port, described, *model, estimator, loop, log, diagnostics)
+                   : run_simulated(options, *compilation, *model, estimator, loop, log, diagnostics);
   live.finish();
-  return summary ? conclude(*summary, commands_text(*summary, port_units(compilation->network.port_motion)),
-                            log_name(options, *compilation), diagnostics)
+  return summary ? conclude(*summary, commands_text(*summary, port_units(compilation->network.port_motion)), log,
+                            diagnostics)
                  : ExitStatus::input_refused;
 }
 

@@ -1,5 +1,8 @@
 // The host's driver against a peer that shares no line of code with it, only the page: peer.py.
+#include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -30,10 +33,17 @@ board_options patient(sampling when, std::uint16_t watchdog_periods) {
   return options;
 }
 
+std::vector<std::string> peer_on(const std::string& socket, unsigned axes) {
+  std::vector<std::string> words = {PYTHON, PEER, "--unix", socket};
+  if (axes == arm_axes) words.push_back("--arm");
+  return words;
+}
+
 // The peer on a Unix socket, and a device on it.
+template <class Plant = test_plant>
 struct peer_session {
   explicit peer_session(sampling when, std::uint16_t watchdog_periods = 5000)
-      : device(connect_to(folder.path() / "s", peer), described_board(), patient(when, watchdog_periods)) {}
+      : device(connect_to(folder.path() / "s", peer), described_board_with<Plant>(), patient(when, watchdog_periods)) {}
 
   // The next sample, whatever the board says of itself.
   device_status next() {
@@ -46,15 +56,15 @@ struct peer_session {
   }
 
   testing::TemporaryFolder folder;
-  child_process peer{{PYTHON, PEER, "--unix", folder.path() / "s"}};
-  board_device device;
-  device_sample sample;
+  child_process peer{peer_on(folder.path() / "s", Plant::axes)};
+  basic_board_device<Plant::axes> device;
+  typename loop_types<Plant::axes>::sample sample;
 };
 
 // Were the page unclear or the code apart from it, the two would not get past this.
 TEST(Peer, understands_the_driver) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
-  peer_session with(sampling::on_command);
+  peer_session<> with(sampling::on_command);
   std::string error;
   ASSERT_TRUE(with.device.start(error)) << error;
   EXPECT_STREQ(with.device.description_of_board().name, "peer.py");
@@ -80,10 +90,36 @@ TEST(Peer, understands_the_driver) {
   EXPECT_EQ(with.device.statistics().samples.lost, 0U);
 }
 
+// The same with two axes: on which nobody but the page says which number is whose.
+TEST(Peer, understands_the_driver_on_two_axes) {
+  DASHPOT_SKIP_WITHOUT_PYTHON();
+  peer_session<test_arm> with(sampling::on_command);
+  std::string error;
+  ASSERT_TRUE(with.device.start(error)) << error;
+  EXPECT_STREQ(with.device.description_of_board().name, "peer.py");
+  with.device.reset();  // of a board that runs: only a sample comes of it
+  ASSERT_EQ(with.next(), device_status::ok);
+  for (std::uint32_t i = 0; i < 300; ++i) {
+    const double part = i / 512.0;  // exact in single precision
+    ASSERT_EQ(with.device.write({{part, -part / 2}, {part / 16, part / 32}}), device_status::ok);
+    ASSERT_EQ(with.next(), device_status::ok);
+    const arm_sample_message& seen = with.device.newest_sample();
+    ASSERT_EQ(static_cast<double>(seen.motor_torque[0]), std::min(part, 0.5));
+    ASSERT_EQ(static_cast<double>(seen.motor_torque[1]), -part / 2);
+    ASSERT_EQ(static_cast<double>(seen.brake_damping[0]), part / 16);
+    ASSERT_EQ(static_cast<double>(seen.brake_damping[1]), part / 32);
+    ASSERT_EQ(seen.brake_damping[2] + seen.brake_damping[3], 0.0F);
+    const std::int64_t rise = with.sample.sequence * std::int64_t{3} % 1000;
+    ASSERT_EQ(with.sample.counts[0], 24384 + (rise < 500 ? rise : 1000 - rise));
+    ASSERT_EQ(with.sample.counts[1], with.sample.counts[0] - 16000);
+  }
+  EXPECT_EQ(with.device.statistics().frames.discarded_bytes, 0U);
+}
+
 // The rules of the page that protect people: limits, watchdog, reset.
 TEST(Peer, keeps_the_safety_rules) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
-  peer_session with(sampling::free_running, 100);
+  peer_session<> with(sampling::free_running, 100);
   std::string error;
   ASSERT_TRUE(with.device.start(error)) << error;
   with.device.write({1000, 1000});
@@ -123,7 +159,7 @@ TEST(Peer, serves_a_terminal) {
 TEST(Peer, refuses_by_the_page) {
   DASHPOT_SKIP_WITHOUT_PYTHON();
   std::string error;
-  peer_session with(sampling::on_command, 0);
+  peer_session<> with(sampling::on_command, 0);
   EXPECT_FALSE(with.device.start(error));
   EXPECT_EQ(
       error,

@@ -48,6 +48,9 @@ class Run(unittest.TestCase):
                 result = self.run_fast("paper/kelvin", name)
                 self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
                 self.assertIn("device left safe", result.stdout)
+        result = self.run_fast("axes/kelvin_field", "arm_board_mps2")
+        self.assertEqual(result.returncode, 0, result.stderr + result.stdout)
+        self.assertIn("device left safe", result.stdout)
 
     def test_log_holds_every_period_with_its_units(self):
         """Fails if the log loses rows, or no longer names its columns."""
@@ -271,11 +274,11 @@ class Run(unittest.TestCase):
         """Fails if `run` starts without knowing on what."""
         self.assertEqual(dashpot("run", network("paper/kelvin")).returncode, 2)
 
-    def start_peer(self):
+    def start_peer(self, *more):
         """A board that knows nothing but the protocol's page, and its port."""
         socket_path = os.path.join(self.folder.name, "board.sock")
         peer = subprocess.Popen([sys.executable, os.path.join(ARGUMENTS.root, "tests/realtime/board/peer.py"), "--unix",
-                                 socket_path], stdout=subprocess.PIPE, text=True)
+                                 socket_path, *more], stdout=subprocess.PIPE, text=True)
         self.addCleanup(peer.stdout.close)
         self.addCleanup(peer.wait)
         self.addCleanup(peer.kill)
@@ -309,6 +312,36 @@ class Run(unittest.TestCase):
         self.assertEqual(peer.stdout.readline(), "left with torque 0, damping 5\n")
         with open(self.log, newline="") as stream:
             self.assertTrue(any(float(row["motor_torque [N]"]) != 0 for row in csv.DictReader(stream)))
+
+    def test_arm_on_a_socket(self):
+        """Fails if `run --port` does not serve a board of two axes, joint by joint, or does not leave all of it safe."""
+        peer, port = self.start_peer("--arm")
+        result = dashpot("run", network("axes/kelvin_field"), "--device", device("arm_board_mps2"), "--for", "2", "--port", port,
+                         "--log", self.log)
+        self.assertIn("device left safe", result.stdout, result.stderr)
+        self.assertEqual(peer.stdout.readline(), "left with torque 0, 0, damping 0.004, 0.005, 0, 0\n")
+        with open(self.log, newline="") as stream:
+            rows = [row for row in csv.DictReader(stream) if row["state"] == "running"]
+        for joint, first in ((1, 24384), (2, 8384)):
+            counts = {round(float(row[f"q{joint} [rad]"]) * 65536 / (2 * math.pi)) - first for row in rows[10:]}
+            self.assertGreater(len(counts), 10)
+            self.assertTrue(all(0 <= moved <= 500 for moved in counts), counts)
+            self.assertTrue(any(float(row[f"motor_torque_{joint} [N m]"]) != 0 for row in rows))
+            for row in rows[10:]:
+                self.assertAlmostEqual(float(row[f"motor_torque_{joint} [N m]"]), -float(row[f"torque_{joint} [N m]"]), delta=1e-9)
+                self.assertGreater(float(row[f"damping_{joint} [N m s/rad]"]), 0)
+
+    def test_board_of_other_axes(self):
+        """Fails if a board that has not as many axes as the device is driven, or the user is left to guess why not."""
+        for law, described, peer_has, told in (("axes/kelvin_field", "arm_board_mps2", (), "the board has one axis, the device file two"),
+                                               ("paper/kelvin", "board_mps2", ("--arm",), "the board has two axes, the device file one")):
+            peer, port = self.start_peer(*peer_has)
+            result = dashpot("run", network(law), "--device", device(described), "--for", "1", "--port", port, "--log", self.log)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f": {told} [cannot-start-device]", result.stderr)
+            self.assertIn("left with torque 0", peer.stdout.readline())
+            self.assertFalse(os.path.exists(self.log))
+            os.remove(port.removeprefix("unix:"))
 
     def test_nobody_at_the_port(self):
         """Fails if a port without a board hangs or passes for one."""

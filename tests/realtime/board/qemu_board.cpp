@@ -24,12 +24,14 @@ std::string qemu_board::missing() {
   return {};
 }
 
-qemu_board::qemu_board(const std::vector<std::string>& more_options) : process_(command(more_options)) {}
+qemu_board::qemu_board(const std::vector<std::string>& more_options, const std::string& firmware)
+    : process_(command(more_options, firmware)) {}
 
-std::vector<std::string> qemu_board::command(const std::vector<std::string>& more_options) const {
-  std::vector<std::string> words = {QEMU,       "-M",          "mps2-an386", "-nographic",
-                                    "-monitor", "none",        "-serial",    "unix:" + socket() + ",server=on,wait=off",
-                                    "-kernel",  BOARD_FIRMWARE};
+std::vector<std::string> qemu_board::command(const std::vector<std::string>& more_options,
+                                             const std::string& firmware) const {
+  std::vector<std::string> words = {QEMU,       "-M",    "mps2-an386", "-nographic",
+                                    "-monitor", "none",  "-serial",    "unix:" + socket() + ",server=on,wait=off",
+                                    "-kernel",  firmware};
   words.insert(words.end(), more_options.begin(), more_options.end());
   return words;
 }

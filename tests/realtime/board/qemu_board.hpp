@@ -20,12 +20,12 @@ class qemu_board {
   // Why there is none on this machine; empty where there is.
   static std::string missing();
 
-  explicit qemu_board(const std::vector<std::string>& more_options = {});
+  explicit qemu_board(const std::vector<std::string>& more_options = {}, const std::string& firmware = BOARD_FIRMWARE);
   transport connect() { return connect_to(socket(), process_); }
 
  private:
   std::string socket() const { return folder_.path() / "uart"; }
-  std::vector<std::string> command(const std::vector<std::string>& more_options) const;
+  std::vector<std::string> command(const std::vector<std::string>& more_options, const std::string& firmware) const;
 
   testing::TemporaryFolder folder_;
   child_process process_;

@@ -1,9 +1,10 @@
-# dashpot_board_firmware(<target> [LAW <target of dashpot_compile> | MODEL_HEADER <file> MODEL_CLASS <class>]
+# dashpot_board_firmware(<target> [LAW <target of dashpot_compile> | MODEL_HEADER <file> MODEL_CLASS <class> | AXES <1|2>]
 #                        [VELOCITY <initialiser>])
 #
 # Makes <target>.elf of the reference firmware in the current binary folder, with an emitted model on board where one is
 # named, in float: a LAW made with SCALAR float, or the class in a header. VELOCITY initialises its velocity_description
-# (default: the difference of two samples). The target's property ELF is the path. Without the cross compiler there is no
+# (default: the difference of two samples), of both joints alike. The board has the axes of its model; without one, AXES
+# (default 1). The target's property ELF is the path. Without the cross compiler there is no
 # target: check if(TARGET …). In a clone and in an installed dashpot alike; whatever the build itself is for.
 find_program(DASHPOT_ARM_CXX arm-none-eabi-g++ NO_CMAKE_FIND_ROOT_PATH DOC "Cross compiler for the board's firmware")
 
@@ -20,7 +21,7 @@ set(dashpot_firmware_flags
   CACHE INTERNAL "Flags of the board's firmware")
 
 function(dashpot_board_firmware target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LAW;MODEL_HEADER;MODEL_CLASS;VELOCITY" "")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LAW;MODEL_HEADER;MODEL_CLASS;AXES;VELOCITY" "")
   if(NOT DASHPOT_ARM_CXX)
     message(WARNING "arm-none-eabi-g++ is not installed: ${target} is not built")
     return()
@@ -42,6 +43,9 @@ function(dashpot_board_firmware target)
   set(model)
   if(arg_MODEL_HEADER)
     set(model "-DDASHPOT_BOARD_MODEL_HEADER=\"${arg_MODEL_HEADER}\"" "-DDASHPOT_BOARD_MODEL_CLASS=${arg_MODEL_CLASS}")
+  endif()
+  if(arg_AXES)
+    list(APPEND model -DDASHPOT_BOARD_AXES=${arg_AXES})
   endif()
   if(arg_VELOCITY)
     list(APPEND model "-DDASHPOT_BOARD_VELOCITY=${arg_VELOCITY}")

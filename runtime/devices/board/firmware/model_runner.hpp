@@ -28,6 +28,13 @@ struct no_model {};
 template <class Model>
 inline constexpr unsigned axes_of = has_two_axes<Model> ? arm_axes : 1;
 
+// Dampings that a model commands.
+template <class Model>
+constexpr unsigned brakes_that_drive() noexcept {
+  if constexpr (has_two_axes<Model>) return static_cast<unsigned>(Model::brakes);
+  else return 1;
+}
+
 // Whether a model may run on this estimator of that joint: compiled for it, or for the ideal device.
 template <class Model>
 constexpr bool is_certified_for(estimator_kind estimator, unsigned joint = 0) noexcept {

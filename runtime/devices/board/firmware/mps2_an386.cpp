@@ -66,11 +66,7 @@ mps2_an386::mps2_an386() noexcept {
   interrupt_enable() = uart0_receive | uart0_transmit | timer0_interrupt;
 }
 
-encoder_reading mps2_an386::read_encoder() noexcept { return {plant_.counts(), now(), edge_time_}; }
-
 void mps2_an386::set_period(std::uint32_t nanoseconds) noexcept {
-  period_ = static_cast<float>(nanoseconds) * 1e-9F;
-  plant_ = test_plant();
   timer0().control = 0;
   timer0().reload = nanoseconds / nanoseconds_per_tick - 1;
   timer0().value = nanoseconds / nanoseconds_per_tick - 1;
@@ -90,11 +86,7 @@ std::size_t mps2_an386::receive(std::uint8_t* into, std::size_t room) noexcept {
   return count;
 }
 
-unsigned mps2_an386::periods_passed() noexcept {
-  const std::uint32_t passed = periods.exchange(0, std::memory_order_acq_rel);
-  if (passed != 0) advance_plant();
-  return passed;
-}
+unsigned mps2_an386::periods_passed() noexcept { return periods.exchange(0, std::memory_order_acq_rel); }
 
 void mps2_an386::transmit() noexcept {
   std::uint8_t byte = 0;
@@ -116,13 +108,6 @@ std::uint32_t mps2_an386::ticks() noexcept { return 0xFFFF'FFFFU - timer1().valu
 std::uint64_t mps2_an386::now() noexcept {
   clock_ += ticks() - static_cast<std::uint32_t>(clock_);
   return clock_ * nanoseconds_per_tick;
-}
-
-void mps2_an386::advance_plant() noexcept {
-  const std::int32_t before = plant_.counts();
-  plant_.advance(driven_, period_);
-  const std::uint64_t time = now();
-  if (plant_.counts() != before) edge_time_ = time;
 }
 
 }  // namespace dashpot::board

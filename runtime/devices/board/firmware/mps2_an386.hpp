@@ -1,12 +1,12 @@
-// The hardware under the reference firmware: Arm's MPS2+ board with the AN386 image (Cortex-M4F, 25 MHz), as QEMU has
-// it. UART0 is the byte stream to the host, TIMER0 the sample clock, TIMER1 the clock of the timestamps. Motor, brake
-// and encoder are a test plant. A port to another board replaces this pair of files and the linker script.
+// The board under the reference firmware: Arm's MPS2+ with the AN386 image (Cortex-M4F, 25 MHz), as QEMU has it. UART0
+// is the byte stream to the host, TIMER0 the sample clock, TIMER1 the clock of the timestamps. It has no motor, brake
+// or encoder: plant_board.hpp. A port to another board replaces this pair of files and the linker script.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
-#include "application.hpp"
-#include "test_plant.hpp"
+#include <dashpot/board/frame.hpp>
 
 namespace dashpot::board {
 
@@ -17,15 +17,12 @@ class mps2_an386 {
 
   mps2_an386() noexcept;
 
-  encoder_reading read_encoder() noexcept;
-  void drive(const outputs& wanted) noexcept { driven_ = wanted; }
-  // The plant begins anew.
   void set_period(std::uint32_t nanoseconds) noexcept;
   bool send(const encoded_frame& whole) noexcept;
 
   // Takes up to `room` bytes that came from the host. Returns how many.
   std::size_t receive(std::uint8_t* into, std::size_t room) noexcept;
-  // How many periods have ended since the last call. Where there are any the plant makes one step.
+  // How many periods have ended since the last call.
   unsigned periods_passed() noexcept;
   // Hands the UART what it takes.
   void transmit() noexcept;
@@ -34,16 +31,11 @@ class mps2_an386 {
 
   // Of the processor's clock, counting up.
   static std::uint32_t ticks() noexcept;
+  // Since it was switched on [ns].
+  std::uint64_t now() noexcept;
 
  private:
-  std::uint64_t now() noexcept;  // [ns]
-  void advance_plant() noexcept;
-
-  test_plant plant_;
-  outputs driven_;
-  float period_ = 0.001F;        // [s]
-  std::uint64_t edge_time_ = 0;  // [ns]
-  std::uint64_t clock_ = 0;      // ticks of TIMER1, extended
+  std::uint64_t clock_ = 0;  // ticks of TIMER1, extended
 };
 
 }  // namespace dashpot::board

@@ -16,7 +16,7 @@ namespace dashpot::board {
 
 class test_arm {
  public:
-  static constexpr unsigned axes = arm_axes;
+  static constexpr unsigned axes = arm_axes, brakes = 2;
   static constexpr double encoder_step = 2 * 3.14159265358979323846 / 65536;  // [rad] a count, rounded down
   static constexpr float middle[axes] = {2.3378F, 0.8038F};                   // [rad]
 

@@ -28,7 +28,7 @@ inline float triangle(std::uint32_t step, std::uint32_t rise) noexcept {
 
 class test_plant {
  public:
-  static constexpr unsigned axes = 1;
+  static constexpr unsigned axes = 1, brakes = 1;
   static constexpr double encoder_step = 1e-5;  // [m] a count, rounded down
 
   // One step of `period` [s] under these outputs.

@@ -1,6 +1,7 @@
 // A board, or what lies between it and the host, that misbehaves in every way that we have thought of, under the servo
 // loop. README.md has the table of what each ends in, and this test holds it.
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <fstream>
 #include <functional>
@@ -16,19 +17,22 @@
 #include <dashpot/estimators/any_estimator.hpp>
 #include <dashpot/servo/servo_loop.hpp>
 
+#include "springs_of_arm.hpp"
 #include "stepped_session.hpp"
 
 namespace dashpot {
 namespace {
 
 using namespace board;
-using session = stepped_session<no_model>;
+template <class Plant>
+using session_of = stepped_session<no_model, Plant>;
 
 constexpr std::uint64_t begins = 400, ends = 1'500;  // of the misbehaviour and of the run [periods]
 
+template <class Plant>
 struct misbehaviour {
   sampling when = sampling::on_command;
-  std::function<void(session&)> prepare;
+  std::function<void(session_of<Plant>&)> prepare;
 };
 
 // The frames in a string of whole ones.
@@ -56,8 +60,9 @@ byte_string bytes_of(const Message& message, std::uint32_t sequence = 0) {
 }
 
 // Every sample that passes, changed; its number and check sum are made anew.
-template <class Change>
-mischief with_samples(session& with, Change change) {
+template <class Plant, class Change>
+mischief with_samples(session_of<Plant>& with, Change change) {
+  using sample_type = basic_sample_message<Plant::axes>;
   return [&with, change](const byte_string& bytes) {
     if (with.periods < begins) return bytes;
     std::vector<byte_string> frames = frames_of(bytes);
@@ -65,8 +70,8 @@ mischief with_samples(session& with, Change change) {
       frame_decoder decoder;
       decoder.accept(one.data(), one.size());
       frame found;
-      if (!decoder.next(found) || found.type != message_type::sample) continue;
-      sample_message sample = decode<sample_message>(found);
+      if (!decoder.next(found) || found.type != sample_type::type) continue;
+      auto sample = decode<sample_type>(found);
       std::uint32_t number = found.sequence;
       change(sample, number);
       one = bytes_of(sample, number);
@@ -76,15 +81,16 @@ mischief with_samples(session& with, Change change) {
 }
 
 // Both ways, once it begins.
-template <class Mischief>
-std::function<void(session&)> both_ways(Mischief mischief_of) {
-  return [mischief_of](session& with) {
+template <class Session>
+std::function<void(Session&)> both_ways(mischief (*mischief_of)(Session&)) {
+  return [mischief_of](Session& with) {
     with.up = mischief_of(with);
     with.down = mischief_of(with);
   };
 }
 
-mischief duplicating(session& with) {
+template <class Session>
+mischief duplicating(Session& with) {
   return [&with](byte_string bytes) {
     if (with.periods >= begins) bytes = joined({bytes, bytes});
     return bytes;
@@ -92,7 +98,8 @@ mischief duplicating(session& with) {
 }
 
 // Every fourth frame changes places with the one behind it.
-mischief reordering(session& with) {
+template <class Session>
+mischief reordering(Session& with) {
   return [&with, kept = byte_string(), count = 0](byte_string bytes) mutable {
     if (with.periods < begins) return bytes;
     if (!kept.empty()) {
@@ -106,7 +113,8 @@ mischief reordering(session& with) {
 }
 
 // A hundred frames of a second ago come again before every tenth.
-mischief replaying(session& with) {
+template <class Session>
+mischief replaying(Session& with) {
   return [&with, past = std::deque<byte_string>()](const byte_string& bytes) mutable {
     past.push_back(bytes);
     if (past.size() > 400) past.pop_front();
@@ -119,7 +127,8 @@ mischief replaying(session& with) {
 }
 
 // The second half of everything comes a period later.
-mischief splitting(session& with) {
+template <class Session>
+mischief splitting(Session& with) {
   return [&with, rest = byte_string()](const byte_string& bytes) mutable {
     byte_string now = std::exchange(rest, {});
     const std::size_t half = with.periods >= begins && with.periods % 7 == 0 ? bytes.size() / 2 : bytes.size();
@@ -129,7 +138,8 @@ mischief splitting(session& with) {
   };
 }
 
-mischief littering(session& with) {
+template <class Session>
+mischief littering(Session& with) {
   return [&with, noise = 1u](byte_string bytes) mutable {
     if (with.periods < begins) return bytes;
     byte_string litter(40);
@@ -139,27 +149,42 @@ mischief littering(session& with) {
   };
 }
 
-mischief swallowing(session& with) {
+template <class Session>
+mischief swallowing(Session& with) {
   return [&with](byte_string bytes) { return with.periods >= begins ? byte_string() : bytes; };
 }
 
-const std::map<std::string, misbehaviour>& misbehaviours() {
-  static const std::map<std::string, misbehaviour> all = {
+template <class Plant>
+float safe_damping(unsigned brake) {
+  if constexpr (Plant::axes == 1) return static_cast<float>(described_board().brake.safe_damping);
+  else return static_cast<float>(described_arm_board().brakes[brake].brake.safe_damping);
+}
+
+// Of a board of two axes the last joint is the one that misbehaves, where it is one.
+template <class Plant>
+const std::map<std::string, misbehaviour<Plant>>& misbehaviours() {
+  using session = session_of<Plant>;
+  using sample_type = basic_sample_message<Plant::axes>;
+  constexpr unsigned last = Plant::axes - 1;
+  static const std::map<std::string, misbehaviour<Plant>> all = {
       {"none", {sampling::on_command, [](session&) {}}},
-      {"duplicate", {sampling::on_command, both_ways(duplicating)}},
-      {"reorder", {sampling::free_running, both_ways(reordering)}},
+      {"duplicate", {sampling::on_command, both_ways(duplicating<session>)}},
+      {"reorder", {sampling::free_running, both_ways(reordering<session>)}},
       {"replay samples", {sampling::on_command, [](session& with) { with.up = replaying(with); }}},
       {"replay commands", {sampling::on_command, [](session& with) { with.down = replaying(with); }}},
-      {"split", {sampling::on_command, both_ways(splitting)}},
-      {"garbage", {sampling::on_command, both_ways(littering)}},
+      {"split", {sampling::on_command, both_ways(splitting<session>)}},
+      {"garbage", {sampling::on_command, both_ways(littering<session>)}},
       {"silence", {sampling::on_command, [](session& with) { with.up = swallowing(with); }}},
       {"deaf", {sampling::free_running, [](session& with) { with.down = swallowing(with); }}},
-      {"dead", {sampling::on_command, both_ways(swallowing)}},
+      {"dead", {sampling::on_command, both_ways(swallowing<session>)}},
       {"late configure",
        {sampling::on_command,
         [](session& with) {
           with.down = [&with](byte_string bytes) {
-            const configure_message late = {1'000'000, 4, 0, 8, sampling::on_command, controller::host};
+            basic_configure_message<Plant::axes> late;
+            late.period = 1'000'000;
+            for (unsigned i = 0; i < Plant::brakes; ++i) nth(late.safe_damping, i) = safe_damping<Plant>(i);
+            late.watchdog_periods = 8;
             if (with.periods == begins) bytes = joined({bytes_of(late), bytes});
             return bytes;
           };
@@ -167,65 +192,88 @@ const std::map<std::string, misbehaviour>& misbehaviours() {
       {"weak",
        {sampling::on_command,
         [](session& with) {
-          with.up = with_samples(with, [](sample_message& sample, std::uint32_t&) { sample.motor_torque /= 5; });
+          with.up = with_samples<Plant>(
+              with, [](sample_type& sample, std::uint32_t&) { nth(sample.motor_torque, last) /= 5; });
         }}},
       {"reboot",
        {sampling::on_command,
         [](session& with) {
-          with.up = with_samples(with, [](sample_message& sample, std::uint32_t& number) {
+          with.up = with_samples<Plant>(with, [](sample_type& sample, std::uint32_t& number) {
             sample.state = board_state::idle;
             sample.cause = stop_cause::none;
-            sample.motor_torque = 0;
-            sample.brake_damping = 5;
+            nth(sample.motor_torque, last) = 0;
+            nth(sample.brake_damping, last) = 5;
             number -= static_cast<std::uint32_t>(begins);
           });
         }}},
       {"wild number",
        {sampling::on_command,
         [](session& with) {
-          with.up = with_samples(with, [&with](sample_message&, std::uint32_t& number) {
+          with.up = with_samples<Plant>(with, [&with](sample_type&, std::uint32_t& number) {
             if (with.periods % 50 == 0) number += 0x2000'0000U;
           });
         }}},
       {"clock set back",
        {sampling::on_command,
         [](session& with) {
-          with.up = with_samples(with, [](sample_message& sample, std::uint32_t&) { sample.timestamp -= 500'000'000; });
+          with.up =
+              with_samples<Plant>(with, [](sample_type& sample, std::uint32_t&) { sample.timestamp -= 500'000'000; });
         }}},
       {"clock at half its rate",
        {sampling::on_command,
         [](session& with) {
-          with.up = with_samples(with, [](sample_message& sample, std::uint32_t&) {
+          with.up = with_samples<Plant>(with, [](sample_type& sample, std::uint32_t&) {
             sample.timestamp = 1'400'000'000 + (sample.timestamp - 1'400'000'000) / 2;
           });
         }}},
       {"clock of nonsense",
        {sampling::on_command,
         [](session& with) {
-          with.up = with_samples(
-              with, [](sample_message& sample, std::uint32_t&) { sample.timestamp *= 0x9E37'79B9'7F4A'7C15U; });
+          with.up = with_samples<Plant>(
+              with, [](sample_type& sample, std::uint32_t&) { sample.timestamp *= 0x9E37'79B9'7F4A'7C15U; });
         }}},
       {"jumping encoder",
        {sampling::on_command,
         [](session& with) {
-          with.up = with_samples(with, [](sample_message& sample, std::uint32_t&) { sample.counts += 1'000'000; });
+          with.up = with_samples<Plant>(
+              with, [](sample_type& sample, std::uint32_t&) { nth(sample.counts, last) += 1'000'000; });
         }}},
   };
   return all;
 }
 
-device_description described() {
-  device_description device = described_board();
-  device.loop.delay_samples = 1;
-  device.encoder.max_speed = 2;
-  device.motor.saturation_allowed = 0.1;
-  return device;
+device_description patient(device_description joint) {
+  joint.loop.delay_samples = 1;
+  joint.encoder.max_speed = 2;
+  joint.motor.saturation_allowed = 0.1;
+  return joint;
 }
+
+// Model, estimators and device of the loop.
+struct one_axis {
+  using options = servo_options;
+  static device_description described() { return patient(described_board()); }
+  spring_from_start<double> model;
+  any_estimator<double> estimator{{}, 0.001, test_plant::encoder_step};
+};
+struct two_axes {
+  using options = arm_servo_options;
+  static arm_description described() {
+    arm_description arm = described_arm_board();
+    for (device_description& joint : arm.joints) joint = patient(joint);
+    return arm;
+  }
+  springs_of_arm<double> model;
+  any_estimator<double> estimator[arm_axes] = {{{}, 0.001, test_arm::encoder_step},
+                                               {{}, 0.001, test_arm::encoder_step}};
+};
+template <class Plant>
+using loop_on = std::conditional_t<Plant::axes == 1, one_axis, two_axes>;
 
 struct outcome {
   std::string text;  // as in the table
   servo_summary summary;
-  float torque = 0;  // that the board makes in the end
+  float torque = 0;  // the largest that the board makes in the end
 };
 
 std::string ending(const servo_summary& summary, const std::string& log) {
@@ -238,28 +286,29 @@ std::string ending(const servo_summary& summary, const std::string& log) {
   return text + (summary.left_safe ? "; not confirmable" : "; not confirmed");
 }
 
-outcome outcome_of(const misbehaviour& what) {
+template <class Plant>
+outcome outcome_of(const misbehaviour<Plant>& what) {
   board_options options;
   options.sampling = what.when;
-  const auto with = std::make_unique<session>(described(), options);
+  const auto with = std::make_unique<session_of<Plant>>(loop_on<Plant>::described(), options);
   std::string error;
   EXPECT_TRUE(with->start(error)) << error;
   what.prepare(*with);
-  spring_from_start<double> model;
-  any_estimator<double> estimator({}, 0.001, test_plant::encoder_step);
+  loop_on<Plant> parts;
   char* text = nullptr;
   std::size_t size = 0;
   std::FILE* const log = open_memstream(&text, &size);
-  servo_options loop;
+  typename loop_on<Plant>::options loop;
   loop.duration = 0.001 * ends;
   loop.outputs.log = log;
   outcome result;
-  result.summary = servo_loop(model, *with, estimator, loop, simulated_clock{}).run();
+  result.summary = servo_loop(parts.model, *with, parts.estimator, loop, simulated_clock{}).run();
   std::fclose(log);
   result.text = ending(result.summary, {text, size});
   std::free(text);
   for (int silent = 0; silent < 20; ++silent) with->board.pass_period();  // where nothing arrives its watchdog is last
-  result.torque = with->board.hardware().driven().motor_torque;
+  for (unsigned j = 0; j < Plant::axes; ++j)
+    result.torque = std::max(result.torque, std::abs(nth(with->board.hardware().driven().motor_torque, j)));
   return result;
 }
 
@@ -276,7 +325,7 @@ std::map<std::string, std::string> table() {
       const std::size_t first = cell.find_first_not_of(" `"), last = cell.find_last_not_of(" `");
       return first == std::string::npos ? std::string() : cell.substr(first, last - first + 1);
     };
-    if (misbehaviours().count(trimmed(name)) != 0) rows[trimmed(name)] = trimmed(end);
+    if (misbehaviours<test_plant>().count(trimmed(name)) != 0) rows[trimmed(name)] = trimmed(end);
   }
   return rows;
 }
@@ -285,7 +334,7 @@ std::map<std::string, std::string> table() {
 // in the end no board makes torque.
 TEST(Misbehaviour, ends_as_the_table_says) {
   const std::map<std::string, std::string> promised = table();
-  for (const auto& [name, what] : misbehaviours()) {
+  for (const auto& [name, what] : misbehaviours<test_plant>()) {
     const outcome found = outcome_of(what);
     const auto row = promised.find(name);
     EXPECT_EQ(row != promised.end() ? row->second : "no row", found.text) << name;
@@ -294,10 +343,23 @@ TEST(Misbehaviour, ends_as_the_table_says) {
   }
 }
 
+// Two axes end as one does, whichever joint it is; only the joint is named too.
+TEST(Misbehaviour, ends_alike_with_two_axes) {
+  for (const auto& [name, what] : misbehaviours<test_arm>()) {
+    const outcome found = outcome_of(what), of_one = outcome_of(misbehaviours<test_plant>().at(name));
+    EXPECT_EQ(found.summary.state, of_one.summary.state) << name << ": " << found.text;
+    EXPECT_EQ(found.summary.last_fault.kind, of_one.summary.last_fault.kind) << name << ": " << found.text;
+    EXPECT_EQ(found.summary.left_safe, of_one.summary.left_safe) << name;
+    EXPECT_EQ(found.summary.safe_confirmed, of_one.summary.safe_confirmed) << name;
+    EXPECT_EQ(found.torque, 0) << name;
+    EXPECT_LE(found.summary.faults.total(), 1U) << name;
+  }
+}
+
 // A board that makes less than it is asked for must show in what the run came to.
 TEST(Misbehaviour, of_a_weak_board_is_counted) {
-  EXPECT_GT(outcome_of(misbehaviours().at("weak")).summary.motor_clipped, 50U);
-  EXPECT_EQ(outcome_of(misbehaviours().at("none")).summary.motor_clipped, 0U);
+  EXPECT_GT(outcome_of(misbehaviours<test_plant>().at("weak")).summary.motor_clipped, 50U);
+  EXPECT_EQ(outcome_of(misbehaviours<test_plant>().at("none")).summary.motor_clipped, 0U);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ model_runner<law> runner_of_arm() {
 TEST(ArmFirmware, runs_a_law_of_two_axes_bit_for_bit_like_the_host) {
   DASHPOT_SKIP_WITHOUT_QEMU();
   qemu_board board({}, ARM_BOARD_FIRMWARE);
-  expect_the_same_bits<law, test_arm>(board.connect(), own_model, runner_of_arm(), 1500);
+  expect_the_same_bits<law, test_arm>(board.connect(), own_model, runner_of_arm(), 1000);
 }
 
 // What the firmware's README says that it costs, and a sixth more.

@@ -1,5 +1,5 @@
 // Every experiment but the limits of virtual damping and the map of walls, which take longer, measured and shown, in
-// the order of the paper.
+// the order of the paper; behind them those of what goes beyond it.
 #pragma once
 
 #include "page.hpp"

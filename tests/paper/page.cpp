@@ -35,7 +35,7 @@ a simulated device: the same plant for the single motor and for the dual channel
 <li><b>[mark]</b>: a value to compare with, printed in the paper or of the rig.</li>
 </ul>
 <p>A number that the paper does not print is chosen once; the list is at the end. Nothing is tuned to a figure. Whether a claim of
-the paper comes out is decided by the program that writes this page, from the numbers that it draws.</p>
+the paper comes out is decided by the program that writes this page, from the numbers that it draws. What begins with “Beyond the paper” is not in it: one axis that stiffens, and two axes.</p>
 )";
 
 std::string escaped(const std::string& text) {

@@ -188,7 +188,8 @@ TEST(Chosen, leaves_no_number_to_the_experiments) {
   const std::regex constant("^constexpr (double|int|unsigned|std::size_t) [a-zA-Z_]+ = .*");
   for (const auto& entry : std::filesystem::directory_iterator(DASHPOT_PAPER_ROOM)) {
     const std::string name = entry.path().filename().string();
-    const bool is_experiment = std::regex_match(name, std::regex("(fig[0-9]+|pareto|limits|z_width.*)\\.cpp"));
+    const bool is_experiment =
+        std::regex_match(name, std::regex("(fig[0-9]+|pareto|limits|z_width.*|hertz|ball|isotropic|curl)\\.cpp"));
     if (!is_experiment || name == "fig5.cpp") continue;  // a program of its own, held by Fig5.has_the_chosen_rate
     std::ifstream file(entry.path());
     for (std::string line; std::getline(file, line);) {

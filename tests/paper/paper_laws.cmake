@@ -1,20 +1,43 @@
 # Laws that the experiments run, written by the compiler that is being built.
 
-# paper_network(RESULT NAME): networks/NAME.json.in with the values of chosen.json in place of their @keys@.
-function(paper_network result name)
+# paper_file(RESULT TEMPLATE OUTPUT): TEMPLATE.json.in of this room as OUTPUT.json, with the caller's variables in place of its
+# @names@, and then the values of chosen.json in place of its @section.key@s.
+function(paper_file result template output)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
-    ${CMAKE_CURRENT_SOURCE_DIR}/chosen.json ${CMAKE_CURRENT_SOURCE_DIR}/networks/${name}.json.in)
+    ${CMAKE_CURRENT_SOURCE_DIR}/chosen.json ${CMAKE_CURRENT_SOURCE_DIR}/${template}.json.in)
   file(READ chosen.json chosen)
-  file(READ networks/${name}.json.in text)
+  file(READ ${template}.json.in text)
+  string(REGEX MATCHALL "@[a-z_]+@" variables "${text}")
+  foreach(variable IN LISTS variables)
+    string(REPLACE "@" "" plain ${variable})
+    string(REPLACE ${variable} "${${plain}}" text "${text}")
+  endforeach()
   string(REGEX MATCHALL "@[^@]+@" keys "${text}")
   foreach(key IN LISTS keys)
     string(REPLACE "@" "" plain ${key})
     string(JSON value GET "${chosen}" ${plain} value)
     string(JSON unit GET "${chosen}" ${plain} unit)
-    string(REPLACE ${key} "${value} ${unit}" text "${text}")
+    if(unit STREQUAL "1" OR unit STREQUAL "samples" OR value MATCHES "^\\[")  # of a list, numbers in SI
+      string(REPLACE ${key} "${value}" text "${text}")
+    else()
+      string(REPLACE ${key} "${value} ${unit}" text "${text}")
+    endif()
   endforeach()
-  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/networks/${name}.json CONTENT "${text}" @ONLY)
-  set(${result} ${CMAKE_CURRENT_BINARY_DIR}/networks/${name}.json PARENT_SCOPE)
+  file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${output}.json CONTENT "${text}" @ONLY)
+  set(${result} ${CMAKE_CURRENT_BINARY_DIR}/${output}.json PARENT_SCOPE)
+endfunction()
+
+# paper_network(RESULT NAME): networks/NAME.json.in.
+function(paper_network result name)
+  paper_file(file networks/${name} networks/${name})
+  set(${result} ${file} PARENT_SCOPE)
+endfunction()
+
+# paper_arm(RESULT NAME FIRST SECOND ENCODERS): devices/isotropic_arm.json.in, with brakes along these two directions of joint
+# velocities and with these members of its encoders, as devices/NAME.json.
+function(paper_arm result name isotropic_first isotropic_second isotropic_encoders)
+  paper_file(file devices/isotropic_arm devices/${name})
+  set(${result} ${file} PARENT_SCOPE)
 endfunction()
 
 # paper_law(NAME NETWORK FILE OPTIONS…): dashpot::paper::laws::NAME, the class emitted for the network with these options of
@@ -22,11 +45,12 @@ endfunction()
 function(paper_law name network)
   get_filename_component(class ${network} NAME_WE)
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/laws/${name})
+  cmake_parse_arguments(law "" "--device" "" ${ARGN})
   add_custom_command(
     OUTPUT ${folder}/${class}.hpp
     COMMAND ${CMAKE_COMMAND} -P ${PROJECT_SOURCE_DIR}/tests/responses/quietly.cmake --
             $<TARGET_FILE:dashpot::dashpot> compile ${network} ${ARGN} -o ${folder}
-    DEPENDS dashpot::dashpot ${network}
+    DEPENDS dashpot::dashpot ${network} ${law_--device}
     COMMENT "Emitting ${name}"
     VERBATIM)
   set(paper_law_headers ${paper_law_headers} ${folder}/${class}.hpp PARENT_SCOPE)

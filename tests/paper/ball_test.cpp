@@ -39,6 +39,17 @@ TEST(Ball, gives_nothing_by_depth) {
   }
 }
 
+// Fails if some of the emitted law's force is along the slide, at any sample: rounding of 1 N, and of the 20 N s/m of
+// brakes that the motors take back, is 1e-15 of that.
+TEST(Ball, pushes_straight_outwards) {
+  for (const Ball::Slide& slide : ball().slides)
+    for (const ArmSample& s : slide.by_depth) {
+      const double x = s.commanded.torque[0] + s.commanded.damping[0] * s.tip_velocity[0];
+      const double y = s.commanded.torque[1] + s.commanded.damping[1] * s.tip_velocity[1];
+      ASSERT_LT(std::abs(y * s.tip[0] - x * s.tip[1]), 1e-13 * std::hypot(s.tip[0], s.tip[1])) << slide.speed;
+    }
+}
+
 // Fails if at any time more energy has come out than was put in. Held forces of a press give nothing: they are of the
 // sample before, and smaller on the way in.
 TEST(Ball, never_has_given_more_than_it_took) {

@@ -71,7 +71,6 @@ class ArmRun {
     sample.time = before.time;
     double torque[2];
     for (unsigned i = 0; i < 2; ++i) {
-      sample.position[i] = before.position[i];
       sample.tip[i] = before.tip_position[i], sample.tip_velocity[i] = before.tip_velocity[i];
       torque[i] = (felt(before, i) + felt(after, i)) / 2;
     }
@@ -103,7 +102,7 @@ const ArmSample& sample_at(const ArmTrace& trace, double time) {
 
 }  // namespace
 
-ArmTrace run_begun(const arm_description& arm, const simulated::arm_scenario& scene, double duration, ArmLaw& law) {
+ArmTrace run_law(const arm_description& arm, const simulated::arm_scenario& scene, double duration, ArmLaw& law) {
   return ArmRun(arm, scene, law).over(duration);
 }
 

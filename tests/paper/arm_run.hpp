@@ -38,7 +38,6 @@ class ArmLawOf final : public ArmLaw {
 // At one sample. Forces and torques oppose the motion.
 struct ArmSample {
   double time = 0;              // [s]
-  double position[2] = {};      // true, of the joints [rad] or [m]
   double tip[2] = {};           // [m]
   double tip_velocity[2] = {};  // [m/s]
   ArmCommand commanded = {};
@@ -48,13 +47,13 @@ struct ArmSample {
 using ArmTrace = std::vector<ArmSample>;
 
 // From time 0 to the end, of a law that has not begun.
-ArmTrace run_begun(const arm_description& arm, const simulated::arm_scenario& scene, double duration, ArmLaw& law);
+ArmTrace run_law(const arm_description& arm, const simulated::arm_scenario& scene, double duration, ArmLaw& law);
 
 // The same of a law of any class.
 template <class Law>
 ArmTrace run(const arm_description& arm, const simulated::arm_scenario& scene, double duration, const Law& law = {}) {
   ArmLawOf<Law> begun(law);
-  return run_begun(arm, scene, duration, begun);
+  return run_law(arm, scene, duration, begun);
 }
 
 // devices/NAME.json as the build has written it.

@@ -56,8 +56,7 @@ simulated::arm_scenario circles_at(double angle) {
   return scene;
 }
 
-// ½(τ1/v2 − τ2/v1) of commands of two samples that follow each other, which tell r + σ and r − σ apart whatever v is:
-// here from the law itself, held at a place until its gate has opened.
+// σ of what the law passes: with both joints at 1 rad/s, told where the gate has opened, the torques are r ± σ.
 double turning_of(double angle) {
   laws::curl law;
   const double half = angle * pi / 360, q[2] = {pi / 2 - half, pi / 2 + half}, v[2] = {1, 1};

@@ -8,7 +8,6 @@
 #include <laws.hpp>
 
 #include "chosen.hpp"
-#include "claims.hpp"
 
 namespace dashpot::paper {
 namespace {

@@ -18,24 +18,34 @@
 namespace dashpot::compiler {
 namespace {
 
-// `diagonal` where nothing is asked for; nothing, reported, for a rule of one axis.
+// Of the ports, with the brakes by `diagonal`.
+constexpr const char *paper_rule = "paper", *faithful_rule = "faithful";
+
+// `diagonal` where nothing is asked for, or a rule of the ports; nothing, reported, for another rule of one axis.
 std::optional<axes::BrakeRule> brake_rule(const Choices& choices, Diagnostics& diagnostics) {
-  if (is_named(choices, "")) return axes::BrakeRule::diagonal;
+  for (const char* of_ports : {"", paper_rule, faithful_rule})
+    if (is_named(choices, of_ports)) return axes::BrakeRule::diagonal;
   std::string names;
   for (const axes::BrakeRule rule : axes::all_brake_rules) {
     if (is_named(choices, name_of(rule))) return rule;
-    names += (names.empty() ? "" : ", ") + std::string(name_of(rule));
+    names += std::string(name_of(rule)) + ", ";
   }
+  names += fmt::format("{}, {}", faithful_rule, paper_rule);
   const auto* const asked = std::get_if<std::string>(&choices.decomposition);
   diagnostics.report<DiagnosticCode::rule_of_brakes>(
       {}, asked ? *asked : fmt::format("{}", std::get<double>(choices.decomposition)), names);
   return std::nullopt;
 }
 
-// Of each port on its own, driven by the position.
-Choices choices_of_ports(const Choices& asked, double rate) {
+// Of each port on its own, driven by the position. `faithful`, and what is chosen behind slips and contacts without it,
+// leaves the states of the port to positions alone.
+Choices choices_of_port(const Port& port, const Choices& asked, double rate) {
+  const std::vector<Element>& elements = port.network.elements;
+  const bool has_slips = std::any_of(elements.begin(), elements.end(),
+                                     [](const Element& e) { return std::holds_alternative<Slip>(e.law); });
+  const bool is_chosen_by_itself = port.network.contact || has_slips;
   Choices choices = asked;
-  choices.decomposition = "";
+  choices.decomposition = is_named(asked, faithful_rule) && !is_chosen_by_itself ? "velocity-free" : "";
   choices.state_input = StateInput::position;
   choices.rate = rate;
   return choices;
@@ -57,9 +67,11 @@ bool are_smooth(const AxesNetwork& network, const axes::Box& workspace, Diagnost
   return all;
 }
 
-bool compile_ports(AxesCompilation& c, const Choices& choices, Diagnostics& diagnostics) {
+bool compile_ports(AxesCompilation& c, const Choices& asked, Diagnostics& diagnostics) {
   for (const Port& port : c.network.ports) {
     StageTimes unseen;
+    const Choices choices = choices_of_port(port, asked, c.rate);
+    c.choices_of_ports.push_back(choices);
     std::optional<Compilation> compiled = compile(port.network, choices, std::nullopt, diagnostics, unseen);
     if (!compiled) return false;
     c.port_laws.push_back(
@@ -81,7 +93,7 @@ std::vector<CertifiedPort> certified_ports(const AxesCompilation& c) {
   for (std::size_t i = 0; i < c.ports.size(); ++i) {
     const Compilation& port = c.ports[i];
     ports.push_back({&c.network.ports[i], &port.form, &c.port_laws[i], &port.certificate,
-                     slip_motor(port.network, port.form, port.decomposition, c.choices_of_ports, loop_of_ports(c))});
+                     slip_motor(port.network, port.form, port.decomposition, c.choices_of_ports[i], loop_of_ports(c))});
   }
   return ports;
 }
@@ -195,8 +207,9 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   c.device = device ? *device : ideal_axes_device(1 / c.rate);
   c.rule = *rule;
   if (device && !are_smooth(c.network, device->workspace, diagnostics)) return std::nullopt;
-  c.choices_of_ports = choices_of_ports(asked, c.rate);
-  if (!compile_ports(c, c.choices_of_ports, diagnostics)) return std::nullopt;
+  const auto* const named = std::get_if<std::string>(&asked.decomposition);
+  c.decomposition = named && !named->empty() ? *named : std::string(name_of(c.rule));
+  if (!compile_ports(c, asked, diagnostics)) return std::nullopt;
   c.certificate = certify_axes(c.network, certified_ports(c), c.device, c.rule);
   c.law = law_of_all(c);
   Network whole;

@@ -119,7 +119,8 @@ std::string legend(const AxesCompilation& c) {
       {"b∞", "of the port's damper that is felt at once"},
       {"modes", "springs and dampers in series that relax by themselves"},
       {"rule",
-       "the decomposition of the port's network that gave b; it cannot be chosen. 'contact': the port pushes and never "
+       "the decomposition of the port's network that gave b; '--decomposition faithful' "
+       "takes b∞, so that no velocity estimate moves the port's springs. 'contact': the port pushes and never "
        "pulls, and b is no more than b∞"}};
   const std::pair<const char*, const char*> of_shares[] = {
       {"diagonal", "each brake makes what its joint is to feel; what couples the joints is left to the motors"},

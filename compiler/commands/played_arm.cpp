@@ -93,7 +93,7 @@ class ArmForce {
   bool prepare(Diagnostics& diagnostics) {
     Diagnostics told_once;
     for (std::size_t i = 0; i < c_.ports.size(); ++i) {
-      auto reference = ReferenceForce::of(c_.ports[i], c_.choices_of_ports, diagnostics);
+      auto reference = ReferenceForce::of(c_.ports[i], c_.choices_of_ports[i], diagnostics);
       if (!reference) return false;
       references_.push_back(std::move(*reference));
       forces_.push_back(references_.back().along(*paths_[i], no_values_, told_once));

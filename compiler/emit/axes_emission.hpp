@@ -14,7 +14,8 @@ struct AxesCompilation {
   AxesNetwork network;
   std::vector<Compilation> ports;  // each on an ideal device of one axis
   std::vector<UpdateLaw> port_laws;
-  Choices choices_of_ports;
+  std::vector<Choices> choices_of_ports;
+  std::string decomposition;  // as asked for: a rule of the brakes, or of the ports with the brakes by `diagonal`
   bool has_device = false;
   AxesDevice device;  // ideal where none is named
   axes::BrakeRule rule = axes::BrakeRule::diagonal;

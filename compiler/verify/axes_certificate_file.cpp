@@ -80,7 +80,7 @@ std::string axes_certificate_text(const AxesCompilation& c, const std::string& n
                      {{"rate", c.rate},
                       {"scheme", name_of(c.law.scheme)},
                       {"scalar", name_of(c.law.scalar)},
-                      {"decomposition", axes::name_of(c.rule)}}},
+                      {"decomposition", c.decomposition}}},
                     {"ports", json_of_ports(c)},
                     {"constants", constants},
                     {"loop", json_of_loop(c.device)},

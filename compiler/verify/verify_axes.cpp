@@ -119,7 +119,7 @@ class AxesVerification {
     Compilation compiled = c_.ports[i];
     compiled.law = c_.port_laws[i];
     CertificateFile certificate;
-    certificate.choices = c_.choices_of_ports;
+    certificate.choices = c_.choices_of_ports[i];
     certificate.damping = compiled.decomposition.choice().damping;
     const HeaderConstants header{header_.scalar, of_ports_[i]};
     for (const HeaderConstant& constant : header.all) certificate.constants[constant.name] = constant.values;

@@ -54,6 +54,24 @@ class AxesVerify(CommandTest):
         self.write("read.json", certificate)
         return self.dashpot("verify", "read.json", "read.hpp", *options, status=status)
 
+    # If this fails, ports that relax cannot be certified without a contact, or `faithful` takes another b than b∞.
+    def test_faithful_ports_that_relax_are_certified(self):
+        relaxing = {"parallel": [{"spring": "60 N/m"}, {"damper": "0.4 N s/m"}, {"series": [{"spring": "40 N/m"}, {"damper": "2 N s/m"}]}]}
+        file = {"dashpot": 1, "axes": 2, "name": "relaxing", "ports": [
+            {"name": "across", "map": {"along": [1, 0]}, "network": relaxing}, {"name": "out", "map": {"along": [0, 1]}, "network": relaxing}]}
+        self.write("relaxing.json", json.dumps(file))
+        told = self.dashpot("compile", "relaxing.json", "--device", PANTOGRAPH).stderr
+        self.assertIn("[nothing-proved]", told)
+        self.assertIn("--decomposition faithful", told)
+        for choice, certified in (("paper", False), ("diagonal", False), ("faithful", True)):
+            told = json.loads(self.dashpot("explain", "relaxing.json", "--device", PANTOGRAPH, "--decomposition", choice, "--json").stdout)
+            self.assertEqual(told["certified"], certified)
+            self.assertEqual(told["chosen"], "diagonal")
+        self.assertEqual([port["damping"] for port in told["ports"]], [0.4, 0.4])
+        header, certificate = self.compiled("relaxing.json", "--device", PANTOGRAPH, "--decomposition", "faithful")
+        self.verified(header, certificate)
+        self.assertEqual(json.loads(certificate)["law"]["decomposition"], "faithful")
+
     # If this fails, a header that is what its certificate says is refused, or one is called certified that is not.
     def test_sound_ones_pass(self):
         for arguments, certified in (

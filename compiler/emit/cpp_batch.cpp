@@ -33,6 +33,7 @@ class BatchPrinter {
     batch.energy_loads = energy_loads();
     batch.commands = commands();
     const std::set<VariableId> changed = assigned_by({&law_.keep, &law_.update});
+    batch.reset = lines_of_point(law_.start);
     each_state([&](VariableId id, const std::string& state, std::size_t number) {
       batch.states = number + 1;
       if (law_.variables[id].role == Role::state)
@@ -253,11 +254,11 @@ class BatchPrinter {
   }
 
   std::string rest_value(const Variable& variable) const {
-    if (law_.rest_position != no_variable && &variable == &law_.variables[law_.rest_position])
-      return law_.surface_at
-                 ? fmt::format("dashpot::pushed_in({}, position)", cpp_literal(*law_.surface_at, law_.scalar))
-                 : "position";
-    return cpp_literal(variable.rest_value, law_.scalar);
+    if (law_.rest_position == no_variable || &variable != &law_.variables[law_.rest_position])
+      return cpp_literal(variable.rest_value, law_.scalar);
+    if (law_.started_at != no_variable) return name(law_.started_at, 0);
+    return law_.surface_at ? fmt::format("dashpot::pushed_in({}, position)", cpp_literal(*law_.surface_at, law_.scalar))
+                           : "position";
   }
 
   std::vector<std::string> constants() const {

@@ -14,6 +14,15 @@
 namespace dashpot::compiler {
 namespace {
 
+void append_array(const Coefficient& coefficient, ScalarType scalar, const std::string& alignment, std::size_t size,
+                  std::vector<std::string>& lines) {
+  std::string array = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment, coefficient.name, size);
+  for (std::size_t place = 0; place < coefficient.values.size(); ++place)
+    array += (place == 0 ? "" : ", ") + cpp_literal(coefficient.values[place], scalar);
+  lines.push_back(fmt::format("// {} [{}]", coefficient.meaning, coefficient.unit));
+  append(lines, array + "};");
+}
+
 class CppPrinter {
  public:
   CppPrinter(const UpdateLaw& law, const Network& network, Timing timing)
@@ -172,22 +181,9 @@ class CppPrinter {
   }
 
   void append_constant(const Coefficient& coefficient, std::vector<std::string>& lines) const {
-    const std::string note = fmt::format("  // {} [{}]", coefficient.meaning, coefficient.unit);
-    if (coefficient.is_table()) {
-      std::string table =
-          fmt::format("static constexpr scalar {}[{}] = {{", coefficient.name, coefficient.values.size());
-      for (std::size_t i = 0; i < coefficient.values.size(); ++i)
-        table += (i == 0 ? "" : ", ") + literal(coefficient.values[i]);
-      lines.push_back("//" + note.substr(4));
-      return append(lines, table + "};");
-    }
-    if (!statements_.is_rolled(coefficient)) return append_constant_of_each(coefficient, law_.scalar, lines);
-    std::string table = fmt::format("{}static constexpr scalar {}[{}] = {{", alignment(), coefficient.name,
-                                    law_.padded(coefficient.values.size()));
-    for (std::size_t place = 0; place < coefficient.values.size(); ++place)
-      table += (place == 0 ? "" : ", ") + literal(coefficient.values[place]);
-    lines.push_back("//" + note.substr(4));
-    append(lines, table + "};");
+    if (coefficient.is_table() || !statements_.is_rolled(coefficient))
+      return append_constant_of_each(coefficient, law_.scalar, lines);
+    append_array(coefficient, law_.scalar, alignment(), law_.padded(coefficient.values.size()), lines);
   }
 
   std::vector<std::string> reset() {
@@ -372,6 +368,7 @@ CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timi
 }
 
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines) {
+  if (coefficient.is_table()) return append_array(coefficient, scalar, "", coefficient.values.size(), lines);
   const std::vector<std::string> lone = {coefficient.name};
   const std::vector<std::string>& names = coefficient.element_names.empty() ? lone : coefficient.element_names;
   for (std::size_t place = 0; place < coefficient.values.size(); ++place)

@@ -34,7 +34,7 @@ enum class Timing { any, constant };
 // In constant time: laws without couplings, networks and calls.
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing = Timing::any);
 
-// A line for each place of the coefficient.
+// A line for each place of the coefficient; of a table that is picked from, the array.
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines);
 
 // A double or float literal that reads back as the same number.

@@ -33,14 +33,7 @@ bool can_be_emitted(const Compilation& c, const EmissionOptions& options, Diagno
   if (untimed) diagnostics.note<DiagnosticCode::bounded_step_remedy>({}, "--constant-time", operations_of(c.law));
   const bool single = options.batch && refuses(c, "--batch", diagnostics);
   if (single) diagnostics.note<DiagnosticCode::object_each_remedy>({}, "--batch");
-  return !untimed && !single && takes_static_curve(c, options, diagnostics);
-}
-
-bool takes_static_curve(const Compilation& c, const EmissionOptions& options, Diagnostics& diagnostics) {
-  if (!c.network.static_curve) return true;
-  if (options.batch)
-    diagnostics.report<DiagnosticCode::static_not_taken>(c.network.static_curve->span, c.network.name, "'--batch'");
-  return !options.batch;
+  return !untimed && !single;
 }
 
 bool can_be_c99(const Compilation& c, Diagnostics& diagnostics) {

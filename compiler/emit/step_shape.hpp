@@ -12,7 +12,4 @@ bool can_be_emitted(const Compilation& compilation, const EmissionOptions& optio
 // The same of C99, where the network's name is also that of a type.
 bool can_be_c99(const Compilation& compilation, Diagnostics& diagnostics);
 
-// False, with a diagnostic, where something is asked for beside the law that knows no static curve.
-bool takes_static_curve(const Compilation& compilation, const EmissionOptions& options, Diagnostics& diagnostics);
-
 }  // namespace dashpot::compiler

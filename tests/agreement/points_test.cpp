@@ -26,7 +26,7 @@ void run_or_throw(const std::string& line) {
   if (finished.status != 0) throw std::runtime_error(line.substr(0, 400) + "\n" + finished.output.substr(0, 4000));
 }
 
-// Linear ones, closed-form slips with a brake that changes and without, a contact, and loops.
+// Linear ones, closed-form slips with a brake that changes and without, a contact, loops, and static curves.
 std::vector<std::string> networks(const fs::path& folder) {
   std::vector<std::string> files;
   for (const char* name : {"twenty_branches", "lone_spring", "lone_damper"})
@@ -34,6 +34,8 @@ std::vector<std::string> networks(const fs::path& folder) {
   for (const char* name : {"second_order_maxwell", "generalised_kelvin_four", "visco_elasto_plastic",
                            "visco_elasto_plastic_organ", "maxwell_slip_ten", "virtual_wall"})
     files.push_back(fmt::format(DASHPOT_NETWORKS "/paper/{}.json", name));
+  for (const char* name : {"ligament", "skin_in_contact"})
+    files.push_back(fmt::format(DASHPOT_NETWORKS "/static/{}.json", name));
   for (std::uint64_t seed = 1; seed <= repetitions(4, 12); ++seed) {
     NetworkRecipe recipe;
     recipe.topology = seed % 2 == 0 ? Topology::tree : Topology::graph;

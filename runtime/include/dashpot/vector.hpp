@@ -114,6 +114,18 @@ class vector {
     return vector(packed_tag(), nothing == packed_type{} ? vector(Scalar(1)).value_ : packed_type{});
   }
 
+  // Of a table, at every place of `v` the value whose number stands there.
+  static vector pick(const Scalar* table, vector v) noexcept {
+    if constexpr (count > 1) {
+      packed_type picked{};
+      DASHPOT_UNROLL
+      for (int i = 0; i < count; ++i) picked[i] = table[static_cast<int>(v.value_[i])];
+      return vector(packed_tag(), picked);
+    } else {
+      return vector(packed_tag(), table[static_cast<int>(v.value_)]);
+    }
+  }
+
   // As the functions of these names in command.hpp.
   static vector flush_below(vector threshold, vector v) noexcept {
     return vector(packed_tag(), magnitude(v.value_) > threshold.value_ ? v.value_ : packed_type{});

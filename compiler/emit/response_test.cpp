@@ -24,6 +24,9 @@ double test_tolerance(const UpdateLaw& law) {
   return law.relative_error_bound + roundoff * double(2 * (8 + cost.additions + cost.multiplications));
 }
 
+// Of the force: the map's tables and the way through them, and what the law does behind it.
+double curve_tolerance(const UpdateLaw& law) { return test_tolerance(law) + 64 * unit_roundoff(law.scalar); }
+
 // What the motor holds in its first sample, where the law keeps to its limits.
 double largest_held(const Compilation& c) {
   double force = std::numeric_limits<double>::infinity();
@@ -57,7 +60,7 @@ std::vector<Fields> rests_on_curve(const Compilation& c) {
   const StaticCurve& curve = *c.network.static_curve;
   const double kept = to_double(c.form.linear.static_stiffness) / map.stiffness;  // of a curve that is met at once
   const double largest = kept * to_double(force_at(curve, Real(map.reach)));
-  const double roundings = test_tolerance(c.law) + 64 * unit_roundoff(c.law.scalar);
+  const double roundings = curve_tolerance(c.law);
   std::vector<Fields> rests;
   for (int i = 0; i <= halvings; ++i) {
     const double depth = std::ldexp(map.reach, -i), force = kept * to_double(force_at(curve, Real(depth)));
@@ -70,13 +73,39 @@ std::vector<Fields> rests_on_curve(const Compilation& c) {
   return rests;
 }
 
+// Steps within one sample to places where cubics meet, from the map's end inwards by halves, as far as the motor makes
+// them: k w w′ is there the force of the file's curve, and ½ k w² its work.
+std::vector<Fields> jumps_on_curve(const Compilation& c) {
+  constexpr int halvings = 5;  // of a map with the fewest cubics
+  const MotionMap& map = *c.network.map;
+  const StaticCurve& curve = *c.network.static_curve;
+  const double period = 1 / c.rate, brake = c.decomposition.choice().damping;
+  double stiffness = to_double(c.form.linear.static_stiffness) +
+                     (std::abs(to_double(c.form.linear.feedthrough_damping) - brake)) / period;
+  for (const Mode& mode : c.form.linear.modes) stiffness += to_double(mode.stiffness);
+  std::vector<Fields> jumps;
+  for (int i = 0; i <= halvings; ++i) {
+    const double depth = std::ldexp(map.reach, -i), last = std::min(depth + map.width(), map.reach);
+    const Real force = force_at(curve, Real(depth)), work = work_between(curve, Real(0), Real(depth));
+    const double share = to_double(Real(force / map.stiffness));
+    if (!(2 * share * stiffness <= largest_held(c))) continue;
+    const double steepest = map.largest_tangent(depth - map.width(), last),
+                 bend = map.largest_curvature(depth - map.width(), last);
+    jumps.push_back(
+        {{"depth", fmt::format("{:#}", depth)},
+         {"share", fmt::format("{:#}", share)},
+         {"speed", fmt::format("{:#}", to_double(Real(2 * work / (force * period))))},
+         {"scale", fmt::format("{:#}", to_double(Real(force * force / (2 * map.stiffness * work))))},
+         {"slope", fmt::format("{:#}", steepest * steepest + bend * std::max(map.value_at(depth), steepest * depth))}});
+  }
+  return jumps;
+}
+
 }  // namespace
 
 std::string why_no_motion_is_played(const Compilation& c) {
-  const char* const what = c.form.has_slips() ? "slips"
-                           : c.network.map    ? "a static curve"
-                           : c.law.sheds()    ? "a motor at its limits"
-                                              : nullptr;
+  const bool is_limited = c.network.map ? jumps_on_curve(c).empty() : c.law.sheds();
+  const char* const what = c.form.has_slips() ? "slips" : is_limited ? "a motor at its limits" : nullptr;
   return what ? fmt::format("with {} a force along it has no closed form", what) : "";
 }
 
@@ -87,7 +116,8 @@ CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
   const std::string why_none = why_no_motion_is_played(c);
   model.lists["about"] = as_list(wrapped_text(
       why_none.empty()
-          ? fmt::format("Tests {} against the closed forms of its network", c.network.name)
+          ? fmt::format("Tests {} against the closed forms of its network{}", c.network.name,
+                        c.network.map ? " behind its static curve" : "")
           : fmt::format("Tests {} at rest, and by numbers that are none. No motion is played to it, since {}; "
                         "'dashpot simulate' says what the force of any motion is",
                         c.network.name, why_none),
@@ -96,18 +126,23 @@ CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
   fields["rate"] = fmt::format("{:#}", c.rate);
   fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
   model.lists["rests"] = c.network.map ? rests_on_curve(c) : rest_on_spring(c);
-  model.lists["closed_forms"];
-  model.lists["modes"];
+  for (const char* list : {"closed_forms", "modes", "ramps", "curve", "jumps"}) model.lists[list];
   if (!why_none.empty()) return model;
   const LinearForm& linear = c.form.linear;
   model.lists["closed_forms"].push_back(
       {{"static_stiffness", fmt::format("{:#}", to_double(linear.static_stiffness))},
        {"feedthrough_damping", fmt::format("{:#}", to_double(linear.feedthrough_damping))},
-       {"tolerance", fmt::format("{:#}", test_tolerance(c.law))},
        {"decays", c.law.scheme == Scheme::exact ? "rate * period" : log1p + "(rate * period)"}});
   for (const Mode& mode : linear.modes)
     model.lists["modes"].push_back({{"stiffness", fmt::format("{:#}", to_double(mode.stiffness))},
                                     {"relaxation_rate", fmt::format("{:#}", to_double(mode.relaxation_rate))}});
+  if (c.network.map) {
+    model.lists["curve"].push_back({{"tolerance", fmt::format("{:#}", curve_tolerance(c.law))},
+                                    {"damping", fmt::format("{:#}", c.decomposition.choice().damping)}});
+    model.lists["jumps"] = jumps_on_curve(c);
+  } else {
+    model.lists["ramps"].push_back({{"tolerance", fmt::format("{:#}", test_tolerance(c.law))}});
+  }
   return model;
 }
 

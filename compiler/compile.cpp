@@ -163,10 +163,6 @@ bool settle_tunables(const Network& network, Choices& choices, Diagnostics& diag
 // False, with a diagnostic, where there is a static curve that cannot be had.
 bool put_behind_curve(Network& network, Network& present, const NormalForm& form, Diagnostics& diagnostics) {
   if (!network.static_curve) return true;
-  if (has_tunables(network)) {
-    diagnostics.report<DiagnosticCode::static_with_tunables>(network.static_curve->span);
-    return false;
-  }
   network.map = present.map = motion_map(present, form.linear, diagnostics);
   return network.map.has_value();
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/box_motor.hpp"
 #include "certify/estimator_factors.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/unproved.hpp"
@@ -235,15 +236,24 @@ double lacking_behind_curve(const PassivityBound& bound, double damping, const M
   return Rational(Rational(bound.needed) - assured).convert_to<double>() / (steepest * steepest);
 }
 
-Certificate certify_behind_curve(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+Certificate certify_behind_curve(UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
                                  const PortDevice& behind, double sample_period) {
   const MotionMap& map = *network.map;
   const PortDevice at_tool = behind.at_tool();
   const SampledLoop tool = sampled_loop(at_tool, sample_period);
   Certificate result;
   result.loop = tool;
-  result.bound = bound_behind_curve(linear_motor_constants(law), law.damping, network, slips, at_tool,
-                                    sampled_loop(behind, sample_period));
+  if (law.tunable) {
+    const BoxMotor box = box_motor(law, {1, 0, 1.0, assured_share(tool)});
+    law.damping = box.least_brake;
+    law.largest_damping = box.largest_brake;
+    result.bound = not_proved(
+        "parameters change behind a static curve, and nothing bounds the forces that springs keep over a change while "
+        "the curve bends");
+  } else {
+    result.bound = bound_behind_curve(linear_motor_constants(law), law.damping, network, slips, at_tool,
+                                      sampled_loop(behind, sample_period));
+  }
   result.bound.any_regime = slips.has_value();
   const double flattest = map.least_tangent(0, map.reach), rounding = 64 * unit_roundoff(law.scalar);
   const double least = law.damping * flattest * flattest * (1 - rounding);

@@ -22,6 +22,9 @@
 //     ½ |w″| r c (w′ + ½ |w″| r / 2(1 − a)) / (1 + a)
 //
 // since what it stores falls by more than the bend can give where it is far from rest.
+//
+// Nothing is proved where parameters change: a spring that is softened keeps of its force what its energy allows, so
+// that with every change |M| may grow beyond the sum above, and with it what the bend costs.
 #pragma once
 
 #include "certify/certificate.hpp"
@@ -40,9 +43,9 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
 double lacking_behind_curve(const PassivityBound& bound, double damping, const MotionMap& map, const SampledLoop& tool);
 
 // In: a law of w before its map, what its motor makes behind slips, the device as the law sees it behind the map.
-// Out: its certificate at the tool. `added_damping` is what the brake is to be told besides b_w w′², wherever the tool
-// is.
-Certificate certify_behind_curve(const UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+// Out: its certificate at the tool, and of a law with tunables its least and largest b_w. `added_damping` is what the
+// brake is to be told besides b_w w′², wherever the tool is.
+Certificate certify_behind_curve(UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
                                  const PortDevice& behind, double sample_period);
 
 }  // namespace dashpot::compiler

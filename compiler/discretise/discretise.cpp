@@ -272,7 +272,8 @@ std::optional<UpdateLaw> discretise_tunable(const Network& network, const Normal
   law.tunable = tunable_tables_of(linear_part(at_default(network), form), network, form.linear, decomposition, choices,
                                   sample_period, device, diagnostics);
   law.mode_form = ModeForm::delta;
-  return law.tunable ? std::optional(with_programs(std::move(law), network.port_motion)) : std::nullopt;
+  if (!law.tunable) return std::nullopt;
+  return with_programs(std::move(law), network.port_motion, network.map.has_value());
 }
 
 }  // namespace dashpot::compiler

@@ -105,7 +105,9 @@ class TablesBuilder {
     if (decomposition_.slips.coil_share < 1)
       tables_.brake.assured_share = to_scalar(Real(decomposition_.slips.assured_share));
     head.static_spring = no_index;
-    head.contact = {network_.contact.has_value(), network_.contact ? to_scalar(Real(network_.contact->at)) : 0,
+    // Behind a static curve's map a surface lies where the map begins.
+    const double surface = network_.contact && !network_.map ? network_.contact->at : 0;
+    head.contact = {network_.contact.has_value(), to_scalar(Real(surface)),
                     to_scalar(Real(decomposition_.encoder_step))};
     head.slip_rule = slip_rule();
   }

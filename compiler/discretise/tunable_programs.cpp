@@ -24,12 +24,20 @@ constexpr std::string_view names_taken =
     "released pull opposing pushed_force position_change slips_force slips_feedthrough slips_brake slips_wanted "
     "slips_gain share sampled shifted ";
 
+// The same of the map of a static curve (lower/behind_map.cpp).
+constexpr std::string_view names_of_map =
+    "centre distance in_cells cells_per_length last_cell cell cell_begins within map_a map_b map_c map_e map_cubic "
+    "map_bend mapped mapped_size mapped_velocity mapped_force tangent tangent_squared brake_command damping_at_tool "
+    "pushed_in ";
+
 class ProgramsBuilder {
  public:
   ProgramsBuilder(UpdateLaw law, motion port_motion)
       : law_(std::move(law)), writer_(law_, port_motion), tables_(*law_.tunable), head_(tables_.head) {}
 
-  UpdateLaw build() {
+  UpdateLaw build(bool behind_curve) {
+    take(names_taken);
+    if (behind_curve) take(names_of_map);
     declare();
     write_coefficients();
     write_brake_rule();
@@ -43,9 +51,12 @@ class ProgramsBuilder {
   }
 
  private:
+  void take(std::string_view names) {
+    for (std::size_t at = 0; at < names.size(); at = names.find(' ', at) + 1)
+      writer_.unique(std::string(names.substr(at, names.find(' ', at) - at)));
+  }
+
   void declare() {
-    for (std::size_t at = 0; at < names_taken.size(); at = names_taken.find(' ', at) + 1)
-      writer_.unique(std::string(names_taken.substr(at, names_taken.find(' ', at) - at)));
     law_.position = writer_.scalar("position", writer_.length(), "port displacement u", Role::input);
     law_.velocity = writer_.scalar("velocity", writer_.velocity(), "estimate of u̇", Role::input);
     law_.force = writer_.scalar("force", writer_.force(), "motor's part m", Role::local);
@@ -408,8 +419,8 @@ class ProgramsBuilder {
 
 }  // namespace
 
-UpdateLaw with_programs(UpdateLaw law, motion port_motion) {
-  return ProgramsBuilder(std::move(law), port_motion).build();
+UpdateLaw with_programs(UpdateLaw law, motion port_motion, bool behind_curve) {
+  return ProgramsBuilder(std::move(law), port_motion).build(behind_curve);
 }
 
 }  // namespace dashpot::compiler

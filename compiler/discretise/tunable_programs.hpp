@@ -7,7 +7,8 @@
 
 namespace dashpot::compiler {
 
-// In: a law with its tables, and without programs. Out: the same with them.
-UpdateLaw with_programs(UpdateLaw law, motion port_motion);
+// In: a law with its tables, and without programs. Out: the same with them. `behind_curve`: a static curve's map will
+// be written in front of it.
+UpdateLaw with_programs(UpdateLaw law, motion port_motion, bool behind_curve);
 
 }  // namespace dashpot::compiler

@@ -24,7 +24,7 @@ class Mapping {
     write_tangent();
     write_velocity(output, keep);
     for (auto* program : {&output, &keep})
-      for (Statement& statement : *program) statement.value = behind(statement.value, mapped);
+      each_value(*program, [&](ExpressionId value) { return behind(value, mapped); });
     law_.output.insert(law_.output.end(), output.begin(), output.end());
     law_.keep = keep;
     write_force();
@@ -136,6 +136,16 @@ class Mapping {
                    "ẇ = w′ u̇");
   }
 
+  // Every value of the statements, and what calls are given, becomes what `changed` makes of it.
+  template <class Changed>
+  static void each_value(std::vector<Statement>& program, const Changed& changed) {
+    for (Statement& statement : program) {
+      if (statement.value != nothing) statement.value = changed(statement.value);
+      if (auto* call = std::get_if<CallTunable>(&statement.step))
+        for (ExpressionId& given : call->given) given = changed(given);
+    }
+  }
+
   // What read the inputs reads what they are behind the map.
   ExpressionId behind(ExpressionId id, VariableId mapped) {
     const Expression e = law_.expressions[id];
@@ -155,7 +165,7 @@ class Mapping {
     const VariableId behind = local("mapped_force", writer_.force(), "motor's part, behind the map");
     assignment_of(law_.force).target = behind;
     for (auto* program : {&law_.output, &law_.keep})
-      for (Statement& statement : *program) statement.value = reading(statement.value, law_.force, behind);
+      each_value(*program, [&](ExpressionId value) { return reading(value, law_.force, behind); });
     writer_.assign(law_.output, law_.force, writer_.multiply(writer_.read(tangent_), writer_.read(behind)), "m = w′ M");
   }
 
@@ -169,7 +179,8 @@ class Mapping {
 
   // b = w′² b_w, and what the certificate adds at the tool.
   void write_brake() {
-    if (law_.largest_damping == 0 && added_damping_ == 0) return;
+    const bool has_brake = law_.largest_damping > 0 || law_.tunable;
+    if (!has_brake && added_damping_ == 0) return;
     const VariableId square = local("tangent_squared", "1", "w′²");
     writer_.assign(law_.output, square, writer_.multiply(writer_.read(tangent_), writer_.read(tangent_)), "w′²");
     const VariableId before = law_.brake;
@@ -177,16 +188,24 @@ class Mapping {
                                     ? writer_.read(before)
                                     : writer_.constant("mapped_damping", writer_.damping(), "b behind the map",
                                                        Real(law_.damping), ConstantRole::steady_damping);
-    ExpressionId told = law_.largest_damping == 0 ? nothing : writer_.multiply(writer_.read(square), behind);
+    ExpressionId told = has_brake ? writer_.multiply(writer_.read(square), behind) : nothing;
     if (added_damping_ > 0)
       told = writer_.plus(told, writer_.constant("damping_at_tool", writer_.damping(), "what the certificate adds",
                                                  Real(added_damping_), ConstantRole::steady_damping));
     law_.brake = writer_.scalar("brake_command", writer_.damping(), "b", Role::local);
     writer_.assign(law_.output, law_.brake, told, "b = w′² b_w");
-    law_.last_brake = writer_.kept(law_.brake);
+    remember_brake();
     const double least = map_.least_tangent(0, map_.reach), most = map_.steepest();
     law_.damping = law_.damping * least * least + added_damping_;
     law_.largest_damping = law_.largest_damping * most * most + added_damping_;
+  }
+
+  // Of tunables the state that remembered b_w remembers b, and rests at 0: set() knows no place of the tool.
+  void remember_brake() {
+    if (!law_.tunable) return void(law_.last_brake = writer_.kept(law_.brake));
+    for (Statement& statement : law_.keep)
+      if (statement.target == law_.last_brake) statement.value = writer_.read(law_.brake);
+    std::erase_if(law_.rest, [&](const Statement& statement) { return statement.target == law_.last_brake; });
   }
 
   // reset() asks where w is.

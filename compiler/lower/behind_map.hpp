@@ -8,7 +8,7 @@
 
 namespace dashpot::compiler {
 
-// In: a law whose position is w, without tunables, and what is added to the brake at the tool [N·s/m]. Out: the same
+// In: a law whose position is w, and what is added to the brake at the tool [N·s/m]. Out: the same
 // law of the tool's position. The states stay what they are.
 UpdateLaw behind_map(UpdateLaw law, const MotionMap& map, double added_damping, motion port_motion);
 

@@ -207,9 +207,9 @@ std::size_t verify_constants(const CertificateFile& certificate, const PortDevic
 void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
                    const Compilation& compiled, Diagnostics& diagnostics) {
   if (is_plainly_linear(compiled.network)) Verification(certificate, header, diagnostics).recompute_bounds(device);
-  else if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
   else if (compiled.network.map)
     compare_with_recompiled(certificate, compiled, std::nullopt, header.scalar, diagnostics);
+  else if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
   else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_bounds();
 }
 

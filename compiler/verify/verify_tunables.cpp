@@ -31,7 +31,7 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
   pool_["sample_period"] = {1 / Reference(facts_.rate)};
   pool_["added_damping"] = pool_["steady_damping"] = {compiled.certificate.added_damping};
   pool_["threshold"] = {compiled.law.flush_threshold};
-  pool_["surface_at"] = {head.contact.at};
+  pool_["surface_at"] = {compiled.network.map ? compiled.network.map->start : head.contact.at};
   pool_["encoder_step"] = {head.contact.encoder_step};
   pool_["none"] = {0};
   for (const Variable& variable : law.variables)

@@ -174,6 +174,39 @@ class StaticCurvesTest(CommandTest):
         subprocess.run(["cc", "-std=c99", "-ffp-contract=off", "-o", program, self.folder / f"{name}_test.c", "-lm"], check=True)
         return subprocess.run([program], capture_output=True, text=True).stdout
 
+    # If this fails, a command does not take parameters behind a curve, or one claims a proof that there is not.
+    def test_parameters_behind_a_curve(self):
+        tunable = {**CONE, "name": "tunable_cone", "contact": {"at": "1 mm"},
+                   "parameters": {"K": {"value": "300 N/m", "tunable": True, "min": "100 N/m", "max": "900 N/m"},
+                                  "tangent": {"value": "30 N s/m", "tunable": True, "min": "10 N s/m", "max": "90 N s/m"}},
+                   "network": {"parallel": [{"spring": "K"}, {"series": [{"spring": "200 N/m"}, {"damper": "tangent"}]}, {"damper": "1 N s/m"}]}}
+        self.write("cone.json", json.dumps(tunable))
+        rows = ["time,position,K"] + [f"{i / 1000},{min(i, 300) * 1e-5},{300 if i < 6000 else 600}" for i in range(12000)]
+        self.write("motion.csv", "\n".join(rows) + "\n")
+        answer = [row.split(",") for row in self.dashpot("simulate", "cone.json", "--input", "motion.csv").stdout.splitlines()]
+        column = answer[0].index("force")
+        self.assertAlmostEqual(float(answer[6000][column]), 0.16, delta=1e-3)  # (2/5)^2 N, 2 mm deep
+        self.dashpot("run", "cone.json", "--device", TRAINER, "--for", "0.2", "--fast")
+        self.dashpot("check", "cone.json")
+        told = json.loads(self.dashpot("explain", "cone.json", "--json").stdout)
+        self.assertEqual(told["static"]["stiffness"], 300)
+        self.dashpot("report", "cone.json", "-o", "page.html")
+        self.assertIn("emitted map", (self.folder / "page.html").read_text())
+        for options in [["--batch"], ["--device", TRAINER]]:
+            with self.subTest(options=options[:1]):
+                told = self.dashpot("compile", "cone.json", *options, "--certificate", "law.json").stderr
+                self.assertRegex(told, "not certified .*parameters change behind a static curve")
+                header = "tunable_cone_batch.hpp" if "--batch" in options else "tunable_cone.hpp"
+                self.assertFalse(json.loads((self.folder / "law.json").read_text())["passivity"]["certified"])
+                verify = ["verify", "law.json", header, "--allow-uncertified"]
+                self.assertIn("banner and code are those of the network", self.dashpot(*verify).stdout)
+                text = (self.folder / header).read_text()
+                number = re.search(r" map_b\[\d+\] = {(?:[^,]+,\s+){20}([^,]+),", text).group(1)
+                self.write(header, text.replace(number, repr(math.nextafter(float(number), 0)), 1))
+                self.dashpot(*verify, status=INPUT_REFUSED)
+        self.dashpot("compile", "cone.json", "--target", "c99", "--with-test")
+        self.assertIn("passed", self.run_in_c("tunable_cone"))
+
     # If this fails, something is written of a static curve that does not hold it.
     def test_what_takes_no_curve_says_so(self):
         self.refused("export", SKIN, "--to", "generic", code="not-exported")

@@ -5,6 +5,8 @@
 #include "law/evaluate.hpp"
 #include "linear/motion_map.hpp"
 #include "static_case.hpp"
+#include "support/repetitions.hpp"
+#include "support/tunable_run.hpp"
 
 namespace dashpot::testing {
 namespace {
@@ -132,6 +134,67 @@ TEST(BehindMap, ContactPushesFromItsSurfaceOnAndNeverPulls) {
   }
   law.reset(5e-3);
   EXPECT_NEAR(law.step(5e-3, 0).force, 0.9, 1e-3) << "3 mm beyond the surface";
+}
+
+std::string behind_hertz(std::string network) {
+  return network.insert(network.find('{') + 1,
+                        R"( "static": { "power": 1.5, "force": "2 N", "at": "5 mm", "is": "instantaneous" },)");
+}
+
+VariableId local_of(const UpdateLaw& law, const char* name) {
+  for (const Variable& variable : law.variables)
+    if (variable.role == Role::local && variable.name == name) return law.variables.id_of(variable);
+  throw std::logic_error(name);
+}
+
+// Fails if with parameters that change a law behind a map is in any bit, or in its energy, another one than the same
+// law of w, as f = w′ F and b = w′² B.
+void expect_same_law_of_w(std::uint64_t seed, const TunableLaw& curved, const TunableLaw& bare) {
+  Evaluation<double> law(curved.law()), of_w(bare.law());
+  const MotionMap& map = *curved.compilation().network.map;
+  const VariableId tangent = local_of(curved.law(), "tangent"), start = curved.law().started_at;
+  Random random(seed);
+  std::vector<double> values = curved.defaults();
+  int n = 0;
+  for (const double u : random_walk(random, 300)) {
+    if (random.chance(0.03)) {
+      law.reset(u);
+      of_w.reset(law.value_of(start));
+    }
+    if (random.chance(0.3)) {
+      values = next_values(curved.tunables(), values, random);
+      ASSERT_EQ(law.set(values), of_w.set(values)) << "seed " << seed << ", sample " << n;
+    }
+    const command<double> now = law.step(u, 0.1);
+    const double w = law.value_of(curved.law().mapped), steepness = law.value_of(tangent);
+    ASSERT_NEAR(w, odd_value(map, u), 1e-13 * std::abs(w));
+    const command<double> expected = of_w.step(w, steepness * 0.1);
+    ASSERT_EQ(now.force, steepness * expected.force) << "seed " << seed << ", sample " << n;
+    ASSERT_EQ(now.damping, steepness * steepness * expected.damping) << "seed " << seed << ", sample " << n;
+    ASSERT_EQ(law.stored_energy(), of_w.stored_energy()) << "seed " << seed << ", sample " << n;
+    ++n;
+  }
+}
+
+TEST(BehindMap, TakesParametersThatChange) {
+  int tried = 0;
+  for (const Kind kind : {Kind::parallel_branches, Kind::tree, Kind::graph, Kind::touched, Kind::slips})
+    for (std::uint64_t seed = 1; seed <= repetitions(4, 200); ++seed) {
+      const std::string network = tunable_network(seed, kind);
+      Choices choices;
+      if (kind == Kind::slips) choices.decomposition = 0.0;
+      std::optional<TunableLaw> curved;
+      try {
+        curved.emplace(behind_hertz(network), choices);
+      } catch (const std::runtime_error& refusal) {
+        EXPECT_NE(std::string(refusal.what()).find("static-without-springs"), std::string::npos) << refusal.what();
+        continue;
+      }
+      ++tried;
+      expect_same_law_of_w(seed, *curved, TunableLaw(network, choices));
+      if (HasFatalFailure()) return;
+    }
+  EXPECT_GT(tried, 10);
 }
 
 TEST(BehindMap, RefusesNoPlaceAndForgetsNoSample) {

@@ -113,10 +113,6 @@ TEST(MotionMap, RefusesWhatHasNoMap) {
             std::string::npos);
   const std::string bent = R"({ "table": [[0, 0], [1e-9, 1e-12], [1.00001e-9, 1], [1e-2, 1.00001]] })";
   EXPECT_NE(refusal_of(behind(bent)).find("static-too-bent"), std::string::npos);
-  const std::string tunable = R"({ "dashpot": 1, "name": "curved", "static": )" + std::string(hertz) +
-                              R"(, "parameters": { "K": { "value": "400 N/m", "tunable": true, "min": "1 N/m",
-                                 "max": "500 N/m" } }, "network": { "spring": "K" } })";
-  EXPECT_NE(refusal_of(tunable).find("static-with-tunables"), std::string::npos);
 }
 
 }  // namespace

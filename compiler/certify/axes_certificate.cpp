@@ -129,7 +129,8 @@ axes::GivenDamping given_by(const AxesNetwork& network, const std::vector<Certif
                             const AxesDevice& device, axes::BrakeRule rule, bool is_gated,
                             const std::vector<double>& added) {
   Symmetric<double> own{device.mechanics.damping[0], 0, device.mechanics.damping[1]};
-  for (const AlongBrake& brake : device.brakes) own = own + brake.brake.residual_damping * axes::outer(brake.along);
+  for (const AlongBrake& brake : device.brakes)
+    own = own + share_at_speed(brake, device) * brake.brake.residual_damping * axes::outer(brake.along);
   const bool is_told = !is_gated && is_brakes_part_known(device, rule);
   return [&network, &ports, &device, own, is_told, added](const Pair<Sloped>& joints) {
     Symmetric<Sloped> sum{Sloped(own.xx), Sloped(own.xy), Sloped(own.yy)};

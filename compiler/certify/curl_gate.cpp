@@ -83,11 +83,15 @@ bool have_one_estimator(const AxesDevice& device) {
 
 }  // namespace
 
-double assured_share(const AlongBrake& brake, const AxesDevice& device) {
+double share_at_speed(const AlongBrake& brake, const AxesDevice& device) {
   double fastest = 0;
   for (std::size_t i = 0; i < 2; ++i) fastest += std::abs(brake.along[i]) * device.joints[i].encoder.max_speed;
   const double turn = brake.brake.critical_speed > 0 ? fastest / brake.brake.critical_speed : 0;
-  return (1 - brake.brake.tolerance) / (1 + turn * turn);
+  return 1 / (1 + turn * turn);
+}
+
+double assured_share(const AlongBrake& brake, const AxesDevice& device) {
+  return (1 - brake.brake.tolerance) * share_at_speed(brake, device);
 }
 
 SampledLoop loop_of_joint(const device_description& joint) {

@@ -30,7 +30,9 @@ struct GatePassage {
 GatePassage gate_passage(const axes::CurlGate& gate, const AxesDevice& device, const std::vector<double>& added,
                          const axes::ViscousField& viscous);
 
-// What a brake makes of its command at least, at the fastest that the joints go [1].
+// What is left of a brake's damping at the fastest that the joints go, and of that what it makes of its command at
+// least [1].
+double share_at_speed(const AlongBrake& brake, const AxesDevice& device);
 double assured_share(const AlongBrake& brake, const AxesDevice& device);
 
 // Of a damping that is wanted of a brake, what it can make beside what is added to its command already.

@@ -208,6 +208,23 @@ class AxesTest(CommandTest):
         cost = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)["operations"]
         self.assertLessEqual(cost["output"] + cost["update"], 150)
 
+    # If this fails, the damping that a brake has without current is counted in full where it fades with speed.
+    def test_residual_damping_fades_with_speed(self):
+        network = self.write("springs.json", json.dumps({"dashpot": 1, "axes": 2, "name": "springs", "ports": [
+            {"name": name, "map": {"along": along}, "network": {"spring": "1000 N/m"}} for name, along in (("x", [1, 0]), ("y", [0, 1]))]}))
+        told = {}
+        for critical in (None, "0.05 m/s"):
+            brakes = [{"along": along, "kind": "eddy_current", "max_damping": "5 N s/m", "residual_damping": "0.3 N s/m",
+                       **({"critical_speed": critical} if critical else {})} for along in ([1, 0], [0, 1])]
+            self.write("arm.json", json.dumps({
+                "dashpot_device": 1, "axes": 2, "name": "arm", "loop": {"rate": "1 kHz"}, "encoders": {"max_speed": "1 m/s"}, "motors": {},
+                "kinematics": {"kind": "cartesian", "workspace": {"x": ["-50 mm", "50 mm"], "y": ["-50 mm", "50 mm"]}}, "brakes": brakes,
+                "mechanics": {"damping": "0 N s/m", "inertia": [["0.1 kg", "0 kg"], ["0 kg", "0.1 kg"]]}}))
+            told[critical] = json.loads(self.dashpot("explain", network, "--device", "arm.json", "--json").stdout)["missing_damping"]
+        # KT/2 for each spring, less what is left of 0.3 N s/m at 20 times the critical speed.
+        self.assertAlmostEqual(told[None], 0.5 - 0.3, delta=1e-9)
+        self.assertAlmostEqual(told["0.05 m/s"], 0.5 - 0.3 / 401, delta=1e-9)
+
     # If this fails, explain promises something else of more brakes than an isotropic field gets of them.
     def test_explain_tells_what_more_brakes_would_make(self):
         arm = json.loads(PANTOGRAPH.read_text())

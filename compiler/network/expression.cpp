@@ -356,7 +356,8 @@ bool is_expression(const ValueDecl& decl, const NameScope& scope) {
     return false;
   const bool opens = std::string_view(decl.text).substr(blanks(decl.text)).starts_with('(');
   // A parameter that is called like a unit does not make a misspelt quantity an expression: "5 N/m s".
-  const NameScope no_units{[&](std::string_view name) { return scope.knows(name) && !is_unit(name); }, scope.read};
+  const NameScope no_units{[&](std::string_view name) { return scope.knows(name) && !is_unit(name); }, scope.read,
+                           scope.has_names};
   return opens || has_operator(decl.text) || has_known_name(decl.text, no_units);
 }
 

@@ -141,7 +141,7 @@ void add_choices(CLI::App& command, CommandLine& line) {
   command
       .add_option("--decomposition", line.decomposition,
                   "What the brake takes over, default faithful on a device and with slips, else paper. With two axes "
-                  "diagonal, the default there, non-injecting or virtual, and nothing else")
+                  "diagonal, the default there, non-injecting or virtual, or for the ports faithful or paper")
       ->check(check_decomposition)
       ->option_text("NAME|DAMPING (" + CLI::detail::join(decompositions) + ", or a number in SI)");
   command.add_option("--tolerance", line.tolerance, "What 'faithful' may let the felt force err by, default 5 %")

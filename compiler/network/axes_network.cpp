@@ -116,6 +116,7 @@ std::optional<std::vector<double>> read_lengths(const std::string& key, const Js
 }
 
 constexpr std::size_t most_knots_a_side = 64, most_knots = 1600;
+constexpr double least_step = 1e-9;  // between knots [m]
 
 // The step between the knots of one side; nothing, reported, where they do not rise by equal ones. Steps that are
 // written in decimals differ by 1e-6 of one at most.
@@ -124,9 +125,10 @@ std::optional<double> step_of(const std::string& key, const JsonValue& value, co
   const double step = (knots.back() - knots.front()) / double(knots.size() - 1);
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const double due = knots.front() + double(i) * step;
-    if (step > 0 && std::abs(knots[i] - due) <= 1e-6 * step) continue;
-    diagnostics.report<DiagnosticCode::grid_spacing>(value.items[i].span, key, knots[i - 1], knots[i],
-                                                     step > 0 ? due : knots.front() + double(i) * std::abs(step));
+    if (step >= least_step && std::isfinite(step) && std::abs(knots[i] - due) <= 1e-6 * step) continue;
+    diagnostics.report<DiagnosticCode::grid_spacing>(
+        value.items[i].span, key, knots[i - 1], knots[i],
+        step >= least_step ? due : knots.front() + double(i) * std::max(std::abs(step), least_step));
     return std::nullopt;
   }
   return step;

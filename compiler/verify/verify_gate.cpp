@@ -55,7 +55,7 @@ void verify_gate(const axes::CurlGate& gate, const AxesDevice& device, const Hea
   // A decimal of the header is rounded, in float32 by 6e-8; the compiler keeps 1e-6 of the allowances back for it.
   const double slack = header.scalar == ScalarType::float64 ? 1e-9 : 1e-6;
   const auto at_most = [&](const char* name, double value, double limit) {
-    if (value <= limit * (1 + slack)) return;
+    if (value > 0 && value <= limit * (1 + slack)) return;
     diagnostics.report<DiagnosticCode::constant_wrong>({}, name, 1, value, fmt::format("at most {:.17g}", limit));
   };
   double sum = 1, ages = 0;
@@ -71,8 +71,9 @@ void verify_gate(const axes::CurlGate& gate, const AxesDevice& device, const Hea
           4 * holds * holds * sure_share(device.brakes[0], device) * sure_share(device.brakes[1], device) / second);
   at_most("gate_share", number("gate_share", 1 / gate.gain), 1 / sum);
   at_most("gate_half", number("gate_half", 0.5 / gate.gain), 0.5 / sum);
-  const double reserve = number("gate_reserve", gate.reserve), due = number("gate_recovery", gate.recovery) * ages;
-  if (reserve < due * (1 - slack))
+  const double reserve = number("gate_reserve", gate.reserve), recovery = number("gate_recovery", gate.recovery);
+  const double due = std::abs(recovery) * ages;
+  if (recovery < 0 || reserve < due * (1 - slack))
     diagnostics.report<DiagnosticCode::constant_wrong>({}, "gate_reserve", 1, reserve,
                                                        fmt::format("at least {:.17g}", due));
 }

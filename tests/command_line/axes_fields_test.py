@@ -177,6 +177,26 @@ class AxesFieldsTest(CommandTest):
             refused = self.dashpot("verify", "edited.json", "edited.hpp", status=INPUT_REFUSED).stderr
             self.assertRegex(refused, rf"'{table}' of place \d+ is .* recomputed")
 
+    # If this fails, a value that no one can read is taken for nothing, and what it belongs to is left out.
+    def test_no_value_is_lost(self):
+        whole = [["1 N s/m", 0], [0, "1 N s/m"]]
+        for text in ("2*B", "x N s/m", "O.5 N s/m", "NaN N s/m", "B"):
+            spoiled = [[text, 0], [0, "1 N s/m"]]
+            for field in ({"viscous": spoiled}, {"grid": {"x": [0, "1 mm"], "y": [0, "1 mm"], "viscous": [[whole, whole], [whole, spoiled]]}}):
+                with self.subTest(text=text, grid="grid" in field):
+                    self.write("bad.json", json.dumps({"dashpot": 1, "axes": 2, "name": "bad", "parameters": {"B": "1 N s/m"}, "ports": [FAR], "field": field}))
+                    self.assertRegex(self.dashpot("check", "bad.json", status=INPUT_REFUSED).stderr, r"error: .*\n.*1 \|")
+        ball = {"name": "bad", "map": {"ball": {"centre": [0, "60 mm"], "radius": "2*R"}}, "network": {"spring": "10 N/m"}, "contact": {"at": 0}}
+        self.write("bad.json", json.dumps({"dashpot": 1, "axes": 2, "name": "lost", "parameters": {"R": "1 mm"}, "ports": [ball]}))
+        self.refused("check", "bad.json", code="malformed-quantity")
+        arm = prompt_arm()
+        for section, key, text in (("loop", "jitter", "2*T"), ("motors", "amplifier_lag", "2*tau"), ("brakes", "tolerance", "2*e"), ("mechanics", "damping", "Q uN m s/rad")):
+            spoiled = json.loads(json.dumps(arm))
+            for part in spoiled[section] if section == "brakes" else [spoiled[section]]: part[key] = text
+            with self.subTest(key=key):
+                self.write("arm.json", json.dumps(spoiled))
+                self.refused("check", self.write("field.json", json.dumps(field_of("field", 1.0, 0))), "--device", "arm.json", code="malformed-quantity")
+
     # If this fails, a grid that cannot be one, or whose field gives power at a knot, is taken.
     def test_grids_of_fields_that_are_refused(self):
         one = [["1 N s/m", 0], [0, "1 N s/m"]]
@@ -190,6 +210,10 @@ class AxesFieldsTest(CommandTest):
             with self.subTest(code=code, change=change):
                 self.write("bad.json", json.dumps({"dashpot": 1, "axes": 2, "name": "bad", "ports": [FAR], "field": {"grid": {**good, **change}}}))
                 self.refused("check", "bad.json", code=code)
+        for step in (1e308, 1e-300):
+            self.write("bad.json", json.dumps({"dashpot": 1, "axes": 2, "name": "bad", "ports": [FAR],
+                                               "field": {"grid": {**good, "x": [-step, step]}}}))
+            self.refused("check", "bad.json", code="grid-spacing")
         self.write("bad.json", json.dumps({"dashpot": 1, "axes": 2, "name": "bad", "ports": [FAR], "field": {"grid": good, "viscous": one}}))
         self.refused("check", "bad.json", code="unknown-key")
 

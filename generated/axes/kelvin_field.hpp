@@ -10,14 +10,14 @@
 //   100.6) mm, in motions alike in all directions
 // passivity: certified for any motion in the workspace, while the motors make their torques: what the motors hold
 //   from one sample to the next needs 0.00428038 and 0.00428038 N·m·s/rad of damping at the joints; their own
-//   damping and the brakes' share of the network's leave 0.00421038 and 0.00421038 N·m·s/rad of it to be added,
+//   damping and the brakes' share of the network's leave 0.00421049 and 0.00421049 N·m·s/rad of it to be added,
 //   most at (0.9375, 70) mm
 //   of what is needed, 0.00345047 and 0.00345047 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late
 //   of what is needed, 0.000771214 and 0.000771214 N·m·s/rad are for the lag of the motors' amplifiers
 //   what the motors make of the ports' damping, from estimates, takes any lateness that both joints share in 100 %
 //   of the workspace
-//   added to the brakes' commands for it: 0.00446137, 0.00446137 N m s/rad; felt at the tip: up to 3.62 N s/m more
+//   added to the brakes' commands for it: 0.00446149, 0.00446149 N m s/rad; felt at the tip: up to 3.62 N s/m more
 // device: pantograph_2dof
 // cost of output(): 81 additions, 99 multiplications, 22 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
@@ -44,7 +44,7 @@ class kelvin_field {
   static constexpr dashpot::motion port_motion = dashpot::motion::rotation;  // of the joints
 
   // Of each brake's command the part that is there for passivity alone [N·m·s/rad].
-  static constexpr scalar added_damping[brakes] = {0.004461367062702254, 0.004461367062702254};
+  static constexpr scalar added_damping[brakes] = {0.004461485602175938, 0.004461485602175938};
 
   // What the servo loop compares with the device that it drives.
   struct certified_for {
@@ -408,8 +408,8 @@ class kelvin_field {
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
   static constexpr scalar half_base = 0.0125;  // half of that [m]
   static constexpr scalar out_offset = 0.1;  // of the plane from the origin [m]
-  static constexpr scalar most_damping_1 = 0.009538632937297746;  // that the brake gives, less what is added [N·m·s/rad]
-  static constexpr scalar added_damping_1 = 0.004461367062702254;  // for passivity alone [N·m·s/rad]
+  static constexpr scalar most_damping_1 = 0.009538514397824063;  // that the brake gives, less what is added [N·m·s/rad]
+  static constexpr scalar added_damping_1 = 0.004461485602175938;  // for passivity alone [N·m·s/rad]
 
   scalar across_last_position_ = 0;  // u of the sample before [m]
   scalar across_sampled_position_ = 0;  // port displacement u, at this sample [m]

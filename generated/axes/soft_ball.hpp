@@ -10,7 +10,7 @@
 //   119.4) mm, in motions alike in all directions
 // passivity: not certified, since port 'ball': the contact lets go by a velocity estimate, and the loop is late:
 //   what the motors hold from one sample to the next needs 0.0446642 and 0.0446642 N·m·s/rad of damping at the
-//   joints; their own damping and the brakes' share of the network's leave 0.0445942 and 0.0445942 N·m·s/rad of it
+//   joints; their own damping and the brakes' share of the network's leave 0.0445944 and 0.0445944 N·m·s/rad of it
 //   to be added, most at (-22.97, 120) mm
 //   of what is needed, 0.00743716 and 0.00743716 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late

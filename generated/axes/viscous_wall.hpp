@@ -9,7 +9,7 @@
 //   106.9) mm, in motions alike in all directions
 // passivity: not certified, since port 'wall': the contact lets go by a velocity estimate, and the loop is late:
 //   what the motors hold from one sample to the next needs 0.0904794 and 0.0904794 N·m·s/rad of damping at the
-//   joints; their own damping and the brakes' share of the network's leave 0.0904094 and 0.0904094 N·m·s/rad of it
+//   joints; their own damping and the brakes' share of the network's leave 0.0904095 and 0.0904095 N·m·s/rad of it
 //   to be added, most at (-0.3125, 109.6) mm
 //   of what is needed, 0.0200506 and 0.0200506 N·m·s/rad are for what the motors make of estimated velocities,
 //   however late

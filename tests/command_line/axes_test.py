@@ -524,7 +524,7 @@ int main() {
         kelvin = SOURCE / "networks/paper/kelvin.json"
         for network, device in ((FIELD, ONE_AXIS), (kelvin, PANTOGRAPH)):
             self.assertIn("[axes-differ]", self.dashpot("explain", network, "--device", device, status=INPUT_REFUSED).stderr)
-        refused = self.dashpot("compile", FIELD, "--decomposition", "paper", status=INPUT_REFUSED).stderr
+        refused = self.dashpot("compile", FIELD, "--decomposition", "velocity-free", status=INPUT_REFUSED).stderr
         self.assertIn("[rule-of-brakes]", refused)
         refused = self.dashpot("compile", FIELD, "--state-input", "velocity", status=INPUT_REFUSED).stderr
         self.assertIn("[ports-follow-position]", refused)

@@ -14,14 +14,6 @@ double largest_of(const Matrix<double>& m) {
   return std::max({std::abs(m[0][0]), std::abs(m[0][1]), std::abs(m[1][0]), std::abs(m[1][1])});
 }
 
-// How far x is from the field's first knot, but not beyond its outer ones.
-template <typename S>
-S within(const ViscousField& field, std::size_t axis, const S& x) {
-  using std::max, std::min;
-  const double length = double(field.knots[axis] - 1) * field.spacing[axis];
-  return max(min(x - S(field.start[axis]), S(length)), S(0));
-}
-
 std::size_t cell_along(const ViscousField& field, std::size_t axis, double way) {
   return std::min(std::size_t(way / field.spacing[axis]), cells_of(field)[axis] - 1);
 }
@@ -78,7 +70,7 @@ BilinearCell cell_entry(const ViscousField& field, std::size_t column, std::size
 
 Matrix<double> field_at(const ViscousField& field, const Pair<double>& x) {
   if (field.is_uniform()) return field.at_knot.front();
-  const Pair<double> way{within(field, 0, x[0]), within(field, 1, x[1])};
+  const Pair<double> way{way_from_first_knot(field, 0, x[0]), way_from_first_knot(field, 1, x[1])};
   const std::size_t column = cell_along(field, 0, way[0]), row = cell_along(field, 1, way[1]);
   const double s = way[0] - double(column) * field.spacing[0], t = way[1] - double(row) * field.spacing[1];
   Matrix<double> a;
@@ -87,9 +79,9 @@ Matrix<double> field_at(const ViscousField& field, const Pair<double>& x) {
   return a;
 }
 
-// Beyond the outer knots derivatives are 0, which within() brings in.
+// Beyond the outer knots derivatives are 0, which way_from_first_knot() brings in.
 Matrix<Sloped> field_at(const ViscousField& field, const Pair<Sloped>& x) {
-  const Pair<Sloped> way{within(field, 0, x[0]), within(field, 1, x[1])};
+  const Pair<Sloped> way{way_from_first_knot(field, 0, x[0]), way_from_first_knot(field, 1, x[1])};
   const Pair<Interval> over{way[0].value, way[1].value}, middle{way[0].middle, way[1].middle};
   const auto entry = [&](std::size_t i, std::size_t j) {
     if (field.is_uniform()) return Sloped(field.at_knot.front()[i][j]);
@@ -101,7 +93,7 @@ Matrix<Sloped> field_at(const ViscousField& field, const Pair<Sloped>& x) {
 }
 
 std::optional<Driving> driving(const Matrix<double>& viscous) {
-  const Symmetric<double> heat{viscous[0][0], 0.5 * (viscous[0][1] + viscous[1][0]), viscous[1][1]};
+  const Symmetric<double> heat = symmetric_part(viscous);
   const double least = least_eigenvalue(heat);
   if (least >= -rounding_slack * largest_of(viscous)) return std::nullopt;
   // Both are multiples of the eigenvector; the longer one is far from 0.

@@ -2,6 +2,7 @@
 // motors, and the gate that keeps the rest passive on a sampled loop (theory, section 12).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <vector>
@@ -35,6 +36,14 @@ using BilinearCell = std::array<double, 4>;
 // A field's cells lie between its knots, rows of equal y from below.
 std::array<std::size_t, 2> cells_of(const ViscousField& field);
 BilinearCell cell_entry(const ViscousField& field, std::size_t column, std::size_t row, std::size_t i, std::size_t j);
+
+// How far x is from the field's first knot along an axis, but not beyond its outer ones [m].
+template <typename S>
+S way_from_first_knot(const ViscousField& field, std::size_t axis, const S& x) {
+  using std::max, std::min;
+  const double length = double(field.knots[axis] - 1) * field.spacing[axis];
+  return max(min(x - S(field.start[axis]), S(length)), S(0.0));
+}
 
 template <typename S>
 S bilinear(const std::array<S, 4>& c, const S& s, const S& t) {

@@ -87,7 +87,9 @@ axes::Depth<Term> depth_of(const PortLaw& port, const Pair<Term>& tip) {
 class FieldCell {
  public:
   FieldCell(const axes::ViscousField& field, const Pair<Term>& tip)
-      : field_(field), cells_(axes::cells_of(field)), within_{along(0, tip), along(1, tip)} {
+      : field_(field),
+        cells_(axes::cells_of(field)),
+        within_{axes::way_from_first_knot(field, 0, tip[0]), axes::way_from_first_knot(field, 1, tip[1])} {
     cell_ = pick(table("field_column", "1", "number of each column of cells", cells_[0],
                        [](std::size_t i) { return double(i); }),
                  place(0)) +
@@ -113,11 +115,6 @@ class FieldCell {
   }
 
  private:
-  // From the first knot, but not beyond the outer ones.
-  Term along(std::size_t axis, const Pair<Term>& tip) const {
-    const double length = double(field_.knots[axis] - 1) * field_.spacing[axis];
-    return max(min(tip[axis] - Term(field_.start[axis]), Term(length)), Term(0.0));
-  }
   // At the last knot it is that of no cell any more: tables repeat their last number there.
   Term place(std::size_t axis) const { return Term(1 / field_.spacing[axis]) * within_[axis]; }
 

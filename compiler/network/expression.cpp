@@ -6,6 +6,7 @@
 #include <initializer_list>
 #include <variant>
 
+#include "network/read_value.hpp"
 #include "network/unit.hpp"
 #include "source/excerpt.hpp"
 #include "source/utf8.hpp"
@@ -242,6 +243,10 @@ class ExpressionReader {
     at_ += name.size();
     if (name == "pi") return {{boost::math::constants::pi<ExactReal>(), dimensions::number}, begin, at_};
     if (rest().starts_with('(')) return function(name, begin);
+    if (!scope_.read) {
+      report_no_quantity(decl_, diagnostics_);
+      return failed();
+    }
     const std::optional<ExactQuantity> value = scope_.read({name, part_of(decl_, begin, begin + name.size())});
     if (!value) return failed();
     return {*value, begin, begin + name.size()};
@@ -356,8 +361,7 @@ bool is_expression(const ValueDecl& decl, const NameScope& scope) {
     return false;
   const bool opens = std::string_view(decl.text).substr(blanks(decl.text)).starts_with('(');
   // A parameter that is called like a unit does not make a misspelt quantity an expression: "5 N/m s".
-  const NameScope no_units{[&](std::string_view name) { return scope.knows(name) && !is_unit(name); }, scope.read,
-                           scope.has_names};
+  const NameScope no_units{[&](std::string_view name) { return scope.knows(name) && !is_unit(name); }, scope.read};
   return opens || has_operator(decl.text) || has_known_name(decl.text, no_units);
 }
 

@@ -27,9 +27,8 @@ struct ExactQuantity {
 // What names stand for where an expression is written.
 struct NameScope {
   std::function<bool(std::string_view)> knows = [](std::string_view) { return false; };
-  // Reports why where it returns nothing, but where there are no names at all.
-  std::function<std::optional<ExactQuantity>(const Text&)> read = [](const Text&) { return std::nullopt; };
-  bool has_names = false;
+  // Reports why where it returns nothing. Empty: there are no names, and a value that has one in it is refused.
+  std::function<std::optional<ExactQuantity>(const Text&)> read;
 };
 
 // True for text that is to be calculated: neither a name nor a number with a unit, and with an operator, a function

@@ -105,7 +105,7 @@ std::optional<ReadValue> ParameterTable::use(Entry& entry, const ValueDecl& decl
 
 NameScope ParameterTable::scope() {
   return {[this](std::string_view name) { return index_of_name_.contains(std::string(name)); },
-          [this](const Text& name) { return read_operand(name); }, true};
+          [this](const Text& name) { return read_operand(name); }};
 }
 
 // A plain number stays one: an expression does not say what would be due.

@@ -57,10 +57,7 @@ std::optional<double> read_quantity_as(const ValueDecl& decl, const Expectation&
     report_no_quantity(decl, diagnostics);
     return std::nullopt;
   }
-  const std::size_t errors_before = diagnostics.error_count();
   const std::optional<Quantity> quantity = read_stated(decl, scope, diagnostics);
-  if (!quantity && !scope.has_names && diagnostics.error_count() == errors_before)
-    report_no_quantity(decl, diagnostics);
   if (!quantity) return std::nullopt;
   if (!quantity->dimension || quantity->dimension == expected.dimension) return quantity->value;
   report_wrong_unit(decl, *quantity->dimension, expected, scope, diagnostics);

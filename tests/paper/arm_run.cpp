@@ -79,13 +79,7 @@ class ArmRun {
   }
 
   double felt(const simulated::arm_view& view, unsigned joint) const {
-    double torque = -view.motor_torque[joint];
-    for (unsigned i = 0; i < arm_.brake_count; ++i) {
-      const double(&along)[arm_axes] = arm_.brakes[i].along;
-      const double rate = along[0] * view.velocity[0] + along[1] * view.velocity[1];
-      torque += along[joint] * view.brake_damping[i] * rate;
-    }
-    return torque;
+    return simulated::opposed_by_actuators(arm_, view, joint);
   }
 
   arm_description arm_;

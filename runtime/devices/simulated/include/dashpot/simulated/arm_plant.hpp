@@ -31,6 +31,17 @@ struct arm_view {
   bool stuck[arm_axes] = {};
 };
 
+// What motors and brakes oppose to a joint's motion [N·m] or [N].
+inline double opposed_by_actuators(const arm_description& arm, const arm_view& view, unsigned joint) noexcept {
+  double torque = -view.motor_torque[joint];
+  for (unsigned i = 0; i < arm.brake_count; ++i) {
+    const double(&along)[arm_axes] = arm.brakes[i].along;
+    const double rate = along[0] * view.velocity[0] + along[1] * view.velocity[1];
+    torque += along[joint] * view.brake_damping[i] * rate;
+  }
+  return torque;
+}
+
 class arm_plant {
  public:
   arm_plant(const arm_description& arm, const arm_scenario& scene);

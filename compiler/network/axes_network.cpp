@@ -25,7 +25,7 @@ const JsonMember* kind_of(const JsonValue& map, const ObjectReader& reader, Diag
   for (const JsonMember& member : map.members) {
     if (!is_kind(member.key)) continue;
     if (kind != nullptr) {
-      diagnostics.report<DiagnosticCode::two_map_kinds>(member.key_span, kind->key, member.key);
+      diagnostics.report<DiagnosticCode::two_kinds_at_once>(member.key_span, "map", kind->key, member.key);
       diagnostics.note<DiagnosticCode::first_given_here>(kind->key_span);
       return nullptr;
     }
@@ -141,9 +141,9 @@ struct KnotValues {
   std::vector<const JsonValue*> values;  // rows of equal y, from below
 };
 
-// An object of x, y and rows of values under `what`.
+// An object of x, y and rows of values under `what`, which are `whats`.
 std::optional<KnotValues> read_grid_of(const std::string& key, const JsonValue& value, const char* what,
-                                       Diagnostics& diagnostics) {
+                                       const char* whats, Diagnostics& diagnostics) {
   const MapReader reader(key, value, {"x", "y", what}, diagnostics);
   const JsonValue *const x = reader.value("x"), *const y = reader.value("y"), *const rows = reader.value(what);
   if (x == nullptr || y == nullptr || rows == nullptr) return std::nullopt;
@@ -156,8 +156,8 @@ std::optional<KnotValues> read_grid_of(const std::string& key, const JsonValue& 
   }
   if (rows->kind != JsonValue::Kind::array || rows->items.size() != height) {
     diagnostics.report<DiagnosticCode::grid_rows>(
-        rows->span, rows->kind == JsonValue::Kind::array ? fmt::format("{} rows", rows->items.size()) : "no rows",
-        height, columns);
+        rows->span, what, rows->kind == JsonValue::Kind::array ? fmt::format("{} rows", rows->items.size()) : "no rows",
+        height, columns, whats);
     return std::nullopt;
   }
   KnotValues grid{{columns_at->front(), rows_at->front()}, {0, 0}, {columns, height}, {}};
@@ -167,8 +167,8 @@ std::optional<KnotValues> read_grid_of(const std::string& key, const JsonValue& 
       return std::nullopt;
     }
     if (row.items.size() != columns) {
-      diagnostics.report<DiagnosticCode::grid_rows>(row.span, fmt::format("a row of {} numbers", row.items.size()),
-                                                    height, columns);
+      diagnostics.report<DiagnosticCode::grid_rows>(
+          row.span, what, fmt::format("a row of {} {}", row.items.size(), whats), height, columns, whats);
       return std::nullopt;
     }
     for (const JsonValue& item : row.items) grid.values.push_back(&item);
@@ -180,7 +180,7 @@ std::optional<KnotValues> read_grid_of(const std::string& key, const JsonValue& 
 }
 
 std::optional<axes::PortMap> read_grid(const JsonMember& kind, Diagnostics& diagnostics) {
-  const auto grid = read_grid_of(kind.key, kind.value, "values", diagnostics);
+  const auto grid = read_grid_of(kind.key, kind.value, "values", "numbers", diagnostics);
   if (!grid) return std::nullopt;
   std::vector<std::vector<double>> values(grid->knots[1]);
   for (std::size_t i = 0; i < grid->values.size(); ++i) {
@@ -246,7 +246,7 @@ std::optional<axes::Matrix<double>> read_viscous(const JsonValue& value, Diagnos
 }
 
 std::optional<axes::ViscousField> read_field_grid(const JsonValue& value, Diagnostics& diagnostics) {
-  const auto frame = read_grid_of("grid", value, "viscous", diagnostics);
+  const auto frame = read_grid_of("grid", value, "viscous", "matrices", diagnostics);
   if (!frame) return std::nullopt;
   axes::ViscousField field{frame->start, frame->spacing, frame->knots, {}};
   for (const JsonValue* knot : frame->values) {

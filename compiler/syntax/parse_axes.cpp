@@ -78,15 +78,16 @@ void parse_field(const ObjectReader& file, AxesNetworkDecl& decl, Diagnostics& d
   const JsonValue* object = file.object("field");
   if (object == nullptr) return;
   ObjectReader reader(*object, "'field'", diagnostics);
-  if (reader.find("grid") != nullptr) {
-    reader.refuse_other_keys({"grid"});
-    if (const JsonValue* grid = reader.object("grid")) decl.field_grid = *grid;
-    return;
-  }
   reader.refuse_other_keys({"viscous", "grid", "stiffness"});
-  const JsonMember* stiffness = reader.find("stiffness");
+  const JsonMember *viscous = reader.find("viscous"), *grid = reader.find("grid"),
+                   *stiffness = reader.find("stiffness");
+  if (viscous != nullptr && grid != nullptr)
+    diagnostics.report<DiagnosticCode::two_kinds_at_once>(grid->key_span, "field", viscous->key, grid->key);
+  if (viscous == nullptr && grid == nullptr && stiffness == nullptr && object->members.empty())
+    diagnostics.report<DiagnosticCode::field_without_kind>(reader.opening());
+  if (grid != nullptr)
+    if (const JsonValue* knots = reader.object("grid")) decl.field_grid = *knots;
   if (stiffness != nullptr) decl.stiffness = stiffness->value;
-  const JsonMember* viscous = stiffness != nullptr ? reader.find("viscous") : reader.require("viscous");
   if (viscous != nullptr) decl.viscous = viscous->value;
 }
 

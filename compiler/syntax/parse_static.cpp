@@ -19,7 +19,7 @@ const JsonMember* kind_of(const JsonValue& value, const ObjectReader& reader, Di
   for (const JsonMember& member : value.members) {
     if (!is_kind(member.key)) continue;
     if (kind != nullptr) {
-      diagnostics.report<DiagnosticCode::two_static_kinds>(member.key_span, kind->key, member.key);
+      diagnostics.report<DiagnosticCode::two_kinds_at_once>(member.key_span, "static", kind->key, member.key);
       diagnostics.note<DiagnosticCode::first_given_here>(kind->key_span);
       return nullptr;
     }

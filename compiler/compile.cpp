@@ -8,6 +8,7 @@
 #include "certify/curve_bound.hpp"
 #include "certify/settle.hpp"
 #include "certify/tunable_choice.hpp"
+#include "compile_ports.hpp"
 #include "decompose/slip_laws.hpp"
 #include "discretise/element_names.hpp"
 #include "discretise/discretise.hpp"
@@ -206,6 +207,7 @@ std::optional<Compilation> compile(const SourceFile& source, const Choices& aske
 
 std::optional<Compilation> compile(Network network, const Choices& asked, const std::optional<Device>& device,
                                    Diagnostics& diagnostics, StageTimes& times) {
+  if (!network.ports.empty()) return compile_ports(std::move(network), asked, device, diagnostics);
   const bool has_slips = std::any_of(network.elements.begin(), network.elements.end(),
                                      [](const Element& element) { return std::holds_alternative<Slip>(element.law); });
   Choices choices = with_names(asked, device || has_slips);
@@ -264,6 +266,8 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
 }
 
 void weigh_all_candidates(Compilation& c, const Choices& asked) {
+  for (Compilation& port : c.ports) weigh_all_candidates(port, asked);
+  if (!c.ports.empty()) return;
   const Choices choices = with_names(asked, c.device || c.form.has_slips());
   CandidateSettler settler(c.network, c.form, c.decomposition, choices, c.port, c.rate);
   for (std::size_t i = 0; i < c.decomposition.candidates.size(); ++i) {

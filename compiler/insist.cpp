@@ -174,7 +174,7 @@ class Remedies {
 
   // Of all springs and dampers, in three digits. Behind a static curve it is the curve that says how large forces are.
   std::optional<Remedy> share(std::initializer_list<double> guesses) const {
-    if (c_.network.static_curve) return std::nullopt;
+    if (c_.network.static_curve || !c_.ports.empty()) return std::nullopt;
     for (const double guess : guesses)
       for (const double careful : {1.0, 0.9, 0.75, 0.5}) {
         if (!(guess * careful > 1e-6 && guess * careful < 1)) continue;
@@ -328,7 +328,7 @@ class Remedies {
   // Sooner known than by compiling all: with its damping shared out at best the chosen candidate needs no more than
   // there is.
   bool may_do(const Device& device) const {
-    if (c_.law.tunable) return true;
+    if (c_.law.tunable || !c_.ports.empty()) return true;
     Candidate candidate = c_.decomposition.choice();
     const PortDevice port = c_.port.replaced_by(device);  // which the settler looks at
     CandidateSettler settler(c_.network, c_.form, c_.decomposition, choices_, port,

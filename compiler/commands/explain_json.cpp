@@ -235,9 +235,7 @@ Json json_of(const Validity& valid) {
   return {{"frequency", ends(valid.frequency)}, {"rate", ends(valid.rate)}, {"displacement", ends(valid.displacement)}};
 }
 
-}  // namespace
-
-std::string explain_json(const Compilation& c) {
+Json explained(const Compilation& c) {
   Json modes = Json::array(), kelvin = Json::array(), candidates = Json::array();
   for (const Mode& mode : c.form.linear.modes)
     modes.push_back({{"stiffness", to_double(mode.stiffness)}, {"relaxation_rate", to_double(mode.relaxation_rate)}});
@@ -280,7 +278,36 @@ std::string explain_json(const Compilation& c) {
               {"state_input", name_of(choice.state_input)},
               {"reason", choice.reason + "; " + c.decomposition.reason}};
   if (c.law.tunable) all["tunables"] = json_of(*c.law.tunable);
-  return all.dump(2) + "\n";
+  return all;
+}
+
+// The ports, each explained on its share of the device, and what is true of all together.
+Json explained_ports(const Compilation& c) {
+  Json ports = Json::array();
+  for (const Compilation& port : c.ports) {
+    Json one = {
+        {"share_of_device",
+         c.device
+             ? Json({{"brake", port.share.brake}, {"own_damping", port.share.own_damping}, {"motor", port.share.motor}})
+             : Json(nullptr)}};
+    one.update(explained(port));
+    ports.push_back(std::move(one));
+  }
+  Json all;
+  const Json whole = explained(c);
+  for (const char* key : {"name", "motion", "units", "rate", "valid", "device"}) all[key] = whole[key];
+  all["ports"] = ports;
+  for (const char* key : {"certificate", "motor_limits", "coupled_operations", "chosen", "reason"})
+    all[key] = whole[key];
+  all["damping"] = c.law.damping;
+  all["largest_damping"] = c.law.largest_damping;
+  return all;
+}
+
+}  // namespace
+
+std::string explain_json(const Compilation& c) {
+  return (c.ports.empty() ? explained(c) : explained_ports(c)).dump(2) + "\n";
 }
 
 }  // namespace dashpot::compiler

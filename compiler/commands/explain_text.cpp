@@ -6,6 +6,7 @@
 
 #include "certify/notes.hpp"
 #include "commands/explain.hpp"
+#include "emit/banner.hpp"
 #include "decompose/slip_laws.hpp"
 #include "linear/quasi_linear.hpp"
 #include "network/port_units.hpp"
@@ -221,6 +222,9 @@ std::string why_no_brake(const Compilation& c, const PortUnits& units) {
 // What the lines say that begin so, of those that are there.
 std::string legend_of_lines(const std::string& text) {
   const std::pair<const char*, const char*> lines[] = {
+      {"share of the device",
+       "of brake, motor and the device's own damping, what this port may count on. Each is chosen for on its share; "
+       "what 'passivity' says is of all ports together on the whole device"},
       {"static curve", "the force at rest, or at once, over the displacement, which the file asks for"},
       {"quasi-linear law",
        "QLV: f = ∫ G(t − s) df_e(s), passive along one line, whose damping goes with the curve's slope"},
@@ -303,13 +307,10 @@ std::string legend_of_slips(const std::string& text) {
   return all;
 }
 
-}  // namespace
-
-std::string explain_text(const Compilation& c, bool with_legend) {
+// The network in its own terms, and what is chosen of it.
+std::string choice_text(const Compilation& c, const PortUnits& units, bool with_legend) {
   const Candidate& choice = c.decomposition.choice();
-  const PortUnits units = port_units(c.network.port_motion);
-  std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
-  text += calculations_text(c.network);
+  std::string text;
   for (const Springpot& springpot : c.network.springpots)
     text += "springpot             " + to_text(springpot, c.network.port_motion) + "\n";
   text += static_text(c, units) + linear_text(c, units) + pace_text(c) + valid_text(c.network.valid, units) +
@@ -331,6 +332,33 @@ std::string explain_text(const Compilation& c, bool with_legend) {
       choice.extra_damping_any_delay.value_or(0), units.damping);
   if (c.network.contact)
     text += "contact               " + contact_text(c.decomposition, c.network) + "\n" + why_no_brake(c, units);
+  return text;
+}
+
+std::string ports_text(const Compilation& c, const PortUnits& units, bool with_legend) {
+  std::string text;
+  for (const Compilation& port : c.ports) {
+    text += "port " + port.network.name + "\n";
+    if (c.device) text += "share of the device   " + to_text(port.share) + "\n";
+    text += choice_text(port, units, with_legend && &port == &c.ports.front());
+    text += fmt::format("damping it needs      {}\n\n",
+                        port.certificate.bound.proof == Proof::none
+                            ? "not known: " + port.certificate.bound.reason
+                            : fmt::format("{:.6g} {} of its own share and of its part of the "
+                                          "brake",
+                                          port.certificate.bound.needed, units.damping));
+  }
+  return text + "all ports together\n";
+}
+
+}  // namespace
+
+std::string explain_text(const Compilation& c, bool with_legend) {
+  const PortUnits units = port_units(c.network.port_motion);
+  std::string text = fmt::format("{}{}\n\n", c.network.name, c.network.title.empty() ? "" : ": " + c.network.title);
+  text += calculations_text(c.network);
+  text += c.ports.empty() ? choice_text(c, units, with_legend) : ports_text(c, units, with_legend);
+  if (!c.ports.empty()) text += brake_text(c, units);
   text += to_text(c.certificate, c.network.port_motion) + push_text(c, units) + currents_text(c) + notes_text(c);
   text += c.law.tunable ? tunable_text(c.law) : cost_text(c);
   if (with_legend) text += "\n" + legend_of_lines(text);

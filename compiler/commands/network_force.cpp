@@ -96,7 +96,7 @@ class OwnSteps : public NetworkForce {
 };
 
 bool has_closed_form(const Compilation& c) {
-  return !c.form.has_slips() && !c.network.contact && !c.network.map && !c.law.tunable;
+  return c.ports.empty() && !c.form.has_slips() && !c.network.contact && !c.network.map && !c.law.tunable;
 }
 
 std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {

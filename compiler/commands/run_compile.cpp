@@ -25,6 +25,12 @@ namespace dashpot::compiler {
 namespace {
 
 std::string stage_text(const Compilation& c, const std::string& stage) {
+  const bool is_of_each_port = stage == "network" || stage == "linear" || stage == "decomposition";
+  if (is_of_each_port && !c.ports.empty()) {
+    std::string text;
+    for (const Compilation& port : c.ports) text += "port " + port.network.name + "\n" + stage_text(port, stage);
+    return text;
+  }
   if (stage == "network") {
     const std::optional<Tree> tree = series_parallel_tree(c.network);
     return to_text(c.network) + (tree ? to_text(*tree, c.network) + "\n" : "no series-parallel tree\n");
@@ -124,6 +130,10 @@ std::string parts_with_other_proofs(const Network& network) {
   if (has_tunables(network)) parts.push_back("tunable parameters");
   if (network.contact) parts.push_back("a contact");
   if (network.static_curve) parts.push_back("a static curve");
+  for (const Network& port : network.ports) {
+    const std::string of_port = parts_with_other_proofs(port);
+    parts.push_back(fmt::format("port '{}'{}{}", port.name, of_port.empty() ? "" : " with ", of_port));
+  }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

@@ -94,6 +94,7 @@ bool is_prony_series(const Compilation& c, Diagnostics& diagnostics) {
   const Span place = c.network.name_span;
   if (has_tunables(c.network))
     diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "tunable parameters");
+  else if (!c.ports.empty()) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "several ports");
   else if (c.form.has_slips()) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "slips");
   else if (c.network.contact) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "a contact");
   else if (c.network.static_curve)

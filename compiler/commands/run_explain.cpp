@@ -20,6 +20,7 @@ std::optional<std::string> network_as(const std::string& form, const Compilation
     return prony_network(head, in_convention(prony_series(c.form.linear), PronyOf::instantaneous));
   }
   const char* what = has_tunables(c.network) ? "tunable parameters"
+                     : !c.ports.empty()      ? "several ports"
                      : c.form.has_slips()    ? "slips"
                      : c.network.contact     ? "a contact"
                                              : nullptr;

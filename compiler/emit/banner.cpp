@@ -137,6 +137,56 @@ std::string loops_line(const UpdateLaw& law) {
                      law.lanes);
 }
 
+void describe_curve(const Compilation& c, std::vector<std::string>& facts) {
+  if (c.network.map)
+    facts.push_back(fmt::format(
+        "static curve: {}; the network lies behind a map w of the position u, for which u stands in what follows: f = "
+        "w' "
+        "F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the force at rest is off by at most {:.2g} % of the largest",
+        to_text(*c.network.static_curve, c.network.port_motion), c.network.map->least_tangent(0, c.network.map->reach),
+        c.network.map->steepest(), 100 * c.network.map->static_error));
+}
+
+// What the brake is told, and what the states follow.
+void describe_choice(const Compilation& c, const std::string& unit, std::vector<std::string>& facts) {
+  const Candidate& choice = c.decomposition.choice();
+  const std::vector<SlipLikes> slips = likes_of(c.decomposition.slips, c.network);
+  const std::string capped =
+      choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
+  if (c.is_told_slip_by_slip())
+    facts.push_back("brake: makes the damping that follows of each slip, and the motor the rest of the force");
+  else
+    facts.push_back(
+        fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
+                    choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what follows", choice.name,
+                    choice.why()));
+  for (const SlipLikes& likes : slips) facts.push_back(brake_line(likes, unit));
+  facts.push_back(fmt::format("states: what is kept of the past follows {} ({})", in_words(choice.state_input),
+                              c.decomposition.reason));
+  if (!c.decomposition.in_words.empty()) facts.push_back("choice: " + c.decomposition.in_words);
+  if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
+  facts.push_back(fmt::format(
+      "late velocity: with {:.6g} {} more in an exact brake, no lateness of the estimate alone costs passivity",
+      choice.extra_damping_any_delay.value_or(0), unit));
+}
+
+void describe_ports(const Compilation& c, const std::string& unit, std::vector<std::string>& facts) {
+  for (const Compilation& port : c.ports) {
+    facts.push_back(fmt::format("port {}{}", port.network.name,
+                                c.device ? ": on its share of the device, " + to_text(port.share) : ""));
+    std::vector<std::string> of_port;
+    describe_curve(port, of_port);
+    describe_choice(port, unit, of_port);
+    for (const std::string& fact : of_port) facts.push_back("  " + fact);
+  }
+}
+
+// Whether a sample may be one in which a slip gives way, or a surface is touched or left.
+bool changes_at_once(const Compilation& c) {
+  return c.network.contact || !likes_of(c.decomposition.slips, c.network).empty() ||
+         std::any_of(c.ports.begin(), c.ports.end(), changes_at_once);
+}
+
 }  // namespace
 
 std::string comment_text(std::string text) {
@@ -164,39 +214,21 @@ std::vector<Fields> as_list(const std::vector<std::string>& lines) {
   return list;
 }
 
+std::string to_text(const DeviceShare& share) {
+  return fmt::format("{:.3g} % of the brake, {:.3g} % of the damping that it has of its own and {:.3g} % of the motor",
+                     100 * share.brake, 100 * share.own_damping, 100 * share.motor);
+}
+
 std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timing timing) {
-  const Candidate& choice = c.decomposition.choice();
   const std::string unit = damping_unit(c.network);
-  const std::vector<SlipLikes> slips = likes_of(c.decomposition.slips, c.network);
   std::vector<std::string> facts;
   if (!c.network.source.empty()) facts.push_back("source: " + c.network.source);
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
-  if (c.network.map)
-    facts.push_back(fmt::format(
-        "static curve: {}; the network lies behind a map w of the position u, for which u stands in what follows: f = "
-        "w' "
-        "F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the force at rest is off by at most {:.2g} % of the largest",
-        to_text(*c.network.static_curve, c.network.port_motion), c.network.map->least_tangent(0, c.network.map->reach),
-        c.network.map->steepest(), 100 * c.network.map->static_error));
+  describe_curve(c, facts);
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}: {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar),
-                              in_words(c.law.scheme, c.network.contact || !slips.empty())));
-  const std::string capped =
-      choice.capped() ? fmt::format(", lowered from {} to what the brake can give", choice.wanted_damping) : "";
-  if (c.is_told_slip_by_slip())
-    facts.push_back("brake: makes the damping that follows of each slip, and the motor the rest of the force");
-  else
-    facts.push_back(
-        fmt::format("brake: makes b = {} {} of damping{}{}, and the motor the rest of the force; by the rule '{}': {}",
-                    choice.damping, unit, capped, slips.empty() ? "" : ", behind slips also what follows", choice.name,
-                    choice.why()));
-  for (const SlipLikes& likes : slips) facts.push_back(brake_line(likes, unit));
-  facts.push_back(fmt::format("states: what is kept of the past follows {} ({})", in_words(choice.state_input),
-                              c.decomposition.reason));
-  if (!c.decomposition.in_words.empty()) facts.push_back("choice: " + c.decomposition.in_words);
-  if (c.network.contact) facts.push_back("contact: " + contact_text(c.decomposition, c.network));
-  facts.push_back(fmt::format(
-      "late velocity: with {:.6g} {} more in an exact brake, no lateness of the estimate alone costs passivity",
-      choice.extra_damping_any_delay.value_or(0), unit));
+                              in_words(c.law.scheme, changes_at_once(c))));
+  if (c.ports.empty()) describe_choice(c, unit, facts);
+  else describe_ports(c, unit, facts);
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);
   if (c.law.sheds() || !c.certificate.limits.is_covered)
     for (const std::string& line :

@@ -19,6 +19,9 @@ std::string string_text(const std::string& text);
 // An entry a line, as templates take it.
 std::vector<Fields> as_list(const std::vector<std::string>& lines);
 
+// "33 % of the brake, …"
+std::string to_text(const DeviceShare& share);
+
 // Lines of a comment: where the network comes from, its law, what is proved, and what a step costs.
 std::vector<std::string> banner(const Compilation& compilation, const UpdateLaw& law, Timing timing);
 

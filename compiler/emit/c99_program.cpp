@@ -481,12 +481,11 @@ class C99Printer {
 
   Lines reset() {
     Lines lines;
-    if (law_.rest_position == no_variable) lines.push_back("(void)position;");
+    if (law_.rest_position == no_variable && law_.starts.empty()) lines.push_back("(void)position;");
     else lines = lines_of(law_.start);
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
-      const std::string rest =
-          law_.variables.id_of(variable) == law_.rest_position ? rest_position() : number(variable.rest_value);
+      const std::string rest = rest_of(law_.variables.id_of(variable));
       if (law_.is_rolled(variable.size))
         lines.push_back(
             fmt::format("for (int j = 0; j < {}; ++j) {{ self->{}[j] = {}; }}", variable.size, variable.name, rest));
@@ -497,6 +496,16 @@ class C99Printer {
     for (const GuardInTurn& guard : law_.guards) lines.push_back(fmt::format("self->{} = 0;", guard.name));
     append_all(lines, lines_of(law_.rest));
     return with_constants({&law_.start, &law_.rest}, std::move(lines));
+  }
+
+  std::string rest_of(VariableId state) const {
+    if (state == law_.rest_position) return rest_position();
+    for (const PortStart& start : law_.starts) {
+      const std::string there = law_.variables[start.value].name;
+      if (start.state == state)
+        return fmt::format("(dashpot_all_finite{0}({1}, {1}, {1}) != 0) ? {1} : {2}", suffix_, there, number(0));
+    }
+    return number(law_.variables[state].rest_value);
   }
 
   std::string rest_position() const {

@@ -254,6 +254,8 @@ class BatchPrinter {
   }
 
   std::string rest_value(const Variable& variable) const {
+    for (const PortStart& start : law_.starts)
+      if (&law_.variables[start.state] == &variable) return name(start.value, 0);
     if (law_.rest_position == no_variable || &variable != &law_.variables[law_.rest_position])
       return cpp_literal(variable.rest_value, law_.scalar);
     if (law_.started_at != no_variable) return name(law_.started_at, 0);

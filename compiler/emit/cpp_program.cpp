@@ -188,10 +188,9 @@ class CppPrinter {
 
   std::vector<std::string> reset() {
     std::vector<std::string> lines;
-    if (law_.joints) lines = joint_starts();
     const bool rests = law_.rest_position != no_variable;
-    if (!rests && (!law_.joints || law_.joints->starts.empty())) lines.push_back("static_cast<void>(position);");
-    if (rests) lines = statements_.lines_of(law_.start);
+    if (!rests && law_.starts.empty()) lines.push_back("static_cast<void>(position);");
+    else lines = law_.joints ? joint_starts() : statements_.lines_of(law_.start);
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state || is_of_rest(law_.variables.id_of(variable))) continue;
       if (const std::string value = started(variable); !value.empty())
@@ -241,9 +240,8 @@ class CppPrinter {
 
   // What reset() sets a state of a port to; empty for others.
   std::string started(const Variable& state) const {
-    if (law_.joints)
-      for (const JointPorts::Start& start : law_.joints->starts)
-        if (&law_.variables[start.state] == &state) return name_of(start.value);
+    for (const PortStart& start : law_.starts)
+      if (&law_.variables[start.state] == &state) return name_of(start.value);
     return "";
   }
 

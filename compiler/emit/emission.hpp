@@ -14,7 +14,15 @@
 
 namespace dashpot::compiler {
 
-// Everything that the stages before found out about one network.
+// Of a device, what one of several ports may count on [1].
+struct DeviceShare {
+  double brake = 1;        // of the brake's greatest damping
+  double own_damping = 1;  // of the damping that the device has of its own, and of its friction
+  double motor = 1;        // of the motor's greatest force, and of how fast that changes
+};
+
+// Everything that the stages before found out about one network. Of one with several ports, `form` is empty, and the
+// choice is the sum of theirs.
 struct Compilation {
   Network network;
   NormalForm form;
@@ -24,6 +32,8 @@ struct Compilation {
   double rate = 0;  // [Hz]
   std::optional<Device> device;
   PortDevice port = PortDevice::ideal();  // the device as the network sees it
+  std::vector<Compilation> ports = {};    // that act side by side, each on its share of the device
+  DeviceShare share = {};                 // of one that is such a port
 
   // All of it lies behind slips: b is 0 whatever the rule, and what the brake makes is told of each slip.
   bool is_told_slip_by_slip() const {

@@ -42,6 +42,28 @@ Fields rest_at(double depth, double force, double allowed, double stiffness) {
           {"stiffness", fmt::format("{:#}", stiffness)}};
 }
 
+struct RestForce {
+  double force, allowed, stiffness;  // [N], [N], the steepest up to there [N/m]
+};
+
+RestForce rest_on_spring(const Compilation& c, double depth) {
+  const double stiffness = to_double(c.form.linear.static_stiffness);
+  return {stiffness * depth, test_tolerance(c.law) * stiffness * depth, stiffness};
+}
+
+// On the file's own curve.
+RestForce rest_on_curve(const Compilation& c, double depth) {
+  const MotionMap& map = *c.network.map;
+  const StaticCurve& curve = *c.network.static_curve;
+  const double kept = to_double(c.form.linear.static_stiffness) / map.stiffness;  // of a curve that is met at once
+  const double largest = kept * to_double(force_at(curve, Real(map.reach)));
+  const double steepest = map.largest_tangent(0, depth),
+               stiffness =
+                   kept * map.stiffness * (steepest * steepest + map.value_at(depth) * map.largest_curvature(0, depth));
+  return {kept * to_double(force_at(curve, Real(depth))),
+          map.static_error * largest + curve_tolerance(c.law) * stiffness * depth, stiffness};
+}
+
 // Where the test lets the law rest: half a unit deep, or no deeper than the motor holds. A power of two is exact in
 // every scalar.
 std::vector<Fields> rest_on_spring(const Compilation& c) {
@@ -53,22 +75,44 @@ std::vector<Fields> rest_on_spring(const Compilation& c) {
   return {rest_at(depth, stiffness * depth, test_tolerance(c.law) * stiffness, stiffness)};
 }
 
-// On the file's own curve, from where its cubics end inwards by halves.
+// From where the curve's cubics end inwards by halves.
 std::vector<Fields> rests_on_curve(const Compilation& c) {
   constexpr int halvings = 6;
-  const MotionMap& map = *c.network.map;
-  const StaticCurve& curve = *c.network.static_curve;
-  const double kept = to_double(c.form.linear.static_stiffness) / map.stiffness;  // of a curve that is met at once
-  const double largest = kept * to_double(force_at(curve, Real(map.reach)));
-  const double roundings = curve_tolerance(c.law);
   std::vector<Fields> rests;
   for (int i = 0; i <= halvings; ++i) {
-    const double depth = std::ldexp(map.reach, -i), force = kept * to_double(force_at(curve, Real(depth)));
-    if (!(2 * force <= largest_held(c))) continue;
-    const double steepest = map.largest_tangent(0, depth),
-                 stiffness = kept * map.stiffness *
-                             (steepest * steepest + map.value_at(depth) * map.largest_curvature(0, depth));
-    rests.push_back(rest_at(depth, force, map.static_error * largest + roundings * stiffness * depth, stiffness));
+    const double depth = std::ldexp(c.network.map->reach, -i);
+    const RestForce rest = rest_on_curve(c, depth);
+    if (2 * rest.force <= largest_held(c)) rests.push_back(rest_at(depth, rest.force, rest.allowed, rest.stiffness));
+  }
+  return rests;
+}
+
+// Where ports act side by side: their forces at rest, from as far in as one of them is known inwards by halves.
+std::vector<Fields> rests_of_ports(const Compilation& c) {
+  constexpr int halvings = 6;
+  double deepest = 0;
+  for (const Compilation& port : c.ports) {
+    const double surface = port.network.contact ? port.network.contact->at : 0;
+    if (port.network.map) deepest = std::max(deepest, surface + port.network.map->reach);
+  }
+  if (deepest == 0) deepest = 0.5;  // of springs alone any will do
+  std::vector<Fields> rests;
+  for (int i = 0; i <= halvings; ++i) {
+    const double depth = std::ldexp(deepest, -i);
+    double force = 0, allowed = 0, steepness = 0;
+    bool is_held = true;
+    for (const Compilation& port : c.ports) {
+      const std::optional<Contact>& contact = port.network.contact;
+      const double in = contact ? std::max(depth - contact->at, 0.0) : depth;
+      const RestForce rest = port.network.map ? rest_on_curve(port, in) : rest_on_spring(port, in);
+      const bool is_clamped = port.certificate.limits.rule == LimitRule::clamps;
+      const double most = is_clamped ? port.certificate.loop.max_force : largest_held(port);
+      is_held = is_held && 2 * rest.force <= most;
+      force += rest.force;
+      allowed += rest.allowed + test_tolerance(c.law) * rest.force;
+      steepness += rest.stiffness;
+    }
+    if (is_held) rests.push_back(rest_at(depth, force, allowed, steepness));
   }
   return rests;
 }
@@ -105,7 +149,10 @@ std::vector<Fields> jumps_on_curve(const Compilation& c) {
 
 std::string why_no_motion_is_played(const Compilation& c) {
   const bool is_limited = c.network.map ? jumps_on_curve(c).empty() : c.law.sheds();
-  const char* const what = c.form.has_slips() ? "slips" : is_limited ? "a motor at its limits" : nullptr;
+  const char* const what = !c.ports.empty()     ? "several ports"
+                           : c.form.has_slips() ? "slips"
+                           : is_limited         ? "a motor at its limits"
+                                                : nullptr;
   return what ? fmt::format("with {} a force along it has no closed form", what) : "";
 }
 
@@ -125,7 +172,7 @@ CodeModel response_test_model(const Compilation& c, const std::string& log1p) {
   fields["scheme"] = name_of(c.law.scheme);
   fields["rate"] = fmt::format("{:#}", c.rate);
   fields["start"] = fmt::format("{:#}", c.network.contact ? c.network.contact->at : 0.0);
-  model.lists["rests"] = c.network.map ? rests_on_curve(c) : rest_on_spring(c);
+  model.lists["rests"] = !c.ports.empty() ? rests_of_ports(c) : c.network.map ? rests_on_curve(c) : rest_on_spring(c);
   for (const char* list : {"closed_forms", "modes", "ramps", "curve", "jumps"}) model.lists[list];
   if (!why_none.empty()) return model;
   const LinearForm& linear = c.form.linear;

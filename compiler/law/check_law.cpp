@@ -24,9 +24,8 @@ class Check {
     phase("keep", law_.keep, locals, {.inputs = true, .states = true, .locals = false});
     locals.clear();
     phase("start", law_.start, locals, {.inputs = true, .states = false, .locals = true});
-    if (law_.joints)
-      for (const JointPorts::Start& start : law_.joints->starts)
-        require(locals.count(start.value) != 0, "the start of a port is never assigned");
+    for (const PortStart& start : law_.starts)
+      require(start.value == law_.position || locals.count(start.value) != 0, "the start of a port is never assigned");
     require(law_.started_at == no_variable || locals.count(law_.started_at) != 0, "the start is never assigned");
     locals.clear();
     phase("rest", law_.rest, locals, {.inputs = false, .states = true, .locals = true});
@@ -71,6 +70,9 @@ class Check {
     for (const Expression& e : law_.expressions) check_references(e);
     for (const VariableId id : {law_.position, law_.velocity, law_.force, law_.stored})
       require(law_.variables.has(id) && law_.variables[id].size == 1, "an input or a result is no scalar");
+    for (const PortStart& start : law_.starts)
+      require(law_.variables.has(start.state) && law_.variables[start.state].role == Role::state,
+              "what reset() sets for a port is no state");
     for (const VariableId id : {law_.rest_position, law_.last_brake})
       require(id == no_variable || (law_.variables.has(id) && law_.variables[id].role == Role::state),
               "what reset() or a refused sample needs is no state");

@@ -63,6 +63,10 @@ void Evaluation<Scalar>::reset(Scalar position) {
   }
   if (law_.rest_position != no_variable && all_finite(position, position, position))
     at(law_.rest_position)[0] = rest_position(position);
+  if (!law_.joints && !law_.starts.empty()) {
+    at(law_.position)[0] = position;
+    start();
+  }
   std::fill(turns_.begin(), turns_.end(), 0);
   run(law_.rest);
   sampled_ = false;
@@ -116,8 +120,13 @@ void Evaluation<Scalar>::reset(const std::vector<Scalar>& positions) {
   reset(Scalar(0));
   for (std::size_t i = 0; i < positions.size(); ++i)
     at(law_.joints->positions[i])[0] = all_finite(positions[i]) ? positions[i] : Scalar(0);
+  start();
+}
+
+template <class Scalar>
+void Evaluation<Scalar>::start() {
   run(law_.start);
-  for (const JointPorts::Start& start : law_.joints->starts)
+  for (const PortStart& start : law_.starts)
     at(start.state)[0] = all_finite(at(start.value)[0]) ? at(start.value)[0] : Scalar(0);
 }
 

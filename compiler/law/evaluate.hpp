@@ -68,6 +68,7 @@ class Evaluation {
   void solve(const Coupling& coupling, Solver& solver, const Statement& statement);
   void solve(const SlipNetwork& network, NetworkSolver& solver, const Statement& statement);
   Scalar rest_position(Scalar position);  // of a finite position
+  void start();                           // every port, where the inputs are
   Scalar damping(VariableId changing) const;
   Scalar value(ExpressionId expression, std::size_t place) const;
   Scalar sum(VariableId vector) const;

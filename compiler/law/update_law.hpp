@@ -198,14 +198,14 @@ std::string_view name_of(ModeForm form);  // "product", "delta", "compensated"
 // Of a law of several joints: what stands in the place of position, velocity, force and brake (theory, section 12).
 // What the law does of each port is in its statements; `force` and `brake` of the law itself are not used.
 struct JointPorts {
-  struct Start {
-    VariableId state, value;  // reset() sets the state to this local of `start`, or to 0 where that is not finite
-  };
-
   std::vector<VariableId> positions, velocities;    // inputs, one a joint [rad] or [m], [rad/s] or [m/s]
   std::vector<VariableId> torques;                  // locals of `output`, one a joint [N·m] or [N]
   std::vector<VariableId> dampings, last_dampings;  // locals of `output`, and states that remember them, one a brake
-  std::vector<Start> starts;                        // one for each port that holds a position
+};
+
+// Of a law of several ports: what reset() sets a state to that holds where the port is.
+struct PortStart {
+  VariableId state, value;  // a local of `start`, or the position; 0 where that is not finite
 };
 
 struct UpdateLaw {
@@ -232,7 +232,7 @@ struct UpdateLaw {
   Table<SlipNetwork> networks;
   std::vector<GuardInTurn> guards;  // before `update`
   std::vector<Statement> energy;    // ends with the assignment of `stored`
-  std::vector<Statement> start;     // of reset(): locals of the position, where `started_at` needs them
+  std::vector<Statement> start;     // of reset(): locals of the position, where `started_at` or `starts` need them
   std::vector<Statement> rest;      // of reset(): states that do not rest at a constant, after all others
   std::vector<Statement> tune;  // of set(), with the parameters' new values: all that is tuned, and states that follow
 
@@ -246,12 +246,13 @@ struct UpdateLaw {
   std::optional<double>
       surface_at;  // of a contact: reset(p) sets rest_position to p less this, 0 where that is negative [m]
   VariableId started_at = no_variable;  // the local of `start` that reset() sets rest_position to, if not the position
+  std::vector<PortStart> starts;        // of several ports, one for each that holds a position
   VariableId mapped = no_variable;      // w of the position, a local of `output`, behind a static curve
   double steepest = 1;                  // w′ at most [1]
   double map_start = 0;                 // where w is 0 [m]
   VariableId force;                     // m_k, the motor's command [N]
   VariableId wanted = no_variable;      // m_k before the motor's limits, where the law knows them (lower/shed.hpp) [N]
-  VariableId share = no_variable;       // then the state that remembers which share of all forces has been kept [1]
+  VariableId share = no_variable;  // where it sheds, the state that remembers which share of all forces it kept [1]
   VariableId brake =
       no_variable;  // b_k where it changes with the regime, a local of `output`, finite where `force` is [N·s/m]
   VariableId last_brake = no_variable;  // the state that remembers it: what a non-finite sample is answered with
@@ -261,7 +262,7 @@ struct UpdateLaw {
   std::size_t padded(std::size_t size) const {
     return (size + lanes - 1) / lanes * lanes;
   }  // of a rolled vector: whole rounds of its loop
-  bool sheds() const { return wanted != no_variable; }
+  bool sheds() const { return share != no_variable; }
   VariableId checked() const {
     return wanted != no_variable ? wanted : force;
   }  // not finite where the sample is to be refused

@@ -11,7 +11,7 @@ namespace {
 
 // False where nothing was left to drop. What a dropped statement alone has read is unread after it.
 bool drop_once(UpdateLaw& law) {
-  std::set<VariableId> read = {law.force, law.stored};
+  std::set<VariableId> read = {law.force, law.checked(), law.stored};
   if (law.brake_changes()) read.insert(law.brake);
   if (law.joints)
     for (const auto* commands : {&law.joints->dampings, &law.joints->torques})

@@ -10,6 +10,7 @@
 #include "discretise/law_writer.hpp"
 #include "law/check_law.hpp"
 #include "law/walk.hpp"
+#include "lower/append_law.hpp"
 #include "lower/term_writer.hpp"
 
 namespace dashpot::compiler {
@@ -281,64 +282,16 @@ class Merging {
     terms.call(axes::blunting * axes::blunting, "blunting_squared", "m²", "keeps the distance from zero");
   }
 
-  // The port's tables behind those of the law, and its programs.
   Merged append(const PortLaw& port) {
     const UpdateLaw& own = port.law;
-    const std::size_t variables = law_.variables.size(), coefficients = law_.coefficients.size(),
-                      expressions = law_.expressions.size(), couplings = law_.couplings.size(),
-                      networks = law_.networks.size();
-    const auto variable = [&](VariableId id) { return id == no_variable ? id : VariableId(id.place() + variables); };
-    const auto renamed = [&](auto entry) {
-      entry.name = writer_.unique(joined(port.name, entry.name));
-      for (std::string& name : entry.element_names) name = writer_.unique(joined(port.name, name));
-      return entry;
-    };
-    for (const Variable& v : own.variables) {
-      Variable added = renamed(v);
-      if (added.role == Role::input) added.role = Role::local;
-      law_.variables.add(std::move(added));
-    }
-    for (const Coefficient& c : own.coefficients) law_.coefficients.add(renamed(c));
-    for (Expression e : own.expressions) {
-      for (std::size_t i = 0; i < operands(e).size(); ++i)
-        e.operands[i] = ExpressionId(e.operands[i].place() + expressions);
-      e.variable = variable(e.variable);
-      if (!e.coefficient.is_nothing()) e.coefficient = CoefficientId(e.coefficient.place() + coefficients);
-      law_.expressions.add(e);
-    }
-    for (Coupling coupling : own.couplings) {
-      coupling.name = writer_.unique(joined(port.name, coupling.name));
-      for (auto* ids : {&coupling.held, &coupling.elongation, &coupling.sign})
-        for (VariableId& id : *ids) id = variable(id);
-      coupling.surface_change = variable(coupling.surface_change);
-      law_.couplings.add(std::move(coupling));
-    }
-    for (SlipNetwork network : own.networks) {
-      network.name = writer_.unique(joined(port.name, network.name));
-      for (auto* ids : {&network.held, &network.moved, &network.sign, &network.last_sign})
-        for (VariableId& id : *ids) id = variable(id);
-      law_.networks.add(std::move(network));
-    }
-    const auto program = [&](const std::vector<Statement>& statements) {
-      std::vector<Statement> result = statements;
-      for (Statement& s : result) {
-        s.target = variable(s.target);
-        s.value = ExpressionId(s.value.place() + expressions);
-        s.origins.clear();
-        if (auto* tree = std::get_if<SolveTree>(&s.step))
-          tree->coupling = CouplingId(tree->coupling.place() + couplings);
-        if (auto* net = std::get_if<SolveNetwork>(&s.step))
-          net->network = SlipNetworkId(net->network.place() + networks);
-      }
-      return result;
-    };
-    for (Statement& s : program(own.keep)) law_.keep.push_back(std::move(s));
-    for (Statement& s : program(own.update)) law_.update.push_back(std::move(s));
-    law_.mode_form = std::max(law_.mode_form, own.mode_form);
-    law_.relative_error_bound = std::max(law_.relative_error_bound, own.relative_error_bound);
-    const Term damping = own.brake_changes() ? Term(variable(own.brake)) : Term(own.damping);
-    return {variable(own.position), variable(own.velocity),      variable(own.force), damping,
-            variable(own.stored),   variable(own.rest_position), program(own.output), program(own.energy)};
+    AppendedLaw appended = append_law(writer_, port.name, own);
+    for (auto [from, to] : {std::pair(&appended.keep, &law_.keep), {&appended.update, &law_.update}})
+      to->insert(to->end(), from->begin(), from->end());
+    const Term damping = own.brake_changes() ? Term(appended.at(own.brake)) : Term(own.damping);
+    return {appended.at(own.position),  appended.at(own.velocity),
+            appended.at(own.force),     damping,
+            appended.at(own.stored),    appended.at(own.rest_position),
+            std::move(appended.output), std::move(appended.energy)};
   }
 
   Pair<Term> inputs(const std::vector<VariableId>& ids) const { return {Term(ids[0]), Term(ids[1])}; }
@@ -503,7 +456,7 @@ class Merging {
       const VariableId local =
           writer.scalar(writer.unique(joined(ports_[i].name, "start")), "m", "w where reset() is", Role::local);
       terms.assign(law_.start, local, start, "");
-      law_.joints->starts.push_back({merged_[i].rest_position, local});
+      law_.starts.push_back({merged_[i].rest_position, local});
     }
   }
 

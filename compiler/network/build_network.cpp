@@ -52,6 +52,7 @@ class NetworkBuilder {
   Network build() {
     copy_texts();
     network_.nodes = {"ground", "tool"};
+    if (!decl_.ports.empty()) return build_ports();
     node_places_.resize(network_.nodes.size());
     place_leaves();
     check_names();
@@ -75,6 +76,20 @@ class NetworkBuilder {
     network_.digest = decl_.digest;
     for (const CommentDecl& comment : decl_.comments) network_.comments.push_back({comment.about, comment.text});
     network_.port_motion = read_motion(decl_.motion, diagnostics_);
+  }
+
+  // What is wrong with what all ports share is told once, and then nothing of the ports.
+  Network build_ports() {
+    check_names();
+    read_validity();
+    network_.parameters = table_.parameters();
+    if (diagnostics_.error_count() > errors_before_) return std::move(network_);
+    for (const NetworkDecl& port : decl_.ports)
+      if (std::optional<Network> built = build_network(port, diagnostics_, device_band_))
+        network_.ports.push_back(std::move(*built));
+    for (const Parameter& parameter : network_.parameters)
+      if (parameter.tunable) diagnostics_.report<DiagnosticCode::tunable_on_two_axes>(parameter.span, parameter.name);
+    return std::move(network_);
   }
 
   void place_leaves() {
@@ -125,6 +140,7 @@ class NetworkBuilder {
   void check_names() {
     std::vector<std::pair<const Text*, std::string_view>> given;
     if (decl_.name) given.emplace_back(&*decl_.name, "network");
+    for (const NetworkDecl& port : decl_.ports) given.emplace_back(&*port.name, "port");
     for (const ParameterDecl& parameter : decl_.parameters) given.emplace_back(&parameter.name, "parameter");
     for (const PlacedLeaf& placed : leaves_)
       if (placed.leaf->name) given.emplace_back(&*placed.leaf->name, "element");
@@ -325,6 +341,7 @@ class NetworkBuilder {
   const NetworkDecl& decl_;
   std::optional<Range> device_band_;  // [Hz]
   Diagnostics& diagnostics_;
+  std::size_t errors_before_ = diagnostics_.error_count();
   ParameterTable table_;
   Network network_;
   std::vector<PlacedLeaf> leaves_;

@@ -67,6 +67,11 @@ std::string to_text(const Network& network) {
   for (const Springpot& springpot : network.springpots)
     out += "  springpot " + to_text(springpot, network.port_motion) + "\n";
   append_limits(out, network);
+  for (const Network& port : network.ports) {
+    fmt::format_to(std::back_inserter(out), "  port {}\n", port.name);
+    for (const Element& element : port.elements) append_element(out, port, element);
+    append_limits(out, port);
+  }
   return out;
 }
 
@@ -87,6 +92,9 @@ std::string calculations_text(const Network& network) {
   for (const Parameter& p : network.parameters) add(p.name, p.calculation, p.value, p.unit);
   for (const Element& e : network.elements)
     add(e.name, e.calculation, value_of(e.law), unit_of(e.law, network.port_motion));
+  for (const Network& port : network.ports)
+    for (const Element& e : port.elements)
+      add(port.name + "." + e.name, e.calculation, value_of(e.law), unit_of(e.law, port.port_motion));
   return text;
 }
 

@@ -88,6 +88,7 @@ struct Network {
   std::vector<Parameter> parameters;
   std::vector<std::string> nodes;  // nodes[ground] == "ground", nodes[tool] == "tool"
   std::vector<Element> elements;
+  std::vector<Network> ports;  // that act side by side on the tool; elements, curve and contact are then theirs
   std::vector<Springpot> springpots;
   std::optional<Contact> contact;
   std::optional<StaticCurve> static_curve;

@@ -68,6 +68,9 @@ double closed_form(const LinearForm& form, double added_damping, const Oscillati
 }
 
 double default_amplitude(const Network& network) {
+  double reach = 0;
+  for (const Network& port : network.ports) reach = std::max(reach, default_amplitude(port));
+  if (reach > 0) return reach;
   if (const auto& range = network.valid.displacement) return std::max(std::abs(range->low), std::abs(range->high));
   return network.port_motion == motion::rotation ? 0.1 : 0.001;
 }
@@ -159,7 +162,8 @@ double telling_amplitude(const Compilation& c) {
 }
 
 std::string hysteresis_html(const Compilation& c, double amplitude) {
-  if (c.network.map) return three_loops(c, amplitude / 2);  // the largest as far as the curve is stated
+  if (c.network.map || !c.ports.empty())
+    return three_loops(c, amplitude / 2);  // the largest as far as the curve is stated
   return c.form.has_slips() || c.network.contact ? three_loops(c, amplitude) : linear_loop(c);
 }
 

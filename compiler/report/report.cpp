@@ -6,6 +6,7 @@
 #include <cmath>
 #include <dashpot/led_device.hpp>
 
+#include "emit/banner.hpp"
 #include "emit/template_text.hpp"
 #include "fit/column_choice.hpp"
 #include "network/decimal.hpp"
@@ -40,6 +41,10 @@ std::vector<Fields> facts(const Compilation& c) {
   const PortUnits units = page_units(c.network.port_motion);
   std::vector<Fields> list;
   list.push_back(fact("brake b", brake_text(c.law), units.damping, "brake"));
+  if (!c.ports.empty()) {
+    list.push_back(fact("ports", std::to_string(c.ports.size()), ""));
+    return list;
+  }
   if (is_linear(c)) {
     list.push_back(
         fact("motor, velocity gain", number_text(c.decomposition.choice().velocity_gain), units.damping, "motor"));
@@ -66,10 +71,31 @@ std::string in_words_html(const std::string& words) {
 }
 
 // Candidates are of what is beside the slips. Without a device they differ by nothing that can be shown there.
-bool has_candidates(const Compilation& c) { return is_linear(c) || (c.device && !c.form.is_all_behind_slips()); }
+bool has_candidates(const Compilation& c) {
+  if (!c.ports.empty()) return false;  // each port has its own
+  return is_linear(c) || (c.device && !c.form.is_all_behind_slips());
+}
+
+std::string heading_of(const Compilation& port) { return "<h3>" + escaped("Port " + port.network.name) + "</h3>\n"; }
+
+// Each port in the terms of its own, and the force at rest that its curve asks for.
+void add_ports(const Compilation& c, CodeModel& model) {
+  std::string forms, choices;
+  for (const Compilation& port : c.ports) {
+    if (is_linear(port)) forms += heading_of(port) + canonical_form_html(port);
+    choices += heading_of(port);
+    if (c.device) choices += "<p>On its share of the device: " + escaped(to_text(port.share)) + ".</p>\n";
+    choices += in_words_html(port.decomposition.in_words);
+    if (has_candidates(port)) choices += candidates_table_html(port);
+    if (!is_linear(port)) choices += regimes_html(port);
+  }
+  if (!forms.empty()) model.lists["canonical"].push_back({{"form", forms}});
+  model.lists["ports"].push_back({{"choices", choices}});
+}
 
 void add_linear_parts(const Compilation& c, CodeModel& model) {
-  for (const char* list : {"canonical", "agreement", "candidates", "felt_error", "regimes"}) model.lists[list];
+  for (const char* list : {"canonical", "agreement", "candidates", "felt_error", "regimes", "ports"}) model.lists[list];
+  if (!c.ports.empty()) return add_ports(c, model);
   if (!is_linear(c)) model.lists["regimes"].push_back({{"regimes", regimes_html(c)}});
   else model.lists["canonical"].push_back({{"form", canonical_form_html(c)}});
   if (is_linear(c) && !c.network.contact && !c.network.map)
@@ -87,7 +113,8 @@ void add_linear_parts(const Compilation& c, CodeModel& model) {
 void add_passivity(const Compilation& c, CodeModel& model) {
   model.fields["passivity"] = certificate_html(c);
   // Both are of linear laws; behind a static curve the certificate's words are all there is.
-  model.fields["margin"] = c.network.map ? "" : sampled_margin_html(c) + (is_linear(c) ? delay_margin_html(c) : "");
+  model.fields["margin"] =
+      c.network.map || !c.ports.empty() ? "" : sampled_margin_html(c) + (is_linear(c) ? delay_margin_html(c) : "");
 }
 
 // Two digits of ten times the slowest relaxation, within what a reader waits for.
@@ -142,7 +169,7 @@ std::string tunables_json(const UpdateLaw& law) {
 
 // What a linear network opposes to a motion, as a page needs it; nothing for another.
 std::string form_json(const Compilation& c) {
-  if (c.form.has_slips() || c.network.contact || c.network.map || c.law.tunable) return "null";
+  if (!c.ports.empty() || c.form.has_slips() || c.network.contact || c.network.map || c.law.tunable) return "null";
   std::string modes;
   for (const Mode& mode : c.form.linear.modes)
     modes += fmt::format("{}[{},{}]", modes.empty() ? "" : ",", json_literal(to_double(mode.relaxation_rate)),
@@ -218,6 +245,12 @@ void add_page(CodeModel& model, Diagnostics& diagnostics) {
 }
 
 std::string drawing(const Network& network) {
+  if (!network.ports.empty()) {
+    std::string drawings;
+    for (const Network& port : network.ports)
+      drawings += "<h3>" + escaped("Port " + port.name) + "</h3>\n" + drawing(port);
+    return drawings;
+  }
   const auto has_effect = [](const Element& e) { return e.has_effect; };
   const auto drawn = std::count_if(network.elements.begin(), network.elements.end(), has_effect);
   if (static_cast<std::size_t>(drawn) <= most_drawn_elements) return schematic(network);
@@ -241,8 +274,10 @@ std::optional<std::string> report(const Compilation& c, const std::optional<std:
   fields["schematic"] = drawing(c.network);
   fields["law"] = update_law_html(c);
   const double amplitude = telling_amplitude(c);
-  fields["responses"] =
-      static_curve_html(c) + (is_linear(c) ? linear_responses_html(c) : "") + hysteresis_html(c, amplitude);
+  std::string curves = static_curve_html(c);
+  for (const Compilation& port : c.ports) curves += static_curve_html(port);
+  const bool has_linear_responses = c.ports.empty() && is_linear(c);
+  fields["responses"] = curves + (has_linear_responses ? linear_responses_html(c) : "") + hysteresis_html(c, amplitude);
   add_comments(c.network.comments, model);
   add_linear_parts(c, model);
   add_passivity(c, model);

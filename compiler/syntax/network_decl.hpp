@@ -129,6 +129,7 @@ struct NetworkDecl {
   std::optional<ContactDecl> contact;
   std::optional<StaticDecl> static_curve;
   std::optional<ValidDecl> valid;
+  std::vector<NetworkDecl> ports;  // that act side by side, in the place of a structure; each called as its port is
   std::vector<CommentDecl> comments;
   std::string digest;              // of the file's bytes
   bool complete = true;            // false: problems were reported, so only what is here can be checked further

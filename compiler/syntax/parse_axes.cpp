@@ -6,6 +6,7 @@
 #include "source/digest.hpp"
 #include "syntax/annotations.hpp"
 #include "syntax/file_format.hpp"
+#include "syntax/object_of.hpp"
 #include "syntax/object_reader.hpp"
 #include "syntax/parse_device.hpp"
 #include "syntax/parse_network.hpp"
@@ -21,22 +22,6 @@ const std::vector<std::string> keys_of_port = {"name", "map", "network", "elemen
 const std::vector<std::string> keys_of_device_of_axes = {
     "dashpot_device", "axes",     "name",   "source", "motion",    "kinematics", "loop",
     "encoders",       "velocity", "motors", "brakes", "mechanics", "assumed"};
-
-// An object of some members of others, each with the place where it stands.
-class ObjectOf {
- public:
-  explicit ObjectOf(Span span) { object_.kind = Kind::object, object_.span = span; }
-  void take(const JsonMember* member) {
-    if (member != nullptr) object_.members.push_back(*member);
-  }
-  void take(const std::string& key, Span key_span, const JsonValue& value) {
-    object_.members.push_back({key, key_span, value});
-  }
-  const JsonValue& value() const { return object_; }
-
- private:
-  JsonValue object_;
-};
 
 std::optional<PortDecl> parse_port(const JsonValue& value, const ObjectReader& file, Diagnostics& diagnostics) {
   if (value.kind != Kind::object) {

@@ -6,6 +6,7 @@
 #include "source/digest.hpp"
 #include "syntax/annotations.hpp"
 #include "syntax/file_format.hpp"
+#include "syntax/object_of.hpp"
 #include "syntax/object_reader.hpp"
 #include "syntax/parse_fit.hpp"
 #include "syntax/parse_static.hpp"
@@ -18,7 +19,8 @@ using Kind = JsonValue::Kind;
 
 const std::vector<std::string> network_keys = {"dashpot", "axes",       "name",    "title",    "source",
                                                "motion",  "parameters", "network", "elements", "static",
-                                               "contact", "valid",      "fit"};
+                                               "contact", "valid",      "ports",   "fit"};
+const std::vector<std::string> keys_of_port = {"name", "network", "elements", "static", "contact"};
 
 ParameterDecl parse_parameter(const JsonMember& member, Diagnostics& diagnostics) {
   ParameterDecl parameter{{member.key, member.key_span}, {}, false, {}, {}, member.value.span};
@@ -81,34 +83,65 @@ void parse_structure(const ObjectReader& reader, NetworkDecl& decl, Diagnostics&
   }
 }
 
-// What only a network of two axes has, once each.
-std::vector<std::string> keys_of_ports(const ObjectReader& reader, Diagnostics& diagnostics) {
-  std::vector<std::string> keys;
-  for (const char* key : {"ports", "field"})
-    if (const JsonMember* member = reader.find(key)) {
-      diagnostics.report<DiagnosticCode::ports_without_axes>(member->key_span, key);
-      keys.push_back(key);
-    }
-  return keys;
+// Refuses keys that are none of these, and `of_axes`, which only a network of two axes has.
+void refuse_other_keys(ObjectReader& reader, std::vector<std::string> keys, const char* of_axes,
+                       Diagnostics& diagnostics) {
+  if (const JsonMember* member = reader.find(of_axes)) {
+    diagnostics.report<DiagnosticCode::ports_without_axes>(member->key_span, of_axes);
+    keys.push_back(of_axes);
+  }
+  reader.refuse_other_keys(keys);
+}
+
+// With the parameters, the motion and the ranges of the whole file.
+std::optional<NetworkDecl> parse_port(const JsonValue& value, const NetworkDecl& file, Diagnostics& diagnostics) {
+  if (value.kind != Kind::object) {
+    report_wrong_type("ports", value, "a list of objects", diagnostics);
+    return std::nullopt;
+  }
+  ObjectReader reader(value, "a port", diagnostics);
+  refuse_other_keys(reader, keys_of_port, "map", diagnostics);
+  if (reader.require("name") == nullptr) return std::nullopt;
+  ObjectOf network(value.span);
+  for (const std::string& key : keys_of_port) network.take(reader.find(key));
+  NetworkDecl port = parse_network_object(network.value(), diagnostics);
+  port.motion = file.motion;
+  port.parameters = file.parameters;
+  port.valid = file.valid;
+  port.shares_parameters = true;
+  return port;
+}
+
+void parse_ports(const ObjectReader& reader, NetworkDecl& decl, Diagnostics& diagnostics) {
+  for (const char* key : {"network", "elements", "static", "contact"})
+    if (const JsonMember* member = reader.find(key))
+      diagnostics.report<DiagnosticCode::beside_ports>(member->key_span, key);
+  const JsonValue* list = reader.list("ports");
+  if (list == nullptr) return;
+  decl.structure_span = list->span;
+  if (list->items.empty()) diagnostics.report<DiagnosticCode::no_ports>(list->span);
+  for (const JsonValue& item : list->items)
+    if (std::optional<NetworkDecl> port = parse_port(item, decl, diagnostics)) decl.ports.push_back(std::move(*port));
 }
 
 NetworkDecl parse_network_keys(ObjectReader reader, Diagnostics& diagnostics) {
   NetworkDecl decl;
-  const std::vector<std::string> of_ports = keys_of_ports(reader, diagnostics);
-  std::vector<std::string> keys = network_keys;
-  keys.insert(keys.end(), of_ports.begin(), of_ports.end());
-  reader.refuse_other_keys(keys);
+  refuse_other_keys(reader, network_keys, "field", diagnostics);
   reader.require("name");
   decl.name = reader.text("name");
   decl.title = reader.text("title");
   decl.source = reader.text("source");
   decl.motion = reader.text("motion");
   decl.parameters = parse_parameters(reader, diagnostics);
-  if (reader.find("ports") == nullptr) parse_structure(reader, decl, diagnostics);
-  if (const JsonValue* object = reader.object("static")) decl.static_curve = parse_static(*object, diagnostics);
-  decl.contact = parse_contact(reader, diagnostics);
   decl.valid = parse_valid(reader, diagnostics);
   check_fit_record(reader, diagnostics);
+  if (reader.find("ports") != nullptr) {
+    parse_ports(reader, decl, diagnostics);
+    return decl;
+  }
+  parse_structure(reader, decl, diagnostics);
+  if (const JsonValue* object = reader.object("static")) decl.static_curve = parse_static(*object, diagnostics);
+  decl.contact = parse_contact(reader, diagnostics);
   return decl;
 }
 

@@ -102,6 +102,22 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
   return told;
 }
 
+// Each on its share of the device; what is proved of all together is the sum.
+Json json_of_ports(const Compilation& c) {
+  Json ports = Json::array();
+  for (const Compilation& port : c.ports)
+    ports.push_back(
+        {{"name", port.network.name},
+         {"share_of_device",
+          {{"brake", port.share.brake}, {"own_damping", port.share.own_damping}, {"motor", port.share.motor}}},
+         {"damping", port.decomposition.choice().damping},
+         {"state_input", name_of(port.decomposition.choice().state_input)},
+         {"elements", json_of_elements(port.network)},
+         {"canonical_form", json_of_form(port.form.linear)},
+         {"passivity", json_of(port.certificate)}});
+  return ports;
+}
+
 }  // namespace
 
 Choices CertificateFile::as_asked() const {
@@ -116,7 +132,7 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
   Json constants = Json::object();
   if (const auto found = header_constants(header))
     for (const HeaderConstant& constant : found->all) constants[constant.name] = constant.values;
-  const Json all = {
+  Json all = {
       {"dashpot_certificate", 1},
       {"version", DASHPOT_VERSION},
       {"name", c.network.name},
@@ -132,6 +148,7 @@ std::string certificate_text(const Compilation& c, const Choices& choices, const
       {"motor_limits", json_of(c.certificate.limits, c.certificate.loop, port_units(c.network.port_motion).damping)},
       {"network_file", network_text},
       {"device_file", device_text ? Json(*device_text) : Json(nullptr)}};
+  if (!c.ports.empty()) all["ports"] = json_of_ports(c);
   return all.dump(2) + "\n";
 }
 

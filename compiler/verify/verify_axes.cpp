@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "verify/port_constants.hpp"
 #include "verify/recompiled.hpp"
 #include "verify/reference_geometry.hpp"
 #include "verify/reference_grid.hpp"
@@ -24,17 +25,19 @@ class AxesVerification {
         c_(compiled),
         diagnostics_(diagnostics),
         named_(reference_geometry(compiled)),
-        of_ports_(compiled.ports.size()),
         grids_(compiled.ports.size()) {
     for (const auto& [name, values] : reference_constants({}, facts_of_port(compiled, 0)))
       if (name == "sample_period" || name == "threshold") named_[name] = values.front();
+    for (std::size_t i = 0; i < compiled.ports.size(); ++i)
+      ports_.push_back(
+          {compiled.network.ports[i].name, &compiled.ports[i], &compiled.port_laws[i], compiled.choices_of_ports[i]});
   }
 
   std::size_t recompute_constants() {
     compare_constants(certificate_.constants, header_, diagnostics_);
     std::size_t count = 0;
     for (const HeaderConstant& constant : header_.all) look_at(constant), count += constant.values.size();
-    for (std::size_t i = 0; i < of_ports_.size(); ++i) recompute_port(i);
+    for (const VerifiedPort& port : ports_) recompute_port(port, header_.scalar, diagnostics_);
     for (std::size_t i = 0; i < grids_.size(); ++i)
       if (const auto* grid = std::get_if<axes::Grid>(&c_.network.ports[i].map))
         recompute_grid(c_.network.ports[i].name, *grid, grids_[i]);
@@ -44,7 +47,7 @@ class AxesVerification {
 
  private:
   void look_at(const HeaderConstant& constant) {
-    if (constant.name == literals_in_code) return look_at_literals(constant);
+    if (constant.name == literals_in_code) return look_at_literals(constant, c_.law, diagnostics_);
     if (constant.name == "added_damping") return compare_additions(constant);
     const auto known = named_.find(constant.name);
     if (known != named_.end() && constant.values.size() == 1) {
@@ -53,48 +56,12 @@ class AxesVerification {
                                                             known->second.str(20));
       return;
     }
-    const std::optional<std::size_t> port = port_of(constant.name);
-    if (!port) return recompute_field_table(constant), compare_with_written(constant);
+    const std::optional<std::size_t> port = port_of(constant.name, ports_);
+    if (!port) return recompute_field_table(constant), compare_with_written(constant, c_.law, diagnostics_);
     if (std::holds_alternative<axes::Grid>(c_.network.ports[*port].map) &&
         constant.name.starts_with(c_.network.ports[*port].name + "_map_"))
-      return grids_[*port].push_back(constant), compare_with_written(constant);
-    HeaderConstant own = constant;
-    own.name = name_in_port(*port, constant.name);
-    of_ports_[*port].push_back(std::move(own));
-  }
-
-  // The longest name that it begins with.
-  std::optional<std::size_t> port_of(const std::string& name) const {
-    std::optional<std::size_t> best;
-    for (std::size_t i = 0; i < c_.network.ports.size(); ++i) {
-      const std::string& port = c_.network.ports[i].name;
-      if (name.starts_with(port + "_") && (!best || port.size() > c_.network.ports[*best].name.size())) best = i;
-    }
-    return best;
-  }
-
-  // As the port's own law calls it: without the port's name, and without the number that keeps apart what would be
-  // called alike.
-  std::string name_in_port(std::size_t port, const std::string& name) const {
-    const std::string own = name.substr(c_.network.ports[port].name.size() + 1);
-    const std::size_t end = own.find_last_not_of("0123456789");
-    const auto is_one = [&](const std::string& told) {
-      return std::any_of(c_.port_laws[port].coefficients.begin(), c_.port_laws[port].coefficients.end(),
-                         [&](const Coefficient& c) {
-                           const std::vector<std::string>& names = c.element_names;
-                           return c.name == told || std::find(names.begin(), names.end(), told) != names.end();
-                         });
-    };
-    if (is_one(own) || end == own.npos || end + 1 == own.size() || own[end] != '_') return own;
-    return is_one(own.substr(0, end)) ? own.substr(0, end) : own;
-  }
-
-  // What states begin with.
-  void look_at_literals(const HeaderConstant& literals) {
-    for (std::size_t i = 0; i < literals.values.size(); ++i)
-      if (std::none_of(c_.law.variables.begin(), c_.law.variables.end(),
-                       [&](const Variable& variable) { return variable.rest_value == literals.values[i]; }))
-        diagnostics_.report<DiagnosticCode::constant_of_nothing>({}, literals.name, i + 1, literals.values[i]);
+      return grids_[*port].push_back(constant), compare_with_written(constant, c_.law, diagnostics_);
+    give(constant, ports_[*port]);
   }
 
   void compare_additions(const HeaderConstant& constant) {
@@ -104,28 +71,6 @@ class AxesVerification {
       alike = is_correctly_rounded(constant.values[k], Reference(added[k]), header_.scalar);
     if (!alike)
       diagnostics_.report<DiagnosticCode::certificate_disagrees>({}, "header", "recomputed bound", constant.name);
-  }
-
-  void compare_with_written(const HeaderConstant& constant) {
-    const auto& all = c_.law.coefficients;
-    const bool is_one = std::any_of(all.begin(), all.end(), [&](const Coefficient& c) {
-      return c.name == constant.name && c.values == constant.values;
-    });
-    if (!is_one) diagnostics_.report<DiagnosticCode::unknown_constant>({}, constant.name);
-  }
-
-  // As those of a law of one axis on an ideal device.
-  void recompute_port(std::size_t i) {
-    Compilation compiled = c_.ports[i];
-    compiled.law = c_.port_laws[i];
-    CertificateFile certificate;
-    certificate.choices = c_.choices_of_ports[i];
-    certificate.damping = compiled.decomposition.choice().damping;
-    const HeaderConstants header{header_.scalar, of_ports_[i]};
-    for (const HeaderConstant& constant : header.all) certificate.constants[constant.name] = constant.values;
-    if (is_plainly_linear(compiled.network))
-      verify_linear_constants(certificate, compiled.network, PortDevice::ideal(), header, diagnostics_);
-    else verify_constants(certificate, PortDevice::ideal(), header, compiled, diagnostics_);
   }
 
   // Of a field over a grid: what finds a cell, and differences between its knots. Tables by which a cell is found have
@@ -243,8 +188,8 @@ class AxesVerification {
   const AxesCompilation& c_;
   Diagnostics& diagnostics_;
   std::map<std::string, Reference> named_;
-  std::vector<std::vector<HeaderConstant>> of_ports_;  // without the ports' names
-  std::vector<std::vector<HeaderConstant>> grids_;     // tables of the ports' maps
+  std::vector<VerifiedPort> ports_;
+  std::vector<std::vector<HeaderConstant>> grids_;  // tables of the ports' maps
 };
 
 }  // namespace

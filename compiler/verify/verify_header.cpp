@@ -4,6 +4,7 @@
 
 #include "certify/proved_bound.hpp"
 #include "certify/quantisation.hpp"
+#include "verify/port_constants.hpp"
 #include "verify/realised_network.hpp"
 #include "verify/recompiled.hpp"
 #include "verify/reference_constants.hpp"
@@ -169,9 +170,49 @@ void recompute_map(const HeaderConstants& header, const Compilation& compiled, D
 
 }  // namespace
 
+namespace {
+
+// Of what belongs to no port: how the brake's commands are added up, and the facts of the loop.
+void look_at_sum(const HeaderConstant& constant, const Compilation& compiled,
+                 const std::map<std::string, std::vector<Reference>>& facts, ScalarType scalar,
+                 Diagnostics& diagnostics) {
+  if (constant.name == literals_in_code) return look_at_literals(constant, compiled.law, diagnostics);
+  const double single = constant.values.front();
+  if (constant.name == "damping" && !compiled.law.brake_changes() && single == compiled.law.damping) return;
+  if (constant.name == "added_damping" && single == compiled.certificate.added_damping) return;
+  const auto fact = facts.find(constant.name);
+  if (fact == facts.end()) return compare_with_written(constant, compiled.law, diagnostics);
+  if (!is_correctly_rounded(single, fact->second.front(), scalar))
+    diagnostics.report<DiagnosticCode::constant_wrong>({}, constant.name, 1, single, fact->second.front().str(20));
+}
+
+// Port by port, as those of a law by itself on its share of the device.
+void recompute_ports(const CertificateFile& certificate, const HeaderConstants& header, const Compilation& compiled,
+                     Diagnostics& diagnostics) {
+  std::vector<VerifiedPort> ports;
+  for (const Compilation& port : compiled.ports) {
+    Choices choices = certificate.choices;
+    choices.state_input = port.decomposition.choice().state_input;
+    ports.push_back({port.network.name, &port, &port.law, choices});
+  }
+  const LawFacts facts = {*certificate.choices.rate, certificate.choices.scheme, certificate.choices.scalar,
+                          StateInput::position, 0};
+  std::map<std::string, std::vector<Reference>> of_loop;
+  for (const auto& [name, values] : reference_constants({}, facts))
+    if (name == "sample_period" || name == "threshold") of_loop[name] = values;
+  for (const HeaderConstant& constant : header.all) {
+    const std::optional<std::size_t> port = port_of(constant.name, ports);
+    if (port) give(constant, ports[*port]);
+    else look_at_sum(constant, compiled, of_loop, header.scalar, diagnostics);
+  }
+  for (const VerifiedPort& port : ports) recompute_port(port, header.scalar, diagnostics);
+}
+
+}  // namespace
+
 bool is_plainly_linear(const Network& network) {
   const auto is_slip = [](const Element& e) { return e.has_effect && std::holds_alternative<Slip>(e.law); };
-  return !network.contact && !network.static_curve && !has_tunables(network) &&
+  return network.ports.empty() && !network.contact && !network.static_curve && !has_tunables(network) &&
          std::none_of(network.elements.begin(), network.elements.end(), is_slip);
 }
 
@@ -198,7 +239,8 @@ std::size_t verify_constants(const CertificateFile& certificate, const PortDevic
                              const HeaderConstants& header, const Compilation& compiled, Diagnostics& diagnostics) {
   Verification verification(certificate, header, diagnostics);
   verification.compare_with_certificate();
-  if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_constants();
+  if (!compiled.ports.empty()) recompute_ports(certificate, header, compiled, diagnostics);
+  else if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_constants();
   else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_constants();
   if (compiled.network.map) recompute_map(header, compiled, diagnostics);
   return verification.constants();
@@ -207,7 +249,7 @@ std::size_t verify_constants(const CertificateFile& certificate, const PortDevic
 void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
                    const Compilation& compiled, Diagnostics& diagnostics) {
   if (is_plainly_linear(compiled.network)) Verification(certificate, header, diagnostics).recompute_bounds(device);
-  else if (compiled.network.map)
+  else if (compiled.network.map || !compiled.ports.empty())
     compare_with_recompiled(certificate, compiled, std::nullopt, header.scalar, diagnostics);
   else if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
   else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_bounds();

@@ -483,6 +483,10 @@ class C99Printer {
     Lines lines;
     if (law_.rest_position == no_variable && law_.starts.empty()) lines.push_back("(void)position;");
     else lines = lines_of(law_.start);
+    if (!law_.starts.empty())
+      lines.insert(lines.begin(), fmt::format("position = (dashpot_all_finite{}(position, position, position) != 0) ? "
+                                              "position : {};",
+                                              suffix_, number(0)));
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       const std::string rest = rest_of(law_.variables.id_of(variable));

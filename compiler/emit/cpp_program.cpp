@@ -191,6 +191,8 @@ class CppPrinter {
     const bool rests = law_.rest_position != no_variable;
     if (!rests && law_.starts.empty()) lines.push_back("static_cast<void>(position);");
     else lines = law_.joints ? joint_starts() : statements_.lines_of(law_.start);
+    if (!rests && !law_.joints && !law_.starts.empty())
+      lines.insert(lines.begin(), "if (!dashpot::all_finite(position)) position = 0;");
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state || is_of_rest(law_.variables.id_of(variable))) continue;
       if (const std::string value = started(variable); !value.empty())

@@ -64,7 +64,7 @@ void Evaluation<Scalar>::reset(Scalar position) {
   if (law_.rest_position != no_variable && all_finite(position, position, position))
     at(law_.rest_position)[0] = rest_position(position);
   if (!law_.joints && !law_.starts.empty()) {
-    at(law_.position)[0] = position;
+    at(law_.position)[0] = all_finite(position) ? position : Scalar(0);
     start();
   }
   std::fill(turns_.begin(), turns_.end(), 0);

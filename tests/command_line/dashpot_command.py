@@ -60,6 +60,22 @@ class CommandTest(unittest.TestCase):
         self.assertEqual(done.stdout, "")
         return done
 
+    def failed_in_c(self, name, right, wrong):
+        """What the law's test says of its header with something wrong in it, which is put right again."""
+        header = self.folder / f"{name}.h"
+        text = header.read_text()
+        self.assertIn(right, text)
+        header.write_text(text.replace(right, wrong))
+        said = self.run_in_c(name)
+        header.write_text(text)
+        self.assertIn("failed", said)
+        return said
+
+    def run_in_c(self, name):
+        program = self.folder / "law_test"
+        subprocess.run(["cc", "-std=c99", "-ffp-contract=off", "-o", program, self.folder / f"{name}_test.c", "-lm"], check=True)
+        return subprocess.run([program], capture_output=True, text=True).stdout
+
 
 def codes(text):
     """The codes of all diagnostics in a text, in order."""

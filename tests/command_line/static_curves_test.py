@@ -2,7 +2,6 @@
 import json
 import math
 import re
-import subprocess
 import unittest
 
 from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
@@ -157,22 +156,6 @@ class StaticCurvesTest(CommandTest):
                     self.assertIn(wrong, self.failed_in_c(name, "tangent_squared *", "1.001 * tangent_squared *"))
         self.dashpot("compile", SPHERE, "--device", TRAINER, "--uncertified", "--target", "c99", "--with-test")
         self.assertIn("passed", self.run_in_c("sphere_on_gel"))
-
-    def failed_in_c(self, name, right, wrong):
-        """What the law's test says of its header with something wrong in it, which is put right again."""
-        header = self.folder / f"{name}.h"
-        text = header.read_text()
-        self.assertIn(right, text)
-        header.write_text(text.replace(right, wrong))
-        said = self.run_in_c(name)
-        header.write_text(text)
-        self.assertIn("failed", said)
-        return said
-
-    def run_in_c(self, name):
-        program = self.folder / "law_test"
-        subprocess.run(["cc", "-std=c99", "-ffp-contract=off", "-o", program, self.folder / f"{name}_test.c", "-lm"], check=True)
-        return subprocess.run([program], capture_output=True, text=True).stdout
 
     # If this fails, a command does not take parameters behind a curve, or one claims a proof that there is not.
     def test_parameters_behind_a_curve(self):

@@ -103,14 +103,14 @@ JointField<S> at_joints(const Pose<S>& pose, const ViscousField& field) {
 // brake 2's g_2 ŷ_1, each from an estimate of the other's velocity, h ŷ(k) = Σ_j e_j Δy(k + 1 − j), j = 1 …, after n
 // samples of delay. Passive, whatever varies, if at all samples i
 //
-//     |g_1(i)| + Σ_j |e_j| |g_2(i + n + j)| ≤ (2/ω)(1 − ε_1)(h/T_max) d_1(i)
-//     |g_2(i)| + Σ_j |e_j| |g_1(i + n + j)| ≤ 2ω (1 − ε_2)(h/T_max) d_2(i)
+//     γ |g_1(i)| + Σ_j |e_j| |g_2(i + n + j)| ≤ (2/ω)(1 − ε_1)(h/T_max) d_1(i)
+//     γ |g_2(i)| + Σ_j |e_j| |g_1(i + n + j)| ≤ 2ω (1 − ε_2)(h/T_max) d_2(i),        γ = Σ_j |e_j|
 //
 // with any constant ω > 0. What one coupling leaves of its allowance, the right side, becomes the limit of the other,
 // and no limit grows by more than `recovery` a sample, for which `reserve` = recovery · Σ |e_j| (n + j − 1) is kept.
 struct CurlGate {
   Pair<double> factor{2, 2};  // of d in the allowances
-  double gain = 1;            // Σ |e_j|, at least 1
+  double gain = 1;            // γ, at least 1
   double reserve = 0;         // [N·m·s/rad]
   double recovery = 0;        // [N·m·s/rad]
 };
@@ -133,7 +133,7 @@ Gated<S> gated(const CurlGate& gate, const Pair<S>& brake, const S& r, const S& 
   const S mixed = clamped(r, most), turning = clamped(sigma, most);
   const Pair<S> g{clamped(mixed + turning, left[1]), clamped(mixed - turning, left[0])};
   const auto left_by = [&](std::size_t j) {
-    return min(S(1 / gate.gain) * (allowed[j] - abs(g[j])), left[j] + S(gate.recovery));
+    return min(S(1 / gate.gain) * allowed[j] - abs(g[j]), left[j] + S(gate.recovery));
   };
   return {g, {left_by(0), left_by(1)}};
 }

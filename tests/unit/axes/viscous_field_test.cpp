@@ -307,6 +307,27 @@ TEST(Gate, LimitsCouplingsAcrossSamples) {
   EXPECT_FALSE(is_positive(ungated.work(), 0.1));
 }
 
+// Weights of both signs: an estimate may then be larger than any of its differences, by their γ. A gate that lets the
+// other joint have (A − |g|)/γ lets this pass.
+TEST(Gate, CountsWeightsOfBothSigns) {
+  GatedLoop loop;
+  loop.shortest = loop.longest = 1;
+  loop.weight = {std::vector<double>{1.5, -0.5}, std::vector<double>{1.5, -0.5}};
+  CurlGate gate;
+  gate.gain = 2, gate.reserve = 0.02, gate.recovery = 0.04;  // Σ |e_j| (j − 1) = ½
+  Pair<double> left{0, 0};
+  GatedLoop shared = loop;
+  for (int k = 0; k < 60; ++k) {
+    const Gated<double> passed = gated(gate, Pair<double>{1, 1}, 0.5, k % 2 == 0 ? 0.15 : -0.4, left);
+    left = passed.left;
+    for (GatedLoop* one : {&loop, &shared}) one->brake.push_back({1, 1});
+    loop.coupling.push_back(passed.coupling);
+    shared.coupling.push_back(k % 2 == 0 ? Pair<double>{0.65, 0.33} : Pair<double>{0.07, 0.66});  // 0.65 + 2 · 0.66 < 2
+  }
+  EXPECT_TRUE(is_positive(loop.work(), 1e-12));
+  EXPECT_FALSE(is_positive(shared.work(), 0.02));
+}
+
 // What a gate is told of an estimator is what the runtime's answers to one step: its weights, and how old they are.
 TEST(EstimateMemory, IsThatOfTheRuntimesEstimators) {
   using compiler::SampledLoop;

@@ -114,7 +114,6 @@ std::string why_no_gate(const AxesDevice& device, axes::BrakeRule rule) {
     if (brake.brake.coil_lag > 0 || brake.brake.slew > 0) return "the brakes follow their commands late";
   for (const device_description& joint : device.joints) {
     if (joint.motor.amplifier_lag > 0) return "the motors follow their commands late";
-    if (joint.loop.write_latest > 0) return "commands act later than their samples";
     if (!estimate_memory(loop_of_joint(joint)))
       return "it is not known for how long the velocity estimator remembers a motion";
   }
@@ -129,13 +128,15 @@ std::optional<axes::CurlGate> curl_gate(const AxesDevice& device, const std::vec
   for (const device_description& joint : device.joints) {
     const EstimateMemory memory = *estimate_memory(loop_of_joint(joint));
     gate.gain = std::max(gate.gain, memory.gain);
-    age = std::max(age, memory.age + memory.gain * double(device.loop().delay_samples));
+    // What moves between two samples may do so under the command before as well, where commands act late.
+    const double delay = double(device.loop().delay_samples) + (device.loop().write_latest > 0 ? 1 : 0);
+    age = std::max(age, memory.age + memory.gain * delay);
   }
   std::vector<Pair<double>> dampings;
   for (const axes::Place& place : gate_places(device, viscous))
     dampings.push_back(made_of(along_brakes(device, place.joints, viscous), device, added));
   const double omega = axes::gate_ratio(dampings);
-  const double holds = device.loop().sample_period / (device.loop().sample_period + device.loop().jitter);
+  const double holds = device.loop().sample_period / loop_of_joint(device.joints[0]).longest_hold();
   const double each = 2 * holds * (1 - for_rounding);
   gate.factor = {each / omega * assured_share(device.brakes[0], device),
                  each * omega * assured_share(device.brakes[1], device)};

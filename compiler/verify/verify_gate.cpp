@@ -58,14 +58,16 @@ void verify_gate(const axes::CurlGate& gate, const AxesDevice& device, const Hea
     if (value > 0 && value <= limit * (1 + slack)) return;
     diagnostics.report<DiagnosticCode::constant_wrong>({}, name, 1, value, fmt::format("at most {:.17g}", limit));
   };
+  const loop_description& loop = device.loop();
+  const double late = loop.write_latest > 0 ? loop.delay_samples + 1.0 : loop.delay_samples;
   double sum = 1, ages = 0;
   for (const device_description& joint : device.joints) {
     const Weights weights = weights_of(joint);
     sum = std::max(sum, weights.sum);
-    ages = std::max(ages, weights.ages + weights.sum * device.loop().delay_samples);
+    ages = std::max(ages, weights.ages + weights.sum * late);
   }
-  const loop_description& loop = device.loop();
-  const double holds = loop.sample_period / (loop.sample_period + loop.jitter);
+  const double longest = loop.sample_period + loop.jitter + (loop.write_latest - loop.write_earliest);
+  const double holds = loop.sample_period / longest;
   const double first = number("gate_factor_1", gate.factor[0]), second = number("gate_factor_2", gate.factor[1]);
   at_most("gate_factor_1", first,
           4 * holds * holds * sure_share(device.brakes[0], device) * sure_share(device.brakes[1], device) / second);

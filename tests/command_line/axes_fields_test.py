@@ -102,12 +102,10 @@ class AxesFieldsTest(CommandTest):
         late = json.loads(PANTOGRAPH.read_text())
         slow_brakes = prompt_arm(brakes=[{"along": [1, 0], **BRAKE, "coil_lag": "2 ms"}, {"along": [0, 1], **BRAKE}])
         adaptive = prompt_arm(velocity={"estimator": "foaw", "window": 16})
-        writing = prompt_arm()
-        writing["loop"]["write_delay"] = "20 us"
         three = prompt_arm(brakes=[*arm["brakes"], {"along": [1, -1], **BRAKE}])
         straight = self.write("straight.json", json.dumps(field_of("straight", 0.6, 0)))
         turning = self.write("turning.json", json.dumps(field_of("turning", 0.6, 0.3)))
-        for device, reason, options in ((writing, "commands act later than their samples", []), (late, "brakes follow their commands late", []), (slow_brakes, "brakes follow their commands late", []),
+        for device, reason, options in ((late, "brakes follow their commands late", []), (slow_brakes, "brakes follow their commands late", []),
                                         (adaptive, "velocity estimator remembers", []), (three, "more than two brakes", []),
                                         (arm, "by this rule", ["--decomposition", "virtual"])):
             with self.subTest(reason=reason):
@@ -128,6 +126,32 @@ class AxesFieldsTest(CommandTest):
         paid = told["damping_for_estimates"] - other["damping_for_estimates"]
         self.assertGreaterEqual(paid * LINK ** 2, 1.5 * 0.3 * largest * 0.999)
         self.assertLess(paid * LINK ** 2, 1.5 * 0.3 * largest * 1.1)
+
+    def test_late_commands_have_a_gate(self):
+        """Fails if a gate is refused where commands act late, or keeps no more for them, or verify takes one that does not."""
+        writing = prompt_arm()
+        writing["loop"]["write_delay"] = ["10 us", "20 us"]
+        network = self.write("turning.json", json.dumps(field_of("turning", 1.5, 0.7)))
+        kept = {}
+        for name, arm in (("prompt", prompt_arm()), ("writing", writing)):
+            self.write(f"{name}.json", json.dumps(arm))
+            self.assertTrue(self.explained(network, "--device", f"{name}.json")["certified"])
+            self.compile(network, "--device", f"{name}.json", "--certificate", f"{name}_certificate.json")
+            header = (self.folder / "turning.hpp").read_text()
+            self.dashpot("verify", f"{name}_certificate.json", "turning.hpp")
+            kept[name] = [float(re.search(rf"scalar gate_{one} = ([\d.e+-]+);", header)[1]) for one in ("reserve", "recovery", "factor_1")]
+        # Of the mean of four differences Σ |e_j| (j − 1) is 1.5, and one more where commands are late; 1e-6 is for rounding.
+        for name, due in (("prompt", 1.5), ("writing", 2.5)):
+            self.assertAlmostEqual(kept[name][0] / kept[name][1], due, delta=1e-5)
+        # h/T: a hold lasts as much longer as writes are apart. ω is of what the brakes make, and hardly another.
+        self.assertAlmostEqual(kept["writing"][2] / kept["prompt"][2], 100 / 110, delta=0.01)
+        edited = header.replace(f"gate_reserve = {kept['writing'][0]!r};", f"gate_reserve = {1.5 * kept['writing'][1]!r};")
+        self.assertNotEqual(edited, header)
+        self.write("edited.hpp", edited)
+        stated = json.loads((self.folder / "writing_certificate.json").read_text())
+        stated["constants"]["gate_reserve"] = [1.5 * kept["writing"][1]]
+        self.write("edited.json", json.dumps(stated))
+        self.assertIn("'gate_reserve' of place 1", self.dashpot("verify", "edited.json", "edited.hpp", status=INPUT_REFUSED).stderr)
 
     # If this fails, a field over a grid is not what lies between its knots, or brakes and motors do not make all of it.
     def test_a_field_over_a_grid(self):

@@ -180,8 +180,9 @@ bool is_positive(std::vector<std::vector<double>> m, double slack) {
 
 constexpr double least_damping = 1e-3;  // of a brake of a random loop
 
-// What an estimator's weights and the delay ask of a gate; half of the least allowance is kept for limits that grow.
-CurlGate gate_for(const GatedLoop& loop, double omega) {
+// What an estimator's weights and the delay ask of a gate, and commands that act late; half of the least allowance is
+// kept for limits that grow.
+CurlGate gate_for(const GatedLoop& loop, double omega, bool is_late) {
   CurlGate gate;
   const double each = 2 * loop.shortest / loop.longest;
   gate.factor = {each / omega, each * omega};
@@ -190,7 +191,7 @@ CurlGate gate_for(const GatedLoop& loop, double omega) {
     double gain = 0, sum = 0;
     for (std::size_t j = 0; j < weights.size(); ++j) {
       gain += std::abs(weights[j]);
-      sum += std::abs(weights[j]) * double(j + loop.delay);
+      sum += std::abs(weights[j]) * double(j + loop.delay + (is_late ? 1 : 0));
     }
     gate.gain = std::max(gate.gain, gain), age = std::max(age, sum);
   }
@@ -202,7 +203,7 @@ CurlGate gate_for(const GatedLoop& loop, double omega) {
 
 // Couplings are as large as the gate lets them be, and `stretch` times that; wanted are some that it lets pass and some
 // that it does not.
-GatedLoop random_loop(Random& random, double stretch) {
+GatedLoop random_loop(Random& random, double stretch, bool is_late = false) {
   GatedLoop loop;
   loop.shortest = 1e-3, loop.longest = 1e-3 * random.uniform(1, 1.3);
   loop.delay = random.chance(0.5) ? 0 : random.between(1, 2);
@@ -214,7 +215,7 @@ GatedLoop random_loop(Random& random, double stretch) {
     else
       for (double& one : weights) one = random.uniform(-0.2, 0.8);
   }
-  const CurlGate gate = gate_for(loop, random.log_uniform(0.5, 2));
+  const CurlGate gate = gate_for(loop, random.log_uniform(0.5, 2), is_late);
   const double largest = random.log_uniform(0.003, 0.03);
   Pair<double> left{0, 0};
   for (std::size_t k = 0; k < 60; ++k) {
@@ -326,6 +327,42 @@ TEST(Gate, CountsWeightsOfBothSigns) {
   }
   EXPECT_TRUE(is_positive(loop.work(), 1e-12));
   EXPECT_FALSE(is_positive(shared.work(), 0.02));
+}
+
+// Commands that act a part of a period after their samples, of two joints: what moves between two samples does so under
+// two commands. The least work over all motions, each either side of a write as it likes.
+std::vector<std::vector<double>> work_of_late(const GatedLoop& loop, double part) {
+  const std::size_t steps = loop.brake.size(), n = 4 * steps;
+  std::vector<std::vector<double>> form(n, std::vector<double>(n));
+  const double lasts[] = {part * loop.longest, (1 - part) * loop.longest};  // before and after the write
+  for (std::size_t k = 1; k < steps; ++k)
+    for (const std::size_t side : {0u, 1u})
+      for (const std::size_t joint : {0u, 1u}) {
+        const std::size_t told = side == 0 ? k - 1 : k, row = 4 * k + 2 * side + joint, other = 1 - joint;
+        form[row][row] += loop.brake[told][joint] / lasts[side];
+        const double gain = loop.coupling[told][joint] / loop.shortest;
+        for (std::size_t j = 0; j < loop.weight[other].size() && j + loop.delay < told; ++j)
+          for (const std::size_t of : {0u, 1u}) {
+            const std::size_t column = 4 * (told - 1 - j - loop.delay) + 2 * of + other;
+            form[row][column] += 0.5 * gain * loop.weight[other][j];
+            form[column][row] += 0.5 * gain * loop.weight[other][j];
+          }
+      }
+  for (std::size_t i = 0; i < 4; ++i) form[i][i] = 1;  // nothing acts on the first
+  return form;
+}
+
+// If this fails, what the gate keeps for commands that act late is too little.
+TEST(Gate, KeepsLateCommandsPassive) {
+  Random random(33);
+  int beyond = 0;
+  const int cases = int(repetitions(60, 2000));
+  for (int i = 0; i < cases; ++i) {
+    const double part = random.uniform(0.05, 0.95);
+    EXPECT_TRUE(is_positive(work_of_late(random_loop(random, 1, true), part), 1e-12)) << i;
+    beyond += is_positive(work_of_late(random_loop(random, 2, true), part), 0) ? 0 : 1;
+  }
+  EXPECT_GT(beyond, cases / 20);
 }
 
 // What a gate is told of an estimator is what the runtime's answers to one step: its weights, and how old they are.

@@ -258,6 +258,18 @@ class AxesFieldsTest(CommandTest):
             self.write("edited.json", json.dumps(stated))
             refused = self.dashpot("verify", "edited.json", "edited.hpp", status=INPUT_REFUSED).stderr
             self.assertRegex(refused, rf"'{'gate_reserve' if name == 'gate_recovery' else name}' of place 1 is .* at (most|least)")
+            self.assertEqual(refused.count("[constant-wrong]"), 1)
+            self.assertNotIn("[unknown-constant]", refused)
+        # And where the promise is kept, but by another number.
+        found = re.search(r"scalar gate_factor_1 = ([\d.e+-]+);", header)
+        stated = json.loads((self.folder / "certificate.json").read_text())
+        stated["constants"]["gate_factor_1"] = [0.99 * float(found[1])]
+        self.write("edited.hpp", header[:found.start(1)] + repr(0.99 * float(found[1])) + header[found.end(1):])
+        self.write("edited.json", json.dumps(stated))
+        refused = self.dashpot("verify", "edited.json", "edited.hpp", status=INPUT_REFUSED).stderr
+        self.assertRegex(refused, r"'gate_factor_1' of place 1 is .* recomputed from the network it is")
+        self.assertEqual(refused.count("[constant-wrong]"), 1)
+        self.assertNotIn("[unknown-constant]", refused)
 
     # If this fails, a table says something else than the plane or the ball that it was made of.
     def test_grids_are_what_they_were_made_of(self):

@@ -88,16 +88,6 @@ SampledLoop loop_of_ports(const AxesCompilation& c) {
   return loop;
 }
 
-std::vector<CertifiedPort> certified_ports(const AxesCompilation& c) {
-  std::vector<CertifiedPort> ports;
-  for (std::size_t i = 0; i < c.ports.size(); ++i) {
-    const Compilation& port = c.ports[i];
-    ports.push_back({&c.network.ports[i], &port.form, &c.port_laws[i], &port.certificate,
-                     slip_motor(port.network, port.form, port.decomposition, c.choices_of_ports[i], loop_of_ports(c))});
-  }
-  return ports;
-}
-
 JointPlan plan_of(const AxesCompilation& c) {
   JointPlan plan{c.device.arm,    brakes_of(c.device),     c.certificate.added, c.rule,
                  c.network.field, c.device.joint_motion(), c.certificate.gate};
@@ -124,15 +114,30 @@ std::string_view axes::name_of(BrakeRule rule) {
   return "";
 }
 
-std::optional<axes::ShareMap> share_by(const AxesCompilation& c, axes::BrakeRule rule,
-                                       const std::vector<AlongBrake>& more) {
-  AxesDevice device = c.device;
-  device.brakes.insert(device.brakes.end(), more.begin(), more.end());
-  return share_of(c.network, certified_ports(c), device, rule);
+std::vector<CertifiedPort> certified_ports(const AxesCompilation& c) {
+  std::vector<CertifiedPort> ports;
+  for (std::size_t i = 0; i < c.ports.size(); ++i) {
+    const Compilation& port = c.ports[i];
+    ports.push_back({&c.network.ports[i], &port.form, &c.port_laws[i], &port.certificate,
+                     slip_motor(port.network, port.form, port.decomposition, c.choices_of_ports[i], loop_of_ports(c))});
+  }
+  return ports;
 }
 
-std::vector<PlacedShare> shares_over(const AxesCompilation& c, axes::BrakeRule rule, int side) {
-  return shares_over(c.network, certified_ports(c), c.device, rule, side);
+std::vector<RuleShare> shares_by_rule(const AxesCompilation& c, const std::vector<CertifiedPort>& ports) {
+  std::vector<RuleShare> all;
+  for (const axes::BrakeRule rule : axes::all_brake_rules) {
+    const auto share = rule == c.rule ? c.certificate.share : share_of(c.network, ports, c.device, rule);
+    if (share) all.push_back({rule, *share});
+  }
+  return all;
+}
+
+std::optional<axes::ShareMap> share_with(const AxesCompilation& c, const std::vector<CertifiedPort>& ports,
+                                         axes::BrakeRule rule, const std::vector<AlongBrake>& more) {
+  AxesDevice device = c.device;
+  device.brakes.insert(device.brakes.end(), more.begin(), more.end());
+  return share_of(c.network, ports, device, rule);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -85,30 +86,38 @@ bool is_polar(const axes::Arm& arm) {
   return arm.kind == axes::Kinematics::five_bar && arm.base == 0;
 }
 
-std::string more_brakes_text(const AxesCompilation& c) {
+// Nothing where there is none.
+const RuleShare* share_of(axes::BrakeRule rule, const std::vector<RuleShare>& shares) {
+  const auto by = std::find_if(shares.begin(), shares.end(), [&](const RuleShare& one) { return one.rule == rule; });
+  return by != shares.end() ? &*by : nullptr;
+}
+
+std::string more_brakes_text(const AxesCompilation& c, const std::vector<CertifiedPort>& ports,
+                             const std::vector<RuleShare>& candidates) {
   const axes::BrakeRule rule = axes::BrakeRule::non_injecting;
-  const std::optional<axes::ShareMap> as_it_is = share_by(c, rule);
+  const RuleShare* const as_it_is = share_of(rule, candidates);
   const std::vector<MoreBrakes> all = more_brakes(c.device);
-  if (!as_it_is || all.empty()) return "";
+  if (as_it_is == nullptr || all.empty()) return "";
   std::string text = "\nwhat more brakes like brake 1 would make without the motors bringing energy in\n" +
-                     share_row("as it is", *as_it_is, false);
+                     share_row("as it is", as_it_is->share, false);
   for (const MoreBrakes& more : all)
-    if (const auto share = share_by(c, rule, more.brakes)) text += share_row(more.name, *share, false);
+    if (const auto share = share_with(c, ports, rule, more.brakes)) text += share_row(more.name, *share, false);
   if (is_polar(c.device.arm))
     text += "on this arm two brakes, on q1 - q2 and on q1 + q2, make every damping that is alike in all directions\n";
   return text;
 }
 
 std::string shares_text(const AxesCompilation& c) {
+  const std::vector<CertifiedPort> ports = certified_ports(c);
+  const std::vector<RuleShare> candidates = shares_by_rule(c, ports);
   std::string text = fmt::format(
       "how much of the ports' damping the brakes make, over the workspace\n"
       "{:<14} {:>20} {:>14} {:>17} {:>12}\n"
       "{:<14} {:>6} {:>6} {:>6} {:>14} {:>8} {:>8} {:>12}\n",
       "", "in all directions", "", "in the worst one", "delay-proof", "candidate", "mean", "median", "least", "at [mm]",
       "median", "least", "[%]");
-  for (const axes::BrakeRule rule : axes::all_brake_rules)
-    if (const auto share = share_by(c, rule)) text += share_row(name_of(rule), *share, rule == c.rule);
-  return text + more_brakes_text(c);
+  for (const auto& [rule, share] : candidates) text += share_row(name_of(rule), share, rule == c.rule);
+  return text + more_brakes_text(c, ports, candidates);
 }
 
 std::string legend(const AxesCompilation& c) {
@@ -187,15 +196,17 @@ std::string explain_json(const AxesCompilation& c) {
                      {"modes", modes},
                      {"damping", c.ports[i].decomposition.choice().damping}});
   }
+  const std::vector<CertifiedPort> certified = certified_ports(c);
+  const std::vector<RuleShare> shares = shares_by_rule(c, certified);
   for (const axes::BrakeRule rule : axes::all_brake_rules) {
-    const auto share = share_by(c, rule);
-    candidates.push_back({{"name", name_of(rule)}, {"share", share ? json_of(*share) : Json(nullptr)}});
+    const RuleShare* const by = share_of(rule, shares);
+    candidates.push_back({{"name", name_of(rule)}, {"share", by ? json_of(by->share) : Json(nullptr)}});
   }
   Json with_more = Json::array();
   for (const MoreBrakes& more : more_brakes(c.device)) {
     Json along = Json::array();
     for (const AlongBrake& brake : more.brakes) along.push_back(brake.along);
-    if (const auto share = share_by(c, axes::BrakeRule::non_injecting, more.brakes))
+    if (const auto share = share_with(c, certified, axes::BrakeRule::non_injecting, more.brakes))
       with_more.push_back({{"along", along}, {"share", json_of(*share)}});
   }
   const AxesCertificate& certificate = c.certificate;

@@ -33,13 +33,20 @@ inline constexpr BrakeRule all_brake_rules[] = {BrakeRule::diagonal, BrakeRule::
 
 }  // namespace axes
 
-// What the brakes would make of the ports' damping by another rule, or with `more` of them; nothing without a
-// workspace.
-std::optional<axes::ShareMap> share_by(const AxesCompilation& compilation, axes::BrakeRule rule,
-                                       const std::vector<AlongBrake>& more = {});
+// What is asked of the ports on the device; points into `compilation`.
+std::vector<CertifiedPort> certified_ports(const AxesCompilation& compilation);
 
-// The same at the centres of `side` × `side` equal parts of the workspace.
-std::vector<PlacedShare> shares_over(const AxesCompilation& compilation, axes::BrakeRule rule, int side);
+// What the brakes make of the ports' damping by each rule, in the order of all_brake_rules; nothing without a
+// workspace.
+struct RuleShare {
+  axes::BrakeRule rule;
+  axes::ShareMap share;
+};
+std::vector<RuleShare> shares_by_rule(const AxesCompilation& compilation, const std::vector<CertifiedPort>& ports);
+
+// The same by one rule with `more` brakes.
+std::optional<axes::ShareMap> share_with(const AxesCompilation& compilation, const std::vector<CertifiedPort>& ports,
+                                         axes::BrakeRule rule, const std::vector<AlongBrake>& more);
 
 // <name>.hpp, and <name>_live.cpp where it is asked for. Refuses: templates that do not fit.
 std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,

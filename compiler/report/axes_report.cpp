@@ -164,14 +164,8 @@ std::string force_figure(const AxesCompilation& c) {
   return map_figure(map);
 }
 
-// What a rule of the brakes makes of the ports' damping over the workspace.
-struct SharedBy {
-  axes::BrakeRule rule;
-  axes::ShareMap share;
-};
-
-std::string share_figure(const AxesCompilation& c, const SharedBy& by) {
-  const std::vector<PlacedShare> shares = shares_over(c, by.rule, map_side);
+std::string share_figure(const AxesCompilation& c, const std::vector<CertifiedPort>& ports, const RuleShare& by) {
+  const std::vector<PlacedShare> shares = shares_over(c.network, ports, c.device, by.rule, map_side);
   WorkspaceMap map;
   map.title = fmt::format("Share of the brakes, {}{}", name_of(by.rule), by.rule == c.rule ? " (chosen)" : "");
   map.shown = c.device.workspace;
@@ -193,7 +187,7 @@ std::string share_figure(const AxesCompilation& c, const SharedBy& by) {
   return map_figure(map);
 }
 
-std::string shares_html(const AxesCompilation& c, const std::vector<SharedBy>& all) {
+std::string shares_html(const AxesCompilation& c, const std::vector<RuleShare>& all) {
   std::string rows;
   for (const auto& [rule, share] : all)
     rows += fmt::format(
@@ -297,12 +291,11 @@ std::optional<std::string> report(const AxesCompilation& c, const std::optional<
   if (c.has_device) model.lists["workspace"].push_back({{"figures", arm_figure(c) + force_figure(c)}});
   else model.lists["no_device"].push_back({});
   if (c.certificate.share) {
-    std::vector<SharedBy> all;
-    for (const axes::BrakeRule rule : axes::all_brake_rules)
-      if (const auto share = share_by(c, rule)) all.push_back({rule, *share});
+    const std::vector<CertifiedPort> ports = certified_ports(c);
+    const std::vector<RuleShare> all = shares_by_rule(c, ports);
     std::string figures;
-    for (const SharedBy& by : all)
-      if (by.rule != axes::BrakeRule::virtual_brake) figures += share_figure(c, by);
+    for (const RuleShare& by : all)
+      if (by.rule != axes::BrakeRule::virtual_brake) figures += share_figure(c, ports, by);
     model.lists["shares"].push_back({{"table", shares_html(c, all)}, {"figures", figures}});
   }
   add_drag_part(c, module, model, diagnostics);

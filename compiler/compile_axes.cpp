@@ -142,24 +142,54 @@ std::optional<axes::ShareMap> share_with(const AxesCompilation& c, const std::ve
 
 namespace {
 
-// Above `least` the least factor that does, as doublings from `most` and a few halvings tell.
+// The least factor that does lies between, as doublings from `most` and a few halvings tell.
+struct Bracket {
+  double less, enough;
+};
 template <class Does>
-std::optional<double> least_factor(double least, double most, Does does) {
-  constexpr int most_doublings = 8, halvings = 4;
-  for (int doubling = 1; !does(most); least = most, most *= 2)
-    if (doubling++ == most_doublings) return std::nullopt;
+std::optional<Bracket> least_factor(double less, double enough, const Does& does) {
+  constexpr int most_doublings = 7, halvings = 4;
+  if (!does(std::ldexp(enough, most_doublings))) return std::nullopt;
+  for (; !does(enough); enough *= 2) less = enough;
   for (int halving = 0; halving < halvings; ++halving) {
-    const double middle = (least + most) / 2;
-    (does(middle) ? most : least) = middle;
+    const double middle = (less + enough) / 2;
+    (does(middle) ? enough : less) = middle;
   }
-  return most;
+  return Bracket{less, enough};
+}
+
+// The device of the least factor with which it would be certified. Some places tell what is too little, nearly always
+// to the step; what they leave is asked of the whole workspace.
+template <class DeviceOf>
+std::optional<AxesDevice> device_that_would_do(const AxesCompilation& c, double less, double enough,
+                                               const DeviceOf& device_of) {
+  constexpr int most_steps = 8;
+  const std::vector<CertifiedPort> ports = certified_ports(c);
+  const auto may_do = [&](double factor) {
+    return may_be_certified(c.network, ports, device_of(factor), c.rule, c.certificate, c.device);
+  };
+  const auto does = [&](double factor) {
+    return would_be_certified(c.network, ports, device_of(factor), c.rule, c.certificate);
+  };
+  const std::optional<Bracket> at_places = least_factor(less, enough, may_do);
+  if (!at_places) return std::nullopt;
+  const double step = at_places->enough - at_places->less;
+  auto [lacks, factor] = *at_places;
+  for (int steps = 0; !does(factor); ++steps) {
+    if (steps == most_steps) return std::nullopt;
+    lacks = factor, factor += std::ldexp(step, steps);
+  }
+  while (factor - lacks > 1.5 * step) {
+    const double middle = (lacks + factor) / 2;
+    (does(middle) ? factor : lacks) = middle;
+  }
+  return device_of(factor);
 }
 
 }  // namespace
 
 std::optional<axes::Pair<double>> own_damping_that_would_do(const AxesCompilation& c) {
   if (!c.certificate.lacks_only_damping() || !std::isfinite(c.certificate.missing)) return std::nullopt;
-  const std::vector<CertifiedPort> ports = certified_ports(c);
   const auto with_more = [&](double factor) {
     AxesDevice device = c.device;
     for (std::size_t joint = 0; joint < 2; ++joint) {
@@ -169,14 +199,12 @@ std::optional<axes::Pair<double>> own_damping_that_would_do(const AxesCompilatio
     }
     return device;
   };
-  const std::optional<double> factor = least_factor(
-      0, 1, [&](double more) { return certify_axes(c.network, ports, with_more(more), c.rule).certified; });
-  return factor ? std::optional(with_more(*factor).mechanics.damping) : std::nullopt;
+  const std::optional<AxesDevice> device = device_that_would_do(c, 0, 1, with_more);
+  return device ? std::optional(device->mechanics.damping) : std::nullopt;
 }
 
 std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& c) {
   if (!c.certificate.lacks_only_damping()) return std::nullopt;
-  const std::vector<CertifiedPort> ports = certified_ports(c);
   const auto stronger = [&](double factor) {
     AxesDevice device = c.device;
     for (AlongBrake& brake : device.brakes) {
@@ -185,11 +213,10 @@ std::optional<std::vector<double>> brakes_that_would_do(const AxesCompilation& c
     }
     return device;
   };
-  const std::optional<double> factor = least_factor(
-      1, 2, [&](double times) { return certify_axes(c.network, ports, stronger(times), c.rule).certified; });
-  if (!factor) return std::nullopt;
+  const std::optional<AxesDevice> device = device_that_would_do(c, 1, 2, stronger);
+  if (!device) return std::nullopt;
   std::vector<double> limits;
-  for (const AlongBrake& brake : stronger(*factor).brakes) limits.push_back(brake.brake.max_damping);
+  for (const AlongBrake& brake : device->brakes) limits.push_back(brake.brake.max_damping);
   return limits;
 }
 

@@ -13,7 +13,8 @@ Largest larger(const Largest& one, const Largest& other) { return one.x < other.
 
 // `matrices_at` takes a motion of the tip to matrices of which the largest counts; +λ and −λ of each.
 template <typename Matrices>
-double largest_size(const Arm& arm, const Box& workspace, const Pair<double>& weight, const Matrices& matrices_at) {
+Size largest_size(const Arm& arm, const Box& workspace, const Pair<double>& weight, int parts,
+                  const Matrices& matrices_at) {
   double attained = 0;
   const auto size_over = [&](const Box& tip) {
     const std::optional<Pair<Sloped>> joints = enclosed_joints(arm, variables(tip));
@@ -30,8 +31,9 @@ double largest_size(const Arm& arm, const Box& workspace, const Pair<double>& we
     if (there < infinity) attained = std::max(attained, there);
     return std::max(most.x, attained);
   };
-  return best_first(workspace, most_boxes, measured,
-                    [&](double bound) { return bound - attained <= bound_tolerance * attained; });
+  const double most = best_first(workspace, parts, measured,
+                                 [&](double bound) { return bound - attained <= bound_tolerance * attained; });
+  return {most, attained};
 }
 
 // Every sum of which some ports are left out.
@@ -51,10 +53,10 @@ std::vector<Symmetric<Sloped>> wanted_by(const std::vector<PortDamping>& ports, 
 
 }  // namespace
 
-double largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                         const ViscousField& field, const std::vector<Brake>& brakes, BrakeRule rule,
-                         const Pair<double>& weight) {
-  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+Size largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                       const ViscousField& field, const std::vector<Brake>& brakes, BrakeRule rule,
+                       const Pair<double>& weight, int parts) {
+  return largest_size(arm, workspace, weight, parts, [&](const TipMotion& there) {
     std::vector<Symmetric<Sloped>> remainders;
     for (const Symmetric<Sloped>& wanted : wanted_by(ports, field, there.pose))
       remainders.push_back(rule == BrakeRule::diagonal ? wanted - made_by(brakes, diagonal(brakes, wanted)) : wanted);
@@ -62,11 +64,12 @@ double largest_remainder(const Arm& arm, const Box& workspace, const std::vector
   });
 }
 
-double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                                   const ViscousField& field, const Pair<Brake>& brakes, const Pair<double>& weight) {
-  if (brakes[0].most >= unlimited && brakes[1].most >= unlimited) return 0;
+Size largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                                 const ViscousField& field, const Pair<Brake>& brakes, const Pair<double>& weight,
+                                 int parts) {
+  if (brakes[0].most >= unlimited && brakes[1].most >= unlimited) return {0, 0};
   const Pair<Pair<double>> base = dual(brakes[0].along, brakes[1].along);
-  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+  return largest_size(arm, workspace, weight, parts, [&](const TipMotion& there) {
     std::vector<Symmetric<Sloped>> remainders;
     for (const Symmetric<Sloped>& wanted : wanted_by(ports, field, there.pose)) {
       const Symmetric<Sloped> along = along_brakes(base, wanted);
@@ -80,8 +83,9 @@ double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const s
 }
 
 // Of [[0, σ], [σ, 0]] it is the same.
-double largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight) {
-  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+Size largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight,
+                  int parts) {
+  return largest_size(arm, workspace, weight, parts, [&](const TipMotion& there) {
     const auto& [first, second] = there.pose.column;
     const Sloped determinant = first[0] * second[1] - first[1] * second[0];
     const Matrix<Sloped> a = field_at(field, there.pose.tip);
@@ -89,15 +93,15 @@ double largest_curl(const Arm& arm, const Box& workspace, const ViscousField& fi
   });
 }
 
-double largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight) {
-  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+Size largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight) {
+  return largest_size(arm, workspace, weight, most_boxes, [&](const TipMotion& there) {
     return std::vector{outer(at_joints(there.pose, depth(map, there.pose.tip).gradient))};
   });
 }
 
-double largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight) {
+Size largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight) {
   const Interval range = range_of(load.map, workspace);
-  return largest_size(arm, workspace, weight, [&](const TipMotion& there) {
+  return largest_size(arm, workspace, weight, most_boxes, [&](const TipMotion& there) {
     const Depth<Sloped> depth = axes::depth(load.map, there.pose.tip);
     const double force = abs(motor_force(load, depth.value.value, range)).high;
     if (force == 0) return std::vector<Symmetric<Sloped>>{};

@@ -11,6 +11,12 @@
 
 namespace dashpot::compiler::axes {
 
+// A size over a workspace.
+struct Size {
+  double most;      // nowhere larger
+  double attained;  // as large somewhere
+};
+
 // Of a port that damps.
 struct PortDamping {
   PortMap map;
@@ -18,23 +24,25 @@ struct PortDamping {
   bool is_off = false;  // at times: behind a contact
 };
 
-// ‖R‖, R = B* − D of what ports and field want and what the brakes make of it by a rule, whichever ports are off [N·s/m
-// for a weight in m²]. By `non_injecting` 0 ≤ R ≤ B*, and ‖B*‖ is taken.
-double largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                         const ViscousField& field, const std::vector<Brake>& brakes, BrakeRule rule,
-                         const Pair<double>& weight);
+// All look at up to `parts` of the workspace. ‖R‖, R = B* − D of what ports and field want and what the brakes make of
+// it by a rule, whichever ports are off [N·s/m for a weight in m²]. By `non_injecting` 0 ≤ R ≤ B*, and ‖B*‖ is taken.
+Size largest_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                       const ViscousField& field, const std::vector<Brake>& brakes, BrakeRule rule,
+                       const Pair<double>& weight, int parts = most_boxes);
 
 // The same of two brakes by `diagonal`, without what couples them.
-double largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
-                                   const ViscousField& field, const Pair<Brake>& brakes, const Pair<double>& weight);
+Size largest_uncoupled_remainder(const Arm& arm, const Box& workspace, const std::vector<PortDamping>& ports,
+                                 const ViscousField& field, const Pair<Brake>& brakes, const Pair<double>& weight,
+                                 int parts = most_boxes);
 
 // ‖[[0, σ], [−σ, 0]]‖ of a field that turns.
-double largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight);
+Size largest_curl(const Arm& arm, const Box& workspace, const ViscousField& field, const Pair<double>& weight,
+                  int parts = most_boxes);
 
 // ‖g gᵀ‖ of a port's gradient g.
-double largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight);
+Size largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight);
 
 // |M| ‖H‖ of a port's force and its map's Hessian H: what a motion of the joints turns the torque by.
-double largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight);
+Size largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight);
 
 }  // namespace dashpot::compiler::axes

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "axes/motor_norms.hpp"
+#include "axes/weighed.hpp"
 #include "certify/estimator_factors.hpp"
 #include "certify/motor_limits.hpp"
 #include "certify/unproved.hpp"
@@ -256,58 +257,132 @@ std::optional<double> gain_of_estimates(const AxesNetwork& network, const std::v
   return most;
 }
 
-// What does not depend on how much is added to the brakes' commands.
-struct Sizes {
-  double springs = 0;    // Σ S ‖g gᵀ‖ + ½ |M| ‖H‖ [N/m]
-  double estimates = 0;  // Σ κ ‖g gᵀ‖ of contacts that let go by an estimate κ g·v̂ [N·s/m]
+// Of a network on devices that differ by their brakes' limits and the joints' own damping alone.
+struct Asked {
+  const AxesNetwork& network;
+  const std::vector<CertifiedPort>& ports;
+  axes::BrakeRule rule;
+  Pair<double> weight;
+  double for_each = 0;  // of what motors make of estimates [1]
+  double contacts = 0;  // Σ κ ‖g gᵀ‖ of those that let go by an estimate κ g·v̂ [N·s/m]
+  double for_lag = 0;   // [N·s/m]
 };
 
-Sizes sizes_of(const std::vector<CertifiedPort>& ports, const std::vector<axes::PortLoad>& loads,
-               const AxesDevice& device, const Pair<double>& weight, bool has_lag) {
-  Sizes sizes;
-  for (std::size_t i = 0; i < ports.size(); ++i) {
-    if (!has_lag && follows(ports[i]) == 0) continue;
-    const double gradient = axes::largest_gradient(device.arm, device.workspace, loads[i].map, weight);
-    sizes.estimates += follows(ports[i]) * gradient;
-    if (has_lag)
-      sizes.springs +=
-          loads[i].held * gradient + axes::largest_turning(device.arm, device.workspace, loads[i], weight) / 2;
-  }
-  return sizes;
+std::vector<axes::PortLoad> loads_of(const Asked& asked, const AxesDevice& device) {
+  std::vector<axes::PortLoad> loads;
+  for (const CertifiedPort& port : asked.ports) loads.push_back(load_of(port, device.loop().sample_period));
+  return loads;
+}
+
+// What held forces need beside `given`.
+axes::NeededDamping needed_beside(const axes::GivenDamping& given, const Asked& asked, const AxesDevice& device,
+                                  int parts = axes::most_boxes) {
+  return axes::needed_damping(device.arm, device.workspace, loads_of(asked, device), loop_of(device), asked.weight,
+                              given, axes::bound_tolerance, parts);
+}
+
+// γ T/h, with a gain of 1 where none is known.
+double for_each_estimate(const AxesDevice& device, const std::optional<double>& gain) {
+  return gain.value_or(1) * loop_of(device).longest_period / device.loop().sample_period * (1 + 1e-12);
 }
 
 // What the motors make, from estimates, of the damping of ports and field with so much of the brakes used up; behind a
 // gate but what couples the brakes.
-double remainder_beside(const std::vector<double>& added, const AxesNetwork& network,
-                        const std::vector<CertifiedPort>& ports, const AxesDevice& device, axes::BrakeRule rule,
-                        bool is_gated, const Pair<double>& weight) {
+axes::Size remainder_beside(const std::vector<double>& added, const Asked& asked, const AxesDevice& device,
+                            bool is_gated, int parts) {
   std::vector<axes::PortDamping> dampings;
-  for (const CertifiedPort& port : ports)
+  for (const CertifiedPort& port : asked.ports)
     if (damps(port))
       dampings.push_back({port.port->map, std::max(port.law->damping, port.law->largest_damping),
                           port.port->network.contact.has_value()});
   std::vector<axes::Brake> brakes = brakes_of(device);
   for (std::size_t k = 0; k < brakes.size(); ++k)
     if (brakes[k].most < axes::unlimited) brakes[k].most = std::max(brakes[k].most - added[k], 0.0);
-  const axes::ViscousField& field = network.field;
+  const axes::ViscousField& field = asked.network.field;
   if (is_gated)
     return axes::largest_uncoupled_remainder(device.arm, device.workspace, dampings, field, {brakes[0], brakes[1]},
-                                             weight);
-  const double turning = field.is_symmetric() ? 0 : axes::largest_curl(device.arm, device.workspace, field, weight);
-  return turning + axes::largest_remainder(device.arm, device.workspace, dampings, field, brakes, rule, weight);
+                                             asked.weight, parts);
+  const axes::Size turning = field.is_symmetric()
+                                 ? axes::Size{0, 0}
+                                 : axes::largest_curl(device.arm, device.workspace, field, asked.weight, parts);
+  const axes::Size rest =
+      axes::largest_remainder(device.arm, device.workspace, dampings, field, brakes, asked.rule, asked.weight, parts);
+  return {turning.most + rest.most, turning.attained + rest.attained};
+}
+
+// Of a port, over the workspace.
+struct PortSize {
+  double gradient = 0;  // ‖g gᵀ‖ [1]
+  double turning = 0;   // ‖M H‖ [N/m]
+};
+
+std::vector<PortSize> sizes_of(const Asked& asked, const AxesDevice& device, bool is_late) {
+  const std::vector<axes::PortLoad> loads = loads_of(asked, device);
+  std::vector<PortSize> sizes(loads.size());
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    if (is_late || follows(asked.ports[i]) > 0)
+      sizes[i].gradient = axes::largest_gradient(device.arm, device.workspace, loads[i].map, asked.weight).most;
+    if (is_late)
+      sizes[i].turning = axes::largest_turning(device.arm, device.workspace, loads[i], asked.weight).most;
+  }
+  return sizes;
+}
+
+// What held forces need beside what is there, with nothing added to it.
+axes::NeededDamping rest_beside(bool is_gated, const Asked& asked, const AxesDevice& device,
+                                int parts = axes::most_boxes) {
+  const std::vector<double> none(device.brakes.size(), 0);
+  return needed_beside(given_by(asked.network, asked.ports, device, asked.rule, is_gated, none), asked, device, parts);
+}
+
+// What a brake can be told to add at most.
+double most_added(const brake_description& brake) {
+  return brake.kind == brake_kind::none ? axes::infinity : std::max(0.0, brake.max_damping - brake.residual_damping);
 }
 
 // Whether the brakes can give an addition at all.
 bool is_within_reach(const std::vector<double>& added, const AxesDevice& device) {
-  for (std::size_t k = 0; k < device.brakes.size(); ++k) {
-    const brake_description& brake = device.brakes[k].brake;
-    if (brake.kind != brake_kind::none && added[k] > std::max(0.0, brake.max_damping - brake.residual_damping))
-      return false;
-  }
+  for (std::size_t k = 0; k < device.brakes.size(); ++k)
+    if (added[k] > most_added(device.brakes[k].brake)) return false;
   return true;
 }
 
+// From what bounds nothing, or from what some place of the workspace asks for alone.
+enum class End { proved, attained };
+
+struct Added {
+  std::vector<double> to_brakes;  // as far as they reach [N·m·s/rad] or [N·s/m]
+  double for_estimates = 0;       // [N·s/m]
+  double missing = 0;             // [N·s/m]
+  bool is_enough = false;
+};
+
 constexpr int most_rounds = 12;
+
+// What is added leaves the brakes less of the ports' damping, and the motors more: found in a few rounds, or not.
+Added added_for(double rest, const Asked& asked, const AxesDevice& device, bool is_gated, End end = End::proved,
+                int parts = axes::most_boxes) {
+  Added result;
+  std::vector<double>& added = result.to_brakes;
+  added.assign(device.brakes.size(), 0);
+  for (int round = 0; round < most_rounds && !result.is_enough; ++round) {
+    axes::Size remainder{0, 0};
+    if (asked.for_each > 0) remainder = remainder_beside(added, asked, device, is_gated, parts);
+    result.for_estimates =
+        asked.for_each * ((end == End::proved ? remainder.most : remainder.attained) + asked.contacts);
+    result.missing = std::max(0.0, rest + result.for_estimates + asked.for_lag);
+    const std::vector<double> wanted = result.missing > 0 ? addition(device, asked.weight, result.missing) : added;
+    result.is_enough = std::equal(wanted.begin(), wanted.end(), added.begin(), std::less_equal<>());
+    if (result.is_enough) break;
+    added = wanted;
+    if (!is_within_reach(added, device)) break;
+    // A little more than is asked for, so that rounds end.
+    for (double& damping : added) damping *= 1 + 1e-3;
+  }
+  result.is_enough = result.is_enough && std::isfinite(result.missing) && is_within_reach(added, device);
+  for (std::size_t k = 0; k < added.size(); ++k) added[k] = std::min(added[k], most_added(device.brakes[k].brake));
+  return result;
+}
 
 }  // namespace
 
@@ -363,41 +438,31 @@ AxesCertificate certified_with(const AxesNetwork& network, const std::vector<Cer
     c.lies_in_port = !c.reason.empty();
   }
   if (!c.reason.empty()) return c;
-  std::vector<axes::PortLoad> loads;
-  for (const CertifiedPort& port : ports) loads.push_back(load_of(port, device.loop().sample_period));
-  const axes::SampledLoop loop = loop_of(device);
-  const auto needed_beside = [&](const axes::GivenDamping& given) {
-    return axes::needed_damping(device.arm, device.workspace, loads, loop, c.weight, given);
-  };
-  const axes::NeededDamping whole = needed_beside({});
-  axes::NeededDamping rest = needed_beside(given_by(network, ports, device, rule, is_gated, c.added));
+  const std::optional<double> gain = gain_of_estimates(network, ports, device);
+  Asked asked{network, ports, rule, c.weight, for_each_estimate(device, gain)};
+  const axes::NeededDamping whole = needed_beside({}, asked, device);
   c.is_proved = std::isfinite(whole.proved);
   if (!c.is_proved) {
     c.reason = "the workspace bounds no force of a port";
     return c;
   }
-  const std::optional<double> gain = gain_of_estimates(network, ports, device);
-  double lag = 0;
+  double lag = 0, springs = 0;  // Σ S ‖g gᵀ‖ + ½ ‖M H‖
   for (const device_description& joint : device.joints) lag = std::max(lag, time_of_lateness(loop_of_joint(joint)));
-  const Sizes sizes = sizes_of(ports, loads, device, c.weight, lag > 0);
-  c.for_lag = lag * sizes.springs;
-  const double for_each = gain.value_or(1) * loop.longest_period / device.loop().sample_period * (1 + 1e-12);
-  // What is added leaves the brakes less of the ports' damping, and the motors more: found in a few rounds, or not.
-  bool is_settled = false;
-  for (int round = 0; round < most_rounds && !is_settled; ++round) {
-    const double remainder =
-        for_each > 0 ? remainder_beside(c.added, network, ports, device, rule, is_gated, c.weight) : 0;
-    c.for_estimates = for_each * (remainder + sizes.estimates);
-    c.needed = whole.proved + c.for_estimates + c.for_lag;
-    c.missing = std::max(0.0, rest.proved + c.for_estimates + c.for_lag);
-    const std::vector<double> wanted = c.missing > 0 ? addition(device, c.weight, c.missing) : c.added;
-    is_settled = std::equal(wanted.begin(), wanted.end(), c.added.begin(), std::less_equal<>());
-    if (is_settled) break;
-    c.added = wanted;
-    if (!is_within_reach(c.added, device)) break;
-    // A little more than is asked for, so that rounds end.
-    for (double& damping : c.added) damping *= 1 + 1e-3;
+  const std::vector<PortSize> sizes = sizes_of(asked, device, lag > 0);
+  const std::vector<axes::PortLoad> loads = loads_of(asked, device);
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    c.contacts += follows(ports[i]) * sizes[i].gradient;
+    springs += loads[i].held * sizes[i].gradient + sizes[i].turning / 2;
   }
+  if (lag > 0) c.for_lag = lag * springs;
+  asked.contacts = c.contacts, asked.for_lag = c.for_lag;
+  const axes::NeededDamping rest = rest_beside(is_gated, asked, device);
+  c.least_rest = rest.attained;
+  const Added found = added_for(rest.proved, asked, device, is_gated);
+  c.added = found.to_brakes;
+  c.for_estimates = found.for_estimates;
+  c.missing = found.missing;
+  c.needed = whole.proved + c.for_estimates + c.for_lag;
   c.worst = axes::pose(device.arm, rest.joints).tip;
   c.uncovered = uncovered_in_device(device);
   if (c.uncovered.empty()) {
@@ -406,12 +471,7 @@ AxesCertificate certified_with(const AxesNetwork& network, const std::vector<Cer
   }
   if (c.uncovered.empty() && !gain)
     c.uncovered = "nothing is known of the gain of the velocity estimator, which the motors follow";
-  c.certified = is_settled && c.uncovered.empty() && std::isfinite(c.missing) && is_within_reach(c.added, device);
-  for (std::size_t k = 0; k < device.brakes.size(); ++k) {
-    const brake_description& brake = device.brakes[k].brake;
-    if (brake.kind != brake_kind::none)
-      c.added[k] = std::min(c.added[k], std::max(0.0, brake.max_damping - brake.residual_damping));
-  }
+  c.certified = found.is_enough && c.uncovered.empty();
   if (c.adds()) c.added_at_tip = largest_at_tip(c.added, device);
   return c;
 }
@@ -436,6 +496,63 @@ AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<Certi
   return ungated;
 }
 
+namespace {
+
+Asked asked_like(const AxesCertificate& like, const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
+                 const AxesDevice& device, axes::BrakeRule rule) {
+  const double for_each = for_each_estimate(device, gain_of_estimates(network, ports, device));
+  return {network, ports, rule, like.weight, for_each, like.contacts, like.for_lag};
+}
+
+// As certify_axes() chooses: behind a gate where there is one.
+template <class AddedWith>
+Added settled(const Asked& asked, const AxesDevice& device, const AddedWith& added_with) {
+  const axes::ViscousField& field = asked.network.field;
+  if (!field.is_symmetric() && why_no_gate(device, asked.rule).empty()) {
+    const Added gated = added_with(true);
+    if (curl_gate(device, gated.to_brakes, field)) return gated;
+  }
+  return added_with(false);
+}
+
+// What held forces ask for at least on a device of which the joints' own damping alone is another, or the brakes'
+// limits where what is given does not hang on them.
+std::optional<double> least_rest(const AxesDevice& device, const AxesDevice& was, const AxesCertificate& like,
+                                 bool is_gated, axes::BrakeRule rule) {
+  bool is_alike = like.gate.has_value() == is_gated;
+  if (!is_gated && is_brakes_part_known(device, rule))
+    for (std::size_t k = 0; k < device.brakes.size(); ++k)
+      is_alike = is_alike && device.brakes[k].brake.max_damping == was.brakes[k].brake.max_damping;
+  if (!is_alike) return std::nullopt;
+  double more = 0;
+  for (std::size_t j = 0; j < 2; ++j)
+    more = std::max(more, (device.mechanics.damping[j] - was.mechanics.damping[j]) / like.weight[j]);
+  return like.least_rest - more;
+}
+
+}  // namespace
+
+bool may_be_certified(const AxesNetwork& network, const std::vector<CertifiedPort>& ports, const AxesDevice& device,
+                      axes::BrakeRule rule, const AxesCertificate& like, const AxesDevice& was) {
+  constexpr int some_parts = 250, some_of_motors = 60;
+  const Asked asked = asked_like(like, network, ports, device, rule);
+  const auto added_with = [&](bool is_gated) {
+    const std::optional<double> known = least_rest(device, was, like, is_gated, rule);
+    const double rest = known ? *known : rest_beside(is_gated, asked, device, some_parts).attained;
+    return added_for(rest, asked, device, is_gated, End::attained, some_of_motors);
+  };
+  return settled(asked, device, added_with).is_enough;
+}
+
+bool would_be_certified(const AxesNetwork& network, const std::vector<CertifiedPort>& ports, const AxesDevice& device,
+                        axes::BrakeRule rule, const AxesCertificate& like) {
+  const Asked asked = asked_like(like, network, ports, device, rule);
+  const auto added_with = [&](bool is_gated) {
+    return added_for(rest_beside(is_gated, asked, device).proved, asked, device, is_gated);
+  };
+  return settled(asked, device, added_with).is_enough;
+}
+
 std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return c.reason;
   if (!c.uncovered.empty()) return c.uncovered;
@@ -449,9 +566,10 @@ std::vector<std::string> curl_lines(const AxesCertificate& c) {
   if (c.gate) {
     const GatePassage& passage = *c.passage;
     const std::string least =
-        passage.least == 1 ? ""
-                           : fmt::format(", {:.3g} % at least, at ({:.4g}, {:.4g}) mm", 100 * passage.least,
-                                         in_millimetres(passage.least_at[0]), in_millimetres(passage.least_at[1]));
+        passage.least == 1
+            ? ""
+            : fmt::format(", {:.3g} % at least, at ({:.4g}, {:.4g}) mm", 100 * passage.least,
+                          in_millimetres(passage.least_at[0]), in_millimetres(passage.least_at[1]));
     return {
         fmt::format("  the field turns: what couples the brakes' directions is made by the motors, behind a gate "
                     "that lets pass what the brakes' own share of the field pays for: {:.3g} % of it in the mean "

@@ -30,10 +30,12 @@ struct CertifiedPort {
 struct AxesCertificate {
   bool is_proved = false;  // false: for `reason`
   std::string reason;
-  double needed = 0;                // x W that the motors' torques need, W = diag(weight) [N·s/m]
-  double for_estimates = 0;         // of that, what follows estimates [N·s/m]
-  double for_lag = 0;               // of that, what the motors' amplifiers are behind with [N·s/m]
-  double missing = 0;               // x that has to be added to what is there already; not below it [N·s/m]
+  double needed = 0;         // x W that the motors' torques need, W = diag(weight) [N·s/m]
+  double for_estimates = 0;  // of that, what follows estimates [N·s/m]
+  double contacts = 0;       // in that, Σ κ ‖g gᵀ‖ of those that let go by an estimate κ g·v̂ [N·s/m]
+  double for_lag = 0;        // of what is needed, what the motors' amplifiers are behind with [N·s/m]
+  double least_rest = 0;     // held forces need no less beside what is there, below 0 where that is more [N·s/m]
+  double missing = 0;        // x that has to be added to what is there already; not below it [N·s/m]
   axes::Pair<double> weight{1, 1};  // square of each joint's link [m²]; [1] of joints that slide
   axes::Pair<double> worst{0, 0};   // tip where most is missing [m]
   std::vector<double> added;        // to each brake's command [N·m·s/rad] or [N·s/m]
@@ -74,6 +76,15 @@ std::vector<PlacedShare> shares_over(const AxesNetwork& network, const std::vect
 // added to the brakes' commands, as far as they reach.
 AxesCertificate certify_axes(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                              const AxesDevice& device, axes::BrakeRule rule);
+
+// Whether it would be certified on a device of which the brakes' limits and the joints' own damping alone are others
+// than on that of `like`, which lacks damping.
+bool would_be_certified(const AxesNetwork& network, const std::vector<CertifiedPort>& ports, const AxesDevice& device,
+                        axes::BrakeRule rule, const AxesCertificate& like);
+
+// The same by some places alone: false where one of them asks for too much. `was` is the device of `like`.
+bool may_be_certified(const AxesNetwork& network, const std::vector<CertifiedPort>& ports, const AxesDevice& device,
+                      axes::BrakeRule rule, const AxesCertificate& like, const AxesDevice& was);
 
 // Why not, as one clause.
 std::string why_not_certified(const AxesCertificate& certificate, const AxesDevice& device);

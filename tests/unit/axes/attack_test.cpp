@@ -275,7 +275,8 @@ FieldCase random_field(Random& random) {
       every_arm[random.index(4)], {1, 1}, random.log_uniform(0.1, 10), 0, 1 + random.index(5), random.index(3), 0};
   one.weight = {one.arm.proximal * one.arm.proximal, one.arm.distal * one.arm.distal};
   if (random.chance(0.5)) one.lag = period * random.log_uniform(0.1, 5);
-  one.size = largest_remainder(one.arm, room, {}, uniform(one.field), on_both_joints, BrakeRule::diagonal, one.weight);
+  one.size =
+      largest_remainder(one.arm, room, {}, uniform(one.field), on_both_joints, BrakeRule::diagonal, one.weight).most;
   return one;
 }
 
@@ -368,8 +369,8 @@ TEST(Attack, LaggingAmplifiersGiveNothingAtTheBound) {
       PortLoad load{network.map};
       load.grounded = network.grounded, load.held = network.hold();
       load.relaxing = network.gain.empty() ? 0 : network.gain[0];
-      springs += load.held * largest_gradient(one.arm, room, load.map, one.weight) +
-                 largest_turning(one.arm, room, load, one.weight) / 2;
+      springs += load.held * largest_gradient(one.arm, room, load.map, one.weight).most +
+                 largest_turning(one.arm, room, load, one.weight).most / 2;
     }
     const double besides = compiler::time_of_lag(loop) * springs;
     bool gains = false;

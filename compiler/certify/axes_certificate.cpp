@@ -229,6 +229,9 @@ std::string uncovered_in_device(const AxesDevice& device) {
   for (const device_description& joint : device.joints)
     if (joint.motor.slew > 0) return "the motors' slew is limited, which no bound of two axes covers yet";
   if (loop_of_joint(device.joints[0]).may_overtake()) return overtaken;
+  for (const device_description& joint : device.joints)
+    if (!std::isfinite(time_of_lateness(loop_of_joint(joint))))
+      return "the motors' amplifiers lag, and the jitter is a sample or more";
   return "";
 }
 
@@ -308,6 +311,17 @@ axes::Size remainder_beside(const std::vector<double>& added, const Asked& asked
   const axes::Size rest =
       axes::largest_remainder(device.arm, device.workspace, dampings, field, brakes, asked.rule, asked.weight, parts);
   return {turning.most + rest.most, turning.attained + rest.attained};
+}
+
+// Of ports whose forces need a damping that is not bounded.
+std::string why_unbounded(const Asked& asked, const AxesDevice& device) {
+  axes::SampledLoop still = loop_of(device);
+  still.reach = {0, 0};
+  const axes::NeededDamping needed =
+      axes::needed_damping(device.arm, device.workspace, loads_of(asked, device), still, asked.weight, {});
+  if (!std::isfinite(needed.proved)) return "the workspace bounds no force of a port";
+  return "while a torque is held the joints may go on, at the encoders' \"max_speed\", to where the arm does not reach "
+         "or is singular";
 }
 
 // Of a port, over the workspace.
@@ -404,7 +418,8 @@ std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::ve
   const std::vector<axes::Place> places = places_of(device, places_a_side);
   const std::optional<axes::TipDamping> wanted = definite_at_tip(network, ports, device, places);
   if (!wanted) return std::nullopt;
-  return axes::share_map(device.arm, places, brakes_of(device), rule, *wanted);
+  const axes::ShareMap share = axes::share_map(device.arm, places, brakes_of(device), rule, *wanted);
+  return std::isfinite(share.mean) ? std::optional(share) : std::nullopt;
 }
 
 std::vector<PlacedShare> shares_over(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
@@ -443,7 +458,7 @@ AxesCertificate certified_with(const AxesNetwork& network, const std::vector<Cer
   const axes::NeededDamping whole = needed_beside({}, asked, device);
   c.is_proved = std::isfinite(whole.proved);
   if (!c.is_proved) {
-    c.reason = "the workspace bounds no force of a port";
+    c.reason = why_unbounded(asked, device);
     return c;
   }
   double lag = 0, springs = 0;  // Σ S ‖g gᵀ‖ + ½ ‖M H‖
@@ -556,25 +571,26 @@ bool would_be_certified(const AxesNetwork& network, const std::vector<CertifiedP
 std::string why_not_certified(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) return c.reason;
   if (!c.uncovered.empty()) return c.uncovered;
+  if (!std::isfinite(c.missing)) return "it needs more damping at the joints than can be computed";
   return at_joints(c.missing, c, device) + " of damping are missing at the joints, more than its brakes can give";
 }
 
 namespace {
 
 // How a field that turns is kept passive; nothing of another.
-std::vector<std::string> curl_lines(const AxesCertificate& c) {
+std::vector<std::string> curl_lines(const AxesCertificate& c, const AxesDevice& device) {
   if (c.gate) {
     const GatePassage& passage = *c.passage;
     const std::string least =
-        passage.least == 1
+        passage.least == 1 || passage.least == passage.mean
             ? ""
             : fmt::format(", {:.3g} % at least, at ({:.4g}, {:.4g}) mm", 100 * passage.least,
                           in_millimetres(passage.least_at[0]), in_millimetres(passage.least_at[1]));
     return {
         fmt::format("  the field turns: what couples the brakes' directions is made by the motors, behind a gate "
                     "that lets pass what the brakes' own share of the field pays for: {:.3g} % of it in the mean "
-                    "over the workspace{}, while the tool goes slowly",
-                    100 * passage.mean, least)};
+                    "over the {}{}, while the tool goes slowly",
+                    100 * passage.mean, device.workspace[0].width() > 0 ? "workspace" : "field", least)};
   }
   if (c.why_no_gate.empty()) return {};
   return {
@@ -587,10 +603,11 @@ std::vector<std::string> curl_lines(const AxesCertificate& c) {
 
 std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDevice& device) {
   if (!c.is_proved) {
-    std::vector<std::string> lines = curl_lines(c);
+    std::vector<std::string> lines = curl_lines(c, device);
     lines.insert(lines.begin(), "passivity: nothing is proved: " + c.reason);
     return lines;
   }
+  if (!std::isfinite(c.missing)) return {"passivity: not certified, since " + why_not_certified(c, device)};
   std::vector<std::string> lines;
   lines.push_back(fmt::format(
       "passivity: {}: what the motors hold from one sample to the next needs {} of damping at the joints; their own "
@@ -607,7 +624,7 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
     lines.push_back(fmt::format("  of what is needed, {} are for {}", at_joints(c.for_lag, c, device),
                                 device.loop().write_latest > 0 ? "torques that come after their samples"
                                                                : "the lag of the motors' amplifiers"));
-  const std::vector<std::string> of_curl = curl_lines(c);
+  const std::vector<std::string> of_curl = curl_lines(c, device);
   lines.insert(lines.end(), of_curl.begin(), of_curl.end());
   const std::string unit = port_units(device.joint_motion()).damping;
   std::string added;

@@ -60,7 +60,7 @@ struct AxesCertificate {
 std::vector<axes::Brake> brakes_of(const AxesDevice& device);
 
 // Of the damping of all ports, where they are pushed, what the brakes make by a rule; nothing where there is no
-// damping, or no workspace.
+// damping, no workspace, or so much damping that it cannot be computed.
 std::optional<axes::ShareMap> share_of(const AxesNetwork& network, const std::vector<CertifiedPort>& ports,
                                        const AxesDevice& device, axes::BrakeRule rule);
 

@@ -116,7 +116,11 @@ std::string shares_text(const AxesCompilation& c) {
       "{:<14} {:>6} {:>6} {:>6} {:>14} {:>8} {:>8} {:>12}\n",
       "", "in all directions", "", "in the worst one", "delay-proof", "candidate", "mean", "median", "least", "at [mm]",
       "median", "least", "[%]");
-  for (const auto& [rule, share] : candidates) text += share_row(name_of(rule), share, rule == c.rule);
+  for (const axes::BrakeRule rule : axes::all_brake_rules) {
+    const RuleShare* const by = share_of(rule, candidates);
+    text += by ? share_row(name_of(rule), by->share, rule == c.rule)
+               : fmt::format("{:<14} more damping is wanted than can be computed\n", name_of(rule));
+  }
   return text + more_brakes_text(c, ports, candidates);
 }
 

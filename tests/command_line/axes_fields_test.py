@@ -153,6 +153,13 @@ class AxesFieldsTest(CommandTest):
         self.write("edited.json", json.dumps(stated))
         self.assertIn("'gate_reserve' of place 1", self.dashpot("verify", "edited.json", "edited.hpp", status=INPUT_REFUSED).stderr)
 
+    def test_where_no_device_is_named_there_is_no_workspace(self):
+        """Fails if explain tells of a workspace of no device."""
+        network = self.write("turning.json", json.dumps(field_of("turning", 1.5, 5)))
+        said = self.text_of(network)
+        self.assertIn("in the mean over the field, while", said)
+        self.assertEqual(said.count("workspace"), said.count("and so no workspace"))
+
     # If this fails, a field over a grid is not what lies between its knots, or brakes and motors do not make all of it.
     def test_a_field_over_a_grid(self):
         self.write("prompt.json", json.dumps(prompt_arm()))

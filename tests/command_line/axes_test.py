@@ -346,6 +346,21 @@ class AxesTest(CommandTest):
         # The search halves a factor of two four times, and two digits are told.
         compiled([0.8 * limit for limit in limits], INPUT_REFUSED)
 
+    def test_what_cannot_be_bounded_is_told_as_it_is(self):
+        """Fails if a bound beyond all numbers is printed as one, or forces are blamed where it is the way that the joints go."""
+        field = json.loads(FIELD.read_text())
+        field["parameters"]["B"] = "1e300 N s/m"
+        self.write("endless.json", json.dumps(field))
+        told = self.dashpot("explain", "endless.json", "--device", PANTOGRAPH).stdout
+        self.assertNotRegex(told, r"\b(inf|nan)\b")
+        self.assertIn("more damping at the joints than can be computed", " ".join(told.split()))
+        arm = json.loads(PANTOGRAPH.read_text())
+        arm["encoders"]["max_speed"] = "6000 rad/s"
+        self.write("fast.json", json.dumps(arm))
+        told = " ".join(self.dashpot("explain", FIELD, "--device", "fast.json").stdout.split())
+        self.assertIn("the joints may go on, at the encoders' \"max_speed\", to where the arm does not reach", told)
+        self.assertNotIn("bounds no force", told)
+
     def test_what_is_added_is_told_at_the_tip(self):
         """Fails if damping that is added to the brakes is not what the hand feels of it where it feels most."""
         text = " ".join(self.dashpot("explain", FIELD, "--device", PANTOGRAPH).stdout.split())

@@ -93,15 +93,16 @@ Size largest_curl(const Arm& arm, const Box& workspace, const ViscousField& fiel
   });
 }
 
-Size largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight) {
-  return largest_size(arm, workspace, weight, most_boxes, [&](const TipMotion& there) {
+Size largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight, int parts) {
+  return largest_size(arm, workspace, weight, parts, [&](const TipMotion& there) {
     return std::vector{outer(at_joints(there.pose, depth(map, there.pose.tip).gradient))};
   });
 }
 
-Size largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight) {
+Size largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight,
+                     int parts) {
   const Interval range = range_of(load.map, workspace);
-  return largest_size(arm, workspace, weight, most_boxes, [&](const TipMotion& there) {
+  return largest_size(arm, workspace, weight, parts, [&](const TipMotion& there) {
     const Depth<Sloped> depth = axes::depth(load.map, there.pose.tip);
     const double force = abs(motor_force(load, depth.value.value, range)).high;
     if (force == 0) return std::vector<Symmetric<Sloped>>{};

@@ -40,9 +40,11 @@ Size largest_curl(const Arm& arm, const Box& workspace, const ViscousField& fiel
                   int parts = most_boxes);
 
 // ‖g gᵀ‖ of a port's gradient g.
-Size largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight);
+Size largest_gradient(const Arm& arm, const Box& workspace, const PortMap& map, const Pair<double>& weight,
+                      int parts = most_boxes);
 
 // |M| ‖H‖ of a port's force and its map's Hessian H: what a motion of the joints turns the torque by.
-Size largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight);
+Size largest_turning(const Arm& arm, const Box& workspace, const PortLoad& load, const Pair<double>& weight,
+                     int parts = most_boxes);
 
 }  // namespace dashpot::compiler::axes

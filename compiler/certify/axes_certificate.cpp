@@ -10,6 +10,7 @@
 #include "axes/weighed.hpp"
 #include "certify/estimator_factors.hpp"
 #include "certify/motor_limits.hpp"
+#include "certify/quantisation.hpp"
 #include "certify/unproved.hpp"
 #include "network/port_units.hpp"
 
@@ -330,16 +331,56 @@ struct PortSize {
   double turning = 0;   // ‖M H‖ [N/m]
 };
 
+constexpr int rough_parts = 500;  // where nothing that is added hangs on it
+
 std::vector<PortSize> sizes_of(const Asked& asked, const AxesDevice& device, bool is_late) {
   const std::vector<axes::PortLoad> loads = loads_of(asked, device);
-  std::vector<PortSize> sizes(loads.size());
+  std::vector<PortSize> sizes;
   for (std::size_t i = 0; i < loads.size(); ++i) {
-    if (is_late || follows(asked.ports[i]) > 0)
-      sizes[i].gradient = axes::largest_gradient(device.arm, device.workspace, loads[i].map, asked.weight).most;
-    if (is_late)
-      sizes[i].turning = axes::largest_turning(device.arm, device.workspace, loads[i], asked.weight).most;
+    const int parts = is_late || follows(asked.ports[i]) > 0 ? axes::most_boxes : rough_parts;
+    sizes.push_back(
+        {axes::largest_gradient(device.arm, device.workspace, loads[i].map, asked.weight, parts).most,
+         axes::largest_turning(device.arm, device.workspace, loads[i], asked.weight, is_late ? parts : rough_parts)
+             .most});
   }
   return sizes;
+}
+
+// K of a port: its force is off by no more than that times what its depth is off by [N/m]. Behind slips it holds while
+// a step alone makes none of them give way, which is not asked here.
+std::optional<double> gain_of_steps(const CertifiedPort& port, const AxesDevice& device) {
+  if (port.form->has_slips()) return std::nullopt;
+  if (!port.slips) return port.certificate->quantisation_gain;
+  double most = 0;
+  for (const device_description& joint : device.joints) {
+    const auto gain = quantisation_gain(linear_motor_constants(*port.law), *port.slips, loop_of_joint(joint));
+    if (!gain) return std::nullopt;
+    most = std::max(most, *gain);
+  }
+  return most;
+}
+
+// At each joint ½ √W_j √(Σ W_l Δ_l²) (Σ K ‖g gᵀ‖ + ‖M H‖ + ‖R‖ P), P of the estimators; empty where that is not
+// bounded.
+std::optional<Pair<double>> torque_of_steps(const std::vector<double>& added, const std::vector<PortSize>& sizes,
+                                            const Asked& asked, const AxesDevice& device) {
+  double stiffness = 0, pulse = 0, step = 0;
+  for (std::size_t i = 0; i < asked.ports.size(); ++i) {
+    const std::optional<double> gain = gain_of_steps(asked.ports[i], device);
+    if (!gain) return std::nullopt;
+    stiffness += *gain * sizes[i].gradient + sizes[i].turning;
+  }
+  for (std::size_t j = 0; j < 2; ++j) {
+    const device_description& joint = device.joints[j];
+    const std::optional<double> of_joint = asked.for_each > 0 ? estimate_pulse(loop_of_joint(joint)) : 0;
+    if (!of_joint) return std::nullopt;
+    pulse = std::max(pulse, *of_joint);
+    step = std::hypot(step, std::sqrt(asked.weight[j]) * joint.encoder.step);
+  }
+  if (pulse > 0) stiffness += pulse * remainder_beside(added, asked, device, false, rough_parts).most;
+  if (!std::isfinite(stiffness)) return std::nullopt;
+  const double alike = stiffness * step / 2 * (1 + 1e-12);
+  return Pair<double>{std::sqrt(asked.weight[0]) * alike, std::sqrt(asked.weight[1]) * alike};
 }
 
 // What held forces need beside what is there, with nothing added to it.
@@ -479,6 +520,7 @@ AxesCertificate certified_with(const AxesNetwork& network, const std::vector<Cer
   c.missing = found.missing;
   c.needed = whole.proved + c.for_estimates + c.for_lag;
   c.worst = axes::pose(device.arm, rest.joints).tip;
+  c.torque_of_steps = torque_of_steps(c.added, sizes, asked, device);
   c.uncovered = uncovered_in_device(device);
   if (c.uncovered.empty()) {
     c.uncovered = uncovered_in_ports(ports, device);
@@ -640,6 +682,27 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
         fmt::format("  added to the brakes' commands for it: {} {}{}; felt at the tip: up to {:.3g} N s/m more", added,
                     unit, c.certified ? "" : ", all that they can give", c.added_at_tip));
   return lines;
+}
+
+std::string steps_line(const AxesCertificate& c, const AxesDevice& device) {
+  const auto has_steps = [](const device_description& joint) { return joint.encoder.step > 0; };
+  if (!c.is_proved || std::none_of(device.joints.begin(), device.joints.end(), has_steps)) return "";
+  if (!c.torque_of_steps)
+    return "encoder steps: the energy that they bring in by the motors is not bounded, and not counted";
+  const Pair<double>&most = *c.torque_of_steps, &friction = device.mechanics.coulomb_friction;
+  const PortUnits units = port_units(device.joint_motion());
+  std::string text = fmt::format(
+      "encoder steps: in what the motors make they come to no more than {:.3g} and {:.3g} {} at the joints; ", most[0],
+      most[1], units.force);
+  if (friction[0] > 0 || friction[1] > 0)
+    text += fmt::format("friction of {:.3g} and {:.3g} {} there takes what that gives, a brake none of it", friction[0],
+                        friction[1], units.force);
+  else text += "the device file states no Coulomb friction, which would take what that gives; a brake does not";
+  const Pair<double> beyond{std::max(most[0] - friction[0], 0.0), std::max(most[1] - friction[1], 0.0)};
+  if (beyond[0] > 0 || beyond[1] > 0)
+    text += fmt::format("; what is beyond can give the hand {:.3g} and {:.3g} J per {} of a joint's travel", beyond[0],
+                        beyond[1], units.position);
+  return text;
 }
 
 }  // namespace dashpot::compiler

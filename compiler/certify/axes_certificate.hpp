@@ -43,6 +43,9 @@ struct AxesCertificate {
   std::string uncovered;            // what of this network on this device no bound covers yet; empty: nothing
   bool lies_in_port = false;        // either of these: another network in a port may have a bound
   bool certified = false;
+  // What the encoders' steps change of the motors' torques, no more at each joint [N·m] or [N]; empty where that is not
+  // bounded.
+  std::optional<axes::Pair<double>> torque_of_steps;
   std::optional<axes::ShareMap> share;  // of the ports' damping by the brakes; empty where there is none
 
   // Of a field that turns: what lets the brakes pay for what couples them, and what of the field it lets pass. Without
@@ -91,5 +94,9 @@ std::string why_not_certified(const AxesCertificate& certificate, const AxesDevi
 
 // One or more lines on what is proved.
 std::vector<std::string> passivity_lines(const AxesCertificate& certificate, const AxesDevice& device);
+
+// What of the energy that the encoders' steps bring in friction takes; empty where there are none, or nothing is
+// proved.
+std::string steps_line(const AxesCertificate& certificate, const AxesDevice& device);
 
 }  // namespace dashpot::compiler

@@ -231,10 +231,19 @@ std::string explain_json(const AxesCompilation& c) {
       {"missing_damping", is_proved ? Json(certificate.missing) : Json(nullptr)},
       {"worst_at", is_proved ? Json(certificate.worst) : Json(nullptr)},
       {"added_damping", certificate.added},
+      {"torque_of_steps", certificate.torque_of_steps ? Json(*certificate.torque_of_steps) : Json(nullptr)},
       {"gate", json_of_gate(certificate)},
       {"certified", certificate.certified},
       {"operations", {{"output", operations(c.law, c.law.output)}, {"update", operations(c.law, c.law.update)}}}};
   return json.dump(2) + "\n";
+}
+
+// What is proved, and what the encoders' steps do.
+std::vector<std::string> facts_of(const AxesCompilation& c) {
+  std::vector<std::string> facts = passivity_lines(c.certificate, c.device);
+  const std::string steps = steps_line(c.certificate, c.device);
+  if (!steps.empty()) facts.push_back(steps);
+  return facts;
 }
 
 std::string explain_text(const AxesCompilation& c, bool with_legend) {
@@ -246,7 +255,7 @@ std::string explain_text(const AxesCompilation& c, bool with_legend) {
   if (c.certificate.share) text += "\n" + shares_text(c);
   if (with_legend) text += "\n" + legend(c);
   text += "\n";
-  for (const std::string& fact : passivity_lines(c.certificate, c.device))
+  for (const std::string& fact : facts_of(c))
     for (const std::string& line : wrapped_text(fact, 98, 2)) text += line + "\n";
   return text + fmt::format("a step takes {} operations before the command leaves and {} after it\n",
                             operations(c.law, c.law.output), operations(c.law, c.law.update));
@@ -299,7 +308,7 @@ std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) 
   }
   if (stage == "certificate") {
     std::string text = "certificate of " + c.network.name + "\n";
-    for (const std::string& line : passivity_lines(c.certificate, c.device)) text += line + "\n";
+    for (const std::string& line : facts_of(c)) text += line + "\n";
     return text;
   }
   std::string text;

@@ -346,6 +346,41 @@ class AxesTest(CommandTest):
         # The search halves a factor of two four times, and two digits are told.
         compiled([0.8 * limit for limit in limits], INPUT_REFUSED)
 
+    def test_the_steps_of_the_encoders(self):
+        """Fails if explain tells less of what the encoders' steps change at the joints than they do somewhere, or far more, or nothing of
+        the friction that takes it."""
+        ball = {"name": "ball", "map": {"ball": {"centre": [0, "40 mm"], "radius": "90 mm"}}, "network": {"spring": "400 N/m"}}
+        network = self.write("ball.json", json.dumps({"dashpot": 1, "axes": 2, "name": "round_spring", "ports": [ball]}))
+        told = json.loads(self.dashpot("explain", network, "--device", PANTOGRAPH, "--json").stdout)["torque_of_steps"]
+        half = math.pi / 65536
+
+        def torque(q):
+            (x, y), columns = tip_of(q), jacobian_of(q)
+            away = math.hypot(x, y - 0.04)
+            push = 400 * (0.09 - away)
+            return [push * (-x * column[0] - (y - 0.04) * column[1]) / away for column in columns]
+
+        most = [0, 0]
+        for x in (-0.04, -0.02, 0, 0.02, 0.04):
+            for y in (0.07, 0.095, 0.12):
+                q = joints_of(x, y)
+                for signs in ((1, 1), (1, -1)):
+                    there, here = torque([a + sign * half for a, sign in zip(q, signs)]), torque(q)
+                    most = [max(m, abs(a - b)) for m, a, b in zip(most, there, here)]
+        for j in range(2):
+            self.assertLess(most[j], told[j])
+            self.assertGreater(most[j], 0.25 * told[j])  # norms of both joints together, force and bend each at its own worst place
+        words = lambda device: " ".join(self.dashpot("explain", network, "--device", device).stdout.split())
+        self.assertIn("friction of 0.001 and 0.001 N m there takes what that gives, a brake none of it a step takes", words(PANTOGRAPH))
+        arm = json.loads(PANTOGRAPH.read_text())
+        arm["mechanics"]["coulomb_friction"] = "10 uN m"
+        self.write("smooth.json", json.dumps(arm))
+        beyond = float(re.search(r"what is beyond can give the hand (\S+) and", words("smooth.json"))[1])
+        self.assertAlmostEqual(beyond, told[0] - 1e-5, delta=0.005 * told[0])
+        slip = {**ball, "network": {"series": [{"slip": "1 N"}, {"spring": "400 N/m"}]}}
+        self.write("ball.json", json.dumps({"dashpot": 1, "axes": 2, "name": "round_slip", "ports": [slip]}))
+        self.assertIn("encoder steps: the energy that they bring in by the motors is not bounded, and not counted", words(PANTOGRAPH))
+
     def test_what_cannot_be_bounded_is_told_as_it_is(self):
         """Fails if a bound beyond all numbers is printed as one, or forces are blamed where it is the way that the joints go."""
         field = json.loads(FIELD.read_text())

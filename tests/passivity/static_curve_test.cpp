@@ -1,17 +1,9 @@
 // What is certified of laws behind static curves, against motions that take as much energy as they can within the range
 // and the speed that the device states: the brake and the mechanics take what a constant damping takes at a constant
 // speed over a hold.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <deque>
-
-#include "compile.hpp"
-#include "syntax/parse_device.hpp"
-#include "law/evaluate.hpp"
-#include "support/random.hpp"
+#include "curve_attack.hpp"
 #include "support/repetitions.hpp"
 
 namespace dashpot::testing {
@@ -19,56 +11,11 @@ namespace {
 
 using namespace dashpot::compiler;
 
-struct Loop {
-  double period, jitter, speed, travel, brake;  // [s], [s], [m/s], [m] to either side, [N·s/m]
-  unsigned delay;
-};
-
-Device device_of(const Loop& loop, double damping) {
-  const std::string text = fmt::format(
-      R"({{ "dashpot_device": 1, "name": "rig", "motion": "translation",
-           "loop": {{ "rate": "{:.17g} Hz", "jitter": {:.17g}, "delay_samples": {}, "band": ["0.1 Hz", "20 Hz"] }},
-           "encoder": {{ "resolution": "1 um", "range": [{:.17g}, {:.17g}], "max_speed": {:.17g} }},
-           "velocity": {{ "estimator": "backward_difference", "window": 4 }},
-           "motor": {{ "max_torque": "1 MN" }}{},
-           "mechanics": {{ "inertia": "0.1 kg", "damping": {:.17g} }} }})",
-      1 / loop.period, loop.jitter, loop.delay, -loop.travel, loop.travel, loop.speed,
-      loop.brake > 0
-          ? fmt::format(R"(, "brake": {{ "kind": "eddy_current", "max_damping": {:.17g}, "tolerance": "10 %" }})",
-                        loop.brake)
-          : "",
-      damping);
-  Diagnostics diagnostics;
-  const SourceFile file("rig.json", text);
-  const std::optional<DeviceDecl> decl = parse_device(file, diagnostics);
-  std::optional<Device> device = decl ? build_device(*decl, diagnostics) : std::nullopt;
-  EXPECT_TRUE(device) << text;
-  return *device;
-}
-
-struct Case {
-  std::string network;
-  Loop loop;
-  bool in_contact;
-};
-
 // Springs that stay, springs that relax slowly or fast, a damper in every other one with a brake.
 Case random_curve(std::uint64_t seed, bool with_brake) {
   Random random(seed);
   const double at = random.log_uniform(1e-3, 1e-2), force = random.log_uniform(0.3, 10);
-  std::string curve;
-  switch (seed % 3) {
-    case 0:
-      curve = fmt::format(R"({{ "power": {:.6g}, "force": {:.9g}, "at": {:.9g} }})", random.uniform(1, 3), force, at);
-      break;
-    case 1:
-      curve = fmt::format(R"({{ "exponential": {:.9g}, "force": {:.9g}, "at": {:.9g} }})", random.uniform(0.3, 5) / at,
-                          force, at);
-      break;
-    default:
-      curve = fmt::format(R"({{ "table": [[0, 0], [{:.9g}, {:.9g}], [{:.9g}, {:.9g}], [{:.9g}, {:.9g}]] }})", 0.3 * at,
-                          random.uniform(0.05, 0.4) * force, 0.7 * at, random.uniform(0.45, 0.8) * force, at, force);
-  }
+  const std::string curve = curve_of(seed, random, at, force);
   std::string elements = fmt::format(R"({{ "spring": {:.9g} }})", random.log_uniform(50, 2000));
   for (int i = 0, modes = int(seed / 3 % 3); i < modes; ++i) {
     const double stiffness = random.log_uniform(20, 2000);
@@ -89,59 +36,6 @@ Case random_curve(std::uint64_t seed, bool with_brake) {
   one.loop.jitter = random.chance(0.5) ? 0 : random.uniform(0, 0.3) * one.loop.period;
   return one;
 }
-
-Compilation on(const Case& one, double damping) {
-  Diagnostics diagnostics;
-  const SourceFile file("curved.json", one.network);
-  Choices choices;
-  if (one.loop.brake == 0) choices.decomposition = 0.0;
-  std::optional<Compilation> c = compile(file, choices, device_of(one.loop, damping), diagnostics);
-  EXPECT_TRUE(c) << one.network;
-  return std::move(*c);
-}
-
-// At its least: energy that has gone in, that which was stored at the beginning included, and where nothing is late
-// less what is stored; and the largest amount that was exchanged in a period.
-struct Balance {
-  double least = 0, largest = 0;
-};
-
-class Attack {
- public:
-  Attack(const Compilation& c, const Loop& loop, double damping, double place = 0)
-      : law_(c.law), loop_(loop), damping_(damping), place_(place) {
-    law_.reset(place);
-    energy_ = law_.stored_energy();
-    for (unsigned i = 0; i < loop.delay; ++i) late_.push_back({0, 0});
-  }
-
-  // The tool goes there within one hold, as far as its speed lets it. `share`: what of its command the brake makes.
-  void go(double wanted, double share = 1) {
-    const double hold = loop_.period + loop_.jitter, most = loop_.speed * hold;
-    late_.push_back(law_.step(place_, 0));
-    if (loop_.delay == 0) balance_.least = std::min(balance_.least, energy_ - law_.stored_energy());
-    const command<double> held = late_.front();
-    late_.pop_front();
-    const double next = std::clamp(std::clamp(wanted, place_ - most, place_ + most), -loop_.travel, loop_.travel);
-    const double way = next - place_;
-    const double given = held.force * way, taken = (damping_ + share * held.damping) * way * way / hold;
-    energy_ += given + taken;
-    balance_.least = std::min(balance_.least, energy_);
-    balance_.largest = std::max({balance_.largest, std::abs(given), taken});
-    place_ = next;
-  }
-
-  double place() const { return place_; }
-  const Balance& balance() const { return balance_; }
-
- private:
-  Evaluation<double> law_;
-  Loop loop_;
-  double damping_;
-  std::deque<command<double>> late_;
-  double place_, energy_ = 0;
-  Balance balance_;
-};
 
 constexpr int trembles = 400;
 

@@ -59,13 +59,14 @@ void find_loose(const NormalTree& tree, std::set<const NormalTree*>& loose) {
 class TablesBuilder {
  public:
   TablesBuilder(const Network& network, const BrakeRule& brake, const Decomposition& decomposition,
-                const Choices& choices, const Real& sample_period)
+                const Choices& choices, const Real& sample_period, const PortDevice& device)
       : network_(network),
         structure_(at_largest(network)),
         brake_(brake),
         decomposition_(decomposition),
         choices_(choices),
         period_(sample_period),
+        device_(device),
         blocks_(network_, choices_, period_, tables_) {}
 
   // False, with a diagnostic, where too many slips are in no tree.
@@ -79,6 +80,7 @@ class TablesBuilder {
       add_tree(*tree, *form);
     else add_parts(*form);
     count();
+    if (network_.map && !network_.contact) write_map();
     tables_.brake.observed = blocks_.number(network_, brake_.observed);
     return true;
   }
@@ -236,6 +238,25 @@ class TablesBuilder {
     head.graph_count = static_cast<int>(tables_.graphs.size());
   }
 
+  // How far w goes, and the static spring's stiffness, no less than they are at most.
+  void write_map() {
+    const double margin = 1 + 16 * unit_roundoff(choices_.scalar);
+    double change = 0, stiffness = 0;
+    if (!device_.is_ideal()) {
+      const PortDevice at_tool = device_.at_tool();
+      const double speed = at_tool.description().encoder.max_speed * at_tool.position_scale();
+      change = network_.map->steepest() * speed * (double(period_) + at_tool.description().loop.jitter) *
+               (1.0 + at_tool.description().loop.delay_samples);
+    }
+    if (tables_.head.static_spring != no_index) {
+      const auto spring = static_cast<std::size_t>(tables_.head.static_spring);
+      const TunableNumber& number = tables_.numbers[static_cast<std::size_t>(tables_.springs[spring])];
+      stiffness = number.base;
+      for (const TunableTerm& term : number.terms) stiffness += term.share * tables_.tunables[term.tunable].range.max;
+    }
+    tables_.head.map = {true, to_scalar(Real(change * margin)), to_scalar(Real(stiffness * margin))};
+  }
+
   // Of what they are with every parameter at its largest: curves of slips through parts that give way without end would
   // lose their digits.
   double least_stiffness(const LinearForm& largest) const {
@@ -249,6 +270,7 @@ class TablesBuilder {
   const Decomposition& decomposition_;
   const Choices& choices_;
   Real period_;
+  const PortDevice& device_;
   TunableTables tables_;
   TunableBlocks blocks_;
 };
@@ -295,7 +317,7 @@ std::optional<TunableTables> tunable_tables_of(const Network& linear, const Netw
       exceeds(static_cast<std::size_t>(slip_elements(network)), most_tunable_slips, "slips", network, diagnostics))
     return std::nullopt;
   const BrakeRule brake = brake_rule_of(linear, decomposition, device);
-  TablesBuilder builder(network, brake, decomposition, choices, sample_period);
+  TablesBuilder builder(network, brake, decomposition, choices, sample_period, device);
   if (!builder.build(diagnostics)) return std::nullopt;
   TunableTables tables = builder.take();
   if (is_too_large(tables, network, diagnostics)) return std::nullopt;

@@ -77,6 +77,7 @@ class TablesPrinter {
                  {"BRAKE", brake},
                  {"CONTACT", contact},
                  {"LIMITS", law_.sheds()},
+                 {"MAP", head_.map.is_there},
                  {"RETURNS", contact && (is_static || !slips)}};
     return words;
   }
@@ -133,7 +134,7 @@ class TablesPrinter {
   }
 
   void append_constants(Lines& lines) const {
-    const std::vector<std::tuple<const char*, double, const char*>> all = {
+    std::vector<std::tuple<const char*, double, const char*>> all = {
         {"rate", head_.rate, "1/h [Hz]"},
         {"retention", head_.retention, "what an offset keeps in a sample where the tank pays [1]"},
         {"threshold", head_.threshold, "magnitudes of states below are zero"},
@@ -143,6 +144,10 @@ class TablesPrinter {
         {"coil_share", head_.slip_rule.coil_share, "of what is missing from √b, in a sample [1]"},
         {"motor_limit", head_.motor_limit, "of its force; 0: none [N]"},
         {"motor_step", head_.motor_step, "of its change in a period; 0: none [N]"}};
+    if (head_.map.is_there) {
+      all.emplace_back("largest_change", head_.map.largest_change, "of w while a force is held [m]");
+      all.emplace_back("largest_stiffness", head_.map.largest_stiffness, "of the static spring [N/m]");
+    }
     for (const auto& [what, value, meaning] : all)
       lines.push_back(fmt::format("static const {} {}_{} = {};  // {}", scalar(), name_, what, number(value), meaning));
   }

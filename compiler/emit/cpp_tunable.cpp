@@ -95,7 +95,10 @@ class TablesPrinter {
                                 name_or_none("cuts", tables_.cuts), name_or_none("yields", tables_.yields),
                                 name_or_none("couplings", tables_.couplings), name_or_none("nodes", tables_.nodes),
                                 tables_.graphs.empty() ? "nullptr, nullptr, nullptr" : "graphs, links, ties"));
-    lines.push_back(fmt::format("    {}, {}}};", number(h.motor_limit), number(h.motor_step)));
+    const std::string map =
+        fmt::format(", {{true, {}, {}}}", number(h.map.largest_change), number(h.map.largest_stiffness));
+    lines.push_back(
+        fmt::format("    {}, {}{}}};", number(h.motor_limit), number(h.motor_step), h.map.is_there ? map : ""));
   }
 
   template <class Entry>

@@ -97,7 +97,8 @@ std::size_t slip_brake(const TunableTables& tables) {
 
 // How far offsets come home, and what is shed.
 std::size_t springs(const TunableTables& tables) {
-  return (tables.sheds() ? 12 : 9) * tables.springs.size() + (tables.sheds() ? 10 : 0);
+  const std::size_t of_map = tables.head.map.is_there ? 3 * tables.springs.size() + 12 : 0;
+  return (tables.sheds() ? 12 : 9) * tables.springs.size() + (tables.sheds() ? 10 : 0) + of_map;
 }
 
 }  // namespace
@@ -130,6 +131,7 @@ std::size_t operations_of(const TunableTables& tables, TunableCall call) {
 }
 
 std::size_t operations_of_energy(const TunableTables& tables) {
+  if (tables.head.map.is_there) return 34 * tables.springs.size() + 2;  // no square root
   const std::size_t per_spring = 2 + 2 * square_root_operations + 30 + 6;
   return tables.springs.size() * per_spring + square_root_operations + 16;
 }

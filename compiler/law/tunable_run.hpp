@@ -119,7 +119,8 @@ class TunableRun {
             t.links.data(),
             t.ties.data(),
             scalar(h.motor_limit),
-            scalar(h.motor_step)};
+            scalar(h.motor_step),
+            {h.map.is_there, scalar(h.map.largest_change), scalar(h.map.largest_stiffness)}};
   }
 
   std::vector<tunable_block<Scalar>> blocks_;

@@ -18,11 +18,12 @@ namespace {
 // What is known of a spring.
 struct SpringNames {
   std::string name;
-  VariableId elongation = nothing;   // z [m]
-  VariableId offset = nothing;       // r [m]; nothing where it is 0 at all times
-  VariableId carried = nothing;      // k for which the force was carried over last; nothing where it never changes
-  ExpressionId stiffness = nothing;  // k [N/m]
-  bool changes = false;              // its force may change with the parameters: carried over by set()
+  VariableId elongation = nothing;  // z [m]
+  VariableId offset = nothing;      // r [m]; nothing where it is 0 at all times
+  VariableId carried = nothing;     // k for which the force was carried over last; nothing where it never changes
+  VariableId sampled = nothing, sampled_offset = nothing;  // behind a static curve z and r of the last sample
+  ExpressionId stiffness = nothing;                        // k [N/m]
+  bool changes = false;  // its force may change with the parameters: carried over by set()
 
   // Of a change of parameters, in set().
   VariableId force = nothing, kept = nothing;
@@ -69,18 +70,28 @@ class SpellingOut {
       spring.changes = is_tuned(spring) || (some_change && &spring == static_spring());
       spring.elongation = state(spring, "elongation", writer_.length(), "z");
       if (is_tuned(spring))
-        spring.carried = numbers_.scalar(joined(spring.name, "carried_stiffness"), writer_.stiffness(),
-                                         "k for which the force is what it is", Role::tuned);
+        spring.carried =
+            numbers_.scalar(joined(spring.name, "carried_stiffness"), writer_.stiffness(),
+                            "k for which the force is what it is", is_behind_map() ? Role::state : Role::tuned);
+      if (is_behind_map() && spring.changes)
+        spring.sampled = state(spring, "sampled_elongation", writer_.length(), "z of the last sample");
     }
     each_part([&](const tunable_part& part) {
       if (part.kind == tunable_kind::mesh) meshes_.emplace(&part, SpelledMesh(numbers_, part, tables_.edges));
       each_spring(part, [&](SpringNames& spring) {
         if (keeps_offset(part) && (spring.changes || (sheds() && !has_contact())))
           spring.offset = state(spring, "offset", writer_.length(), "r, how far its rest length is from home");
+        if (spring.offset != nothing && spring.sampled != nothing)
+          spring.sampled_offset = state(spring, "sampled_offset", writer_.length(), "r of the last sample");
       });
     });
     if (some_change || has_offsets())
       tank_ = numbers_.scalar("tank", "J", "T, set free by changes of parameters", Role::state);
+    if (is_behind_map() && some_change)
+      sampled_tank_ = numbers_.scalar("sampled_tank", "J", "T of the last sample", Role::state);
+    if (is_behind_map() && static_spring() != nullptr && static_spring()->offset != nothing)
+      stiffest_share_ =
+          numbers_.scalar("stiffest_share", "1", "of the static spring: its largest k over this one", Role::tuned);
     if (!sheds()) return;
     if (has_offsets() && !has_contact())
       shed_ = numbers_.scalar("shed", "1", "1 where an offset is left of forces that were shed", Role::state);
@@ -150,6 +161,7 @@ class SpellingOut {
 
   // set(): what springs answer in a sample, and their forces once more.
   void write_set(VariableId target) {
+    if (is_behind_map()) begin_change();
     for (SpringNames& spring : springs_)
       if (spring.changes)
         spring.force = local(joined(spring.name, "force_before"), writer_.force(), force(spring, before(spring)), "");
@@ -162,6 +174,23 @@ class SpellingOut {
     });
     assign(target, sum, "g of what joins tool and ground");
     carry_forces_over();
+  }
+
+  // Behind a static curve several changes between two samples are one, from what there was before.
+  void begin_change() {
+    for (SpringNames& spring : springs_) {
+      if (spring.sampled != nothing) assign(spring.elongation, read(spring.sampled), "");
+      if (spring.sampled_offset != nothing) assign(spring.offset, read(spring.sampled_offset), "");
+    }
+    if (sampled_tank_ != nothing) assign(tank_, read(sampled_tank_), "");
+  }
+  void keep_sampled() {
+    for (SpringNames& spring : springs_) {
+      if (spring.sampled != nothing) assign(spring.sampled, read(spring.elongation), "");
+      if (spring.sampled_offset != nothing) assign(spring.sampled_offset, read(spring.offset), "");
+      if (spring.carried != nothing) assign(spring.carried, spring.stiffness, "");
+    }
+    if (sampled_tank_ != nothing) assign(sampled_tank_, read(tank_), "");
   }
 
   // The numbers of a mesh's edges.
@@ -182,17 +211,17 @@ class SpellingOut {
   // Each force stays as it is as far as energy allows that springs and tank already hold.
   void carry_forces_over() {
     for (SpringNames& spring : springs_)
-      if (spring.changes) keep_what_it_can(spring);
+      if (spring.changes) is_behind_map() ? keep_force(spring) : keep_what_it_can(spring);
     for (SpringNames& spring : springs_)
-      if (spring.changes) pay_for_the_rest(spring);
-    make_up_for_others();
+      if (spring.changes) is_behind_map() ? soften(spring) : pay_for_the_rest(spring);
+    is_behind_map() ? find_stiffest_share() : make_up_for_others();
     each_part([&](const tunable_part& part) {
       each_spring(part, [&](SpringNames& spring) {
         if (spring.changes) keeps_offset(part) ? move_offset(spring) : move_end(spring);
       });
     });
     for (SpringNames& spring : springs_)
-      if (spring.carried != nothing) assign(spring.carried, spring.stiffness, "");
+      if (spring.carried != nothing && !is_behind_map()) assign(spring.carried, spring.stiffness, "");
   }
 
   ExpressionId before(const SpringNames& spring) {
@@ -237,6 +266,58 @@ class SpellingOut {
               writer_.where(differs, writer_.where(unpaid, signed_most, f), kept), "F, as far as the tank pays");
     assign(tank_, writer_.where(differs, writer_.where(unpaid, zero(), writer_.subtract(tank, cost)), read(tank_)), "");
     spring.kept = result;
+  }
+
+  // Behind a static curve a stiffer spring keeps its force, and what that sets free goes into the tank.
+  void keep_force(SpringNames& spring) {
+    spring.kept = spring.force;
+    if (spring.carried == nothing) return;
+    const ExpressionId k = before(spring), next = spring.stiffness, f = read(spring.force);
+    const ExpressionId now = local_of(joined(spring.name, "energy_before"), "J", energy(f, k));
+    spring.wanted_energy = local_of(joined(spring.name, "energy_after"), "J", energy(f, next));
+    const ExpressionId freed = writer_.subtract(now, spring.wanted_energy);
+    assign(tank_, writer_.where(writer_.subtract(next, k), writer_.add(read(tank_), freed), read(tank_)), "");
+  }
+
+  // And a softer one where the tank pays for all of it, else its elongation.
+  void soften(SpringNames& spring) {
+    if (spring.carried == nothing) return;
+    const ExpressionId k = before(spring), next = spring.stiffness, f = read(spring.force), tank = read(tank_);
+    const ExpressionId softer =
+        local_of(joined(spring.name, "is_softer"), writer_.stiffness(), writer_.subtract(k, next));
+    const ExpressionId now = local_of(joined(spring.name, "energy_before"), "J", energy(f, k));
+    const ExpressionId cost =
+        local_of(joined(spring.name, "energy_missing"), "J", writer_.subtract(spring.wanted_energy, now));
+    const ExpressionId unpaid =
+        local_of(joined(spring.name, "energy_unpaid"), "J",
+                 writer_.where(next, writer_.where(writer_.subtract(cost, tank), one(), zero()), one()));
+    const ExpressionId elongation =
+        local_of(joined(spring.name, "elongation_before"), writer_.length(), writer_.divide(f, k));
+    const ExpressionId left =
+        local_of(joined(spring.name, "elongation_left"), writer_.length(),
+                 writer_.subtract(size_of(elongation, joined(spring.name, "elongation")), largest_change()));
+    const ExpressionId freed = local_of(
+        joined(spring.name, "energy_freed"), "J",
+        writer_.where(left, writer_.divide(writer_.multiply(softer, writer_.multiply(left, left)), two()), zero()));
+    spring.kept = local(joined(spring.name, "force_kept"), writer_.force(),
+                        writer_.where(softer, writer_.where(unpaid, writer_.multiply(next, elongation), f), f),
+                        "F where the tank pays, else F k′/k of a softer spring");
+    const ExpressionId paid = writer_.where(unpaid, writer_.add(tank, freed), writer_.subtract(tank, cost));
+    assign(tank_, writer_.where(softer, paid, tank), "");
+  }
+
+  void find_stiffest_share() {
+    if (stiffest_share_ == nothing) return;
+    const ExpressionId k = static_spring()->stiffness;
+    const ExpressionId most = numbers_.constant("largest_stiffness", writer_.stiffness(), "of the static spring",
+                                                head_.map.largest_stiffness);
+    assign(stiffest_share_, writer_.where(k, writer_.divide(most, k), zero()), "");
+  }
+
+  bool is_behind_map() const { return head_.map.is_there; }
+  ExpressionId largest_change() {
+    return numbers_.constant("largest_change", writer_.length(), "of w while a force is held",
+                             head_.map.largest_change);
   }
 
   // The spring between tool and ground makes up for what others could not keep.
@@ -328,6 +409,7 @@ class SpellingOut {
     each_part([&](const tunable_part& part) {
       if (part.kind == tunable_kind::mesh) stretch(part, meshes_.at(&part).loaded(given(part), position), false);
     });
+    if (is_behind_map()) keep_sampled();
     assign(target, held(), "π");
   }
 
@@ -376,7 +458,9 @@ class SpellingOut {
     each_part([&](const tunable_part& part) { advance(part, change); });
     if (sheds()) shed(position);
     else if (const SpringNames* spring = static_spring()) assign(spring->elongation, position, "z = u");
+    if (is_behind_map()) let_go();
     bring_offsets_home();
+    if (is_behind_map()) keep_sampled();
     assign(target, held(), "π");
   }
 
@@ -426,7 +510,8 @@ class SpellingOut {
     if (shed_ != nothing) {
       assign(shed_, writer_.where(binds, one(), read(shed_)), "");
       for (SpringNames& spring : springs_)
-        if (spring.offset != nothing) bring_shed_offset_home(spring);
+        if (spring.offset != nothing && !(is_behind_map() && &spring == static_spring()))
+          bring_shed_offset_home(spring);
     }
     if (last_command_ != nothing) assign(last_command_, read(command_), "m₋ = m");
   }
@@ -450,14 +535,44 @@ class SpellingOut {
   // No further from home than the spring: the middle one of 0, r and z.
   void bring_shed_offset_home(SpringNames& spring) {
     const ExpressionId r = read(spring.offset), z = read(spring.elongation);
-    const ExpressionId beyond = writer_.subtract(z, r);
-    const ExpressionId least =
-        local_of(joined(spring.name, "offset_least"), writer_.length(), writer_.where(beyond, r, z));
-    const ExpressionId most =
-        local_of(joined(spring.name, "offset_most"), writer_.length(), writer_.where(beyond, z, r));
-    const ExpressionId below = writer_.subtract(zero(), most);
-    const ExpressionId middle = writer_.where(least, least, writer_.where(below, most, zero()));
+    const ExpressionId middle = middle_of_nothing(r, z, joined(spring.name, "offset"));
     assign(spring.offset, writer_.where(read(shed_), middle, r), "r: the middle one of 0, r and z");
+  }
+
+  ExpressionId middle_of_nothing(ExpressionId x, ExpressionId y, const std::string& name) {
+    const ExpressionId beyond = writer_.subtract(y, x);
+    const ExpressionId least = local_of(joined(name, "least"), writer_.length(), writer_.where(beyond, x, y));
+    const ExpressionId most = local_of(joined(name, "most"), writer_.length(), writer_.where(beyond, y, x));
+    const ExpressionId below = writer_.subtract(zero(), most);
+    return writer_.where(least, least, writer_.where(below, most, zero()));
+  }
+
+  // Behind a static curve: what the static spring holds beyond what it would at home were it the stiffest, as soon as
+  // that sets free what the command that is held meanwhile may give out.
+  void let_go() {
+    SpringNames* spring = static_spring();
+    if (spring == nullptr || spring->offset == nothing) return;
+    const std::string& name = spring->name;
+    const ExpressionId r = read(spring->offset), z = read(spring->elongation), k = spring->stiffness;
+    const ExpressionId stretched = local_of(joined(name, "stretched"), writer_.length(), writer_.subtract(z, r));
+    const ExpressionId stiffest =
+        local_of(joined(name, "stiffest"), writer_.length(), writer_.multiply(read(stiffest_share_), z));
+    const ExpressionId kept = local_of(joined(name, "stretch_kept"), writer_.length(),
+                                       middle_of_nothing(stretched, stiffest, joined(name, "stretch")));
+    const ExpressionId change = size_of(writer_.subtract(stretched, kept), joined(name, "stretch_change"));
+    const ExpressionId both = size_of(writer_.add(stretched, kept), joined(name, "stretch_both"));
+    const ExpressionId left = local_of(joined(name, "stretch_left"), writer_.length(),
+                                       writer_.subtract(writer_.divide(both, two()), largest_change()));
+    const ExpressionId too_early =
+        local_of(joined(name, "too_early"), writer_.length(), writer_.subtract(zero(), left));
+    const ExpressionId offset = size_of(r, joined(name, "offset_there"));
+    const auto where_it_does = [&](ExpressionId then, ExpressionId otherwise) {
+      return writer_.where(offset, writer_.where(change, writer_.where(too_early, otherwise, then), otherwise),
+                           otherwise);
+    };
+    const ExpressionId freed = writer_.multiply(writer_.multiply(k, change), left);
+    assign(tank_, where_it_does(writer_.add(read(tank_), freed), read(tank_)), "");
+    assign(spring->offset, where_it_does(writer_.subtract(z, kept), r), "what cannot be held is let go of");
   }
 
   // By a part of the way, where the tank pays for it.
@@ -471,10 +586,12 @@ class SpellingOut {
       const ExpressionId after = local_of(joined(spring.name, "offset_after"), writer_.length(),
                                           writer_.flush(writer_.multiply(retention, r)));
       const ExpressionId both = writer_.add(writer_.subtract(z, after), writer_.subtract(z, r));
-      const ExpressionId cost =
-          local_of(joined(spring.name, "offset_cost"), "J",
-                   writer_.multiply(
-                       writer_.multiply(writer_.multiply(spring.stiffness, writer_.subtract(r, after)), both), half()));
+      const ExpressionId jump = writer_.multiply(spring.stiffness, writer_.subtract(r, after));
+      ExpressionId whole = writer_.multiply(writer_.multiply(jump, both), half());
+      if (is_behind_map())
+        whole =
+            writer_.add(whole, writer_.multiply(size_of(jump, joined(spring.name, "offset_jump")), largest_change()));
+      const ExpressionId cost = local_of(joined(spring.name, "offset_cost"), "J", whole);
       const ExpressionId unpaid =
           local_of(joined(spring.name, "offset_unpaid"), "J", writer_.subtract(cost, read(tank_)));
       assign(spring.offset, writer_.where(unpaid, r, after), "r goes home where the tank pays");
@@ -563,8 +680,8 @@ class SpellingOut {
   std::vector<ExpressionId> given_;  // the law's numbers
   std::vector<SpringNames> springs_;
   std::map<const tunable_part*, SpelledMesh> meshes_;
-  VariableId tank_ = nothing, shed_ = nothing, last_command_ = nothing, command_ = nothing, dent_ = nothing,
-             returned_ = nothing;
+  VariableId tank_ = nothing, sampled_tank_ = nothing, stiffest_share_ = nothing, shed_ = nothing,
+             last_command_ = nothing, command_ = nothing, dent_ = nothing, returned_ = nothing;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ TunableVerification::TunableVerification(const CertificateFile& certificate, con
   const TunableTables& tables = *compiled.law.tunable;
   const tunable_tables<double>& head = tables.head;
   for (const double chosen : {head.contact.encoder_step, head.slip_rule.hysteresis, head.slip_rule.coil_share,
-                              head.motor_limit, head.motor_step})
+                              head.motor_limit, head.motor_step, head.map.largest_change, head.map.largest_stiffness})
     pool_["tables"].push_back(chosen);
   pool_["numbers"].push_back(tables.numbers[std::size_t(tables.brake.observed)].base);
   // A header in constant time has constants more.

@@ -13,6 +13,35 @@ static inline scalar law_spring_energy(scalar force, scalar stiffness) {
   return (stiffness > 0) ? (force * (force / stiffness) / 2) : 0;
 }
 
+#if MAP
+static inline scalar law_size_of(scalar x) { return (x > 0) ? x : -x; }
+
+// Behind a static curve no force grows at a change. A stiffer spring keeps its force, and the tank takes what that sets
+// free. A softer one keeps its force where the tank pays for all of it, else its elongation, F k′/k: so that the command
+// that is held meanwhile gives out no more than the spring did. Of what that sets free the tank takes what is left when
+// the tool has come back by the largest change of w. Returns what is left in the tank [J].
+static inline scalar law_carry_over(law_spring_change *springs, scalar tank) {
+  for (int i = 0; i < law_spring_count; ++i) {
+    law_spring_change *s = &springs[i];
+    s->new_force = s->force;
+    if (s->new_stiffness > s->stiffness)
+      tank += law_spring_energy(s->force, s->stiffness) - law_spring_energy(s->force, s->new_stiffness);
+  }
+  for (int i = 0; i < law_spring_count; ++i) {
+    law_spring_change *s = &springs[i];
+    if (s->new_stiffness >= s->stiffness) continue;
+    const scalar cost = law_spring_energy(s->force, s->new_stiffness) - law_spring_energy(s->force, s->stiffness);
+    const int is_paid = (s->new_stiffness > 0) && (cost <= tank);
+    const scalar elongation = s->force / s->stiffness;
+    const scalar left = law_size_of(elongation) - law_largest_change;
+    const scalar freed = (left > 0) ? ((s->stiffness - s->new_stiffness) * (left * left) / 2) : 0;
+    s->new_force = is_paid ? s->force : (s->new_stiffness * elongation);
+    tank = is_paid ? (tank - cost) : (tank + freed);
+  }
+  return tank;
+}
+
+#else
 // A stiffer spring keeps its force, and the tank takes what that sets free. A softer one keeps what its own energy can
 // hold, F √(k′/k), and then more, up to F, as far as the tank pays; the springs in turn. So V + T, V = Σ F²/2k, is the
 // same before and after. Returns what is left in the tank [J].
@@ -41,7 +70,8 @@ static inline scalar law_carry_over(law_spring_change *springs, scalar tank) {
   return tank;
 }
 
-#if STATIC
+#endif
+#if STATIC && !MAP
 // The spring between tool and ground makes up for `missing` force, as far as the tank pays. Returns what is left in it.
 static inline scalar law_make_up_for(law_spring_change *spring, scalar missing, scalar tank) {
   if (!(spring->new_stiffness > 0)) return tank;
@@ -73,6 +103,25 @@ static inline void law_move_offset(law_tunables *self, int spring, const law_spr
   self->is_owing = self->is_owing || (self->offset[spring] != 0);
 }
 
+#if MAP && STATIC
+// Behind a static curve, once a sample: what the spring between tool and ground holds is between nothing and what it
+// would hold at home were it the stiffest. What is beyond is let go of as soon as that sets free what the command that
+// is held meanwhile may give out.
+static inline void law_let_go(law_tunables *self) {
+  const int spring = law_static_spring;
+  if (self->offset[spring] == 0) return;
+  const scalar z = self->elongation[spring], k = self->stiffness[spring], stretched = z - self->offset[spring];
+  const scalar stiffest = self->stiffest_share * z;
+  const int is_less = stretched < stiffest;
+  const scalar least = is_less ? stretched : stiffest, most = is_less ? stiffest : stretched;
+  const scalar kept = (least > 0) ? least : ((most < 0) ? most : 0);
+  const scalar change = law_size_of(stretched - kept), left = law_size_of(stretched + kept) / 2 - law_largest_change;
+  if ((change == 0) || (left < 0)) return;
+  self->tank += k * change * left;
+  self->offset[spring] = z - kept;
+}
+
+#endif
 // Once a sample.
 static inline void law_bring_offsets_home(law_tunables *self) {
   if (!self->is_owing) return;
@@ -81,7 +130,12 @@ static inline void law_bring_offsets_home(law_tunables *self) {
     const scalar before = self->offset[i], after = dashpot_flush_belowF(law_threshold, law_retention * before);
     if (before == 0) continue;
     const scalar z = self->elongation[i];
+#if MAP
+    const scalar of_spring = self->stiffness[i] * (before - after) * ((z - after) + (z - before)) * NUMBER(0.5);
+    const scalar cost = of_spring + law_size_of(self->stiffness[i] * (before - after)) * law_largest_change;
+#else
     const scalar cost = self->stiffness[i] * (before - after) * ((z - after) + (z - before)) * NUMBER(0.5);
+#endif
     if (cost <= self->tank) {
       self->tank -= cost;
       self->offset[i] = after;
@@ -369,6 +423,9 @@ static inline void law_bring_shed_offset_home(law_tunables *self, int spring) {
 }
 
 static inline void law_bring_shed_offsets_home(law_tunables *self, const law_part *part) {
+#if MAP && STATIC
+  if (part->spring == law_static_spring) return;  // lets go by itself
+#endif
   if (part->spring != law_none) law_bring_shed_offset_home(self, part->spring);
 #if MESH
   for (int i = part->first_edge; i < (part->first_edge + part->edge_count); ++i)
@@ -728,6 +785,9 @@ static inline void law_rest(law_tunables *self) {
   for (int i = 0; i < law_blocks_room; ++i) self->block_elongation[i] = 0;
   self->tank = 0;
   self->is_owing = self->is_shed = 0;
+#if MAP
+  self->is_changing = 0;
+#endif
 #if LIMITS
   self->last_force = self->now_force = 0;
   self->kept_share = 1;
@@ -834,6 +894,12 @@ static inline scalar law_tunable_update(law_tunables *self, scalar change, scala
   self->elongation[law_static_spring] = position;
 #endif
   (void)position;
+#if MAP
+  self->is_changing = 0;
+#endif
+#if MAP && STATIC
+  law_let_go(self);
+#endif
   law_bring_offsets_home(self);
 #if SLIPS
   law_keep_slips(self);
@@ -861,6 +927,23 @@ static inline unsigned law_take_value(const law_range_of_parameter *range, scala
 // ground without a slip but for dampers and meshes [N/m].
 static inline scalar law_tunable_set(law_tunables *self, const scalar *numbers) {
   law_spring_change changes[law_springs];
+#if MAP
+  // Several changes between two samples are one, from what there was at the first of them: one command is held meanwhile.
+  for (int i = 0; i < law_springs; ++i) {
+    if (self->is_changing) {
+      self->stiffness[i] = self->sampled_stiffness[i];
+      self->elongation[i] = self->sampled_elongation[i];
+      self->offset[i] = self->sampled_offset[i];
+    } else {
+      self->sampled_stiffness[i] = self->stiffness[i];
+      self->sampled_elongation[i] = self->elongation[i];
+      self->sampled_offset[i] = self->offset[i];
+    }
+  }
+  if (self->is_changing) self->tank = self->sampled_tank;
+  else self->sampled_tank = self->tank;
+  self->is_changing = 1;
+#endif
   for (int i = 0; i < law_springs; ++i) {
     changes[i].stiffness = self->stiffness[i];
     changes[i].force = law_spring_force(self, i);
@@ -883,7 +966,10 @@ static inline scalar law_tunable_set(law_tunables *self, const scalar *numbers) 
 #endif
   for (int i = 0; i < law_springs; ++i) changes[i].new_stiffness = self->stiffness[i];
   self->tank = law_carry_over(changes, self->tank);
-#if STATIC
+#if MAP && STATIC
+  const scalar static_stiffness = self->stiffness[law_static_spring];
+  self->stiffest_share = (static_stiffness > 0) ? (law_largest_stiffness / static_stiffness) : 0;
+#elif STATIC
   // The spring between tool and ground makes up for what others could not keep.
   scalar missing = 0;
   for (int i = 0; i < law_block_table[0].part_count; ++i) {
@@ -899,6 +985,9 @@ static inline scalar law_tunable_set(law_tunables *self, const scalar *numbers) 
 
 // Before all else.
 static inline void law_tunable_begin(law_tunables *self) {
+#if MAP
+  self->is_changing = 0;
+#endif
   for (int i = 0; i < law_springs; ++i) self->stiffness[i] = self->share[i] = self->loss[i] = 0;
   for (int i = 0; i < law_blocks_room; ++i)
     self->block_stiffness[i] = self->block_held[i] = self->block_feedthrough[i] = 0;

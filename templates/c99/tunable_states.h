@@ -5,6 +5,14 @@ typedef struct law_tunables {
   scalar tank;                        // energy that changes have set free [J]
   int is_owing;                       // some offset is not home
   int is_shed;                        // and what was shed is the reason
+#if MAP
+  int is_changing;                    // since the last sample; what there was before:
+  scalar sampled_stiffness[law_springs], sampled_elongation[law_springs], sampled_offset[law_springs];
+  scalar sampled_tank;
+#endif
+#if MAP && STATIC
+  scalar stiffest_share;              // of the static spring: its largest k over this one; 0: there is none
+#endif
   scalar stiffness[law_springs];      // what follows from the values: k [N/m]
   scalar share[law_springs];          // φ of a relaxation [1]
   scalar loss[law_springs];           // α of a relaxation [1]

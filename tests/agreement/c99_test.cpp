@@ -177,6 +177,16 @@ std::vector<fs::path> network_files() {
   return files;
 }
 
+// Behind a static curve springs let go of what they cannot hold.
+const char* const curved = R"({ "dashpot": 1, "name": "curved",
+  "static": { "power": 1.5, "force": "2 N", "at": "5 mm" },
+  "parameters": { "K": { "value": 300, "tunable": true, "min": 0, "max": 2000 },
+                  "k1": { "value": 200, "tunable": true, "min": 10, "max": 900 },
+                  "B": { "value": 5, "tunable": true, "min": 0, "max": 50 },
+                  "Y": { "value": 0.3, "tunable": true, "min": 0.1, "max": 1 } },
+  "network": { "parallel": [ { "spring": "K" }, { "series": [ { "spring": "k1" }, { "damper": "B" } ] },
+                             { "series": [ { "spring": 150 }, { "slip": "Y" } ] } ] } })";
+
 std::vector<Emitted> all_emitted(compiler::ScalarType scalar) {
   std::vector<Emitted> all;
   for (std::uint64_t seed = 1; seed <= repetitions(12, 400); ++seed)
@@ -185,6 +195,8 @@ std::vector<Emitted> all_emitted(compiler::ScalarType scalar) {
     const compiler::SourceFile source("tunable.json", tunable_network(seed, Kind((seed + seed / 8) % kinds)));
     all.push_back(emitted(source, scalar, seed, fmt::format("tunable_{}", seed)));
   }
+  for (const std::uint64_t seed : {1u, 2u, 4u})
+    all.push_back(emitted(compiler::SourceFile("curved.json", curved), scalar, seed, fmt::format("curved_{}", seed)));
   for (const fs::path& file : network_files()) {
     const compiler::SourceFile source(file.string(), text_of(file));
     all.push_back(emitted(source, scalar, 1, file.stem().string()));

@@ -33,7 +33,7 @@ class tunable_law {
     return set(t, static_cast<const Scalar*>(numbers));
   }
   constexpr Scalar set(const tables& t, const Scalar* numbers) noexcept {
-    parts_.springs.begin_change(t.spring_count);
+    parts_.springs.begin_change(t);
     parts_.take_numbers(t, numbers);
     const Scalar stiffness = find_curves(t, numbers);
     if constexpr (Slips > 0) slips_.tune(t, curves_, numbers);
@@ -117,6 +117,8 @@ class tunable_law {
       parts_.each(t, t.blocks[i], [&](const tunable_part& part) { parts_.advance(t, part, curves_.elongation[i]); });
     if (shedding_.is_limited(t)) shed(t, position);
     else if (t.static_spring != no_index) parts_.springs.set_elongation(t.static_spring, position);
+    parts_.springs.end_changes();
+    if (t.map.is_there && t.static_spring != no_index) parts_.springs.let_go(t);
     parts_.springs.bring_offsets_home(t);
     if constexpr (Slips > 0) slips_.keep(t);
     find_held(t);
@@ -180,10 +182,10 @@ class tunable_law {
   }
 
   // After a change of the springs' stiffnesses. The spring between tool and ground makes up for what others could not
-  // keep.
+  // keep, but not behind a static curve, where nothing may hold more than it did.
   constexpr void carry_forces_over(const tables& t) noexcept {
-    parts_.springs.carry_over(t.spring_count);
-    if (t.static_spring != no_index) {
+    parts_.springs.carry_over(t);
+    if (t.static_spring != no_index && !t.map.is_there) {
       Scalar missing = 0;
       parts_.each(t, t.blocks[0], [&](const tunable_part& part) {
         if (part.spring != no_index) missing += parts_.springs.missing_force(part.spring);

@@ -103,8 +103,10 @@ Share share_of(std::uint64_t seed, Kind kind) {
   const TunableLaw compiled(tunable_network(seed, kind));
   // Every other one on a motor that gives little, whose limits the law knows.
   const compiler::MotorReach reach = {0.05, seed % 4 == 0 ? 1e-3 : 0};
-  const compiler::UpdateLaw law =
+  compiler::UpdateLaw law =
       seed % 2 == 0 ? compiler::with_shedding(compiled.law(), reach, motion::translation) : compiled.law();
+  const bool is_behind_map = seed % 3 == 1 && !law.tunable->head.contact.is_there;
+  if (is_behind_map) law.tunable->head.map = {true, 1e-4, 1e5};
   compiler::TunableRun<Counted> run(*law.tunable);
   Sampled sampled(law, run);
   Random random(seed);

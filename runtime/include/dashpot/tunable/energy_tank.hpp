@@ -51,6 +51,32 @@ constexpr Scalar carry_forces_over(spring_change<Scalar>* springs, int count, Sc
   return tank;
 }
 
+// The same behind a static curve, where no force grows at a change. A softer spring keeps its force where the tank pays
+// for all of it, else its elongation, F k′/k: so that the command that is held meanwhile gives out no more than the
+// spring did. Of what that sets free the tank takes what is left when the tool has come back by `largest_change`.
+template <class Scalar>
+constexpr Scalar carry_forces_behind_map(spring_change<Scalar>* springs, int count, Scalar tank,
+                                         Scalar largest_change) noexcept {
+  for (int i = 0; i < count; ++i) {
+    spring_change<Scalar>& s = springs[i];
+    s.new_force = s.force;
+    if (s.new_stiffness > s.stiffness)
+      tank += spring_energy(s.force, s.stiffness) - spring_energy(s.force, s.new_stiffness);
+  }
+  for (int i = 0; i < count; ++i) {
+    spring_change<Scalar>& s = springs[i];
+    if (s.new_stiffness >= s.stiffness) continue;
+    const Scalar cost = spring_energy(s.force, s.new_stiffness) - spring_energy(s.force, s.stiffness);
+    const bool is_paid = s.new_stiffness > 0 && cost <= tank;
+    const Scalar elongation = s.force / s.stiffness;
+    const Scalar left = (elongation > 0 ? elongation : -elongation) - largest_change;
+    const Scalar freed = left > 0 ? (s.stiffness - s.new_stiffness) * (left * left) / 2 : Scalar(0);
+    s.new_force = is_paid ? s.force : s.new_stiffness * elongation;
+    tank = is_paid ? tank - cost : tank + freed;
+  }
+  return tank;
+}
+
 // The spring between tool and ground makes up for `missing` force, as far as the tank pays. Returns what is left in it.
 template <class Scalar>
 constexpr Scalar make_up(spring_change<Scalar>& spring, Scalar missing, Scalar tank) noexcept {

@@ -109,6 +109,7 @@ class tunable_parts {
   }
 
   constexpr void bring_shed_offsets_home(const tables& t, const part_type& part) noexcept {
+    if (t.map.is_there && part.spring != no_index && part.spring == t.static_spring) return;  // lets go by itself
     each_spring(t, part, [&](int spring) { springs.bring_shed_offset_home(spring); });
   }
 

@@ -114,6 +114,15 @@ struct tunable_slip_rule {
   Scalar coil_share;  // κ: of what is missing from √b, that the coil makes up in a sample [1]
 };
 
+// The map of a static curve that the network lies behind, if there is one. Nothing is held there that the bend of the
+// curve cannot pay for (theory, section 11).
+template <class Scalar>
+struct tunable_map {
+  bool is_there;
+  Scalar largest_change;     // of w while a force is held, at the largest speed [m]
+  Scalar largest_stiffness;  // of the spring that joins tool and ground directly, whatever is set [N/m]
+};
+
 // Block 0 is what joins tool and ground without a slip. With a contact and slips it is a part of the one coupling or
 // graph.
 template <class Scalar>
@@ -138,6 +147,7 @@ struct tunable_tables {
   const tunable_ends* ties;
   Scalar motor_limit = 0;  // of its force; 0: none [N]
   Scalar motor_step = 0;   // of its change in a period; 0: none [N]
+  tunable_map<Scalar> map = {false, 0, 0};
 };
 
 }  // namespace dashpot

@@ -35,13 +35,14 @@ class Box : private BoxNumbers {
           "0, it is known what it needs");
     const Affine asked = needed();
     std::optional<Rational> worst;  // below 0 where more is there than is needed
-    Rational least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0;
+    Rational least_brake = std::max(Rational(0), least(brakes.front())), largest_brake = 0, largest_gain = 0;
     for (const Affine& brake : brakes) {
       least_brake = std::min(least_brake, std::max(Rational(0), least(brake)));
       largest_brake = std::max(largest_brake, most(brake));
       for (const Affine& gain : gains(brake)) {
         const bool is_rounding = most(gain) <= Rational(1e-9) * (1 + abs(most(brake)));
         if (!is_rounding && !loop_.gain) return nothing_for("nothing is proved for the estimator in the motor");
+        if (!is_rounding) largest_gain = std::max(largest_gain, most(gain));
         Affine lacking = plus(asked, brake, -loop_.share);
         if (loop_.gain) lacking = plus(lacking, gain, loop_.hold * Rational(*loop_.gain));
         const Rational here =
@@ -50,7 +51,13 @@ class Box : private BoxNumbers {
       }
     }
     largest_brake = std::min(Rational(largest_brake + behind_slips), Rational(tables_.brake.max_damping));
-    return {ceiling(*worst), -ceiling(-least_brake), ceiling(largest_brake), "", quantisation_gain(brakes, made_up)};
+    return {ceiling(*worst),
+            -ceiling(-least_brake),
+            ceiling(largest_brake),
+            "",
+            quantisation_gain(brakes, made_up),
+            ceiling(most(asked)),
+            ceiling(Rational(largest_gain + made_up))};
   }
 
  private:

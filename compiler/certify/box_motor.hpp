@@ -28,6 +28,8 @@ struct BoxMotor {
   double largest_brake = 0;
   std::string hindrance;                         // why nothing is proved; empty where something is
   std::optional<double> quantisation_gain = {};  // K over the box, not below it (quantisation.hpp) [N/m]
+  double needed = 0;        // max over the box without what the estimate costs [N·s/m], not below it
+  double largest_gain = 0;  // that the motor has of the estimate, at most [N·s/m]
 };
 
 // `hold`: T_max/h; `lateness` as in slip_motor.hpp; `gain`: γ of the estimate, empty where nothing is known of it;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "certify/box_hold.hpp"
 #include "certify/box_motor.hpp"
 #include "certify/estimator_factors.hpp"
 #include "certify/hold_bound.hpp"
@@ -24,8 +25,8 @@ double yield_forces(const Network& network) {
   return sum;
 }
 
-std::string hindrance(const MotorConstants& motor, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
-  if (motor.estimate_drives_modes() || (slips && slips->held_compensation > 0))
+std::string hindrance(bool estimate_drives_modes, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
+  if (estimate_drives_modes || (slips && slips->held_compensation > 0))
     return "the estimated velocity moves the law's states, and of that nothing is proved behind a static curve";
   if (tool.may_overtake()) return overtaken;
   if (slips && tool.amplifier_lag > 0) return "the amplifier lags, and slips or a contact lie behind a static curve";
@@ -40,32 +41,94 @@ std::string hindrance(const MotorConstants& motor, const std::optional<SlipMotor
   return "";
 }
 
+// What the motor behind the map holds at most, and what holding it costs while the map bends.
+struct HeldForces {
+  struct Relaxing {
+    double decay;    // a
+    double turning;  // over the tool's displacement squared: turn (turning w′ + turned turn), turn = ½ |w″| r
+    double turned;   // infinite where nothing relaxes
+    double per_way;  // of its force, over how far in w the tool has been from here at most; infinite: unknown
+    double largest;  // of its force [N]; infinite: unknown
+    double leaving;  // of a contact that lets go [N/m]
+  };
+
+  double static_stiffness = 0;  // k0 [N/m]
+  double static_slack = 0;      // d, from which on it lets go; 0 where it is at rest where w is 0 [m]
+  double step_stiffness = 0;    // Σ c_i; with tunables `relaxing` has it all [N/m]
+  double unsettled = 0;         // of the step stiffness, what is no mode's
+  double besides = 0;           // Σ Y [N]
+  std::vector<Relaxing> relaxing;
+  bool is_stepwise = false;  // without delay, and linear but for a contact: each step obeys its own inequality
+  bool is_tunable = false;
+
+  // Of relaxations over a stretch whose places are in w no further than `way` from others.
+  double of_relaxing(double way) const {
+    if (!is_tunable) return step_stiffness * way;
+    double sum = 0;
+    for (const Relaxing& mode : relaxing) sum += std::min(mode.per_way * way, mode.largest);
+    return sum;
+  }
+  // `change`: of w in the sample before, at most.
+  double of_static_spring(double w, double change) const {
+    if (static_slack == 0) return static_stiffness * w;
+    return static_stiffness * std::max(w + 2 * change, 2 * static_slack + change);
+  }
+};
+
+HeldForces held_forces(const MotorConstants& motor, const Network& network, const std::optional<SlipMotor>& slips,
+                       const SampledLoop& tool) {
+  constexpr double unknown = std::numeric_limits<double>::infinity();
+  HeldForces held;
+  held.besides = slips ? yield_forces(network) : 0;
+  const bool is_a_contact_of_springs = network.contact && held.besides == 0 && slips->springs_alone;
+  held.is_stepwise = tool.delay_samples == 0 && (!slips || is_a_contact_of_springs);
+  held.unsettled = motor.step_stiffness;
+  for (const MotorMode& mode : motor.modes) {
+    const double a = exact_decay(motor, mode).convert_to<double>();
+    const double c = a > 0 ? mode.position_drive / a : mode.position_drive;
+    held.relaxing.push_back(
+        {a, c / (1 + a), a < 1 ? c / (2 * (1 - a) * (1 + a)) : unknown, c, unknown, c * (1 - a) / (1 + a)});
+    if (a > 0) held.unsettled -= c;
+  }
+  held.unsettled = std::abs(held.unsettled) * margin;
+  held.static_stiffness = std::abs(motor.static_stiffness);
+  held.step_stiffness = std::abs(motor.step_stiffness);
+  return held;
+}
+
+// The largest change of w between samples is that of the steepest place.
+HeldForces held_forces(const BoxHold& box, const SampledLoop& tool, double steepest) {
+  const double change = steepest * tool.tool_speed * tool.longest_hold();
+  HeldForces held;
+  held.static_stiffness = box.static_stiffness;
+  held.static_slack = box.static_slack;
+  held.besides = box.yield_forces;
+  held.is_stepwise = tool.delay_samples == 0 && box.yield_forces == 0;
+  held.is_tunable = true;
+  for (const HeldRelaxation& mode : box.relaxations)
+    held.relaxing.push_back({0, mode.turning, mode.turned, mode.stiffness, mode.per_way * change, 0});
+  return held;
+}
+
 class CurveNeed {
  public:
-  CurveNeed(const MotorConstants& motor, double damping, const Network& network, const std::optional<SlipMotor>& slips,
-            const SampledLoop& tool, double coil_lag)
-      : map_(*network.map), tool_(tool), coil_lag_(coil_lag), motor_(motor), brake_(damping) {
+  // `stiffness`: β of the law behind the map.
+  CurveNeed(HeldForces held, double stiffness, double damping, const Network& network, const SampledLoop& tool,
+            double coil_lag)
+      : map_(*network.map),
+        tool_(tool),
+        held_(std::move(held)),
+        stiffness_(stiffness),
+        coil_lag_(coil_lag),
+        brake_(damping) {
     is_one_sided_ = network.contact.has_value();
-    besides_ = slips ? yield_forces(network) : 0;
-    const bool is_a_contact_of_springs = is_one_sided_ && besides_ == 0 && slips->springs_alone;
-    is_stepwise_ = tool.delay_samples == 0 && (!slips || is_a_contact_of_springs);
     farthest_ = tool.travel + std::abs(map_.start);
-    unsettled_ = motor_.step_stiffness;
-    for (const MotorMode& mode : motor_.modes) {
-      const double a = exact_decay(motor_, mode).convert_to<double>();
-      modes_.push_back({a, a > 0 ? mode.position_drive / a : mode.position_drive});
-      if (a > 0) unsettled_ -= modes_.back().stiffness;
-    }
-    unsettled_ = std::abs(unsettled_) * margin;
-    static_stiffness_ = std::abs(motor_.static_stiffness);
-    step_stiffness_ = std::abs(motor_.step_stiffness);
     share_ = assured_share(tool).convert_to<double>();
   }
 
   // S + curvature − what the brake has, at the worst place, and beside it what a lag and an estimate cost.
   double lacking(double needed_behind, double cost_of_estimate) const {
-    if (is_stepwise_)
-      needed_behind = std::max(needed_behind, hold_stiffness(motor_).convert_to<double>() * tool_.longest_hold());
+    if (held_.is_stepwise) needed_behind = std::max(needed_behind, stiffness_ * tool_.longest_hold());
     double least = std::numeric_limits<double>::infinity();
     for (const double constants : {0.0, 1.0, 2.0, 4.0, 8.0}) {
       if (coil_lag_ > 0 ? constants == 0 : constants > 0) continue;
@@ -94,26 +157,43 @@ class CurveNeed {
 
   // Of what is held while the map bends, over Δu² [N/m].
   double cost_of_bend(double from, double to, double steepest, double curvature, double reach) const {
-    if (!is_stepwise_) return (0.5 + tool_.delay_samples) * force(from, to) * curvature;
+    if (!held_.is_stepwise) return (0.5 + tool_.delay_samples) * force(from, to) * curvature;
     const double w = map_.value_at(to), turn = curvature * reach / 2;
-    double sum = static_stiffness_ * w * curvature / 2 + unsettled_ * steepest * turn;
+    double sum = cost_of_static_spring(w, from, to, curvature, steepest * reach) + held_.unsettled * steepest * turn;
     if (is_one_sided_) sum += cost_of_leaving(steepest, turn);
-    for (const Relaxing& mode : modes_) {
-      const double far_from_rest = mode.stiffness * way_from_rest(from, to) * curvature / 2;
-      const double while_relaxing =
-          mode.stiffness * turn * (steepest + turn / (2 * (1 - mode.decay))) / (1 + mode.decay);
-      sum += mode.decay < 1 ? std::min(far_from_rest, while_relaxing) : far_from_rest;
+    for (const HeldForces::Relaxing& mode : held_.relaxing) {
+      const double far_from_rest = std::min(mode.per_way * way_from_rest(from, to), mode.largest) * curvature / 2;
+      const double while_relaxing = turn * (steepest * mode.turning + turn * mode.turned);
+      sum += std::isfinite(mode.turned) ? std::min(far_from_rest, while_relaxing) : far_from_rest;
     }
     return sum;
   }
 
+  // With tunables it pulls by no more than it holds at 0, so that a curve that softens bends for nothing: but not where
+  // the tool may go through where it begins, beyond which it bends the other way.
+  double cost_of_static_spring(double w, double from, double to, double curvature, double change) const {
+    const double most = held_.of_static_spring(w, change), pull = held_.of_static_spring(0, change);
+    if (!held_.is_tunable || from == 0) return most * curvature / 2;
+    return std::max(most * largest_bend(from, to, 1), pull * largest_bend(from, to, -1)) / 2;
+  }
+
+  // The largest w″, or −w″; not below 0. It is straight in each cell.
+  double largest_bend(double from, double to, double sign) const {
+    double most = 0;
+    for (std::size_t i = 0; i < map_.cubics(); ++i) {
+      const MapCell& cell = map_.cell[i];
+      const double begins = double(i) * map_.width();
+      const double first = std::max(from - begins, 0.0), last = std::min(to - begins, map_.width());
+      if (first > last) continue;
+      for (const double d : {first, last}) most = std::max(most, sign * (2 * cell.c + 6 * cell.e * d));
+    }
+    return most;
+  }
+
   // Of a contact that lets go within the step: what is held to the end of it, gq + Σ (1 − a) F, acts on e.
   double cost_of_leaving(double steepest, double turn) const {
-    double sum = (static_stiffness_ + step_stiffness_ + unsettled_) * steepest * turn;
-    for (const Relaxing& mode : modes_) {
-      const double share = mode.stiffness * (1 - mode.decay) / (1 + mode.decay);
-      sum += share * turn * (steepest + turn / 2);
-    }
+    double sum = (held_.static_stiffness + held_.step_stiffness + held_.unsettled) * steepest * turn;
+    for (const HeldForces::Relaxing& mode : held_.relaxing) sum += mode.leaving * turn * (steepest + turn / 2);
     return sum;
   }
 
@@ -129,13 +209,13 @@ class CurveNeed {
     double most = 0;
     each_stretch(
         [&](double from, double to) { most = std::max(most, force(from, to) * map_.largest_curvature(from, to)); });
-    const double stiffness = hold_stiffness(motor_).convert_to<double>();
-    return (stiffness * steepest * steepest + most / 2) * time_of_lateness(tool_);
+    return (stiffness_ * steepest * steepest + most / 2) * time_of_lateness(tool_);
   }
 
   // Largest |M| over a stretch.
   double force(double from, double to) const {
-    return static_stiffness_ * map_.value_at(to) + step_stiffness_ * way_from_rest(from, to) + besides_;
+    return held_.of_static_spring(map_.value_at(to), held_.static_slack) + held_.of_relaxing(way_from_rest(from, to)) +
+           held_.besides;
   }
 
   // How far in w a place is from any other within the tool's range, which ends somewhere on either side of it.
@@ -153,21 +233,15 @@ class CurveNeed {
     if (map_.reach <= farthest_) take(map_.reach, map_.reach);
   }
 
-  struct Relaxing {
-    double decay, stiffness;  // a, c [N/m]
-  };
-
   const MotionMap& map_;
   const SampledLoop& tool_;
-  std::vector<Relaxing> modes_;
+  HeldForces held_;
+  double stiffness_;
   double coil_lag_;
-  MotorConstants motor_;
   double brake_;  // b_w
-  double static_stiffness_, step_stiffness_, besides_, share_;
-  double unsettled_;   // of the step stiffness, what is no mode's
+  double share_;
   double farthest_;    // that the tool goes from where the map begins
   bool is_one_sided_;  // behind a contact
-  bool is_stepwise_;   // without delay, and linear but for a contact: each step obeys its own inequality
 };
 
 // The law sheds, since a motor that clips is not passive behind a map. Shed forces store less, and nothing that is late
@@ -185,13 +259,49 @@ MotorLimits limits_behind_curve(const SampledLoop& tool, const Certificate& cert
 }
 
 // κ γ T_max/h w′²_most of all that the motor makes of the estimate; empty where nothing is known of the estimator.
-std::optional<double> cost_of_estimate(const MotorConstants& motor, const std::optional<SlipMotor>& slips,
-                                       const SampledLoop& tool, double steepest) {
-  const double followed = std::abs(motor.velocity_gain) + (slips ? slips->compensation : 0);
+std::optional<double> cost_of_estimate(double followed, const SampledLoop& tool, double steepest) {
   if (followed == 0) return 0;
   const std::optional<double> gain = estimate_gain(tool);
   if (!gain) return std::nullopt;
   return followed * *gain * tool.longest_hold() / tool.sample_period * steepest * steepest;
+}
+
+std::string hindrance_of_coil(double damping, const MotionMap& map, const PortDevice& at_tool,
+                              const SampledLoop& tool) {
+  const double quickest = std::sqrt(damping) * map.largest_curvature(0, map.reach) * tool.tool_speed;
+  const bool follows = at_tool.coil_slew() == 0 || quickest <= at_tool.coil_slew();
+  return follows ? "" : "the brake's coil does not follow the static curve at the largest speed";
+}
+
+// With what is told of the brake beside.
+PassivityBound lacking_beside(double lacking, double damping, const Network& network, const SampledLoop& tool) {
+  if (!std::isfinite(lacking)) return not_proved("the amplifier lags, and the jitter is a sample or more");
+  const MotionMap& map = *network.map;
+  const double least = map.least_tangent(0, map.reach);
+  const Rational told = Rational(damping) * Rational(least) * Rational(least);
+  PassivityBound bound;
+  bound.needed = (Rational(lacking) + assured_share(tool) * told).convert_to<double>() * margin;
+  bound.proof = Proof::hold;
+  return network.contact ? of_a_free_tool(bound, tool) : bound;
+}
+
+// These are counted apart.
+SampledLoop without_lag(SampledLoop behind) {
+  behind.amplifier_lag = behind.write_earliest = behind.write_latest = 0;
+  return behind;
+}
+
+std::string hindrance_of_tunables(const Network& network, const BoxHold& held, const SampledLoop& tool) {
+  if (network.contact) return "a contact, and parameters that change";
+  if (held.has_meshes)
+    return "parameters change behind a static curve, and nothing bounds the forces of springs and dampers that lie "
+           "neither beside each other nor in series of one spring and one damper";
+  if (tool.amplifier_lag > 0 || tool.write_latest > 0)
+    return "parameters change behind a static curve, and commands act late";
+  if (tool.delay_samples > 0 && held.can_soften)
+    return "a spring's stiffness changes behind a static curve, and the loop is late: the force of a softer spring "
+           "jumps, and the old one is held for more than a sample";
+  return "";
 }
 
 }  // namespace
@@ -200,34 +310,56 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
                                   const std::optional<SlipMotor>& slips, const PortDevice& at_tool,
                                   SampledLoop behind) {
   const SampledLoop tool = sampled_loop(at_tool, behind.sample_period);
-  if (const std::string why = hindrance(motor, slips, tool); !why.empty()) return not_proved(why);
+  if (const std::string why = hindrance(motor.estimate_drives_modes(), slips, tool); !why.empty())
+    return not_proved(why);
   const MotionMap& map = *network.map;
-  const double quickest = std::sqrt(damping) * map.largest_curvature(0, map.reach) * tool.tool_speed;
-  if (at_tool.coil_slew() > 0 && quickest > at_tool.coil_slew())
-    return not_proved("the brake's coil does not follow the static curve at the largest speed");
-  const std::optional<double> of_estimate = cost_of_estimate(motor, slips, tool, map.steepest());
+  if (const std::string why = hindrance_of_coil(damping, map, at_tool, tool); !why.empty()) return not_proved(why);
+  const double followed = std::abs(motor.velocity_gain) + (slips ? slips->compensation : 0);
+  const std::optional<double> of_estimate = cost_of_estimate(followed, tool, map.steepest());
   if (!of_estimate) return not_proved(not_proved_for(tool));
-  behind.amplifier_lag = behind.write_earliest = behind.write_latest = 0;  // these are counted apart
-  behind.device_damping = std::numeric_limits<double>::max();              // what is there is compared at the tool
+  behind = without_lag(behind);
+  behind.device_damping = std::numeric_limits<double>::max();  // what is there is compared at the tool
   motor.velocity_gain = 0;
   std::optional<SlipMotor> without_estimate = slips;
   if (slips) without_estimate->compensation = 0;
-  PassivityBound bound = slips ? with_slips(bound_beside_slips(motor, *slips, behind), *without_estimate, behind)
-                               : passivity_bound(motor, behind);
+  const PassivityBound bound = slips ? with_slips(bound_beside_slips(motor, *slips, behind), *without_estimate, behind)
+                                     : passivity_bound(motor, behind);
   if (bound.proof == Proof::none) return bound;
-  const double least = map.least_tangent(0, map.reach);
-  const Rational told = Rational(damping) * Rational(least) * Rational(least);
-  const double lacking =
-      CurveNeed(motor, damping, network, slips, tool, at_tool.coil_lag()).lacking(bound.needed, *of_estimate);
-  if (!std::isfinite(lacking)) return not_proved("the amplifier lags, and the jitter is a sample or more");
-  bound.needed = (Rational(lacking) + assured_share(tool) * told).convert_to<double>() * margin;
-  bound.proof = Proof::hold;
-  bound.reason.clear();
-  bound.storage.reset();
-  bound.frequency = 0;
-  bound.constant_period_only = false;
-  return network.contact ? of_a_free_tool(bound, tool) : bound;
+  const CurveNeed need(held_forces(motor, network, slips, tool), hold_stiffness(motor).convert_to<double>(), damping,
+                       network, tool, at_tool.coil_lag());
+  return lacking_beside(need.lacking(bound.needed, *of_estimate), damping, network, tool);
 }
+
+namespace {
+
+// The same wherever parameters are in their ranges, and however they go there. Out: the law's least and largest b_w.
+PassivityBound bound_over_box(UpdateLaw& law, const Network& network, const std::optional<SlipMotor>& slips,
+                              const PortDevice& at_tool, const SampledLoop& behind) {
+  const SampledLoop tool = sampled_loop(at_tool, behind.sample_period);
+  const MotionMap& map = *network.map;
+  const BoxMotor box = box_motor(law, {Rational(behind.longest_hold()) / Rational(behind.sample_period),
+                                       lateness(without_lag(behind)), estimate_gain(tool), assured_share(tool)});
+  law.damping = box.least_brake;
+  law.largest_damping = box.largest_brake;
+  if (const std::string why = hindrance(false, slips, tool); !why.empty()) return not_proved(why);
+  const BoxHold held = box_hold(law, tool.max_force > 0 || tool.motor_slew > 0);
+  if (const std::string why = hindrance_of_tunables(network, held, tool); !why.empty()) return not_proved(why);
+  if (!box.hindrance.empty()) return not_proved(box.hindrance);
+  if (const std::string why = hindrance_of_coil(box.largest_brake, map, at_tool, tool); !why.empty())
+    return not_proved(why);
+  const std::optional<double> of_estimate = cost_of_estimate(box.largest_gain, tool, map.steepest());
+  if (!of_estimate) return not_proved(not_proved_for(tool));
+  const HeldForces forces = held_forces(held, tool, map.steepest());
+  double stiffness = held.static_stiffness / 2;
+  for (const HeldRelaxation& mode : held.relaxations) stiffness += mode.hold;
+  const CurveNeed need(forces, stiffness, box.least_brake, network, tool, at_tool.coil_lag());
+  const double needed = forces.is_stepwise ? 0 : box.needed;  // of a step by itself less is needed than of all together
+  PassivityBound bound = lacking_beside(need.lacking(needed, *of_estimate), box.least_brake, network, tool);
+  bound.any_value = true;
+  return bound;
+}
+
+}  // namespace
 
 double lacking_behind_curve(const PassivityBound& bound, double damping, const MotionMap& map,
                             const SampledLoop& tool) {
@@ -243,17 +375,10 @@ Certificate certify_behind_curve(UpdateLaw& law, const Network& network, const s
   const SampledLoop tool = sampled_loop(at_tool, sample_period);
   Certificate result;
   result.loop = tool;
-  if (law.tunable) {
-    const BoxMotor box = box_motor(law, {1, 0, 1.0, assured_share(tool)});
-    law.damping = box.least_brake;
-    law.largest_damping = box.largest_brake;
-    result.bound = not_proved(
-        "parameters change behind a static curve, and nothing bounds the forces that springs keep over a change while "
-        "the curve bends");
-  } else {
-    result.bound = bound_behind_curve(linear_motor_constants(law), law.damping, network, slips, at_tool,
-                                      sampled_loop(behind, sample_period));
-  }
+  const SampledLoop loop_behind = sampled_loop(behind, sample_period);
+  result.bound =
+      law.tunable ? bound_over_box(law, network, slips, at_tool, loop_behind)
+                  : bound_behind_curve(linear_motor_constants(law), law.damping, network, slips, at_tool, loop_behind);
   result.bound.any_regime = slips.has_value();
   const double flattest = map.least_tangent(0, map.reach), rounding = 64 * unit_roundoff(law.scalar);
   const double least = law.damping * flattest * flattest * (1 - rounding);

@@ -23,8 +23,9 @@
 //
 // since what it stores falls by more than the bend can give where it is far from rest.
 //
-// Nothing is proved where parameters change: a spring that is softened keeps of its force what its energy allows, so
-// that with every change |M| may grow beyond the sum above, and with it what the bend costs.
+// Where parameters change b_w is the least and S the largest over their ranges, and |M| is what springs and slips hold
+// at most, whatever is set and whenever (box_hold.hpp). A static spring that does not pull costs nothing where the
+// curve softens.
 #pragma once
 
 #include "certify/certificate.hpp"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "certify/curve_bound.hpp"
 #include "certify/settle.hpp"
 #include "discretise/discretise.hpp"
 #include "discretise/tunable_network.hpp"
@@ -40,13 +41,17 @@ class BoxChoice {
     std::optional<UpdateLaw> law = discretise_tunable(network_, form_, tried, choices_, rate_, port_, unheard);
     if (!law) return std::nullopt;
     const SampledLoop loop = sampled_loop(port_, 1 / rate_);
-    const Certificate certificate = certify(*law, loop, slip_motor(network_, form_, tried, choices_, loop));
+    const std::optional<SlipMotor> slips = slip_motor(network_, form_, tried, choices_, loop);
+    const Certificate certificate =
+        network_.map ? certify_behind_curve(*law, network_, slips, port_, 1 / rate_) : certify(*law, loop, slips);
+    const double squared_steepness = port_.steepest() * port_.steepest();  // 1 without a map
     Candidate& candidate = result.candidate;
     candidate.extra_damping_any_delay = candidate.state_inputs.front().extra_damping_any_delay;
-    candidate.largest_error = settler_.largest_error(candidate, certificate.added_damping);
+    candidate.largest_error = settler_.largest_error(candidate, certificate.added_damping / squared_steepness);
     candidate.certified = certificate.certified;
     candidate.minimum_damping.reset();
-    if (certificate.bound.proof != Proof::none) candidate.minimum_damping = certificate.minimum_damping;
+    if (certificate.bound.proof != Proof::none)
+      candidate.minimum_damping = certificate.minimum_damping / squared_steepness;
     result.option = {damping, candidate.largest_error, candidate.minimum_damping, certificate.certified,
                      candidate.motor_noise};
     return result;
@@ -67,7 +72,6 @@ class BoxChoice {
 
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const PortDevice& port, double rate) {
-  if (network.map) return;     // behind a static curve nothing is certified over the ranges
   constexpr int halvings = 3;  // of the way to the next larger damping that was tried
   constexpr double none = std::numeric_limits<double>::infinity();
   constexpr double same = 1e-6;  // relative: one damping
@@ -105,7 +109,6 @@ void choose_over_box(const Network& network, const NormalForm& form, Decompositi
 
 bool is_certified_over_box(const Network& network, const NormalForm& form, const Decomposition& decomposition,
                            const Choices& choices, const PortDevice& port, double rate) {
-  if (network.map) return false;
   const Candidate& choice = decomposition.choice();
   const auto weighed = BoxChoice(network, form, decomposition, choices, port, rate).weighed(choice, choice.damping);
   return weighed && weighed->option.certified;

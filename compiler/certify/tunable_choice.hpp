@@ -9,8 +9,7 @@ namespace dashpot::compiler {
 // In: a decomposition whose candidate `faithful` is settled at the default values. That damping, b∞, which follows the
 // parameters and needs no estimate, and some between 0 and b∞ are weighed by what is felt at the default values with
 // what the certificate over the whole range of the parameters adds. Ensures: the candidate has the one that
-// faithful_rule.hpp takes, after the way from it to the next larger one has been halved three times. Behind a static
-// curve, where nothing is certified over the range, it stays as it is.
+// faithful_rule.hpp takes, after the way from it to the next larger one has been halved three times.
 void choose_over_box(const Network& network, const NormalForm& form, Decomposition& decomposition,
                      const Choices& choices, const PortDevice& port, double rate);
 

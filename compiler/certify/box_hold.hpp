@@ -1,0 +1,42 @@
+// What springs and slips of a network with tunable parameters hold at most behind a static curve's map w, whatever is
+// set and whenever (theory, section 11). Over a change no force grows (energy_tank.hpp), so that
+//
+//     a relaxation      |F⁺| ≤ a |F| + k φ |Δw|,     φ/(1 − a) = b/kT:     |F| ≤ b_most |Δw|_most/T
+//     and where its spring keeps its stiffness         |F| ≤ k Δ,          Δ the way in w from where the tool has been
+//     the static spring lets go of what is beyond      |F| ≤ k0_most max(|w| + 2 |Δw|, 2d + |Δw|),     d: the law's
+//     largest change
+//
+// and slips hold no more than their yield forces. What bends while a relaxation's force F acts costs at most
+//
+//     k ε [(1 − aφ)/(1 − a²) |Δw| + ε/2(1 − a²)],     ε = |Δw − w′Δu|,     for all F,
+//
+// beside the hold's own k ψ Δw², ψ = ½ + ½ (φ − a)²/(1 − a²), which rises with kT/b up to 1.65 and then falls.
+#pragma once
+
+#include <vector>
+
+#include "law/update_law.hpp"
+
+namespace dashpot::compiler {
+
+struct HeldRelaxation {
+  double hold;       // most of k ψ [N/m]
+  double turning;    // most of k (1 − aφ)/(1 − a²) [N/m]
+  double turned;     // most of k/2(1 − a²); infinite where nothing relaxes within a sample [N/m]
+  double stiffness;  // k; infinite where it can be tuned [N/m]
+  double per_way;    // most of kφ/(1 − a): its largest force over the largest |Δw| of a sample [N/m]
+};
+
+struct BoxHold {
+  double static_stiffness = 0;              // k0 at most [N/m]
+  double static_slack = 0;                  // d, of the law; 0 where its rest length never moves [m]
+  std::vector<HeldRelaxation> relaxations;  // of what joins tool and ground without a slip
+  double yield_forces = 0;                  // Σ Y at most [N]
+  bool has_meshes = false;                  // of whose inner springs nothing is known here
+  bool can_soften = false;                  // some spring, wherever it is
+};
+
+// Of a law with tunables, before its map and what sheds. `sheds`: whether it will.
+BoxHold box_hold(const UpdateLaw& law, bool sheds);
+
+}  // namespace dashpot::compiler

@@ -275,7 +275,7 @@ std::optional<std::string> report(const Compilation& c, const std::optional<std:
   fields["law"] = update_law_html(c);
   const double amplitude = telling_amplitude(c);
   std::string curves = static_curve_html(c);
-  for (const Compilation& port : c.ports) curves += static_curve_html(port);
+  for (const Compilation& port : c.ports) curves += static_curve_html(port, ", port " + escaped(port.network.name));
   const bool has_linear_responses = c.ports.empty() && is_linear(c);
   fields["responses"] = curves + (has_linear_responses ? linear_responses_html(c) : "") + hysteresis_html(c, amplitude);
   add_comments(c.network.comments, model);

@@ -8,7 +8,7 @@
 
 namespace dashpot::compiler {
 
-std::string static_curve_html(const Compilation& c) {
+std::string static_curve_html(const Compilation& c, const std::string& of) {
   if (!c.network.map) return "";
   const MotionMap& map = *c.network.map;
   const PortUnits units = page_units(c.network.port_motion);
@@ -26,7 +26,7 @@ std::string static_curve_html(const Compilation& c) {
   }
   made.dots = true;
   const char* title = c.network.static_curve->is_instantaneous ? "Force at once" : "Force at rest";
-  Plot plot{title,
+  Plot plot{title + of,
             {"displacement", units.position},
             {"force", units.force},
             AxisScale::linear,

@@ -8,7 +8,7 @@
 namespace dashpot::compiler {
 
 // The wanted force over displacement and what the emitted map makes of it, and what the other figures are of; empty
-// without a static curve.
-std::string static_curve_html(const Compilation& compilation);
+// without a static curve. `of`: of which port, behind the figure's title.
+std::string static_curve_html(const Compilation& compilation, const std::string& of = "");
 
 }  // namespace dashpot::compiler

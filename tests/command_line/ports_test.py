@@ -126,7 +126,7 @@ class PortsTest(CommandTest):
         page = (self.folder / "page.html").read_text()
         for port in ["pad", "skin", "guide"]:
             self.assertGreaterEqual(page.count(f"<h3>Port {port}</h3>"), 2)
-        for title in ["Force at rest", "Force at once"]:
+        for title in ["Force at rest, port pad", "Force at once, port skin"]:
             self.assertIn(title, page)
 
     # If this fails, a motion on the simulated device is not measured against the sum, or gives energy.

@@ -21,6 +21,7 @@ namespace dashpot::testing {
 struct Loop {
   double period, jitter, speed, travel, brake;  // [s], [s], [m/s], [m] to either side, [N·s/m]
   unsigned delay;
+  double force = 1e6;  // of the motor [N]
 };
 
 inline compiler::Device device_of(const Loop& loop, double damping) {
@@ -29,9 +30,9 @@ inline compiler::Device device_of(const Loop& loop, double damping) {
            "loop": {{ "rate": "{:.17g} Hz", "jitter": {:.17g}, "delay_samples": {}, "band": ["0.1 Hz", "20 Hz"] }},
            "encoder": {{ "resolution": "1 um", "range": [{:.17g}, {:.17g}], "max_speed": {:.17g} }},
            "velocity": {{ "estimator": "backward_difference", "window": 4 }},
-           "motor": {{ "max_torque": "1 MN" }}{},
+           "motor": {{ "max_torque": "{:.17g} N" }}{},
            "mechanics": {{ "inertia": "0.1 kg", "damping": {:.17g} }} }})",
-      1 / loop.period, loop.jitter, loop.delay, -loop.travel, loop.travel, loop.speed,
+      1 / loop.period, loop.jitter, loop.delay, -loop.travel, loop.travel, loop.speed, loop.force,
       loop.brake > 0
           ? fmt::format(R"(, "brake": {{ "kind": "eddy_current", "max_damping": {:.17g}, "tolerance": "10 %" }})",
                         loop.brake)

@@ -105,11 +105,30 @@ Region region_over_joints(const Arm& arm, const Box& box, const Pair<double>& re
   return {joints, {pose(arm, reached), curvature(arm, reached)}};
 }
 
+// |H| = α H + β W, with the |λ| of H v = λ W v: of λ1 ≤ λ2 not of one sign α = (λ1 + λ2)/(λ2 − λ1) and β = −2 λ1
+// λ2/(λ2 − λ1); else α = ±1 and β = 0. Nothing where λ1 and λ2 may be alike.
+std::optional<Symmetric<Sloped>> absolute(const Symmetric<Sloped>& h, const Pair<double>& weight) {
+  const Sloped first(weight[0]), second(weight[1]);
+  const Sloped a = h.xx / first, c = h.yy / second, b_squared = square(h.xy) / (first * second);
+  const Sloped apart = square(a - c) + Sloped(4) * b_squared;
+  if (!(sqrt(apart.value).low > 0)) return std::nullopt;
+  const Sloped inverse = Sloped(1) / sqrt(apart);
+  const Sloped alpha = max(min((a + c) * inverse, Sloped(1)), Sloped(-1));
+  const Sloped beta = max(Sloped(2) * (b_squared - a * c) * inverse, Sloped(0));
+  return alpha * h + beta * Symmetric<Sloped>{first, Sloped(0), second};
+}
+
+// Wherever in the reach, apart from where in it other terms are.
+Sloped anywhere_reached(const Sloped& a) {
+  const double most = (abs(a.slope[2]) + abs(a.slope[3])).high;
+  return {a.value, a.middle + Interval(-most, most), {a.slope[0], a.slope[1]}};
+}
+
 class PortNeed {
  public:
   PortNeed(const PortLoad& load, const Interval& range) : load_(load), range_(range) {}
 
-  // For both ends of M what is needed over joints as it stands, and the tightest of what is enough; with n |M| ‖H‖ W.
+  // For both ends of M what is needed over joints as it stands, and the tightest of what is enough; with n |M| |H|.
   struct Ends {
     std::vector<Symmetric<Sloped>> as_it_stands, tightest;
   };
@@ -125,27 +144,45 @@ class PortNeed {
     const Symmetric<Sloped> squared = held * outer(at_joints(there.pose, depth.gradient));
     const std::optional<Symmetric<Sloped>> steep = steepest(load_.map, there.pose);
     const bool lessened = is_lessened_by_bend(load_.map, force);
-    const double late = delay == 0 ? 0 : delay * abs(force).high * size_of(hessian, weight) * (1 + 1e-12);
-    const Symmetric<Sloped> lateness{Sloped(late * weight[0]), Sloped(0), Sloped(late * weight[1])};
+    const std::vector<Symmetric<Sloped>> latenesses = latenesses_of(delay * abs(force).high, hessian, weight);
     Ends ends;
     for (const ForceForm& form : force_ends(load_, depth.value.value, range_)) {
       const Sloped half = Sloped(0.5) * form.at(depth.value);
-      const Symmetric<Sloped> all = half * hessian + lateness;
-      ends.as_it_stands.push_back(squared + all);
-      std::vector<Symmetric<Sloped>> enough{ends.as_it_stands.back()};
-      if (steep) enough.push_back(held * *steep + all);
-      if (lessened) {
-        const Symmetric<Sloped> less = half * carried + lateness;
-        enough.push_back(squared + less);
-        if (steep) enough.push_back(held * *steep + less);
+      std::vector<Symmetric<Sloped>> stands, enough;
+      for (const Symmetric<Sloped>& lateness : latenesses) {
+        const Symmetric<Sloped> all = half * hessian + lateness;
+        stands.push_back(squared + all);
+        enough.push_back(squared + all);
+        if (steep) enough.push_back(held * *steep + all);
+        if (lessened) {
+          const Symmetric<Sloped> less = half * carried + lateness;
+          enough.push_back(squared + less);
+          if (steep) enough.push_back(held * *steep + less);
+        }
       }
+      ends.as_it_stands.push_back(least_of(stands, weight));
       ends.tightest.push_back(least_of(enough, weight));
     }
     return ends;
   }
 
  private:
+  // Of products of displacements at different samples, each with an H of its own: ‖H‖ W, which is no less than |H|, and
+  // where it is known that.
+  static std::vector<Symmetric<Sloped>> latenesses_of(double force, const Symmetric<Sloped>& hessian,
+                                                      const Pair<double>& weight) {
+    if (force == 0) return {{Sloped(0), Sloped(0), Sloped(0)}};
+    const double late = force * size_of(hessian, weight) * (1 + 1e-12);
+    std::vector<Symmetric<Sloped>> all{{Sloped(late * weight[0]), Sloped(0), Sloped(late * weight[1])}};
+    if (const auto size = absolute(hessian, weight)) {
+      const Symmetric<Sloped> paid = Sloped(force * (1 + 1e-12)) * *size;
+      all.push_back({anywhere_reached(paid.xx), anywhere_reached(paid.xy), anywhere_reached(paid.yy)});
+    }
+    return all;
+  }
+
   static Symmetric<Sloped> least_of(const std::vector<Symmetric<Sloped>>& enough, const Pair<double>& weight) {
+    if (enough.size() == 1) return enough.front();
     std::size_t best = 0;
     double least = infinity;
     for (std::size_t i = 0; i < enough.size(); ++i) {

@@ -5,7 +5,7 @@
 //
 // for matrices over the joints, at all joints of the workspace, D at those of the sample and 𝓑 at all that can be
 // reached until the next. g and H are gradient and Hessian of the port's map in the joints, M the motor's force along
-// it. With n samples of delay S becomes S (1 + 2n), and n |M| ‖H‖ W is added, ‖H‖ the largest |λ| of H v = λ W v.
+// it. With n samples of delay S becomes S (1 + 2n), and n |M| |H| is added, |H| with the |λ| of H v = λ W v.
 #pragma once
 
 #include <functional>

@@ -192,7 +192,7 @@ class Places {
     joints_.push_back(exact);
   }
 
-  // Of T_max Σ [S (1 + 2n) g gᵀ + ½ M H + n |M| ‖H‖ W], whichever ends the ports' forces are at.
+  // Of T_max Σ [S (1 + 2n) g gᵀ + ½ M H + n |M| |H|], whichever ends the ports' forces are at.
   Reference need_at(const ReferencePair& joints) const {
     const int delay = int(c_.device.loop().delay_samples);
     SymmetricReference sum;
@@ -205,13 +205,18 @@ class Places {
       const auto& [first, second] = w.gradient;
       sum.add(force.held * Reference(1 + 2 * delay), {first * first, first * second, second * second});
       const ReferencePair turning = eigenvalues(w.hessian, c_.certificate.weight);
-      const Reference size = std::max(abs(turning[0]), abs(turning[1]));
+      // |H| = α H + β W, with the eigenvalues of H without their signs.
+      const Reference apart = turning[1] - turning[0];
+      Reference alpha = turning[1] < 0 ? -1 : 1;
+      if (apart > 0) alpha = (abs(turning[1]) - abs(turning[0])) / apart;
+      const Reference beta = abs(turning[1]) - alpha * turning[1];
       turned.emplace_back();
       for (const Reference& end : ends) {
         SymmetricReference one;
         one.add(end / 2, w.hessian);
-        const Reference late = Reference(delay) * abs(end) * size;
-        one.add(late, {c_.certificate.weight[0], 0, c_.certificate.weight[1]});
+        const Reference late = Reference(delay) * abs(end);
+        one.add(late * alpha, w.hessian);
+        one.add(late * beta, {c_.certificate.weight[0], 0, c_.certificate.weight[1]});
         turned.back().push_back(one);
       }
     }

@@ -182,6 +182,16 @@ class AxesVerify(CommandTest):
         self.assertAlmostEqual(float(share), 100 * most / whole, delta=0.06)
         self.assertLessEqual(float(share), 100)
 
+    def test_late_torques_at_places(self):
+        """Fails if verify looks for another need of torques that act samples late than the bound has: more, or far less."""
+        arm = json.loads((self.folder / "prompt.json").read_text())
+        arm["loop"]["delay_samples"], arm["encoders"]["max_speed"] = 2, "1 rad/s"
+        self.write("late.json", json.dumps(arm))
+        header, certificate = self.compiled(FIELD, "--device", "late.json")
+        share = re.search(r"over the workspace, ([\d.]+) % are needed at one of", self.verified(header, certificate).stdout)[1]
+        self.assertLessEqual(float(share), 100)
+        self.assertGreater(float(share), 95)  # 1 % of it is the search's; in three samples joints go 0.5 mrad
+
     # If this fails, a contact that begins in front of where its map does is certified as if it pushed later.
     def test_surfaces_elsewhere(self):
         wall = lambda name, y, at: self.write(f"{name}.json", json.dumps({"dashpot": 1, "axes": 2, "name": name, "ports": [{

@@ -369,7 +369,7 @@ class AxesTest(CommandTest):
                     most = [max(m, abs(a - b)) for m, a, b in zip(most, there, here)]
         for j in range(2):
             self.assertLess(most[j], told[j])
-            self.assertGreater(most[j], 0.25 * told[j])  # norms of both joints together, force and bend each at its own worst place
+            self.assertGreater(most[j], 0.5 * told[j])  # norms of both joints together, force and bend each at its own worst place
         words = lambda device: " ".join(self.dashpot("explain", network, "--device", device).stdout.split())
         self.assertIn("friction of 0.001 and 0.001 N m there takes what that gives, a brake none of it a step takes", words(PANTOGRAPH))
         arm = json.loads(PANTOGRAPH.read_text())

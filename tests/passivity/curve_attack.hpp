@@ -68,11 +68,12 @@ inline std::string curve_of(std::uint64_t seed, Random& random, double at, doubl
   }
 }
 
-inline compiler::Compilation on(const Case& one, double damping) {
+inline compiler::Compilation on(const Case& one, double damping,
+                                const decltype(compiler::Choices::decomposition)& without_brake = 0.0) {
   compiler::Diagnostics diagnostics;
   const compiler::SourceFile file("curved.json", one.network);
   compiler::Choices choices;
-  if (one.loop.brake == 0) choices.decomposition = 0.0;
+  if (one.loop.brake == 0) choices.decomposition = without_brake;
   std::optional<compiler::Compilation> c = compiler::compile(file, choices, device_of(one.loop, damping), diagnostics);
   EXPECT_TRUE(c) << one.network;
   return std::move(*c);

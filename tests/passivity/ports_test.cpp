@@ -46,7 +46,8 @@ Case random_ports(std::uint64_t seed, bool with_brake) {
               random.log_uniform(0.01, 0.5),     random.uniform(1, 2) * at,
               with_brake ? 100.0 : 0.0,          unsigned(seed / 7 % 2)};
   one.loop.jitter = random.chance(0.5) ? 0 : random.uniform(0, 0.3) * one.loop.period;
-  if (random.chance(0.4)) one.loop.force = random.log_uniform(0.1, 5);
+  // Behind a curve nothing is proved at the limit of a motor that is late.
+  if (one.loop.delay == 0 && random.chance(0.6)) one.loop.force = random.log_uniform(0.1, 5);
   return one;
 }
 
@@ -86,12 +87,13 @@ TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
   const int cases = int(repetitions(30, 1000));
   for (std::uint64_t seed = 1; seed <= std::uint64_t(cases); ++seed) {
     const Case one = random_ports(seed, true);
-    double damping = 1e-3;
+    double damping = 0.3;
     Compilation c = on(one, damping);
     // A contact asks for damping of the device's own, on its share of it: as much as it takes.
-    for (int attempt = 0; attempt < 12 && !c.certificate.certified; ++attempt)
+    const auto is_proved = [&] { return c.certificate.certified && c.certificate.limits.is_covered; };
+    for (int attempt = 0; attempt < 5 && !is_proved(); ++attempt)
       c = on(one, damping = std::max(4 * damping, 1.0000001 * c.certificate.bound.needed));
-    if (!c.certificate.certified || !c.certificate.limits.is_covered) continue;
+    if (!is_proved()) continue;
     ++certified;
     limited += c.law.sheds();
     const Balance balance = after_attacks(c, one, damping, seed);
@@ -111,7 +113,7 @@ TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
     one.loop.delay = 0;
     one.loop.force = 1e6;
     one.loop.speed = 0.001 * one.loop.travel / one.loop.period;
-    const Compilation first = on(one, 1e3);
+    const Compilation first = on(one, 1e3, "virtual");
     if (!first.certificate.certified) continue;
     const double needed = 1.0000001 * first.certificate.bound.needed;
     ++cases;

@@ -84,7 +84,7 @@ Balance after_trembling(const Compilation& c, const Loop& loop, double damping, 
 // If this fails, ports that are called certified side by side give out energy.
 TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0, limited = 0;
-  const int cases = int(repetitions(30, 1000));
+  const int cases = int(repetitions(16, 1000));
   for (std::uint64_t seed = 1; seed <= std::uint64_t(cases); ++seed) {
     const Case one = random_ports(seed, true);
     double damping = 0.3;
@@ -108,7 +108,7 @@ TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
 // as many as of one port.
 TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
   int cases = 0, gains = 0;
-  for (std::uint64_t seed = 1; seed <= repetitions(20, 300); ++seed) {
+  for (std::uint64_t seed = 1; seed <= repetitions(12, 300); ++seed) {
     Case one = random_ports(seed, false);
     one.loop.delay = 0;
     one.loop.force = 1e6;
@@ -130,7 +130,7 @@ TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
   }
   RecordProperty("cases", cases);
   RecordProperty("gains", gains);
-  EXPECT_GE(cases, int(repetitions(20, 300)) * 8 / 10);
+  EXPECT_GE(cases, int(repetitions(12, 300)) * 8 / 10);
   EXPECT_GE(gains, cases / 4) << "of " << cases;
 }
 

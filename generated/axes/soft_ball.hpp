@@ -120,7 +120,6 @@ class soft_ball {
     const scalar ball_start = part_9 > 0 ? part_9 : nothing;
     ball_surface_ = dashpot::all_finite(ball_start) ? ball_start : 0;
     ball_spring_3_damper_4_force_ = 0;
-    ball_sampled_brake_ = 0;
     ball_sampled_surface_change_ = 0;
     ball_sampled_surface_now_ = 0;
     sampled_damping_1_ = 0;
@@ -262,7 +261,6 @@ class soft_ball {
     sampled_ = false;
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) return {{sampled_damping_1_, sampled_damping_2_}, {}};
     sampled_ = true;
-    ball_sampled_brake_ = ball_brake;
     ball_sampled_surface_change_ = ball_surface_change;
     ball_sampled_surface_now_ = ball_surface_now;
     sampled_damping_1_ = damping_1;
@@ -491,7 +489,6 @@ class soft_ball {
 
   scalar ball_surface_ = 0;  // s, how far the surface is pushed in [m]
   scalar ball_spring_3_damper_4_force_ = 0;  // force of the mode, decayed to the next sample [N]
-  scalar ball_sampled_brake_ = 0;  // b, at this sample [N·s/m]
   scalar ball_sampled_surface_change_ = 0;  // Δs since the sample before, at this sample [m]
   scalar ball_sampled_surface_now_ = 0;  // s, at this sample [m]
   scalar sampled_damping_1_ = 0;  // of brake 1, at this sample [N·m·s/rad]

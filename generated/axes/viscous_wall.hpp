@@ -113,7 +113,6 @@ class viscous_wall {
     const scalar part_6 = tip_y - wall_offset;
     const scalar wall_start = part_6 > 0 ? part_6 : nothing;
     wall_surface_ = dashpot::all_finite(wall_start) ? wall_start : 0;
-    wall_sampled_brake_ = 0;
     wall_sampled_surface_now_ = 0;
     sampled_damping_1_ = 0;
     sampled_damping_2_ = 0;
@@ -245,7 +244,6 @@ class viscous_wall {
     sampled_ = false;
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) return {{sampled_damping_1_, sampled_damping_2_}, {}};
     sampled_ = true;
-    wall_sampled_brake_ = wall_brake;
     wall_sampled_surface_now_ = wall_surface_now;
     sampled_damping_1_ = damping_1;
     sampled_damping_2_ = damping_2;
@@ -447,7 +445,6 @@ class viscous_wall {
   static constexpr scalar added_damping_1 = 0.013980000000000001;  // for passivity alone [N·m·s/rad]
 
   scalar wall_surface_ = 0;  // s, how far the surface is pushed in [m]
-  scalar wall_sampled_brake_ = 0;  // b, at this sample [N·s/m]
   scalar wall_sampled_surface_now_ = 0;  // s, at this sample [m]
   scalar sampled_damping_1_ = 0;  // of brake 1, at this sample [N·m·s/rad]
   scalar sampled_damping_2_ = 0;  // of brake 2, at this sample [N·m·s/rad]

@@ -246,7 +246,7 @@ class AxesFieldsTest(CommandTest):
                                                "field": {"grid": {**good, "x": [-step, step]}}}))
             self.refused("check", "bad.json", code="grid-spacing")
         self.write("bad.json", json.dumps({"dashpot": 1, "axes": 2, "name": "bad", "ports": [FAR], "field": {"grid": good, "viscous": one}}))
-        self.refused("check", "bad.json", code="unknown-key")
+        self.refused("check", "bad.json", code="two-kinds-at-once")
 
     # If this fails, a header whose gate lets more pass is taken for the one that was certified.
     def test_verify_reads_the_gate(self):

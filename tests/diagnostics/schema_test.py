@@ -26,6 +26,8 @@ BEYOND_THE_SCHEMAS = {
     # two axes: geometry and physics
     "axes_field_gives_power", "axes_grid_falls", "axes_grid_uneven", "axes_map_radius_of_zero", "axes_port_twice", "axes_tunable",
     "devices/axes_arm_out_of_reach", "devices/axes_arm_singular", "devices/axes_brakes_parallel", "devices/axes_motion_of_serial",
+    # several ports: what is true of all of them
+    "ports_of_one_name", "ports_with_a_tunable", "ports_with_bad_parameters",
     # names
     "ends_are_called_tip_and_gnd", "ground_is_called_gnd", "name_is_a_keyword", "name_of_a_member", "name_taken", "node_differs_by_case",
     # JSON that Python reads all the same

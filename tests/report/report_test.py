@@ -364,7 +364,8 @@ class Pages(unittest.TestCase):
                     self.enter("depth", repr(depth / part))
                     forces.append(max(abs(float(row[3])) for row in self.response()))
                 self.assertGreater(forces[1], 0)
-                self.assertLess(forces[0], 9.9 * forces[1])
+                # A slip that yields answers less than tenfold, a curve beside it more.
+                self.assertGreater(abs(forces[0] / (10 * forces[1]) - 1), 0.01)
 
     def test_comments(self):
         """Fails if what the author remarks does not reach the page, with the place that it stands at."""

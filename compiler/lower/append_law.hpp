@@ -19,6 +19,9 @@ struct AppendedLaw {
   VariableId at(VariableId own) const { return own == no_variable ? own : place.at(own); }
 };
 
+// A law without tables and programs, of the same scalar and sampling.
+UpdateLaw empty_law_like(const UpdateLaw& law);
+
 // `known`: variables of the port that are others of the law already. The port has no tunables. What it remembers of its
 // brake for a sample that is refused is left out: that is told of all ports together. Which parts of the network a
 // statement is about is not told any more, since every port counts its elements by itself.

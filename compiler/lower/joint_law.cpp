@@ -174,7 +174,11 @@ struct Merged {
 class Merging {
  public:
   Merging(const std::vector<PortLaw>& ports, const JointPlan& plan)
-      : ports_(ports), plan_(plan), law_(blank(ports.front().law)), writer_(law_, plan.joint_motion), terms_(writer_) {}
+      : ports_(ports),
+        plan_(plan),
+        law_(empty_law_like(ports.front().law)),
+        writer_(law_, plan.joint_motion),
+        terms_(writer_) {}
 
   UpdateLaw result() {
     declare();
@@ -191,24 +195,13 @@ class Merging {
   }
 
  private:
-  static UpdateLaw blank(const UpdateLaw& first) {
-    UpdateLaw law;
-    law.scalar = first.scalar;
-    law.scheme = first.scheme;
-    law.state_input = first.state_input;
-    law.sample_period = first.sample_period;
-    law.flush_threshold = first.flush_threshold;
-    law.joints.emplace();
-    return law;
-  }
-
   bool rotates() const { return plan_.joint_motion == motion::rotation; }
   std::string joint_unit() const { return rotates() ? "rad" : "m"; }
   std::string torque_unit() const { return rotates() ? "N·m" : "N"; }
   std::string damping_unit() const { return rotates() ? "N·m·s/rad" : "N·s/m"; }
 
   void declare() {
-    JointPorts& joints = *law_.joints;
+    JointPorts& joints = law_.joints.emplace();
     for (std::size_t i = 0; i < 2; ++i) {
       const std::string number = std::to_string(i + 1);
       joints.positions.push_back(

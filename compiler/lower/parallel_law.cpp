@@ -11,7 +11,10 @@ namespace {
 class InParallel {
  public:
   InParallel(const std::vector<ParallelPort>& ports, double added_damping, motion port_motion)
-      : ports_(ports), added_damping_(added_damping), law_(blank(ports.front().law)), writer_(law_, port_motion) {}
+      : ports_(ports),
+        added_damping_(added_damping),
+        law_(empty_law_like(ports.front().law)),
+        writer_(law_, port_motion) {}
 
   UpdateLaw result() {
     declare();
@@ -36,16 +39,6 @@ class InParallel {
   }
 
  private:
-  static UpdateLaw blank(const UpdateLaw& first) {
-    UpdateLaw law;
-    law.scalar = first.scalar;
-    law.scheme = first.scheme;
-    law.state_input = first.state_input;
-    law.sample_period = first.sample_period;
-    law.flush_threshold = first.flush_threshold;
-    return law;
-  }
-
   void declare() {
     law_.position = writer_.scalar("position", writer_.length(), "port displacement u", Role::input);
     law_.velocity = writer_.scalar("velocity", writer_.velocity(), "estimate of u̇", Role::input);

@@ -4,26 +4,47 @@
 
 namespace dashpot::compiler {
 
+namespace {
+
+// What a name is without the port's; empty where it is not the port's.
+std::string without_port(const std::string& constant, const VerifiedPort& port) {
+  return constant.starts_with(port.name + "_") ? constant.substr(port.name.size() + 1) : "";
+}
+
+bool is_of_law(const std::string& name, const UpdateLaw& law) {
+  return std::any_of(law.coefficients.begin(), law.coefficients.end(), [&](const Coefficient& c) {
+    const std::vector<std::string>& names = c.element_names;
+    return c.name == name || std::find(names.begin(), names.end(), name) != names.end();
+  });
+}
+
+// The same without what keeps apart what would be called alike, where the port's law has such a constant.
+std::string own_name(const std::string& name, const VerifiedPort& port) {
+  const std::size_t end = name.find_last_not_of("0123456789");
+  const bool is_numbered = end != name.npos && end + 1 < name.size() && name[end] == '_';
+  if (!is_of_law(name, *port.law) && is_numbered && is_of_law(name.substr(0, end), *port.law))
+    return name.substr(0, end);
+  return name;
+}
+
+}  // namespace
+
 std::optional<std::size_t> port_of(const std::string& constant, const std::vector<VerifiedPort>& ports) {
   std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < ports.size(); ++i)
-    if (constant.starts_with(ports[i].name + "_") && (!best || ports[i].name.size() > ports[*best].name.size()))
-      best = i;
+  bool is_known = false;
+  for (std::size_t i = 0; i < ports.size(); ++i) {
+    const std::string own = without_port(constant, ports[i]);
+    if (own.empty()) continue;
+    const bool is_own = is_of_law(own_name(own, ports[i]), *ports[i].law);
+    const bool is_longer = !best || ports[i].name.size() > ports[*best].name.size();
+    if (is_own > is_known || (is_own == is_known && is_longer)) best = i, is_known = is_own;
+  }
   return best;
 }
 
 void give(const HeaderConstant& constant, VerifiedPort& port) {
   HeaderConstant own = constant;
-  own.name = constant.name.substr(port.name.size() + 1);
-  const std::size_t end = own.name.find_last_not_of("0123456789");
-  const auto is_one = [&](const std::string& told) {
-    return std::any_of(port.law->coefficients.begin(), port.law->coefficients.end(), [&](const Coefficient& c) {
-      const std::vector<std::string>& names = c.element_names;
-      return c.name == told || std::find(names.begin(), names.end(), told) != names.end();
-    });
-  };
-  const bool is_numbered = end != own.name.npos && end + 1 < own.name.size() && own.name[end] == '_';
-  if (!is_one(own.name) && is_numbered && is_one(own.name.substr(0, end))) own.name.resize(end);
+  own.name = own_name(without_port(constant.name, port), port);
   port.constants.push_back(std::move(own));
 }
 

@@ -18,7 +18,8 @@ struct VerifiedPort {
   std::vector<HeaderConstant> constants = {};  // of the header, without the port's name
 };
 
-// The port whose name is the longest that the constant's begins with; empty where there is none.
+// The port with whose name the constant's begins, and whose law has one that is called like the rest; of several such,
+// or where none has, the longest name. Empty where none begins it.
 std::optional<std::size_t> port_of(const std::string& constant, const std::vector<VerifiedPort>& ports);
 
 // Gives the port a constant of the header. What keeps apart what would be called alike is no part of the port's names.

@@ -186,6 +186,14 @@ void look_at_sum(const HeaderConstant& constant, const Compilation& compiled,
     diagnostics.report<DiagnosticCode::constant_wrong>({}, constant.name, 1, single, fact->second.front().str(20));
 }
 
+// What is found again of all ports together: sums, of which nothing is computed another way.
+void compare_sum(const CertificateFile& certificate, const Compilation& compiled, ScalarType scalar,
+                 Diagnostics& diagnostics) {
+  const std::optional<double>& gain = compiled.certificate.quantisation_gain;
+  compare_with_recompiled(certificate, compiled, gain ? std::optional(ReferenceGain{*gain, *gain}) : std::nullopt,
+                          scalar, diagnostics);
+}
+
 // Port by port, as those of a law by itself on its share of the device.
 void recompute_ports(const CertificateFile& certificate, const HeaderConstants& header, const Compilation& compiled,
                      Diagnostics& diagnostics) {
@@ -249,7 +257,8 @@ std::size_t verify_constants(const CertificateFile& certificate, const PortDevic
 void verify_bounds(const CertificateFile& certificate, const PortDevice& device, const HeaderConstants& header,
                    const Compilation& compiled, Diagnostics& diagnostics) {
   if (is_plainly_linear(compiled.network)) Verification(certificate, header, diagnostics).recompute_bounds(device);
-  else if (compiled.network.map || !compiled.ports.empty())
+  else if (!compiled.ports.empty()) compare_sum(certificate, compiled, header.scalar, diagnostics);
+  else if (compiled.network.map)
     compare_with_recompiled(certificate, compiled, std::nullopt, header.scalar, diagnostics);
   else if (compiled.law.tunable) TunableVerification(certificate, header, compiled, diagnostics).recompute_bounds();
   else SlipVerification(certificate, header, device, compiled, diagnostics).recompute_bounds();

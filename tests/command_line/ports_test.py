@@ -97,6 +97,15 @@ class PortsTest(CommandTest):
             changed += 1
         self.assertGreater(changed, 6)
 
+    # If this fails, `verify` gives the constants of a port to another whose name begins alike.
+    def test_names_that_begin_alike(self):
+        def solid(of):
+            return {"parallel": [{"spring": "400 N/m", "name": f"{of}K0"}, {"series": [{"spring": "200 N/m", "name": f"{of}K1"},
+                                                                                   {"damper": "20 N s/m", "name": f"{of}B1"}]}]}
+        network = self.network({"name": "a", "network": solid("b_")}, {"name": "a_b", "network": solid("")})
+        self.dashpot("compile", network, "--certificate", "law.json")
+        self.assertIn("recomputed in 100 digits", self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
+
     # If this fails, explain does not tell each port, its share, and the sum.
     def test_explain_tells_every_port(self):
         text = self.dashpot("explain", PAD, "--device", "rig.json", "--legend").stdout

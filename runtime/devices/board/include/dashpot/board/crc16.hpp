@@ -20,9 +20,28 @@ constexpr std::uint16_t crc16_extend(std::uint16_t rest, std::uint8_t byte) noex
   return static_cast<std::uint16_t>((unsigned{rest} >> 8) ^ (mixed << 8) ^ (mixed << 3) ^ (mixed >> 4));
 }
 
+// What the steps make of each byte alone. On a computer 512 bytes cost less than the shifts, on a board they do not.
+inline constexpr bool crc16_has_table = sizeof(void*) > 4;
+
+struct crc16_table {
+  std::uint16_t rest[256] = {};
+
+  constexpr crc16_table() noexcept {
+    for (unsigned byte = 0; byte < 256; ++byte) rest[byte] = crc16_extend(0, static_cast<std::uint8_t>(byte));
+  }
+};
+
+inline constexpr crc16_table crc16_of_byte;
+
 constexpr std::uint16_t crc16(const std::uint8_t* bytes, std::size_t count) noexcept {
   std::uint16_t rest = crc16_start;
-  for (std::size_t i = 0; i < count; ++i) rest = crc16_extend(rest, bytes[i]);
+  if constexpr (crc16_has_table) {
+    for (std::size_t i = 0; i < count; ++i)
+      rest =
+          static_cast<std::uint16_t>((unsigned{rest} >> 8) ^ crc16_of_byte.rest[(unsigned{rest} ^ bytes[i]) & 0xFFU]);
+  } else {
+    for (std::size_t i = 0; i < count; ++i) rest = crc16_extend(rest, bytes[i]);
+  }
   return static_cast<std::uint16_t>(~unsigned{rest});
 }
 

@@ -85,6 +85,8 @@ struct Balance {
   double least = 0, largest = 0;
 };
 
+constexpr int trembles = 400;
+
 class Attack {
  public:
   Attack(const compiler::Compilation& c, const Loop& loop, double damping, double place = 0)
@@ -97,6 +99,12 @@ class Attack {
   void go(double wanted, double share = 1) {
     sample();
     move(wanted, share);
+  }
+
+  // To and fro from a place, by a part of what the speed lets it go in a hold.
+  void tremble(double place, double part = 1) {
+    const double most = part * loop_.speed * (loop_.period + loop_.jitter);
+    for (int k = 0; k < trembles; ++k) go(place + (k % 2 == 0 ? most : 0));
   }
 
   // The tool goes where it takes most out of the command that is held, or a part of the way.
@@ -149,5 +157,14 @@ class Attack {
   double place_ = 0, energy_ = 0;
   Balance balance_;
 };
+
+// Begins at rest at a place, and trembles there.
+inline Balance after_trembling(const compiler::Compilation& c, const Loop& loop, double damping, double place,
+                               double part = 1) {
+  Attack attack(c, loop, damping, place);
+  attack.wait();
+  attack.tremble(place, part);
+  return attack.balance();
+}
 
 }  // namespace dashpot::testing

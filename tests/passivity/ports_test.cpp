@@ -73,14 +73,6 @@ Balance after_attacks(const Compilation& c, const Case& one, double damping, std
   return worst;
 }
 
-Balance after_trembling(const Compilation& c, const Loop& loop, double damping, double place, double part) {
-  Attack attack(c, loop, damping, place);
-  attack.wait();
-  const double most = part * loop.speed * (loop.period + loop.jitter);
-  for (int k = 0; k < 400; ++k) attack.go(place + (k % 2 == 0 ? most : 0));
-  return attack.balance();
-}
-
 // If this fails, ports that are called certified side by side give out energy.
 TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
   int certified = 0, limited = 0;
@@ -122,9 +114,9 @@ TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
       for (const double part : {1.0, 0.1}) {
         const double place = one.loop.travel * i / 40;
         const Balance less = after_trembling(first, one.loop, 0.9 * needed, place, part);
-        gained = gained || less.least < -rounding * 400 * less.largest;
+        gained = gained || less.least < -rounding * trembles * less.largest;
         const Balance enough = after_trembling(first, one.loop, needed, place, part);
-        EXPECT_GE(enough.least, -rounding * 400 * enough.largest) << seed << " " << place << " " << one.network;
+        EXPECT_GE(enough.least, -rounding * trembles * enough.largest) << seed << " " << place << " " << one.network;
       }
     gains += gained;
   }

@@ -37,16 +37,6 @@ Case random_curve(std::uint64_t seed, bool with_brake) {
   return one;
 }
 
-constexpr int trembles = 400;
-
-// Begins at rest at a place, and trembles there.
-Balance after_trembling(const Compilation& c, const Loop& loop, double damping, double place) {
-  Attack attack(c, loop, damping, place);
-  const double most = loop.speed * (loop.period + loop.jitter);
-  for (int k = 0; k < trembles; ++k) attack.go(place + (k % 2 == 0 ? most : 0));
-  return attack.balance();
-}
-
 constexpr double rounding = 1e-12;
 
 // If this fails, a law behind a curve that is called certified gives out energy.

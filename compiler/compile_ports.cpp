@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "certify/curve_bound.hpp"
 #include "certify/hold_bound.hpp"
 #include "certify/unproved.hpp"
 #include "compile.hpp"
@@ -10,7 +11,6 @@
 #include "discretise/law_writer.hpp"
 #include "discretise/rounding.hpp"
 #include "law/representable.hpp"
-#include "linear/validity.hpp"
 #include "lower/drop_unread.hpp"
 #include "lower/parallel_law.hpp"
 #include "stage_times.hpp"
@@ -53,12 +53,8 @@ double largest_force(const Compilation& port) {
   for (const Mode& mode : linear.modes) stiffness += to_double(mode.stiffness);
   double way = travel;
   if (network.map) steepest = network.map->largest_tangent(0, travel), way = network.map->value_at(travel);
-  double force = steepest * (stiffness * way +
-                             to_double(linear.feedthrough_damping) * steepest * port.certificate.loop.tool_speed);
-  for (const Element& element : network.elements)
-    if (const Slip* slip = std::get_if<Slip>(&element.law); slip && element.has_effect)
-      force += steepest * slip->yield_force;
-  return force;
+  const double of_damper = to_double(linear.feedthrough_damping) * steepest * loop.tool_speed;
+  return steepest * (stiffness * way + of_damper + yield_forces(network));
 }
 
 std::vector<DeviceShare> shares_of(const std::vector<Compilation>& alone) {
@@ -128,12 +124,12 @@ PassivityBound sum_of_bounds(const std::vector<Compilation>& ports) {
   Rational needed = 0;
   for (const Compilation& port : ports) {
     const PassivityBound& bound = port.certificate.bound;
-    needed += Rational(bound.needed);
     if (bound.proof == Proof::none)
       return not_proved("port '" + port.network.name +
                         "': " + why_not_certified(port.certificate, port.network.port_motion));
     if (sum.reason.empty() && !bound.reason.empty()) sum.reason = "port '" + port.network.name + "': " + bound.reason;
-    if (bound.proof == Proof::sampled && sum.proof == Proof::hold) sum.proof = Proof::sampled;
+    needed += Rational(bound.needed);
+    if (bound.proof == Proof::sampled) sum.proof = Proof::sampled;
     sum.any_regime |= bound.any_regime;
     sum.any_value |= bound.any_value;
     sum.constant_period_only |= bound.constant_period_only;
@@ -195,8 +191,8 @@ double surely_told(double damping, ScalarType scalar) { return damping * (1 - 16
 
 // What the sum lacks, though it may be that no port lacks anything on its share: as far as the brake reaches. Where all
 // ports are contacts the brake leaves a free tool alone, and nothing would help.
-double added_for_all(const std::vector<Compilation>& ports, const SampledLoop& loop, ScalarType scalar) {
-  const PassivityBound bound = sum_of_bounds(ports);
+double added_for_all(const std::vector<Compilation>& ports, const PassivityBound& bound, const SampledLoop& loop,
+                     ScalarType scalar) {
   double least = 0, most = 0;
   bool all_in_contact = true;
   for (const Compilation& port : ports) {
@@ -210,11 +206,11 @@ double added_for_all(const std::vector<Compilation>& ports, const SampledLoop& l
   return most + added <= loop.max_damping ? added : 0;
 }
 
-Certificate certificate_of_all(const std::vector<Compilation>& ports, const UpdateLaw& law, double added,
-                               const SampledLoop& loop) {
+Certificate certificate_of_all(const std::vector<Compilation>& ports, PassivityBound bound, const UpdateLaw& law,
+                               double added, const SampledLoop& loop) {
   Certificate all;
   all.loop = loop;
-  all.bound = sum_of_bounds(ports);
+  all.bound = std::move(bound);
   all.added_damping = added;
   double gain = 0;
   bool is_gain_known = true;
@@ -299,9 +295,10 @@ std::optional<Compilation> compile_ports(Network network, const Choices& asked, 
     has_slips |= port.form.has_slips();
   }
   const SampledLoop loop = sampled_loop(c.port, 1 / c.rate);
-  const double added = added_for_all(*ports, loop, asked.scalar);
+  PassivityBound bound = sum_of_bounds(*ports);
+  const double added = added_for_all(*ports, bound, loop, asked.scalar);
   c.law = without_unread_locals(parallel_law(laws, added, network.port_motion));
-  c.certificate = certificate_of_all(*ports, c.law, added, loop);
+  c.certificate = certificate_of_all(*ports, std::move(bound), c.law, added, loop);
   c.decomposition = choice_of_all(*ports, with_names(asked, device || has_slips), c.certificate);
   c.network = std::move(network);
   c.ports = std::move(*ports);

@@ -18,13 +18,6 @@ namespace {
 constexpr double margin = 1 + 1e-9;  // of sums in double, some thousand terms of them
 constexpr int stretches_of_cell = 8;
 
-double yield_forces(const Network& network) {
-  double sum = 0;
-  for (const Element& element : network.elements)
-    if (const Slip* slip = std::get_if<Slip>(&element.law); slip && element.has_effect) sum += slip->yield_force;
-  return sum;
-}
-
 std::string hindrance(bool estimate_drives_modes, const std::optional<SlipMotor>& slips, const SampledLoop& tool) {
   if (estimate_drives_modes || (slips && slips->held_compensation > 0))
     return "the estimated velocity moves the law's states, and of that nothing is proved behind a static curve";
@@ -305,6 +298,13 @@ std::string hindrance_of_tunables(const Network& network, const BoxHold& held, c
 }
 
 }  // namespace
+
+double yield_forces(const Network& network) {
+  double sum = 0;
+  for (const Element& element : network.elements)
+    if (const Slip* slip = std::get_if<Slip>(&element.law); slip && element.has_effect) sum += slip->yield_force;
+  return sum;
+}
 
 PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Network& network,
                                   const std::optional<SlipMotor>& slips, const PortDevice& at_tool,

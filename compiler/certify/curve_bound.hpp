@@ -34,6 +34,9 @@
 
 namespace dashpot::compiler {
 
+// Σ Y of the slips that forces can pass through [N].
+double yield_forces(const Network& network);
+
 // What the brake is told is b w′², b being `damping`: the bound of what such a motor needs at the tool, the slowest
 // place for b being counted as if it were everywhere. `behind` is the loop behind the map.
 PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Network& network,

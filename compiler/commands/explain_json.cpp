@@ -7,6 +7,7 @@
 #include "linear/quasi_linear.hpp"
 #include "network/port_units.hpp"
 #include "law/cost.hpp"
+#include "verify/network_json.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -285,11 +286,7 @@ Json explained(const Compilation& c) {
 Json explained_ports(const Compilation& c) {
   Json ports = Json::array();
   for (const Compilation& port : c.ports) {
-    Json one = {
-        {"share_of_device",
-         c.device
-             ? Json({{"brake", port.share.brake}, {"own_damping", port.share.own_damping}, {"motor", port.share.motor}})
-             : Json(nullptr)}};
+    Json one = {{"share_of_device", c.device ? json_of(port.share) : Json(nullptr)}};
     one.update(explained(port));
     ports.push_back(std::move(one));
   }

@@ -7,5 +7,7 @@ foreach(path IN LISTS TEMPLATES)
   string(APPEND entries "    {\"${name}\", R\"dashpot_template(${text})dashpot_template\"sv},\n")
 endforeach()
 file(WRITE "${OUTPUT}" "#include \"${HEADER}\"\n\nnamespace dashpot::compiler {\n\n"
-  "std::span<const ${TYPE}> ${FUNCTION}() {\n  using namespace std::string_view_literals;  // whose lengths no compiler has to count\n  static constexpr ${TYPE} all[] = {\n${entries}  };\n"
+  "std::span<const ${TYPE}> ${FUNCTION}() {\n"
+  "  using namespace std::string_view_literals;  // whose lengths no compiler has to count\n"
+  "  static constexpr ${TYPE} all[] = {\n${entries}  };\n"
   "  return all;\n}\n\n}  // namespace dashpot::compiler\n")

@@ -106,15 +106,13 @@ Json json_of_choices(const Compilation& c, const Choices& choices) {
 Json json_of_ports(const Compilation& c) {
   Json ports = Json::array();
   for (const Compilation& port : c.ports)
-    ports.push_back(
-        {{"name", port.network.name},
-         {"share_of_device",
-          {{"brake", port.share.brake}, {"own_damping", port.share.own_damping}, {"motor", port.share.motor}}},
-         {"damping", port.decomposition.choice().damping},
-         {"state_input", name_of(port.decomposition.choice().state_input)},
-         {"elements", json_of_elements(port.network)},
-         {"canonical_form", json_of_form(port.form.linear)},
-         {"passivity", json_of(port.certificate)}});
+    ports.push_back({{"name", port.network.name},
+                     {"share_of_device", json_of(port.share)},
+                     {"damping", port.decomposition.choice().damping},
+                     {"state_input", name_of(port.decomposition.choice().state_input)},
+                     {"elements", json_of_elements(port.network)},
+                     {"canonical_form", json_of_form(port.form.linear)},
+                     {"passivity", json_of(port.certificate)}});
   return ports;
 }
 

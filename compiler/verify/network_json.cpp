@@ -23,6 +23,10 @@ Json json_of_elements(const Network& network) {
   return elements;
 }
 
+Json json_of(const DeviceShare& share) {
+  return {{"brake", share.brake}, {"own_damping", share.own_damping}, {"motor", share.motor}};
+}
+
 Json json_of_form(const LinearForm& form) {
   Json modes = Json::array();
   for (const Mode& mode : form.modes)

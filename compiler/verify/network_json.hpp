@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "emit/emission.hpp"
 #include "linear/normal_form.hpp"
 #include "network/network.hpp"
 
@@ -13,5 +14,7 @@ nlohmann::ordered_json json_of_elements(const Network& network);
 
 // In 50 digits.
 nlohmann::ordered_json json_of_form(const LinearForm& form);
+
+nlohmann::ordered_json json_of(const DeviceShare& share);
 
 }  // namespace dashpot::compiler

@@ -275,8 +275,8 @@ Decomposition choice_of_all(const std::vector<Compilation>& ports, const Choices
 
 std::optional<Compilation> compile_ports(Network network, const Choices& asked, const std::optional<Device>& device,
                                          Diagnostics& diagnostics) {
-  if (std::holds_alternative<double>(asked.decomposition)) {
-    diagnostics.report<DiagnosticCode::option_with_ports>({}, "--decomposition with a damping");
+  if (const auto* damping = std::get_if<double>(&asked.decomposition)) {
+    diagnostics.report<DiagnosticCode::damping_for_ports>({}, *damping);
     return std::nullopt;
   }
   Compilation c;

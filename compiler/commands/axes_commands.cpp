@@ -354,7 +354,8 @@ std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const
                                                  Diagnostics& diagnostics) {
   const std::string target(options.target->name);
   const char* const option = option_of_one_axis(options);
-  if (target != "cpp") diagnostics.report<DiagnosticCode::target_on_two_axes>(c.network.name_span, target);
+  if (target != "cpp")
+    diagnostics.report<DiagnosticCode::target_on_two_axes>(c.network.name_span, target, "--target cpp");
   if (option != nullptr) diagnostics.report<DiagnosticCode::option_on_two_axes>(c.network.name_span, option);
   if (target != "cpp" || option != nullptr) return std::nullopt;
   return insist_on_certificate(c, options, diagnostics) ? emit_axes_cpp(c, options.emission, diagnostics)

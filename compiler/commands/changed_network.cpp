@@ -37,12 +37,21 @@ bool is_a_table(std::string_view text) {
   return is_word && line.find_first_of(",;\t") != line.npos && line.find_first_of("{}:") == line.npos;
 }
 
+// A parameter, or an element; `port` is the name of its port and a dot, or empty.
+struct Named {
+  std::string port, name;
+  Span value;
+};
+
 class NetworkChanger {
  public:
   NetworkChanger(const JsonValue& root, Diagnostics& diagnostics) : root_(root), diagnostics_(diagnostics) {
     if (const JsonMember* parameters = find_member(root, "parameters"))
-      for (const JsonMember& parameter : parameters->value.members) add(parameter.key, value_of(parameter.value));
-    find_elements(root);
+      for (const JsonMember& parameter : parameters->value.members)
+        named_.push_back({"", parameter.key, value_of(parameter.value)});
+    if (const JsonMember* ports = find_member(root, "ports"))
+      for (const JsonValue& port : ports->value.items) find_elements(port, name_of(port) + ".");
+    else find_elements(root, "");
   }
 
   void rename(const std::string& name) {
@@ -56,10 +65,14 @@ class NetworkChanger {
     if (equals == std::string::npos || equals == 0 || equals + 1 == words.size())
       return diagnostics_.report<DiagnosticCode::set_malformed>({}, excerpt(words));
     const std::string name = words.substr(0, equals);
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found == names_.end()) return report_missing(name);
-    replace(values_[static_cast<std::size_t>(found - names_.begin())], value_text(words.substr(equals + 1)),
-            "--set " + words);
+    std::vector<const Named*> found;
+    for (const Named& each : named_)
+      if (each.name == name || each.port + each.name == name) found.push_back(&each);
+    if (found.empty()) return report_missing(name);
+    // A parameter hides elements of its name; it is of no port.
+    if (found.size() > 1 && found[0]->port != found[1]->port && !found[0]->port.empty())
+      return diagnostics_.report<DiagnosticCode::set_ambiguous>({}, excerpt(name), listed(found));
+    replace(found.front()->value, value_text(words.substr(equals + 1)), "--set " + words);
   }
 
   SourceFile changed(const SourceFile& file) {
@@ -86,19 +99,19 @@ class NetworkChanger {
     return stated ? stated->value.span : parameter.span;
   }
 
-  // Whatever has a name and is a spring, a damper or a slip; names of parameters go before those of elements.
-  void find_elements(const JsonValue& value) {
+  static std::string name_of(const JsonValue& value) {
     const JsonMember* name = find_member(value, "name");
-    for (const char* kind : {"spring", "damper", "slip"})
-      if (const JsonMember* law = find_member(value, kind); law && name && name->value.kind == Kind::string)
-        add(name->value.text, law->value.span);
-    for (const JsonMember& member : value.members) find_elements(member.value);
-    for (const JsonValue& item : value.items) find_elements(item);
+    return name && name->value.kind == Kind::string ? name->value.text : "";
   }
 
-  void add(const std::string& name, Span value) {
-    names_.push_back(name);
-    values_.push_back(value);
+  // Whatever has a name and is a spring, a damper or a slip; names of parameters go before those of elements.
+  void find_elements(const JsonValue& value, const std::string& port) {
+    const std::string name = name_of(value);
+    for (const char* kind : {"spring", "damper", "slip"})
+      if (const JsonMember* law = find_member(value, kind); law && !name.empty())
+        named_.push_back({port, name, law->value.span});
+    for (const JsonMember& member : value.members) find_elements(member.value, port);
+    for (const JsonValue& item : value.items) find_elements(item, port);
   }
 
   // Of two changes of one value the last holds.
@@ -109,18 +122,27 @@ class NetworkChanger {
 
   void report_missing(const std::string& name) {
     diagnostics_.report<DiagnosticCode::set_unknown_name>({}, excerpt(name));
-    if (const auto nearest = nearest_name(name, names_))
+    std::vector<std::string> names;
+    std::vector<const Named*> all;
+    for (const Named& each : named_) {
+      names.push_back(each.port + each.name);
+      all.push_back(&each);
+    }
+    if (const auto nearest = nearest_name(name, names))
       return diagnostics_.note<DiagnosticCode::nearest_name>({}, *nearest);
-    std::string known;
-    for (const std::string& each : names_) known += (known.empty() ? "" : ", ") + each;
-    if (!known.empty()) diagnostics_.note<DiagnosticCode::known_keys>({}, known);
+    if (!all.empty()) diagnostics_.note<DiagnosticCode::known_keys>({}, listed(all));
     diagnostics_.note<DiagnosticCode::set_needs_a_name>({});
+  }
+
+  static std::string listed(const std::vector<const Named*>& some) {
+    std::string text;
+    for (const Named* each : some) text += (text.empty() ? "" : ", ") + each->port + each->name;
+    return text;
   }
 
   const JsonValue& root_;
   Diagnostics& diagnostics_;
-  std::vector<std::string> names_;
-  std::vector<Span> values_;  // of the names
+  std::vector<Named> named_;
   std::vector<Change> changes_;
 };
 

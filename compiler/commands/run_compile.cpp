@@ -79,6 +79,18 @@ std::vector<OutputFile> placed(std::vector<OutputFile> files, const Options& opt
   return files;
 }
 
+// A file's name after -o would else become a folder that is called like a file.
+void refuse_file_for_folder(const Options& options, const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
+  const std::filesystem::path folder = options.output.value_or(".");
+  const auto has_its_ending = [&](const OutputFile& file) {
+    return std::filesystem::path(file.name).extension() == folder.extension();
+  };
+  if (folder.extension().empty() || std::filesystem::is_directory(folder)) return;
+  const auto like_it = std::find_if(files.begin(), files.end(), has_its_ending);
+  if (like_it != files.end())
+    diagnostics.report<DiagnosticCode::output_like_a_file>({}, folder.string(), like_it->name);
+}
+
 void report_same_names(const std::vector<OutputFile>& files, Diagnostics& diagnostics) {
   const auto place = [](const OutputFile& file) { return std::filesystem::path(file.name).lexically_normal(); };
   for (std::size_t i = 0; i < files.size(); ++i)
@@ -202,6 +214,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   times.enter("files");
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.print) return write_standard_output(shown, diagnostics);
+  refuse_file_for_folder(options, outputs, diagnostics);
   std::vector<OutputFile> all = placed(std::move(outputs), options);
   if (options.certificate) all.push_back({*options.certificate, certificate});
   if (options.proof) all.push_back({*options.proof, proof});

@@ -4,7 +4,7 @@
 
 #include "commands/motion_cell.hpp"
 #include "fit/column_choice.hpp"
-#include "network/name_rules.hpp"
+#include "source/nearest_name.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -24,20 +24,29 @@ double factor_of(const OtherColumn& other, const Tunable& tunable, Diagnostics& 
   return 1;
 }
 
-void warn_of_case(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics) {
-  for (const OtherColumn& other : motion.others)
-    if (folded(parts_of(other.column).name) == folded(tunable.name))
-      diagnostics.report<DiagnosticCode::csv_column_of_other_case>(other.span, other.column.title, tunable.name);
+// Of columns that are no tunable's own, those whose name is nearest to this one of all.
+void warn_of_misspelt(const Tunable& tunable, const std::vector<std::string>& tunables, const Motion& motion,
+                      Diagnostics& diagnostics) {
+  for (const OtherColumn& other : motion.others) {
+    const std::string name = parts_of(other.column).name;
+    const bool is_own =
+        std::any_of(tunables.begin(), tunables.end(), [&](const std::string& each) { return is_called(other, each); });
+    if (!is_own && nearest_name(name, tunables) == tunable.name)
+      diagnostics.report<DiagnosticCode::csv_misspelt_tunable>(other.span, other.column.title, tunable.name);
+  }
 }
 
 }  // namespace
 
 // Without a column where the motion has none for this tunable.
-ValueColumns::Values ValueColumns::values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics) {
+ValueColumns::Values ValueColumns::values_of(const Tunable& tunable, const Motion& motion,
+                                             Diagnostics& diagnostics) const {
   const auto is_named = [&](const OtherColumn& other) { return is_called(other, tunable.name); };
   const auto found = std::find_if(motion.others.begin(), motion.others.end(), is_named);
   if (found == motion.others.end()) {
-    warn_of_case(tunable, motion, diagnostics);
+    std::vector<std::string> names;
+    for (const Tunable& each : tunables_) names.push_back(each.name);
+    warn_of_misspelt(tunable, names, motion, diagnostics);
     return {};
   }
   const auto again = std::find_if(found + 1, motion.others.end(), is_named);

@@ -31,7 +31,7 @@ class ValueColumns {
     double factor = 1;                    // what 1 in the column is in the tunable's unit
   };
 
-  static Values values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics);
+  Values values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics) const;
   std::vector<double> values_of(std::size_t row, double time, Diagnostics& diagnostics);
   void warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics);
   Span place_of(const std::string& tunable) const;

@@ -214,7 +214,7 @@ std::optional<Port> build_port(const PortDecl& decl, const std::optional<Range>&
   std::optional<Network> network = build_network(decl.network, diagnostics, device_band);
   if (network)
     for (const Parameter& parameter : network->parameters)
-      if (parameter.tunable) diagnostics.report<DiagnosticCode::tunable_on_two_axes>(parameter.span, parameter.name);
+      if (parameter.tunable) diagnostics.report<DiagnosticCode::tunable_with_ports>(parameter.span, parameter.name);
   if (!map || !network) return std::nullopt;
   return Port{decl.name.text, kind->key, *map, std::move(*network), decl.map.span};
 }

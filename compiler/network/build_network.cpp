@@ -88,7 +88,7 @@ class NetworkBuilder {
       if (std::optional<Network> built = build_network(port, diagnostics_, device_band_))
         network_.ports.push_back(std::move(*built));
     for (const Parameter& parameter : network_.parameters)
-      if (parameter.tunable) diagnostics_.report<DiagnosticCode::tunable_on_two_axes>(parameter.span, parameter.name);
+      if (parameter.tunable) diagnostics_.report<DiagnosticCode::tunable_with_ports>(parameter.span, parameter.name);
     return std::move(network_);
   }
 

@@ -101,7 +101,10 @@ std::optional<NetworkDecl> parse_port(const JsonValue& value, const NetworkDecl&
   }
   ObjectReader reader(value, "a port", diagnostics);
   refuse_other_keys(reader, keys_of_port, "map", diagnostics);
-  if (reader.require("name") == nullptr) return std::nullopt;
+  if (reader.require("name") == nullptr) {
+    diagnostics.note<DiagnosticCode::port_needs_a_name>({});
+    return std::nullopt;
+  }
   ObjectOf network(value.span);
   for (const std::string& key : keys_of_port) network.take(reader.find(key));
   NetworkDecl port = parse_network_object(network.value(), diagnostics);

@@ -193,6 +193,11 @@ class Files(CommandTest):
         """Fails if a folder in the place of the second file leaves the first one half done."""
         (self.folder / "out/maxwell.hpp").mkdir(parents=True)
         self.refused("compile", "kelvin.json", "maxwell.json", "-o", "out", code="cannot-write-file")
+        for options in [["-o", "law.hpp"], ["-o", "law.h", "--target", "c99"]]:  # else a folder of that name would be there
+            self.refused("compile", "kelvin.json", *options, code="output-like-a-file")
+            self.assertFalse((self.folder / options[1]).exists())
+        (self.folder / "made.hpp").mkdir()
+        self.dashpot("compile", "kelvin.json", "-o", "made.hpp")
         self.assertEqual(self.files("out"), [])
 
     def test_files_are_replaced_whole(self):

@@ -1,7 +1,9 @@
 """Several ports on one axis in every command that compiles a network."""
 import json
 import math
+import os
 import re
+import subprocess
 import unittest
 
 from dashpot_command import INPUT_REFUSED, SOURCE, CommandTest
@@ -106,6 +108,30 @@ class PortsTest(CommandTest):
         self.dashpot("compile", network, "--certificate", "law.json")
         self.assertIn("recomputed in 100 digits", self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
 
+    # If this fails, --set changes an element of another port than the one that is meant, or more than one.
+    def test_set_reaches_the_port_that_is_named(self):
+        network = self.network({"name": "rub", "network": {"damper": "1 N s/m", "name": "mu"}},
+                               {"name": "rest", "network": {"parallel": [{"damper": "2 N s/m", "name": "mu"}, {"damper": "C", "name": "own"}]}},
+                               parameters={"C": "4 N s/m"})
+
+        def damping(*settings):
+            return json.loads(self.dashpot("explain", network, "--json", *[f"--set={each}" for each in settings]).stdout)["damping"]
+        for settings, sum_of in [([], 7), (["rub.mu=5"], 11), (["rest.mu=5"], 10), (["own=5"], 8), (["rest.own=5"], 8), (["C=5"], 8),
+                                 (["rub.mu=5", "rest.mu=6"], 15)]:
+            with self.subTest(settings):
+                self.assertAlmostEqual(damping(*settings), sum_of, delta=1e-12)
+        told = self.refused("explain", network, "--set", "mu=5", code="set-ambiguous").stderr
+        self.assertIn("one of rub.mu, rest.mu is expected", told)
+        self.assertIn("'rub.mu' is the nearest name", self.refused("explain", network, "--set", "rub.nu=5", code="set-unknown-name").stderr)
+
+    # If this fails, the checker by itself takes several ports for a law that it knows.
+    def test_the_checker_says_what_it_does_not_know(self):
+        network = self.network({"name": "a", "network": KELVIN}, {"name": "b", "network": {"spring": "50 N/m"}})
+        self.dashpot("compile", network, "--certificate", "law.json")
+        checked = subprocess.run([os.environ["DASHPOT_CHECK"], self.folder / "both.hpp", self.folder / "law.json"], capture_output=True, text=True)
+        self.assertEqual(checked.returncode, 3)
+        self.assertIn("nothing is known of slips, contacts, curves, tunables, several ports", checked.stdout + checked.stderr)
+
     # If this fails, explain does not tell each port, its share, and the sum.
     def test_explain_tells_every_port(self):
         text = self.dashpot("explain", PAD, "--device", "rig.json", "--legend").stdout
@@ -164,12 +190,13 @@ class PortsTest(CommandTest):
                               (side_by_side(port, port), "name-taken"), (side_by_side({"network": KELVIN}), "missing-key"),
                               (side_by_side({**port, "valid": {"rate": 1}}), "unknown-key"), (side_by_side("one"), "wrong-type"),
                               (side_by_side({**port, "network": {"spring": "K"}}, parameters={"K": {"value": "4 N/m", "tunable": True, "min": "1 N/m", "max": "9 N/m"}}),
-                               "tunable-on-two-axes")]:
+                               "tunable-with-ports")]:
             with self.subTest(code):
                 self.write("bad.json", json.dumps(network))
                 self.assertIn(f"[{code}]", self.dashpot("check", "bad.json", status=INPUT_REFUSED).stderr)
         self.write("good.json", json.dumps(side_by_side(port)))
-        self.assertIn("[option-with-ports]", self.dashpot("compile", "good.json", "--decomposition", "3", status=INPUT_REFUSED).stderr)
+        self.refused("compile", "good.json", "--decomposition", "3", code="damping-for-ports")
+        self.assertIn("each port has a name", self.refused("check", self.network({"network": KELVIN}), code="missing-key").stderr)
         self.assertIn("several ports", self.dashpot("export", "--to", "generic", "good.json", status=INPUT_REFUSED).stderr)
         self.assertIn("several ports", self.dashpot("explain", "good.json", "--as", "kelvin", status=INPUT_REFUSED).stderr)
 

@@ -353,7 +353,7 @@ class Tunables(SimulateTest):
             self.refused("simulate", "tuned.json", "--input", "motion.csv", code="recording-wrong-unit")
         self.write("motion.csv", table(motion, "time,position,k"))
         told = self.dashpot("simulate", "tuned.json", "--input", "motion.csv").stderr
-        self.assertIn("column 'k' is not read: the tunable is called 'K'", told)
+        self.assertIn("column 'k' is not read; the tunable nearest by name is 'K'", told)
 
     def test_columns_may_be_missing(self):
         """Fails if a tunable without a column is not at its own value, or none at all changes the law."""

@@ -343,7 +343,7 @@ class Remedies {
   double scale_;  // what a device's own unit of damping is worth at the tool
 };
 
-// Notes on what would do, told with what errs least first.
+// Notes on what would do, told with what errs least first. What would ruin the feel is told where there is no other.
 class RemedyNotes {
  public:
   template <DiagnosticCode code, class... Arguments>
@@ -355,8 +355,11 @@ class RemedyNotes {
   void tell(Diagnostics& diagnostics) {
     std::stable_sort(notes_.begin(), notes_.end(),
                      [](const auto& one, const auto& other) { return one.first < other.first; });
-    for (const auto& [error, tell_it] : notes_) tell_it(diagnostics);
-    if (!notes_.empty() && notes_.front().first > ruinous)
+    if (notes_.empty()) return;
+    const bool all_ruin = notes_.front().first > ruinous;
+    for (const auto& [error, tell_it] : notes_)
+      if (all_ruin || error <= ruinous) tell_it(diagnostics);
+    if (all_ruin)
       diagnostics.note<DiagnosticCode::remedies_ruin_the_feel>({}, notes_.size() == 1 ? "this" : "each of these");
   }
 

@@ -26,10 +26,11 @@ struct PassivityBound {
   Proof proof = Proof::none;
   double needed =
       0;  // S or β T_max, not below it; where nothing is proved, what would have to be there for it, or 0 [N·s/m]
-  double frequency = 0;     // that binds [Hz]; 0 where none does
-  std::string reason;       // why nothing is proved, or why it is not the hold certificate; one clause
-  bool any_regime = false;  // with slips or a contact: whatever slides, sticks, touches or lets go
-  bool any_value = false;   // with tunables: wherever they are in their ranges
+  double frequency = 0;       // that binds [Hz]; 0 where none does
+  std::string reason;         // why nothing is proved, or why it is not the hold certificate; one clause
+  bool any_regime = false;    // with slips or a contact: whatever slides, sticks, touches or lets go
+  bool any_value = false;     // with tunables: wherever they are in their ranges
+  bool over_changes = false;  // and in the samples in which they change
   // Proved for punctual samples alone: the amplifier lags. Else it holds under any jitter up to the device's; a
   // certificate states the former only of a device that states no jitter.
   bool constant_period_only = false;

@@ -10,7 +10,9 @@ namespace {
 
 std::string covered(const Certificate& c) {
   std::string regimes = c.bound.any_regime ? ", whatever slides, sticks, touches or lets go" : "";
-  if (c.bound.any_value) regimes += ", any values within their ranges between changes";
+  if (c.bound.any_value)
+    regimes += std::string(", any values within their ranges") +
+               (c.bound.over_changes ? " and any changes of them" : " between changes");
   if (c.bound.constant_period_only)
     return fmt::format("any motion{}, samples at {:.6g} Hz", regimes, 1 / c.loop.sample_period);
   std::string jitter = c.loop.jitter > 0 ? fmt::format(", any jitter up to {:.4g} s", c.loop.jitter) : "";

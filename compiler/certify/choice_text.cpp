@@ -31,9 +31,9 @@ std::string allowance(const FaithfulChoice& choice, double tolerance, bool is_tu
 // Of a damping that was chosen together with the law behind the slips.
 std::string chosen_in_runs(const FaithfulChoice& choice, double error_in_runs, bool is_tunable) {
   return fmt::format(
-      " In runs around yield, in which slips give way{}, it errs by up to {} %. b was chosen by the larger of the two: "
-      "it "
-      "is the largest that errs by no more than {} %, where none brings less than {} %.",
+      " In runs around yield, in which slips give way{}, it errs by up to {} %. b was chosen by the larger of both "
+      "errors: "
+      "it is the largest b that errs by no more than {} %, where none brings less than {} %.",
       is_tunable ? " and parameters keep the values of the file" : "", in_percent(error_in_runs),
       in_percent(choice.allowed_error), in_percent(choice.least_error));
 }
@@ -116,7 +116,7 @@ std::string choice_in_words(const Decomposition& decomposition, const ChosenFor&
   text += by_runs;
   if (what.is_tunable && !is_within(choice.largest_error, by.allowed_error))
     text += " In the band it errs by more than that, because passivity adds more over the ranges of its parameters.";
-  if (!by.certified) text += " Nothing that errs so little is certified.";
+  if (!by.certified) text += " No choice that errs so little is certified on this device.";
   // Its row holds for the values of the file, that of the choice for all in their ranges.
   const Candidate* paper = what.is_tunable ? nullptr : named(decomposition, "paper");
   if (paper) text += " " + against_paper(choice, *paper, units);

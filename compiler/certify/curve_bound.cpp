@@ -355,7 +355,7 @@ PassivityBound bound_over_box(UpdateLaw& law, const Network& network, const std:
   const CurveNeed need(forces, stiffness, box.least_brake, network, tool, at_tool.coil_lag());
   const double needed = forces.is_stepwise ? 0 : box.needed;  // of a step by itself less is needed than of all together
   PassivityBound bound = lacking_beside(need.lacking(needed, *of_estimate), box.least_brake, network, tool);
-  bound.any_value = true;
+  bound.any_value = bound.over_changes = true;
   return bound;
 }
 

@@ -341,12 +341,12 @@ std::string ports_text(const Compilation& c, const PortUnits& units, bool with_l
     text += "port " + port.network.name + "\n";
     if (c.device) text += "share of the device   " + to_text(port.share) + "\n";
     text += choice_text(port, units, with_legend && &port == &c.ports.front());
-    text += fmt::format("damping it needs      {}\n\n",
-                        port.certificate.bound.proof == Proof::none
-                            ? "not known: " + port.certificate.bound.reason
-                            : fmt::format("{:.6g} {} of its own share and of its part of the "
-                                          "brake",
-                                          port.certificate.bound.needed, units.damping));
+    text +=
+        fmt::format("damping it needs      {}\n\n", port.certificate.bound.proof == Proof::none
+                                                        ? "not known: " + port.certificate.bound.reason
+                                                        : fmt::format("{:.6g} {} from the brake's and the device's own "
+                                                                      "damping that it may count on",
+                                                                      port.certificate.bound.needed, units.damping));
   }
   return text + "all ports together\n";
 }

@@ -183,7 +183,8 @@ class DeviceBuilder {
   // One time, or the earliest and the latest.
   void read_write_delay(const SectionReader& reader, loop_description& loop) {
     if (reader.is_list("write_delay")) {
-      reader.read_pair("write_delay", dimensions::time, Bound::zero_or_more, loop.write_earliest, loop.write_latest);
+      reader.read_pair("write_delay", dimensions::time, Bound::zero_or_more, loop.write_earliest, loop.write_latest,
+                       true);
     } else {
       reader.read("write_delay", dimensions::time, Bound::zero_or_more, loop.write_latest);
       loop.write_earliest = loop.write_latest;

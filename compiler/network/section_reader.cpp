@@ -56,15 +56,15 @@ void SectionReader::read(std::string_view key, const Dimension& due, Bound bound
     if (const auto value = value_of(*decl, key, due, bound)) target = *value;
 }
 
-void SectionReader::read_pair(std::string_view key, const Dimension& due, Bound bound, double& low,
-                              double& high) const {
+void SectionReader::read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high,
+                              bool may_be_one) const {
   const EntryDecl* entry = find(key);
   if (entry == nullptr) return;
   if (entry->values.size() != 2) return diagnostics_.report<DiagnosticCode::not_a_pair>(entry->span, dotted(key));
   const auto first = value_of(entry->values[0], key, due, bound);
   const auto second = value_of(entry->values[1], key, due, bound);
   if (!first || !second) return;
-  if (*first >= *second)
+  if (*first > *second || (*first == *second && !may_be_one))
     return diagnostics_.report<DiagnosticCode::empty_range>(entry->span, dotted(key), excerpt(entry->values[0].text),
                                                             excerpt(entry->values[1].text));
   low = *first;

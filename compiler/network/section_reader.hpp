@@ -38,7 +38,9 @@ class SectionReader {
   void refuse_other_keys(const std::vector<std::string>& keys, const std::vector<KeyRemedy>& remedies = {});
 
   void read(std::string_view key, const Dimension& due, Bound bound, double& target) const;
-  void read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high) const;
+  // `may_be_one`: whether both may be the same.
+  void read_pair(std::string_view key, const Dimension& due, Bound bound, double& low, double& high,
+                 bool may_be_one = false) const;
   // False, with a diagnostic, for a value that was read and is not from `low` to `high`.
   bool is_within(std::string_view key, double value, double low, double high, const char* unit) const;
   void read_count(std::string_view key, unsigned least, unsigned& target) const;

@@ -326,6 +326,11 @@ class CheckTest(CommandTest):
         prompt["assumed"].remove("motor.amplifier_lag")
         spring = self.write("spring.json", '{"dashpot": 1, "name": "spring", "network": {"spring": "40 N/m", "name": "K"}}')
         cases = ((FIG_5, json.loads(PANTOGRAPH.read_text()), 0), (FIG_5, prompt, 0), (FIG_5, prompt, 1), (spring, prompt, 0), (spring, prompt, 1))
+        punctual = []
+        for always in ("20 us", ["20 us", "20 us"]):  # may be said in both ways
+            prompt["loop"].update(write_delay=always)
+            punctual.append(self.compiled([spring, "--device", self.write("late.json", json.dumps(prompt))])[1]["passivity"])
+        self.assertEqual(*punctual)
         for network, device, delays in cases:
             device["loop"].update(write_delay=["10 us", "30 us"], delay_samples=delays)
             with self.subTest(network=network, lag="amplifier_lag" in device["motor"], delays=delays):

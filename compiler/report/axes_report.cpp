@@ -282,6 +282,8 @@ std::optional<std::string> report(const AxesCompilation& c, const std::optional<
   fields["style"] = built_in("report.css", diagnostics);
   fields["ports"] = ports_html(c);
   for (const std::string& line : passivity_lines(c.certificate, c.device)) fields["passivity"] += sentence(line);
+  if (const std::string steps = steps_line(c.certificate, c.device); !steps.empty())
+    fields["passivity"] += sentence(steps);
   model.lists["facts"] = facts(c);
   for (const char* list : {"networks", "workspace", "shares", "no_device"}) model.lists[list];
   for (std::size_t i = 0; i < c.ports.size(); ++i)

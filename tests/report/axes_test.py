@@ -115,8 +115,11 @@ class AxesReport(Pages):
                 self.assertAlmostEqual(length / most * longest, 0.2 * (radius - math.dist(start, centre)), delta=0.03 * longest)
 
     def test_the_arm(self):
-        """Fails if links are drawn with other lengths than the arm's, or do not meet in the middle of the workspace."""
-        arm = self.maps(self.page(FIELD, "--device", PANTOGRAPH))[0]
+        """Fails if links are drawn with other lengths than the arm's, or do not meet in the middle of the workspace, or
+        the page leaves out what the encoders' steps bring in."""
+        page = self.page(FIELD, "--device", PANTOGRAPH)
+        self.assertIn("<p>Encoder steps: in what the motors make they come to no more than ", page)  # as `explain` says
+        arm = self.maps(page)[0]
         links = arm.pieces("link")
         self.assertEqual([round(math.dist(*link)) for link in links], [63, 75, 63, 75])
         for link in (links[1], links[3]):

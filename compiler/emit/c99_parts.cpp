@@ -103,6 +103,8 @@ class Wording {
     for (const double half : {0x1p256, 0x1p256, 0x1p128, 0x1p64, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1})
       if (!is_float || half < 0x1p64) halves += (halves.empty() ? "" : ", ") + literal(half);
     text_["HALVES"] = halves;
+    text_["LAST_PLACE"] = literal(is_float ? 0x1p-23 : 0x1p-52);
+    text_["HALF_OF_DIGITS"] = literal(is_float ? 0x1p12 + 1 : 0x1p27 + 1);
     for (const char* shared : {"dashpot_flush_below", "dashpot_clamp_to", "dashpot_pushed_in"})
       text_[fmt::format("{}F", shared)] = fmt::format("{}{}", shared, is_float ? "f" : "");
   }

@@ -1,5 +1,5 @@
 #if ROOTS
-// √x, and 0 for x ≤ 0. Infinity stays infinity. The same steps for every x.
+// √x to the nearest number, and 0 for x ≤ 0. Infinity stays infinity. The same steps for every x.
 static inline scalar law_square_root(scalar x) {
   // Powers of two that take any number to between 1 and 4.
   static const scalar halves[] = {HALVES};
@@ -16,6 +16,13 @@ static inline scalar law_square_root(scalar x) {
   // The chord through (1, 1) and (4, 2) is at most 6 % wrong; each of Newton's steps squares the relative error.
   scalar root = (x + 2) / 3;
   for (int step = 0; step < 4; ++step) root = (root + x / root) / 2;
+  // Off by a last place at most. x − root² is exact, from products of half of the digits (Dekker 1971), and a multiple
+  // of LAST_PLACE² as root · LAST_PLACE is; half way between two roots there is none.
+  const scalar spread = HALF_OF_DIGITS * root, high = spread - (spread - root), low = root - high, square = root * root;
+  const scalar rest = (x - square) - ((((high * high) - square) + (2 * high * low)) + (low * low));
+  const scalar nearest = root * LAST_PLACE;
+  if (rest > nearest) root = root + LAST_PLACE;
+  else if (rest <= -nearest) root = root - LAST_PLACE;
   return scale * root;
 }
 

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <dashpot/estimators/estimator_names.hpp>
 
 #include "emit/axes_emission.hpp"
@@ -53,8 +55,12 @@ std::vector<std::string> banner(const AxesCompilation& c) {
                                 c.network.ports[i].network.contact ? ", pushed and never pulled" : "", choice.damping,
                                 choice.name));
   }
-  facts.push_back(fmt::format("kinematics: {}; sine and cosine by polynomials that are off by less than {:.0e}",
-                              name_of(c.device.arm.kind), sine_error(c.law.scalar)));
+  const bool has_range = std::any_of(c.device.joints.begin(), c.device.joints.end(), [](const device_description& j) {
+    return j.encoder.range_low < j.encoder.range_high;
+  });
+  facts.push_back(fmt::format("kinematics: {}; sine and cosine by polynomials that are off by less than {:.0e}{}",
+                              name_of(c.device.arm.kind), sine_error(c.law.scalar),
+                              has_range ? ", of joints that stay within their encoders' ranges" : ""));
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}; what is kept of the past follows the measured position",
                               name_of(c.law.scheme), c.rate, name_of(c.law.scalar)));
   facts.push_back(rule_line(c));

@@ -208,6 +208,8 @@ class Merging {
           writer_.scalar(writer_.unique("q" + number), joint_unit(), "position of joint " + number, Role::input));
       joints.velocities.push_back(
           writer_.scalar(writer_.unique("v" + number), joint_unit() + "/s", "estimate of its velocity", Role::input));
+      const auto [low, high] = plan_.ranges[i];
+      if (rotates() && low < high) terms_.bound(joints.positions.back(), low, high);
     }
     for (std::size_t i = 0; i < 2; ++i)
       joints.torques.push_back(writer_.scalar(writer_.unique("torque_" + std::to_string(i + 1)), torque_unit(),

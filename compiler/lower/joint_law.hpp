@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "axes/brakes.hpp"
@@ -32,6 +33,7 @@ struct JointPlan {
   axes::ViscousField field = {};  // A [N·s/m]
   motion joint_motion = motion::rotation;
   std::optional<axes::CurlGate> gate = std::nullopt;  // for two brakes and `diagonal`
+  axes::Pair<std::pair<double, double>> ranges = {};  // of the joints [rad] or [m]; low == high: unlimited
 };
 
 // Ensures: names begin with the port's name where they come from a port.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace dashpot::compiler {
@@ -54,6 +55,9 @@ std::pair<Real, Real> parts_of_pi(ScalarType scalar) {
 
 // Added and taken away again, it leaves the nearest whole number of what is much smaller.
 Real rounder(ScalarType scalar) { return ldexp(Real(3), scalar == ScalarType::float64 ? 51 : 22); }
+
+// Of an angle that is reduced by them; beyond nobody states a range.
+constexpr int most_eighths = 32;
 
 }  // namespace
 
@@ -207,43 +211,104 @@ TermWriter::NodeId TermWriter::positive(Signed value) {
   return value.is_negative ? node(Kind::subtract, {number(0).node, value.node}).node : value.node;
 }
 
+TermWriter::Signed TermWriter::named(const Real& value, const std::string& name, const char* unit,
+                                     const char* meaning) {
+  const double rounded_value = rounded(value, writer_.law().scalar);
+  call(rounded_value, name, unit, meaning);
+  return number(rounded_value);
+}
+
 TermWriter::Circular TermWriter::circular(Signed angle) {
   auto known = circular_.find(angle.node);
   if (known == circular_.end()) {
-    const ScalarType scalar = writer_.law().scalar;
     const std::string which = std::to_string(circular_.size() + 1);
-    const auto named = [&](const Real& value, const char* name, const char* unit, const char* meaning) {
-      const double rounded_value = rounded(value, scalar);
-      call(rounded_value, name, unit, meaning);
-      return number(rounded_value);
-    };
-    const auto [high, low] = parts_of_pi(scalar);
-    const Signed big = named(rounder(scalar), "rounder", "1", "added and taken away, it rounds to a whole number");
-    const auto nearest = [&](Signed value) { return add(add(value, big), {big.node, true}); };
-    const Signed argument{angle.node};
-    const Signed per_turn = named(1 / boost::math::constants::pi<Real>(), "half_turns_per_radian", "1/rad", "1/π");
-    const Signed turns = nearest(multiply(argument, per_turn));
-    label(turns, "half_turns_" + which, "1", "k, nearest to θ/π");
-    Signed rest = add(argument, {multiply(turns, named(high, "half_turn", "rad", "π, its first digits")).node, true});
-    rest = add(rest, {multiply(turns, named(low, "half_turn_rest", "rad", "π, what is left of it")).node, true});
-    label(rest, "rest_" + which, "rad", "r = θ − k π");
-    const Signed z = multiply(rest, rest);
-    label(z, "rest_squared_" + which, "rad²", "r²");
-    const Signed half = multiply(turns, named(0.5, "half", "1", "1/2"));
-    const Signed odd = add(half, {nearest(half).node, true});  // 0, ½ or −½
-    label(odd, "oddness_" + which, "1", "k/2 less the nearest whole number");
-    const Signed sign =
-        add(named(1, "one", "1", "1"), {multiply(named(8, "eight", "1", "8"), multiply(odd, odd)).node, true});
-    label(sign, "side_" + which, "1", "(−1)^k");
-    const Signed sine = multiply(multiply(sign, rest), polynomial(sine_polynomial(scalar), "sine_term", z));
-    const Signed cosine = multiply(sign, polynomial(cosine_polynomial(scalar), "cosine_term", z));
-    label(sine, "sine_" + which, "1", "sin θ");
-    label(cosine, "cosine_" + which, "1", "cos θ");
-    known = circular_.emplace(angle.node, Circular{sine, cosine}).first;
+    const std::optional<int> eighths = eighths_nearby(angle.node);
+    const Circular both =
+        eighths ? about_eighth_turns({angle.node}, *eighths, which) : about_half_turns({angle.node}, which);
+    label(both.sine, "sine_" + which, "1", "sin θ");
+    label(both.cosine, "cosine_" + which, "1", "cos θ");
+    known = circular_.emplace(angle.node, both).first;
   }
   Circular result = known->second;
   if (angle.is_negative) result.sine.is_negative = !result.sine.is_negative;
   return result;
+}
+
+TermWriter::Circular TermWriter::about_half_turns(Signed angle, const std::string& which) {
+  const ScalarType scalar = writer_.law().scalar;
+  const auto [high, low] = parts_of_pi(scalar);
+  const Signed big = named(rounder(scalar), "rounder", "1", "added and taken away, it rounds to a whole number");
+  const auto nearest = [&](Signed value) { return add(add(value, big), {big.node, true}); };
+  const Signed per_turn = named(1 / boost::math::constants::pi<Real>(), "half_turns_per_radian", "1/rad", "1/π");
+  const Signed turns = nearest(multiply(angle, per_turn));
+  label(turns, "half_turns_" + which, "1", "k, nearest to θ/π");
+  Signed rest = add(angle, {multiply(turns, named(high, "half_turn", "rad", "π, its first digits")).node, true});
+  rest = add(rest, {multiply(turns, named(low, "half_turn_rest", "rad", "π, what is left of it")).node, true});
+  label(rest, "rest_" + which, "rad", "r = θ − k π");
+  const Signed z = multiply(rest, rest);
+  label(z, "rest_squared_" + which, "rad²", "r²");
+  const Signed half = multiply(turns, named(0.5, "half", "1", "1/2"));
+  const Signed odd = add(half, {nearest(half).node, true});  // 0, ½ or −½
+  label(odd, "oddness_" + which, "1", "k/2 less the nearest whole number");
+  const Signed sign =
+      add(named(1, "one", "1", "1"), {multiply(named(8, "eight", "1", "8"), multiply(odd, odd)).node, true});
+  label(sign, "side_" + which, "1", "(−1)^k");
+  return {multiply(multiply(sign, rest), polynomial(sine_polynomial(scalar), "sine_term", z)),
+          multiply(sign, polynomial(cosine_polynomial(scalar), "cosine_term", z))};
+}
+
+TermWriter::Circular TermWriter::about_eighth_turns(Signed angle, int eighths, const std::string& which) {
+  const ScalarType scalar = writer_.law().scalar;
+  Signed rest = angle;
+  if (eighths != 0) {
+    const auto [high, low] = parts_of_pi(scalar);
+    const Real count = Real(eighths) / 4;
+    const std::string name = fmt::format("eighth_turns_{}", std::abs(eighths));
+    for (const Signed part : {named(count * high, name, "rad", "a multiple of π/4, its first digits"),
+                              named(count * low, name + "_rest", "rad", "a multiple of π/4, what is left of it")})
+      rest = add(rest, {part.node, !part.is_negative});
+    label(rest, "rest_" + which, "rad", "r, from a multiple of π/4");
+  }
+  const Signed z = multiply(rest, rest);
+  label(z, "rest_squared_" + which, "rad²", "r²");
+  Signed sine = multiply(rest, polynomial(sine_polynomial(scalar), "sine_term", z)),
+         cosine = polynomial(cosine_polynomial(scalar), "cosine_term", z);
+  // sin (r + π/4) = √½ (sin r + cos r), cos (r + π/4) = √½ (cos r − sin r)
+  if (eighths % 2 != 0) {
+    const Signed root = named(sqrt(Real(0.5)), "root_of_half", "1", "√½");
+    std::tie(sine, cosine) =
+        std::pair(multiply(root, add(sine, cosine)), multiply(root, add(cosine, {sine.node, !sine.is_negative})));
+  }
+  // sin (r + π/2) = cos r, cos (r + π/2) = −sin r
+  for (int turn = ((eighths >> 1) % 4 + 4) % 4; turn > 0; --turn)
+    std::tie(sine, cosine) = std::pair(cosine, Signed{sine.node, !sine.is_negative});
+  return {sine, cosine};
+}
+
+// k, where the angle stays within a quarter turn of k π/4; even where it can be, which takes less.
+std::optional<int> TermWriter::eighths_nearby(NodeId angle) const {
+  const std::optional<std::pair<double, double>> range = range_of(angle);
+  if (!range) return std::nullopt;
+  const double eighth = std::numbers::pi / 4, middle = (range->first + range->second) / (2 * eighth);
+  if (!(std::abs(middle) < most_eighths)) return std::nullopt;
+  const int even = 2 * static_cast<int>(std::lround(middle / 2)), odd = even + (middle < even ? -1 : 1);
+  for (const int eighths : {even, odd})
+    if (std::max(range->second - eighths * eighth, eighths * eighth - range->first) <= 2 * eighth) return eighths;
+  return std::nullopt;
+}
+
+std::optional<std::pair<double, double>> TermWriter::range_of(NodeId angle) const {
+  const Node& node = nodes_[angle];
+  if (node.kind == Kind::number) return std::pair(node.number, node.number);
+  if (node.kind == Kind::variable) {
+    const auto found = ranges_.find(node.variable);
+    return found == ranges_.end() ? std::nullopt : std::optional(found->second);
+  }
+  if (node.kind != Kind::add && node.kind != Kind::subtract) return std::nullopt;
+  const auto a = range_of(node.operands[0]), b = range_of(node.operands[1]);
+  if (!a || !b) return std::nullopt;
+  return node.kind == Kind::add ? std::pair(a->first + b->first, a->second + b->second)
+                                : std::pair(a->first - b->second, a->second - b->first);
 }
 
 // Horner's scheme.

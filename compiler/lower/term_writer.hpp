@@ -6,12 +6,15 @@
 //     sin θ = (−1)^k r P(r²),   cos θ = (−1)^k Q(r²),
 //
 // where P and Q meet sin(√z)/√z and cos(√z) at the Chebyshev nodes of 0 ≤ z ≤ π²/4. Without rounding they are off by
-// less than sine_error() of 1. Angles beyond 2²⁰ half turns lose digits.
+// less than sine_error() of 1. Angles beyond 2²⁰ half turns lose digits. Of an angle that is known to stay within a
+// quarter turn of k π/4, k a whole number, r = θ − k π/4 takes less, since k is known beforehand.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "discretise/law_writer.hpp"
@@ -27,7 +30,10 @@ class TermWriter {
   explicit TermWriter(LawWriter& writer) : writer_(writer) {}
   // For another program of the same law: constants are called as in the first.
   TermWriter(LawWriter& writer, const TermWriter& first)
-      : writer_(writer), labels_(first.labels_), numbers_(first.numbers_) {}
+      : writer_(writer), labels_(first.labels_), numbers_(first.numbers_), ranges_(first.ranges_) {}
+
+  // Between what a variable, which is an angle, always stays [rad].
+  void bound(VariableId angle, double low, double high) { ranges_[angle] = {low, high}; }
 
   // What a local is called that is made of this term, if one is.
   void call(const Term& term, const std::string& name, const std::string& unit, const std::string& meaning);
@@ -75,6 +81,11 @@ class TermWriter {
   Signed pick(const std::shared_ptr<const TermTable>& table, NodeId place);
   NodeId positive(Signed value);  // a node of that value
   Circular circular(Signed angle);
+  Circular about_half_turns(Signed angle, const std::string& which);
+  Circular about_eighth_turns(Signed angle, int eighths, const std::string& which);
+  std::optional<int> eighths_nearby(NodeId angle) const;
+  std::optional<std::pair<double, double>> range_of(NodeId angle) const;
+  Signed named(const Real& value, const std::string& name, const char* unit, const char* meaning);
   Signed polynomial(const std::vector<Real>& coefficients, const char* name, Signed z);
   void label(Signed value, const std::string& name, const std::string& unit, const std::string& meaning);
   void use(NodeId id);
@@ -93,6 +104,7 @@ class TermWriter {
   std::vector<std::shared_ptr<const TermTable>> tables_;  // each of its name
   std::map<double, Label> labels_;
   std::size_t parts_ = 0, numbers_ = 0;
+  std::map<VariableId, std::pair<double, double>> ranges_;
 };
 
 }  // namespace dashpot::compiler

@@ -59,6 +59,12 @@ void add_circular(ScalarType scalar, std::map<std::string, Reference>& all) {
       all[fmt::format("{}_term_{}", is_sine ? "sine" : "cosine", i)] = abs(polynomial[i]);
   }
   const Reference first = ldexp(floor(ldexp(pi(), is_double ? 31 : 10)), is_double ? -31 : -10);
+  for (int eighths = 1; eighths <= 33; ++eighths) {
+    const std::string name = fmt::format("eighth_turns_{}", eighths);
+    all[name] = first * eighths / 4;
+    all[name + "_rest"] = (pi() - first) * eighths / 4;
+  }
+  all["root_of_half"] = sqrt(Reference(0.5));
   all["half_turns_per_radian"] = 1 / pi();
   all["half_turn"] = first;
   all["half_turn_rest"] = pi() - first;

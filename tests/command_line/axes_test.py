@@ -203,10 +203,48 @@ class AxesTest(CommandTest):
         arm = json.loads(PANTOGRAPH.read_text())
         arm["kinematics"] = {"kind": "parallelogram", "links": ["100 mm", "100 mm"],
                              "workspace": {"x": ["-40 mm", "40 mm"], "y": ["90 mm", "150 mm"]}}
-        arm["assumed"] = []
+        arm["encoders"], arm["assumed"] = arm["encoders"][0], []
+        del arm["encoders"]["range"]
         self.write("arm.json", json.dumps(arm))
-        cost = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)["operations"]
-        self.assertLessEqual(cost["output"] + cost["update"], 150)
+        for device in ("arm.json", PANTOGRAPH):
+            cost = json.loads(self.dashpot("explain", FIELD, "--device", device, "--json").stdout)["operations"]
+            self.assertLessEqual(cost["output"] + cost["update"], 150)
+
+    # If this fails, a law that knows the ranges of its joints is another one, or knows them for nothing.
+    def test_ranges_of_joints_change_nothing_but_the_cost(self):
+        around = [(0.02 * math.cos(0.01 * k), 0.095 + 0.02 * math.sin(0.017 * k)) for k in range(400)]
+        links = {"links": ["63 mm", "75 mm"], "workspace": {"x": ["-25 mm", "25 mm"], "y": ["70 mm", "120 mm"]}}
+
+        def of_links(x, y):  # of the two links, the elbow to the right
+            far = math.hypot(x, y)
+            first = math.atan2(y, x) - math.acos((far * far + LINK * LINK - DISTAL * DISTAL) / (2 * far * LINK))
+            return first, math.atan2(y - LINK * math.sin(first), x - LINK * math.cos(first))
+        # Ranges about every kind of middle: whole eighths of a turn, even and odd, of both signs, and the sum of two.
+        for kind, joints, ranges in [
+                ("five_bar", joints_of, [(50, 220), (-40, 130)]), ("five_bar", joints_of, [(80, 185), (0, 180)]),
+                ("parallelogram", lambda x, y: list(of_links(x, y)), [(-60, 80), (60, 220)]),
+                ("serial", lambda x, y: [of_links(x, y)[0], of_links(x, y)[1] - of_links(x, y)[0]], [(0, 70), (60, 150)])]:
+            arm = json.loads(PANTOGRAPH.read_text()) | {"assumed": []}
+            arm["kinematics"] = {"kind": kind, **links} | ({"base": "25 mm"} if kind == "five_bar" else {})
+            rows = self.rows([joints(x, y) for x, y in around])
+            for low, high, at in [(*ranges[j], math.degrees(row[j])) for row in rows for j in range(2)]:
+                self.assertTrue(low < at < high, (kind, at))
+            answers, costs = [], []
+            for stated in (None, ranges):
+                for one, limits in zip(arm["encoders"], ranges):
+                    one.pop("range", None)
+                    if stated:
+                        one["range"] = [f"{limit} deg" for limit in limits]
+                self.write("arm.json", json.dumps(arm))
+                answers.append(self.simulated(FIELD, rows, "--device", "arm.json"))
+                cost = json.loads(self.dashpot("explain", FIELD, "--device", "arm.json", "--json").stdout)["operations"]
+                costs.append(cost["output"])
+            with self.subTest(kind=kind, ranges=ranges):
+                self.assertLess(costs[1], costs[0] - 8)
+                largest = [max(abs(row[i]) for row in answers[0]) for i in range(4)]
+                for row, other in zip(*answers):
+                    for i in range(4):
+                        self.assertAlmostEqual(row[i], other[i], delta=2e-14 * largest[i])  # a hundred roundings
 
     # If this fails, the damping that a brake has without current is counted in full where it fades with speed.
     def test_residual_damping_fades_with_speed(self):
@@ -390,7 +428,8 @@ class AxesTest(CommandTest):
         self.assertNotRegex(told, r"\b(inf|nan)\b")
         self.assertIn("more damping at the joints than can be computed", " ".join(told.split()))
         arm = json.loads(PANTOGRAPH.read_text())
-        arm["encoders"]["max_speed"] = "6000 rad/s"
+        for encoder in arm["encoders"]:
+            encoder["max_speed"] = "6000 rad/s"
         self.write("fast.json", json.dumps(arm))
         told = " ".join(self.dashpot("explain", FIELD, "--device", "fast.json").stdout.split())
         self.assertIn("the joints may go on, at the encoders' \"max_speed\", to where the arm does not reach", told)

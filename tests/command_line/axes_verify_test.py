@@ -185,7 +185,9 @@ class AxesVerify(CommandTest):
     def test_late_torques_at_places(self):
         """Fails if verify looks for another need of torques that act samples late than the bound has: more, or far less."""
         arm = json.loads((self.folder / "prompt.json").read_text())
-        arm["loop"]["delay_samples"], arm["encoders"]["max_speed"] = 2, "1 rad/s"
+        arm["loop"]["delay_samples"] = 2
+        for encoder in arm["encoders"]:
+            encoder["max_speed"] = "1 rad/s"
         self.write("late.json", json.dumps(arm))
         header, certificate = self.compiled(FIELD, "--device", "late.json")
         share = re.search(r"over the workspace, ([\d.]+) % are needed at one of", self.verified(header, certificate).stdout)[1]

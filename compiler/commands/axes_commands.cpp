@@ -350,15 +350,27 @@ bool insist_on_certificate(const AxesCompilation& c, const Options& options, Dia
   return options.uncertified;
 }
 
+namespace {
+
+std::string targets_of_two_axes() {
+  std::string names;
+  for (const Target& target : targets())
+    if (target.emit_axes) names += fmt::format("{}--target {}", names.empty() ? "" : " and ", target.name);
+  return names;
+}
+
+}  // namespace
+
 std::optional<std::vector<OutputFile>> emit_axes(const AxesCompilation& c, const Options& options,
                                                  Diagnostics& diagnostics) {
-  const std::string target(options.target->name);
+  const Target& target = *options.target;
   const char* const option = option_of_one_axis(options);
-  if (target != "cpp")
-    diagnostics.report<DiagnosticCode::target_on_two_axes>(c.network.name_span, target, "--target cpp");
+  if (!target.emit_axes)
+    diagnostics.report<DiagnosticCode::target_on_two_axes>(c.network.name_span, std::string(target.name),
+                                                           targets_of_two_axes());
   if (option != nullptr) diagnostics.report<DiagnosticCode::option_on_two_axes>(c.network.name_span, option);
-  if (target != "cpp" || option != nullptr) return std::nullopt;
-  return insist_on_certificate(c, options, diagnostics) ? emit_axes_cpp(c, options.emission, diagnostics)
+  if (!target.emit_axes || option != nullptr) return std::nullopt;
+  return insist_on_certificate(c, options, diagnostics) ? target.emit_axes(c, options.emission, diagnostics)
                                                         : std::nullopt;
 }
 

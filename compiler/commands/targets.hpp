@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "emit/emission.hpp"
+#include "emit/axes_emission.hpp"
 
 namespace dashpot::compiler {
 
@@ -19,6 +19,9 @@ struct Target {
   std::vector<std::string_view> options;  // beyond those that every target takes
   std::optional<std::vector<OutputFile>> (*emit)(const Compilation&, const EmissionOptions&, Diagnostics&);
   bool explains = false;  // takes EmissionOptions::explanation
+  // Of two axes; nullptr where the target knows none.
+  std::optional<std::vector<OutputFile>> (*emit_axes)(const AxesCompilation&, const EmissionOptions&,
+                                                      Diagnostics&) = nullptr;
 };
 
 std::span<const Target> targets();  // the default first

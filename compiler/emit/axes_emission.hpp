@@ -52,4 +52,8 @@ std::optional<axes::ShareMap> share_with(const AxesCompilation& compilation, con
 std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,
                                                      Diagnostics& diagnostics);
 
+// <name>.h. Refuses: templates that do not fit, and names that C keeps for itself.
+std::optional<std::vector<OutputFile>> emit_axes_c99(const AxesCompilation& compilation, const EmissionOptions& options,
+                                                     Diagnostics& diagnostics);
+
 }  // namespace dashpot::compiler

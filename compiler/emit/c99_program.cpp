@@ -15,6 +15,7 @@
 #include "emit/cpp_slips.hpp"
 #include "law/expression_text.hpp"
 #include "law/walk.hpp"
+#include "lower/fuse_step.hpp"
 
 namespace dashpot::compiler {
 namespace {
@@ -41,7 +42,6 @@ class C99Printer {
     program.functions = tunables.functions;
     program.bounds = bounds();
     program.begin = begin(tunables);
-    program.begin.push_back(fmt::format("{}_reset(self, 0);", name_));
     program.reset = reset();
     program.output = output();
     program.update = update();
@@ -53,39 +53,96 @@ class C99Printer {
   }
 
  private:
-  // The parameters as in the file, and what follows from them.
+  // A member of `command`, after a finite sample and after another.
+  struct Answer {
+    std::string member, value, safe;
+  };
+
+  // Of one axis in double, whatever the law computes in.
+  std::vector<Answer> answers() const {
+    std::vector<Answer> all;
+    if (!law_.joints) {
+      const std::string cast = law_.scalar == ScalarType::float32 ? "(double)" : "";
+      const auto damping = [&](VariableId id) { return cast + (law_.brake_changes() ? name(id, 0) : "damping"); };
+      return {{"damping", damping(law_.brake), damping(law_.last_brake)},
+              {"force", cast + name(law_.force, 0), cast + number(0)}};
+    }
+    for (std::size_t i = 0; i < law_.joints->dampings.size(); ++i)
+      all.push_back(
+          {fmt::format("damping[{}]", i), name(law_.joints->dampings[i], 0), name(law_.joints->last_dampings[i], 0)});
+    for (std::size_t i = 0; i < law_.joints->torques.size(); ++i)
+      all.push_back({fmt::format("torque[{}]", i), name(law_.joints->torques[i], 0), number(0)});
+    return all;
+  }
+
+  // What has to be finite for a sample to be kept.
+  std::vector<VariableId> checked() const {
+    if (law_.joints) return checked_numbers(law_);
+    return {law_.position, law_.velocity, law_.checked()};
+  }
+
+  // Of arrays that hold them.
+  Lines joint_inputs() const {
+    Lines lines;
+    if (!law_.joints) return lines;
+    for (const auto& [inputs, array] :
+         {std::pair(&law_.joints->positions, "position"), std::pair(&law_.joints->velocities, "velocity")})
+      for (std::size_t i = 0; i < inputs->size(); ++i)
+        lines.push_back(fmt::format("const {} {} = {}[{}];", scalar(), name((*inputs)[i], 0), array, i));
+    return lines;
+  }
+
+  std::string finite(const std::string& a, const std::string& b, const std::string& c) const {
+    return fmt::format("dashpot_all_finite{}({}, {}, {})", suffix_, a, b, c);
+  }
+
+  // By threes, the last repeated.
+  std::string all_finite(const std::vector<VariableId>& variables) const {
+    std::string text;
+    const auto at = [&](std::size_t i) { return name(variables[std::min(i, variables.size() - 1)], 0); };
+    for (std::size_t i = 0; i < variables.size(); i += 3)
+      text += (text.empty() ? "" : " & ") + finite(at(i), at(i + 1), at(i + 2));
+    return text;
+  }
+
+  std::string finite_or_zero(const std::string& number_there, const std::string& value) const {
+    return fmt::format("({} != 0) ? {} : {}", finite(number_there, number_there, number_there), value, number(0));
+  }
+
+  // The parameters as in the file, what follows from them, and at rest at 0.
   Lines begin(const C99Tunables& tunables) {
     Lines lines = tunables.begin;
     for (const Tunable& parameter : law_.parameters())
       lines.push_back(
           fmt::format("{} = {};", name(parameter.value, 0), number(law_.variables[parameter.value].rest_value)));
     append_all(lines, with_constants({&law_.tune}, lines_of(law_.tune)));
+    if (law_.joints)
+      lines.push_back(fmt::format("const {} origin[{}] = {{0}};", scalar(), law_.joints->positions.size()));
+    lines.push_back(fmt::format("{}_reset(self, {});", name_, law_.joints ? "origin" : "0"));
     return lines;
   }
 
   // The statements of `output` alone read inputs; what is not finite is answered with the last safe command.
   Lines output() {
-    Lines lines = lines_of(law_.output);
-    const bool changes = law_.brake_changes();
-    const std::string force = name(law_.force, 0);
-    lines.push_back(
-        fmt::format("self->sampled = dashpot_all_finite{}(position, velocity, {});", suffix_, name(law_.checked(), 0)));
+    Lines lines = joint_inputs();
+    append_all(lines, lines_of(law_.output));
+    append(lines, fmt::format("self->sampled = {};", all_finite(checked())));
     lines.push_back("if (self->sampled != 0) {");
     append_all(lines, lines_of(law_.keep), "  ");
-    append_all(lines, command(changes ? name(law_.brake, 0) : "damping", force), "  ");
+    append_command(&Answer::value, lines);
     lines.push_back("} else {");
-    append_all(lines, command(changes ? name(law_.last_brake, 0) : "damping", number(0)), "  ");
+    append_command(&Answer::safe, lines);
     lines.push_back("}");
     Lines all = with_constants({&law_.output, &law_.keep}, std::move(lines));
-    if (!changes)
+    if (!law_.joints && !law_.brake_changes())
       all.insert(all.begin(),
                  fmt::format("const {} damping = {};  // b, the brake's part", scalar(), number(law_.damping)));
     return all;
   }
 
-  Lines command(const std::string& damping, const std::string& force) const {
-    const char* cast = law_.scalar == ScalarType::float32 ? "(double)" : "";
-    return {fmt::format("command.damping = {}{};", cast, damping), fmt::format("command.force = {}{};", cast, force)};
+  void append_command(std::string Answer::*number_of, Lines& lines) const {
+    for (const Answer& answer : answers())
+      lines.push_back(fmt::format("  command.{} = {};", answer.member, answer.*number_of));
   }
 
   Lines update() {
@@ -173,6 +230,9 @@ class C99Printer {
     words.has = {{"STEP", false}, {"PUSH", false}, {"BRAKE", false}};
     for (const Coupling& coupling : law_.couplings) words.has[coupling.is_pushed() ? "PUSH" : "STEP"] = true;
     Lines lines;
+    words.has["ROOTS"] = !law_.tunable && uses(law_, Operation::square_root);  // tunables bring their own
+    words.has["DECAYS"] = false;
+    append_all(lines, c99_part("numbers.h", words));
     if (!law_.couplings.empty()) append_all(lines, c99_part("slip_tree.h", words));
     if (!law_.networks.empty()) append_all(lines, c99_part("slip_network.h", words));
     for (const Coupling& coupling : law_.couplings) append_table(coupling, lines);
@@ -482,11 +542,8 @@ class C99Printer {
   Lines reset() {
     Lines lines;
     if (law_.rest_position == no_variable && law_.starts.empty()) lines.push_back("(void)position;");
-    else lines = lines_of(law_.start);
-    if (!law_.starts.empty())
-      lines.insert(lines.begin(), fmt::format("position = (dashpot_all_finite{}(position, position, position) != 0) ? "
-                                              "position : {};",
-                                              suffix_, number(0)));
+    else lines = finite_position();
+    append_all(lines, lines_of(law_.start));
     for (const Variable& variable : law_.variables) {
       if (variable.role != Role::state) continue;
       const std::string rest = rest_of(law_.variables.id_of(variable));
@@ -502,12 +559,26 @@ class C99Printer {
     return with_constants({&law_.start, &law_.rest}, std::move(lines));
   }
 
+  // Of several ports, whose starts are worked out from it.
+  Lines finite_position() const {
+    Lines lines;
+    if (law_.joints) {
+      for (std::size_t i = 0; i < law_.joints->positions.size(); ++i)
+        if (const VariableId joint = law_.joints->positions[i]; reads(law_, law_.start, joint)) {
+          const std::string given = fmt::format("position[{}]", i);
+          lines.push_back(fmt::format("const {} {} = {};", scalar(), name(joint, 0), finite_or_zero(given, given)));
+        }
+    } else if (!law_.starts.empty()) {
+      lines.push_back(fmt::format("position = {};", finite_or_zero("position", "position")));
+    }
+    return lines;
+  }
+
   std::string rest_of(VariableId state) const {
     if (state == law_.rest_position) return rest_position();
     for (const PortStart& start : law_.starts) {
       const std::string there = law_.variables[start.value].name;
-      if (start.state == state)
-        return fmt::format("(dashpot_all_finite{0}({1}, {1}, {1}) != 0) ? {1} : {2}", suffix_, there, number(0));
+      if (start.state == state) return finite_or_zero(there, there);
     }
     return number(law_.variables[state].rest_value);
   }
@@ -517,8 +588,7 @@ class C99Printer {
                               : law_.surface_at
                                   ? fmt::format("dashpot_pushed_in{}({}, position)", suffix_, number(*law_.surface_at))
                                   : "position";
-    return fmt::format("(dashpot_all_finite{}(position, position, position) != 0) ? {} : {}", suffix_, there,
-                       number(0));
+    return finite_or_zero("position", there);
   }
 
   static const std::string& member(const Variable& variable, std::size_t place) {

@@ -6,7 +6,10 @@
 
 #include "emit/axes_emission.hpp"
 #include "emit/banner.hpp"
+#include "emit/c99_parts.hpp"
+#include "emit/c99_program.hpp"
 #include "emit/cpp_program.hpp"
+#include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
 #include "law/cost.hpp"
 #include "lower/term_writer.hpp"
@@ -95,26 +98,26 @@ void describe(const AxesCompilation& c, Fields& fields) {
   fields["name"] = c.network.name;
   fields["scalar"] = name_of(c.law.scalar);
   fields["sample_period"] = cpp_literal(c.law.sample_period, c.law.scalar);
-  fields["motion"] = rotates ? "rotation" : "translation";
   fields["position_unit"] = rotates ? "[rad]" : "[m]";
   fields["velocity_unit"] = rotates ? "[rad/s]" : "[m/s]";
   fields["damping_unit"] = rotates ? "[N·m·s/rad]" : "[N·s/m]";
   fields["brakes"] = std::to_string(c.device.brakes.size());
   fields["added_damping"] = list_of(added);
-  fields["any_device"] = c.has_device ? "false" : "true";
   fields["device"] = string_text(c.device.name);
   fields["device_digest"] = c.device.digest;
   fields["estimators"] = list_of(estimators);
   fields["loop_delay"] = std::to_string(c.device.loop().delay_samples);
-  fields["is_certified"] = c.certificate.certified ? "true" : "false";
 }
 
-CodeModel header_model(const AxesCompilation& c) {
+CodeModel cpp_model(const AxesCompilation& c) {
   Network whole;
   whole.name = c.network.name;
   const CppProgram program = cpp_program(c.law, whole);
   CodeModel model;
   describe(c, model.fields);
+  model.fields["motion"] = c.device.joint_motion() == motion::rotation ? "rotation" : "translation";
+  model.fields["any_device"] = c.has_device ? "false" : "true";
+  model.fields["is_certified"] = c.certificate.certified ? "true" : "false";
   model.fields["command"] = program.command;
   for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
   model.lists["banner"] = as_list(banner(c));
@@ -134,6 +137,26 @@ CodeModel header_model(const AxesCompilation& c) {
   return model;
 }
 
+CodeModel c99_model(const AxesCompilation& c) {
+  const C99Program program = c99_program(c.law, c.network.name);
+  CodeModel model;
+  describe(c, model.fields);
+  const bool rotates = c.device.joint_motion() == motion::rotation;
+  model.fields["is_rotation"] = rotates ? "1" : "0";
+  model.fields["torque_unit"] = rotates ? "[N·m]" : "[N]";
+  model.fields["is_certified"] = c.certificate.certified ? "1" : "0";
+  model.lists["banner"] = as_list(banner(c));
+  model.lists["command"] = as_list(c99_command_header());
+  model.lists["before"] = as_list(program.before);
+  model.lists["states"] = as_list(program.states);
+  model.lists["begin"] = as_list(program.begin);
+  model.lists["reset"] = as_list(program.reset);
+  model.lists["output"] = as_list(program.output);
+  model.lists["update"] = as_list(program.update);
+  model.lists["energy"] = as_list(program.energy);
+  return model;
+}
+
 }  // namespace
 
 std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,
@@ -141,7 +164,7 @@ std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& comp
   const SourceFile* shape = find_template("axes.hpp.in", options.templates, diagnostics);
   if (!shape) return std::nullopt;
   const std::string& name = compilation.network.name;
-  std::optional<std::string> text = fill(*shape, header_model(compilation), diagnostics);
+  std::optional<std::string> text = fill(*shape, cpp_model(compilation), diagnostics);
   if (!text) return std::nullopt;
   std::vector<OutputFile> files = {{name + ".hpp", std::move(*text)}};
   if (options.with_live) {
@@ -151,6 +174,16 @@ std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& comp
     files.push_back({name + "_live.cpp", std::move(*source)});
   }
   return files;
+}
+
+std::optional<std::vector<OutputFile>> emit_axes_c99(const AxesCompilation& compilation, const EmissionOptions& options,
+                                                     Diagnostics& diagnostics) {
+  const AxesNetwork& network = compilation.network;
+  if (!can_be_c99(network.name, network.name_span, diagnostics)) return std::nullopt;
+  const SourceFile* shape = find_template("axes.h.in", options.templates, diagnostics);
+  std::optional<std::string> text = shape ? fill(*shape, c99_model(compilation), diagnostics) : std::nullopt;
+  if (!text) return std::nullopt;
+  return std::vector<OutputFile>{{network.name + ".h", std::move(*text)}};
 }
 
 }  // namespace dashpot::compiler

@@ -159,7 +159,7 @@ CodeModel c_header_model(const Compilation& c) {
 
 std::optional<std::vector<OutputFile>> emit_c99(const Compilation& compilation, const EmissionOptions& options,
                                                 Diagnostics& diagnostics) {
-  if (!can_be_c99(compilation, diagnostics)) return std::nullopt;
+  if (!can_be_c99(compilation.network.name, compilation.network.name_span, diagnostics)) return std::nullopt;
   const SourceFile* shape = find_template("network.h.in", options.templates, diagnostics);
   if (!shape) return std::nullopt;
   std::optional<std::string> text = fill(*shape, c_header_model(compilation), diagnostics);

@@ -36,9 +36,9 @@ bool can_be_emitted(const Compilation& c, const EmissionOptions& options, Diagno
   return !untimed && !single;
 }
 
-bool can_be_c99(const Compilation& c, Diagnostics& diagnostics) {
-  const bool is_taken = c.network.name == "restrict" || c.network.name.starts_with("dashpot_");
-  if (is_taken) diagnostics.report<DiagnosticCode::name_is_word_of_c>(c.network.name_span, c.network.name);
+bool can_be_c99(const std::string& name, const Span& name_span, Diagnostics& diagnostics) {
+  const bool is_taken = name == "restrict" || name.starts_with("dashpot_");
+  if (is_taken) diagnostics.report<DiagnosticCode::name_is_word_of_c>(name_span, name);
   return !is_taken;
 }
 

@@ -10,6 +10,6 @@ namespace dashpot::compiler {
 bool can_be_emitted(const Compilation& compilation, const EmissionOptions& options, Diagnostics& diagnostics);
 
 // The same of C99, where the network's name is also that of a type.
-bool can_be_c99(const Compilation& compilation, Diagnostics& diagnostics);
+bool can_be_c99(const std::string& name, const Span& name_span, Diagnostics& diagnostics);
 
 }  // namespace dashpot::compiler

@@ -607,7 +607,7 @@ int main() {
         self.assertIn("'unix:none': No such file or directory [cannot-start-device]",
                       self.dashpot("run", FIELD, "--device", PANTOGRAPH, "--port", "unix:none", status=INPUT_REFUSED).stderr)
         self.assertIn("[axes-differ]", self.dashpot("run", FIELD, "--device", ONE_AXIS, status=INPUT_REFUSED).stderr)
-        for target in ("c99", "hal", "fmi2", "python", "wasm"):
+        for target in ("hal", "fmi2", "fmi3", "python", "wasm"):
             self.assertIn("[target-on-two-axes]", self.dashpot("compile", FIELD, "--target", target, status=None).stderr, target)
         self.assertIn("[option-on-two-axes]", self.dashpot("compile", FIELD, "--batch", status=INPUT_REFUSED).stderr)
         kelvin = SOURCE / "networks/paper/kelvin.json"

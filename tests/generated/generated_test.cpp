@@ -57,6 +57,7 @@ std::vector<Recording> recordings() {
        "--target c99",
        {paper / "second_order_maxwell.json", paper / "visco_elasto_plastic.json",
         source / "networks/tunable/friction_tunable.json"}},
+      {"forms/c99_axes", pantograph + " --target c99", {source / "networks/axes/kelvin_field.json"}},
       {"forms/hal", "--target hal", {paper / "second_order_maxwell.json"}},
       {"forms/batch",
        "--batch",

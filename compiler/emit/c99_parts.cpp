@@ -100,8 +100,10 @@ class Wording {
     text_["ROUNDOFF"] = literal(is_float ? 0x1p-20 : 0x1p-48);
     text_["LARGEST"] = literal(is_float ? 0x1.fffffep127 : 0x1.fffffffffffffp1023);
     std::string halves;
-    for (const double half : {0x1p256, 0x1p256, 0x1p128, 0x1p64, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1})
-      if (!is_float || half < 0x1p64) halves += (halves.empty() ? "" : ", ") + literal(half);
+    for (const double half :
+         is_float ? std::vector{0x1p32, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1}
+                  : std::vector{0x1p256, 0x1p256, 0x1p128, 0x1p64, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1})
+      halves += (halves.empty() ? "" : ", ") + literal(half);
     text_["HALVES"] = halves;
     text_["LAST_PLACE"] = literal(is_float ? 0x1p-23 : 0x1p-52);
     text_["HALF_OF_DIGITS"] = literal(is_float ? 0x1p12 + 1 : 0x1p27 + 1);

@@ -195,6 +195,30 @@ class AxesC99Test(CommandTest):
             self.assertGreater(len(set(bits)), 100)
             self.assertEqual([line.strip() for line in printed(self.folder / "law.elf", machine).splitlines()], bits, processor)
 
+    def test_roots_are_those_of_the_runtime(self):
+        """Fails if a root in C is another number than in C++, however small or large what it is of."""
+        for scalar, exponents in (("float", (-149, 127)), ("double", (-1074, 1023))):
+            self.dashpot("compile", FIELD, "--device", PANTOGRAPH, "--scalar", scalar, "--target", "c99")
+            self.write("roots.cpp", """
+#include <cmath>
+#include <cstdio>
+#include <initializer_list>
+#include <dashpot/elementary.hpp>
+#include "kelvin_field.h"
+int main() {
+  int differing = 0;
+  for (int e = FIRST; e <= LAST; ++e)
+    for (const double of_it : {1.0, 1.2345678, 1.5, 1.9999999}) {
+      const SCALAR x = SCALAR(std::ldexp(of_it, e));
+      differing += kelvin_field_square_root(x) != dashpot::square_root(x);
+    }
+  std::printf("%d", differing);
+}
+""".replace("FIRST", str(exponents[0])).replace("LAST", str(exponents[1])).replace("SCALAR", scalar))
+            subprocess.run(["g++", "-std=c++17", "-ffp-contract=off", "-I", SOURCE / "runtime/include", "-I", ".", "roots.cpp", "-o", "roots"],
+                           cwd=self.folder, check=True)
+            self.assertEqual(subprocess.run([self.folder / "roots"], capture_output=True, text=True, check=True).stdout, "0", scalar)
+
     def test_the_banner_is_that_of_the_class(self):
         """Fails if the header in C says less, or something else, of the law than that in C++."""
         for name, _, _ in self.laws():

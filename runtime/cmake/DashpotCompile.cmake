@@ -11,7 +11,8 @@
 # certified for: dashpot::devices::DEVICE::name, ::digest and ::description(). In the file's name, what is neither letter
 # nor digit of the device's name is an underscore.
 #
-# TARGET c99 makes <NAME.h> and <DEVICE_device.h> instead, for C and C++; they need nothing of dashpot.
+# TARGET c99 makes <NAME.h> and <DEVICE_device.h> instead, for C and C++; they need nothing of dashpot. A device of two
+# axes is not described in C: of it there is <NAME.h> alone.
 #
 # BATCH also makes <NAME_batch.hpp>, a class for many points of the network.
 #
@@ -125,7 +126,11 @@ function(dashpot_compile target)
     list(APPEND options --certificate ${arg_CERTIFICATE})
   endif()
   set(describe_device)
+  set(axes)
   if(arg_DEVICE)
+    _dashpot_stated(axes axes "${arg_DEVICE}")
+  endif()
+  if(arg_DEVICE AND NOT (axes EQUAL 2 AND arg_TARGET STREQUAL "c99"))
     _dashpot_device_name_of(device_name "${arg_DEVICE}")
     list(APPEND outputs ${folder}/${device_name}_device.${suffix})
     set(describe_device COMMAND ${compiler} device ${arg_DEVICE} --target ${arg_TARGET}
@@ -221,7 +226,7 @@ endfunction()
 # The emitted file is called after the network, so its name is read when the build is configured, and again when the file
 # changes. From a file that cannot be read no name comes; saying why is left to the compiler.
 function(_dashpot_name_of result network)
-  _dashpot_stated_name(stated "${network}")
+  _dashpot_stated(stated name "${network}")
   if(stated MATCHES "^[A-Za-z][A-Za-z0-9_]*$")
     set(${result} ${stated} PARENT_SCOPE)
   else()
@@ -231,17 +236,18 @@ function(_dashpot_name_of result network)
 endfunction()
 
 function(_dashpot_device_name_of result device)
-  _dashpot_stated_name(name "${device}")
+  _dashpot_stated(name name "${device}")
   string(REGEX REPLACE "[^A-Za-z0-9]" "_" name "${name}")
   set(${result} ${name} PARENT_SCOPE)
 endfunction()
 
-function(_dashpot_stated_name result file)
+# What a file states under a key; nothing where there is no such file, or it cannot be read.
+function(_dashpot_stated result key file)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   set(stated)
   if(EXISTS ${file})
     file(READ ${file} text)
-    string(JSON stated ERROR_VARIABLE unreadable GET "${text}" name)
+    string(JSON stated ERROR_VARIABLE unreadable GET "${text}" ${key})
     if(unreadable)
       set(stated)
     endif()

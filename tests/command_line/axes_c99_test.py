@@ -11,7 +11,7 @@ import unittest
 import axes_test
 from axes_fields_test import BRAKE, field_of, prompt_arm
 from axes_test import BALL, FIELD, PANTOGRAPH, WALL, motion_in_joints, tip_of
-from dashpot_command import SOURCE, CommandTest
+from dashpot_command import DASHPOT, SOURCE, CommandTest
 
 sys.path.insert(0, str(SOURCE / "tests/support"))
 from cortex_m import PROCESSORS, compiling, linking, printed  # noqa: E402
@@ -225,6 +225,23 @@ int main() {
             cpp, c99 = ((self.folder / (name + suffix)).read_text().split("// Written by")[0] for suffix in (".hpp", ".h"))
             self.assertEqual(c99, cpp)
             self.assertIn("passivity", c99)
+
+    def test_a_build_in_c(self):
+        """Fails if CMake does not make a law in C of a device of two axes, or asks for a description of it that C does not have."""
+        self.write("CMakeLists.txt", f"""
+cmake_minimum_required(VERSION 3.25)
+project(press LANGUAGES C)
+include({SOURCE}/runtime/cmake/DashpotCompile.cmake)
+dashpot_compile(field NETWORK {FIELD} DEVICE {PANTOGRAPH} TARGET c99)
+add_executable(press main.c)
+target_link_libraries(press PRIVATE field)
+""")
+        self.write("main.c", '#include <kelvin_field.h>\nint main(void) {\n  kelvin_field law;\n  kelvin_field_init(&law);\n  return law.sampled;\n}\n')
+        for step in (["-S", ".", "-B", "build", f"-DDASHPOT_COMPILER={DASHPOT}"], ["--build", "build"]):
+            done = subprocess.run(["cmake", *step], cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertEqual(subprocess.run([self.folder / "build/press"]).returncode, 0)
+        self.assertEqual([file for file in self.files("build/field") if file.endswith(".h")], ["kelvin_field.h"])
 
     def test_names_of_c_are_refused(self):
         """Fails if a network called by a word of C is written in C."""

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 const char* option_of_one_axis(const Options& options) {
   if (options.emission.constant_time) return "--constant-time";
   if (options.emission.batch) return "--batch";
-  if (options.emission.with_test) return "--with-test";
+  if (options.emission.with_test && options.target->name != "cpp") return "--with-test";
   if (options.proof) return "--proof";
   return nullptr;
 }

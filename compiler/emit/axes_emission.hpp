@@ -48,7 +48,7 @@ std::vector<RuleShare> shares_by_rule(const AxesCompilation& compilation, const 
 std::optional<axes::ShareMap> share_with(const AxesCompilation& compilation, const std::vector<CertifiedPort>& ports,
                                          axes::BrakeRule rule, const std::vector<AlongBrake>& more);
 
-// <name>.hpp, and <name>_live.cpp where it is asked for. Refuses: templates that do not fit.
+// <name>.hpp, and <name>_live.cpp and <name>_test.cpp where asked for. Refuses: templates that do not fit.
 std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& compilation, const EmissionOptions& options,
                                                      Diagnostics& diagnostics);
 

@@ -5,6 +5,7 @@
 #include <dashpot/estimators/estimator_names.hpp>
 
 #include "emit/axes_emission.hpp"
+#include "emit/axes_response_test.hpp"
 #include "emit/banner.hpp"
 #include "emit/c99_parts.hpp"
 #include "emit/c99_program.hpp"
@@ -172,6 +173,13 @@ std::optional<std::vector<OutputFile>> emit_axes_cpp(const AxesCompilation& comp
     std::optional<std::string> source = live ? fill(*live, {{{"name", name}}, {}}, diagnostics) : std::nullopt;
     if (!source) return std::nullopt;
     files.push_back({name + "_live.cpp", std::move(*source)});
+  }
+  if (options.with_test) {
+    const SourceFile* test = find_template("axes_test.cpp.in", options.templates, diagnostics);
+    std::optional<std::string> source =
+        test ? fill(*test, axes_response_test_model(compilation), diagnostics) : std::nullopt;
+    if (!source) return std::nullopt;
+    files.push_back({name + "_test.cpp", std::move(*source)});
   }
   return files;
 }

@@ -124,13 +124,37 @@ Sloped anywhere_reached(const Sloped& a) {
   return {a.value, a.middle + Interval(-most, most), {a.slope[0], a.slope[1]}};
 }
 
+// Of products of displacements at different samples, each with an N of its own: what is no less than `times` |N|, with
+// ‖N‖ W for |N| and, where it is known, with that.
+std::vector<Symmetric<Sloped>> latenesses_of(double times, const Symmetric<Sloped>& n, const Pair<double>& weight) {
+  if (times == 0) return {{Sloped(0), Sloped(0), Sloped(0)}};
+  const double late = times * size_of(n, weight) * (1 + 1e-12);
+  std::vector<Symmetric<Sloped>> all{{Sloped(late * weight[0]), Sloped(0), Sloped(late * weight[1])}};
+  if (const auto size = absolute(n, weight)) {
+    const Symmetric<Sloped> paid = Sloped(times * (1 + 1e-12)) * *size;
+    all.push_back({anywhere_reached(paid.xx), anywhere_reached(paid.xy), anywhere_reached(paid.yy)});
+  }
+  return all;
+}
+
+// What a port asks for beside a spring k0 that does k0 w whatever moves, or all of it.
+PortLoad beside_field(const PortLoad& load) {
+  PortLoad rest = load;
+  if (load.unilateral || load.clamp < unlimited) return rest;
+  rest.held = max(Interval(load.held) - Interval(0.5) * Interval(load.grounded), Interval(0)).high;
+  rest.grounded = 0;
+  return rest;
+}
+
 class PortNeed {
  public:
-  PortNeed(const PortLoad& load, const Interval& range) : load_(load), range_(range) {}
+  PortNeed(const PortLoad& load, const Interval& range) : load_(load), rest_(beside_field(load)), range_(range) {}
 
-  // For both ends of M what is needed over joints as it stands, and the tightest of what is enough; with n |M| |H|.
+  // For both ends of M what is needed over joints as it stands, and the tightest of what is enough; with what is late
+  // beside the field.
   struct Ends {
     std::vector<Symmetric<Sloped>> as_it_stands, tightest;
+    Symmetric<Sloped> field{Sloped(0), Sloped(0), Sloped(0)};  // k0 (g gᵀ + w H)
   };
 
   Ends over(const TipMotion& there, int delay, const Pair<double>& weight) const {
@@ -139,13 +163,15 @@ class PortNeed {
     const Interval force = motor_force(load_, depth.value.value, range_);
     const Symmetric<Sloped> carried = depth.gradient[0] * there.bends[0] + depth.gradient[1] * there.bends[1];
     const Symmetric<Sloped> own = at_joints(there.pose, bend(load_.map, there.pose.tip));
-    const Symmetric<Sloped> hessian = carried + own;
-    const Sloped held(load_.held * (1 + 2 * delay));
-    const Symmetric<Sloped> squared = held * outer(at_joints(there.pose, depth.gradient));
+    const Symmetric<Sloped> hessian = carried + own, steepness = outer(at_joints(there.pose, depth.gradient));
+    const Sloped held(Interval(load_.held) + Interval(2 * delay) * Interval(rest_.held));
+    const Symmetric<Sloped> squared = held * steepness;
     const std::optional<Symmetric<Sloped>> steep = steepest(load_.map, there.pose);
     const bool lessened = is_lessened_by_bend(load_.map, force);
-    const std::vector<Symmetric<Sloped>> latenesses = latenesses_of(delay * abs(force).high, hessian, weight);
+    const double late_force = delay * abs(motor_force(rest_, depth.value.value, range_)).high;
+    const std::vector<Symmetric<Sloped>> latenesses = latenesses_of(late_force, hessian, weight);
     Ends ends;
+    if (rest_.grounded < load_.grounded) ends.field = Sloped(load_.grounded) * (steepness + depth.value * hessian);
     for (const ForceForm& form : force_ends(load_, depth.value.value, range_)) {
       const Sloped half = Sloped(0.5) * form.at(depth.value);
       std::vector<Symmetric<Sloped>> stands, enough;
@@ -167,20 +193,6 @@ class PortNeed {
   }
 
  private:
-  // Of products of displacements at different samples, each with an H of its own: ‖H‖ W, which is no less than |H|, and
-  // where it is known that.
-  static std::vector<Symmetric<Sloped>> latenesses_of(double force, const Symmetric<Sloped>& hessian,
-                                                      const Pair<double>& weight) {
-    if (force == 0) return {{Sloped(0), Sloped(0), Sloped(0)}};
-    const double late = force * size_of(hessian, weight) * (1 + 1e-12);
-    std::vector<Symmetric<Sloped>> all{{Sloped(late * weight[0]), Sloped(0), Sloped(late * weight[1])}};
-    if (const auto size = absolute(hessian, weight)) {
-      const Symmetric<Sloped> paid = Sloped(force * (1 + 1e-12)) * *size;
-      all.push_back({anywhere_reached(paid.xx), anywhere_reached(paid.xy), anywhere_reached(paid.yy)});
-    }
-    return all;
-  }
-
   static Symmetric<Sloped> least_of(const std::vector<Symmetric<Sloped>>& enough, const Pair<double>& weight) {
     if (enough.size() == 1) return enough.front();
     std::size_t best = 0;
@@ -193,6 +205,7 @@ class PortNeed {
   }
 
   const PortLoad& load_;
+  PortLoad rest_;
   Interval range_;
 };
 
@@ -242,15 +255,23 @@ class Search {
 
   // Of every sum of ends, as it stands or the tightest of each port: which of both is less is another in every part.
   Largest need_over(const Region& region, double* scale) const {
-    std::vector<Symmetric<Sloped>> stands{{Sloped(0), Sloped(0), Sloped(0)}}, tightest = stands;
+    const Symmetric<Sloped> none{Sloped(0), Sloped(0), Sloped(0)};
+    std::vector<Symmetric<Sloped>> stands{none}, tightest = stands;
+    Symmetric<Sloped> field = none;
     for (const PortNeed& port : ports_) {
       const PortNeed::Ends ends = port.over(region.reached, loop_.delay, weight_);
       stands = with_each(stands, ends.as_it_stands);
       tightest = with_each(tightest, ends.tightest);
+      field = field + ends.field;
     }
-    const Symmetric<Sloped> given = given_ ? given_(region.from) : Symmetric<Sloped>{Sloped(0), Sloped(0), Sloped(0)};
-    const Largest one = largest(stands, given, scale), other = largest(tightest, given, nullptr);
-    return other.x < one.x ? other : one;
+    const Symmetric<Sloped> given = given_ ? given_(region.from) : none;
+    Largest least{infinity};
+    for (const Symmetric<Sloped>& late : latenesses_of(loop_.delay, field, weight_)) {
+      const Largest one = largest(with_each(stands, {late}), given, scale),
+                    other = largest(with_each(tightest, {late}), given, nullptr);
+      least = std::min({least, one, other}, [](const Largest& a, const Largest& b) { return a.x < b.x; });
+    }
+    return least;
   }
 
   Largest largest(const std::vector<Symmetric<Sloped>>& sums, const Symmetric<Sloped>& given, double* scale) const {

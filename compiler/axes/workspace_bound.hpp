@@ -5,7 +5,11 @@
 //
 // for matrices over the joints, at all joints of the workspace, D at those of the sample and 𝓑 at all that can be
 // reached until the next. g and H are gradient and Hessian of the port's map in the joints, M the motor's force along
-// it. With n samples of delay S becomes S (1 + 2n), and n |M| |H| is added, |H| with the |λ| of H v = λ W v.
+// it. With n samples of delay
+//
+//     n |K| + n Σ_i [ 2 (S_i − ½ k0_i) g_i g_iᵀ + |M_i − k0_i w_i| |H_i| ],        K = Σ_i k0_i (g_i g_iᵀ + w_i H_i)
+//
+// is added, |N| with the |λ| of N v = λ W v. Springs k0 behind a contact or a clamp are counted as other forces are.
 #pragma once
 
 #include <functional>

@@ -68,6 +68,18 @@ ReferencePair eigenvalues(const SymmetricReference& m, const axes::Pair<double>&
   return {middle - out, middle + out};
 }
 
+// α m + β W, which has the eigenvalues of m without their signs.
+SymmetricReference without_signs(const SymmetricReference& m, const axes::Pair<double>& weight) {
+  const ReferencePair lambda = eigenvalues(m, weight);
+  const Reference apart = lambda[1] - lambda[0];
+  Reference alpha = lambda[1] < 0 ? -1 : 1;
+  if (apart > 0) alpha = (abs(lambda[1]) - abs(lambda[0])) / apart;
+  SymmetricReference result;
+  result.add(alpha, m);
+  result.add(abs(lambda[1]) - alpha * lambda[1], {weight[0], 0, weight[1]});
+  return result;
+}
+
 // A function of the joints, its gradient and its Hessian.
 struct Differences {
   Reference value;
@@ -192,10 +204,11 @@ class Places {
     joints_.push_back(exact);
   }
 
-  // Of T_max Σ [S (1 + 2n) g gᵀ + ½ M H + n |M| |H|], whichever ends the ports' forces are at.
+  // Of T_max (Σ [S g gᵀ + ½ M H] + n (|K| + Σ [2 S_R g gᵀ + |R| |H|])), whichever ends the ports' forces are at: K = Σ
+  // k0 (g gᵀ + w H) of springs that no contact lets go, R and S_R what there is of M and S beside them.
   Reference need_at(const ReferencePair& joints) const {
-    const int delay = int(c_.device.loop().delay_samples);
-    SymmetricReference sum;
+    const Reference delay = Reference(c_.device.loop().delay_samples);
+    SymmetricReference sum, springs;
     std::vector<std::vector<SymmetricReference>> turned;  // of each pushed port, by the end of its force
     for (const PortForce& force : forces_) {
       const Differences w =
@@ -203,23 +216,21 @@ class Places {
       const std::vector<Reference> ends = ends_of(force, w.value);
       if (ends.empty()) continue;
       const auto& [first, second] = w.gradient;
-      sum.add(force.held * Reference(1 + 2 * delay), {first * first, first * second, second * second});
-      const ReferencePair turning = eigenvalues(w.hessian, c_.certificate.weight);
-      // |H| = α H + β W, with the eigenvalues of H without their signs.
-      const Reference apart = turning[1] - turning[0];
-      Reference alpha = turning[1] < 0 ? -1 : 1;
-      if (apart > 0) alpha = (abs(turning[1]) - abs(turning[0])) / apart;
-      const Reference beta = abs(turning[1]) - alpha * turning[1];
+      const SymmetricReference steepness{first * first, first * second, second * second};
+      const Reference stays = force.port->network.contact ? Reference(0) : force.grounded;
+      springs.add(stays, steepness);
+      springs.add(stays * w.value, w.hessian);
+      sum.add(force.held + 2 * delay * (force.held - stays / 2), steepness);
+      const SymmetricReference turning = without_signs(w.hessian, c_.certificate.weight);
       turned.emplace_back();
       for (const Reference& end : ends) {
         SymmetricReference one;
         one.add(end / 2, w.hessian);
-        const Reference late = Reference(delay) * abs(end);
-        one.add(late * alpha, w.hessian);
-        one.add(late * beta, {c_.certificate.weight[0], 0, c_.certificate.weight[1]});
+        one.add(delay * abs(Reference(end - stays * w.value)), turning);
         turned.back().push_back(one);
       }
     }
+    sum.add(delay, without_signs(springs, c_.certificate.weight));
     const Reference longest = Reference(c_.device.loop().sample_period) + Reference(c_.device.loop().jitter);
     return longest * largest_sum(sum, turned);
   }

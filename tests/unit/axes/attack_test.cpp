@@ -2,6 +2,8 @@
 // with nine tenths of it some do.
 #include <gtest/gtest.h>
 
+#include <complex>
+
 #include "arms.hpp"
 #include "axes/brakes.hpp"
 #include "axes/curvature.hpp"
@@ -208,95 +210,145 @@ TEST(Attack, NineTenthsAreNotEnough) {
   RecordProperty("gained", gained);
 }
 
-// Torques that act n samples late, with what is proved for that and with what is proved for none. Slow motions to and
-// fro are the hardest, and some in between are at random: over any stretch of them the storage rises by no more than
-// the work.
-TEST(Attack, LateTorquesGiveNothingAtTheBound) {
-  Random random(54);
-  const std::size_t cases = repetitions(12, 200);
-  std::size_t gained = 0;
-  for (std::size_t i = 0; i < cases; ++i) {
-    const int delay = 1 + int(random.index(2));
-    Random same = random;
-    Case one = random_case(random, 1e-5, 0.08, delay);
-    const double prompt = random_case(same, 1e-5, 0.08).needed.proved;
-    ASSERT_TRUE(std::isfinite(one.needed.proved));
-    bool gains = false;
-    for (int direction = 0; direction < 8; ++direction) {
-      const double angle = pi * direction / 8;
-      const Pair<double> by{1e-5 * std::cos(angle) / std::sqrt(one.weight[0] / one.weight[1]), 1e-5 * std::sin(angle)};
-      for (const double damping : {one.needed.proved, prompt}) {
-        Attack attack(one, damping, one.needed.joints);
-        std::vector<Pair<double>> told(std::size_t(delay), attack.torque());
-        const double before = attack.stored();
-        double work = 0, paid = before;
-        for (std::size_t k = 0; k < 256; ++k) {
-          const Pair<double> way = random.chance(0.01) ? random_step(random, 1e-5) : std::cos(pi * double(k) / 32) * by;
-          const Pair<double> step = attack.is_inside(way) ? way : -1.0 * way;
-          told.push_back(attack.torque());
-          const double taken = attack.work(step) + dot(told.front() - told.back(), step);
-          told.erase(told.begin());
-          work += taken, paid += std::abs(taken);
-          attack.move(step);
-          if (damping == prompt) {
-            gains = gains || attack.stored() - before - work > 1e-9 * paid;
-          } else {
-            ASSERT_LE(attack.stored() - before - work, 1e-12 * paid) << "case " << i << ", step " << k;
-          }
-        }
-      }
-    }
-    gained += gains ? 1 : 0;
+// Torques that act n samples late.
+class LateAttack : public Attack {
+ public:
+  LateAttack(Case& one, double damping, const Pair<double>& at, int delay)
+      : Attack(one, damping, at), told_(std::size_t(delay) + 1, torque()) {}
+
+  double work(const Pair<double>& by) const { return Attack::work(by) + lateness(by); }
+  double created(const Pair<double>& by) const { return Attack::created(by) - lateness(by); }
+  void move(const Pair<double>& by) {
+    Attack::move(by);
+    told_.push_back(torque()), told_.erase(told_.begin());
   }
-  EXPECT_GE(gained, cases * 8 / 10);  // with nothing for the delay
-  RecordProperty("gained", int(gained));
+
+ private:
+  double lateness(const Pair<double>& by) const { return dot(told_.front() - told_.back(), by); }
+
+  std::vector<Pair<double>> told_;  // of the last samples, the one that acts first
+};
+
+// A small motion to and fro about a place, so many times in `length` samples, that asks for most there. What is to be
+// paid of motions that turn by θ in a sample is, with the forces' answer G(z) to displacements,
+//
+//     ½ T Re{(1 − 1/z) z⁻ⁿ G(z)}/(1 − cos θ),        z = e^{jθ},        G = Σ [(k0 + Σ c (z − 1)/(z − a)) g gᵀ + k0 w
+//     H],
+//
+// and where relaxations are at rest no other small motion asks for more.
+struct Swing {
+  double needed = 0;  // x of x W
+  Pair<double> joints{};
+  std::size_t times = 1;
+  Pair<double> way{1, 0};
+
+  static constexpr std::size_t length = 64;
+
+  Pair<double> step(std::size_t k, double size) const {
+    return size * std::cos(2 * pi * double(times) * (double(k) + 0.5) / double(length)) * way;
+  }
+};
+
+// The largest λ of m v = λ W v, with v.
+std::pair<double, Pair<double>> largest(const Symmetric<double>& m, const Pair<double>& weight) {
+  const double most = eigenvalues(m, {weight[0], 0, weight[1]})[1];
+  // Both rows of m − λ W are across v; the longer one is far from 0.
+  const Pair<double> first{m.xx - most * weight[0], m.xy}, second{m.xy, m.yy - most * weight[1]};
+  const Pair<double> across = length_squared(first) > length_squared(second) ? first : second;
+  return {most, turned((1 / std::hypot(across[0], across[1])) * across)};
 }
 
-// Direction of joint velocities in which springs that stand still there ask for most, Σ K g gᵀ + M H against W.
-Pair<double> stiffest(const Case& one, const Pair<double>& q) {
+Swing hardest_swing_at(const Pair<double>& q, const Case& one, int delay) {
   const Pose<double> at = pose(one.arm, q);
   const Pair<Symmetric<double>> bends = curvature(one.arm, q);
-  Symmetric<double> sum{0, 0, 0};
-  for (const Network& network : one.networks) {
-    const Depth<double> there = depth(network.map, at.tip);
-    const Symmetric<double> hessian = at_joints(at, bends, there.gradient, bend(network.map, at.tip));
-    sum = sum + network.grounded * outer(at_joints(at, there.gradient)) + (network.grounded * there.value) * hessian;
+  Swing hardest;
+  for (std::size_t times = 1; times <= Swing::length / 2; ++times) {
+    const double angle = 2 * pi * double(times) / double(Swing::length);
+    const std::complex<double> z = std::polar(1.0, angle), held = (1.0 - 1.0 / z) * std::pow(z, -delay);
+    Symmetric<double> sum{0, 0, 0};
+    for (const Network& network : one.networks) {
+      const Depth<double> there = depth(network.map, at.tip);
+      std::complex<double> answer = network.grounded;
+      for (std::size_t i = 0; i < network.kept.size(); ++i)
+        answer += network.gain[i] * (z - 1.0) / (z - network.kept[i]);
+      const Symmetric<double> hessian = at_joints(at, bends, there.gradient, bend(network.map, at.tip));
+      sum = sum + (held * answer).real() * outer(at_joints(at, there.gradient)) +
+            (held.real() * network.grounded * there.value) * hessian;
+    }
+    const auto [most, way] = largest(sum, one.weight);
+    const double needed = period / 2 * most / (1 - std::cos(angle));
+    if (needed > hardest.needed) hardest = {needed, q, times, way};
   }
-  const double most = eigenvalues(sum, {one.weight[0], 0, one.weight[1]})[1];
-  // Both rows of (sum − λ W) are across it; the longer one is far from 0.
-  const Pair<double> first{sum.xx - most * one.weight[0], sum.xy}, second{sum.xy, sum.yy - most * one.weight[1]};
-  const Pair<double> across = length_squared(first) > length_squared(second) ? first : second;
-  return turned((1 / std::hypot(across[0], across[1])) * across);
+  return hardest;
 }
 
-// Slowly to and fro where most is needed, in the direction that needs it, with nine tenths of what is proved. Springs
-// alone: what relaxes asks for most in fast motions and late torques in slow ones, so that no motion has both. Two in
-// five networks give more than they stored: each force's bend is counted without its sign, and where it is one that
-// lessens the stiffness that is more than any slow motion asks for.
+// At one of 81 places, from where small motions stay in the room.
+Swing hardest_swing(const Case& one, int delay) {
+  Swing hardest;
+  for (const Place& place : places_in(one.arm, {Interval(-3.9e-3, 3.9e-3), Interval(88.1e-3, 91.9e-3)}, 9)) {
+    const Swing there = hardest_swing_at(place.joints, one, delay);
+    if (there.needed > hardest.needed) hardest = there;
+  }
+  return hardest;
+}
+
+// With what is proved for late torques: the swing that asks for most, steps at random, and of eight steps the one that
+// would create most, large and small. From rest on the storage rises by no more than the work.
+TEST(Attack, LateTorquesGiveNothingAtTheBound) {
+  Random random(54);
+  const std::size_t cases = repetitions(12, 600);
+  for (std::size_t i = 0; i < cases; ++i) {
+    const int delay = 1 + int(random.index(3));
+    const double step = random.log_uniform(1e-5, 1e-3);
+    const Case found = random_case(random, step, 0.02, delay);
+    ASSERT_TRUE(std::isfinite(found.needed.proved));
+    const Swing swing = hardest_swing(found, delay);
+    for (int motion = 0; motion < 8; ++motion) {
+      Case one = found;
+      LateAttack attack(one, found.needed.proved, swing.joints, delay);
+      double risen = 0, paid = attack.stored();
+      for (std::size_t k = 0; k < 256; ++k) {
+        const bool wanders = random.chance(0.15 * (motion / 2));
+        Pair<double> by = wanders ? random_step(random, step) : swing.step(k, motion % 2 == 0 ? step : 0.005 * step);
+        for (int other = 0; motion % 3 == 2 && other < 8; ++other) {
+          const Pair<double> candidate = random_step(random, step);
+          if (attack.is_inside(candidate) && attack.created(candidate) > attack.created(by)) by = candidate;
+        }
+        if (!attack.is_inside(by)) by = -1.0 * by;
+        if (!attack.is_inside(by)) continue;
+        risen += attack.created(by), paid += std::abs(attack.work(by));
+        attack.move(by);
+        ASSERT_LE(risen, 1e-12 * paid) << "case " << i << ", motion " << motion << ", step " << k;
+      }
+    }
+  }
+}
+
+// The swing that asks for most, where the certificate says that most is needed, with nine tenths of that. Of 200
+// networks of springs alone 98 % give more than they stored, and of such where three in ten relax 81 %: what relaxes
+// asks for most in faster motions than late springs do, and both are counted in full.
 TEST(Attack, NineTenthsAreNotEnoughForLateTorques) {
   Random random(55);
-  const std::size_t cases = repetitions(20, 200), length = 64;
-  std::size_t gained = 0;
-  for (std::size_t i = 0; i < cases; ++i) {
-    const int delay = 1 + int(random.index(2));
-    const Case found = random_case(random, 1e-6, 0.02, delay, false);
-    const Pair<double> by = 1e-6 * stiffest(found, found.needed.joints);
-    Case one = found;
-    Attack attack(one, 0.9 * found.needed.proved, found.needed.joints);
-    std::vector<Pair<double>> told(std::size_t(delay), attack.torque());
-    double work = 0, before = 0;
-    for (std::size_t k = 0; k < 4 * length; ++k) {
-      if (k == 2 * length) work = 0, before = attack.stored();
-      const Pair<double> step = std::cos(2 * pi * (double(k) + 0.5) / double(length)) * by;
-      told.push_back(attack.torque());
-      work += attack.work(step) + dot(told.front() - told.back(), step);
-      told.erase(told.begin());
-      attack.move(step);
+  const std::size_t cases = repetitions(40, 200);
+  for (const bool relaxes : {false, true}) {
+    std::size_t gained = 0;
+    for (std::size_t i = 0; i < cases; ++i) {
+      const int delay = 1 + int(random.index(2));
+      Case one = random_case(random, 1e-6, 0.02, delay, relaxes);
+      const Swing swing = hardest_swing_at(one.needed.joints, one, delay);
+      LateAttack attack(one, 0.9 * one.needed.proved, swing.joints, delay);
+      double work = 0, before = 0;
+      for (std::size_t k = 0; k < 20 * Swing::length; ++k) {
+        if (k == 18 * Swing::length) work = 0, before = attack.stored();
+        const Pair<double> by = swing.step(k, 1e-6);
+        work += attack.work(by);
+        attack.move(by);
+      }
+      gained += work < attack.stored() - before - 1e-12 * before && work < 0 ? 1 : 0;
     }
-    gained += work < attack.stored() - before - 1e-12 * before && work < 0 ? 1 : 0;
+    EXPECT_GE(gained, cases * (relaxes ? 15 : 19) / 20);
+    RecordProperty(relaxes ? "gained" : "gained_by_springs", int(gained));
   }
-  EXPECT_GE(gained, cases * 2 / 5);
-  RecordProperty("gained", int(gained));
 }
 
 // A field alike in all directions, of which brakes make the diagonal and motors the rest from the mean of the last

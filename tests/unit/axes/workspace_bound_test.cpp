@@ -65,6 +65,19 @@ TEST(WorkspaceBound, SpringsInThePlane) {
   }
 }
 
+// A ball 30 mm in radius that is pulled inward at 20 mm from its centre has k w/ρ = ½k less of stiffness along its
+// surface, which another spring has there: late is what is left of both, diag(500, 1000 − 250) N/m. Of a force Y that
+// does not grow and bends by 1/ρ nothing is taken off another's.
+TEST(WorkspaceBound, LateSpringsAreOneField) {
+  const Box point{Interval(0), Interval(110e-3)};
+  const PortLoad pulled = spring(ball({0, 90e-3}, 30e-3), 500), along_it = spring(along({1, 0}), 1000);
+  for (const int delay : {1, 2})
+    EXPECT_NEAR(needed(plane, {pulled, along_it}, alike, {1e-3, delay, {0, 0}}, point), 0.75 * (0.5 + delay), 1e-9);
+  PortLoad yields{ball({0, 90e-3}, 30e-3)};
+  yields.yields = 5;
+  EXPECT_NEAR(needed(plane, {yields, along_it}, alike, {1e-3, 1, {0, 0}}, point), 1.5 + 0.125 + 0.25, 1e-9);
+}
+
 // D = x diag(l_j²) of a parallelogram with equal links at an angle of 40°, β = 250 N/m, 5 N along the bisector at links
 // of 63 mm: x = T [β(1 + |c|) + F cos 20°/2l] = 0.479; no direction of a force of 5 N asks for more than T [β(1 + |c|)
 // + F/2l] = 0.481.

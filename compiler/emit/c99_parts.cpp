@@ -105,6 +105,9 @@ class Wording {
                   : std::vector{0x1p256, 0x1p256, 0x1p128, 0x1p64, 0x1p32, 0x1p16, 0x1p8, 0x1p4, 0x1p2, 0x1p1})
       halves += (halves.empty() ? "" : ", ") + literal(half);
     text_["HALVES"] = halves;
+    text_["ROOT_ON_X86"] = fmt::format(R"("sqrts{0} %0, %0" : "+x"(x))", is_float ? 's' : 'd');
+    text_["ROOT_ON_ARM"] = is_float ? R"("vsqrt.f32 %0, %0" : "+t"(x))" : R"("vsqrt.f64 %P0, %P0" : "+w"(x))";
+    text_["ROOT_BIT"] = is_float ? "4" : "8";
     text_["LAST_PLACE"] = literal(is_float ? 0x1p-23 : 0x1p-52);
     text_["HALF_OF_DIGITS"] = literal(is_float ? 0x1p12 + 1 : 0x1p27 + 1);
     for (const char* shared : {"dashpot_flush_below", "dashpot_clamp_to", "dashpot_pushed_in"})

@@ -1,6 +1,16 @@
 #if ROOTS
-// √x to the nearest number, and 0 for x ≤ 0. Infinity stays infinity. The same steps for every x.
+// √x to the nearest number, and 0 for x ≤ 0. Infinity stays infinity. By one instruction where the processor has it, else
+// by the same steps for every x.
 static inline scalar law_square_root(scalar x) {
+# if defined(__GNUC__) && defined(__SSE2__) && !defined(__AVX__) && !defined(__FRAMAC__)
+  if (!(x > 0)) return 0;
+  __asm__(ROOT_ON_X86);
+  return x;
+# elif defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__) && !defined(__FRAMAC__) && (__ARM_FP & ROOT_BIT)
+  if (!(x > 0)) return 0;
+  __asm__(ROOT_ON_ARM);
+  return x;
+# else
   // Powers of two that take any number to between 1 and 4.
   static const scalar halves[] = {HALVES};
   scalar scale = 1;
@@ -17,13 +27,14 @@ static inline scalar law_square_root(scalar x) {
   scalar root = (x + 2) / 3;
   for (int step = 0; step < 4; ++step) root = (root + x / root) / 2;
   // Off by a last place at most. x − root² is exact, from products of half of the digits (Dekker 1971), and a multiple
-  // of LAST_PLACE² as root · LAST_PLACE is; half way between two roots there is none.
+  // of the last place squared, as root times the last place is; half way between two roots there is none.
   const scalar spread = HALF_OF_DIGITS * root, high = spread - (spread - root), low = root - high, square = root * root;
   const scalar rest = (x - square) - ((((high * high) - square) + (2 * high * low)) + (low * low));
   const scalar nearest = root * LAST_PLACE;
   if (rest > nearest) root = root + LAST_PLACE;
   else if (rest <= -nearest) root = root - LAST_PLACE;
   return scale * root;
+# endif
 }
 
 #endif

@@ -130,12 +130,7 @@ void warn_of_surface(const Contact& contact, const Compilation& c, Diagnostics& 
   diagnostics.note<DiagnosticCode::surface_reach_remedy>({}, has_arm ? " or its \"arm_radius\"" : "");
 }
 
-// What the chosen candidate needs behind slips or a contact, or over the ranges of parameters, is known when the whole
-// law is.
-bool is_known_by_the_whole(const Compilation& c) {
-  return c.form.has_slips() || c.network.contact || c.network.map || has_tunables(c.network);
-}
-
+// Of a network that is not linear: what the chosen candidate needs is known when the whole law is.
 void tell_of_certificate(Compilation& c) {
   Candidate& choice = c.decomposition.candidates[c.decomposition.chosen];
   const bool is_proved = c.certificate.bound.proof != Proof::none;
@@ -259,7 +254,7 @@ std::optional<Compilation> compile(Network network, const Choices& asked, const 
   times.enter("certificate");
   certify_law(result, choices);
   if (result.network.map && !is_representable(result.law, result.network, diagnostics)) return std::nullopt;
-  if (!result.port.is_ideal() && is_known_by_the_whole(result)) tell_of_certificate(result);
+  if (!result.port.is_ideal() && result.beyond_linear()) tell_of_certificate(result);
   tell_what_is_felt(result, present, choices, result.port);
   if (!class_differs_from_members(result.law, result.network, diagnostics)) return std::nullopt;
   return result;
@@ -279,7 +274,7 @@ void weigh_all_candidates(Compilation& c, const Choices& asked) {
     candidate.error_over_band = std::move(errors.errors);
     if (!errors.frequencies.empty()) c.decomposition.error_frequencies = std::move(errors.frequencies);
   }
-  if (c.port.is_ideal() && is_known_by_the_whole(c)) tell_of_certificate(c);
+  if (c.port.is_ideal() && c.beyond_linear()) tell_of_certificate(c);
 }
 
 }  // namespace dashpot::compiler

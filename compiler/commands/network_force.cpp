@@ -95,10 +95,6 @@ class OwnSteps : public NetworkForce {
   std::uint64_t steps_ = 0;
 };
 
-bool has_closed_form(const Compilation& c) {
-  return c.ports.empty() && !c.form.has_slips() && !c.network.contact && !c.network.map && !c.law.tunable;
-}
-
 std::optional<Compilation> compiled_finely(const Compilation& c, const Choices& choices, Diagnostics& diagnostics) {
   Choices fine = choices;
   fine.decomposition = "virtual";
@@ -133,7 +129,7 @@ std::optional<ReferenceForce> ReferenceForce::of(const Compilation& c, const Cho
                                                  Diagnostics& diagnostics) {
   ReferenceForce reference;
   reference.compilation_ = &c;
-  if (has_closed_form(c)) return reference;
+  if (!c.beyond_linear()) return reference;
   std::optional<Compilation> fine = compiled_finely(c, choices, diagnostics);
   if (!fine) return std::nullopt;
   reference.fine_ = std::make_shared<const Compilation>(std::move(*fine));

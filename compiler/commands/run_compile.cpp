@@ -52,30 +52,37 @@ std::string escaped(const std::string& path) {
   return text;
 }
 
-std::vector<std::string> templates_of(const Options& options) {
-  std::vector<std::string> names(options.target->templates.begin(), options.target->templates.end());
-  if (options.emission.batch) names.push_back("batch.hpp.in");
+// Of networks of one axis and of two, as far as there are any.
+struct Axes {
+  bool one = false, two = false;
+};
+
+std::vector<std::string> templates_of(const Options& options, Axes axes) {
+  std::vector<std::string> names;
+  if (axes.one) names.assign(options.target->templates.begin(), options.target->templates.end());
+  if (axes.one && options.emission.batch) names.push_back("batch.hpp.in");
+  if (axes.two) names.insert(names.end(), options.target->axes_templates.begin(), options.target->axes_templates.end());
   return names;
 }
 
 // A makefile with one rule.
-std::string dependencies(const Options& options, const std::vector<OutputFile>& files) {
+std::string dependencies(const Options& options, const std::vector<OutputFile>& files, Axes axes) {
   std::string text;
   for (const OutputFile& file : files) text += escaped(file.name) + " ";
   text.back() = ':';
   for (const std::string& network : options.networks) text += " \\\n  " + escaped(network);
   if (options.device) text += " \\\n  " + escaped(*options.device);
   if (options.emission.templates)
-    for (const std::string& name : templates_of(options))
+    for (const std::string& name : templates_of(options, axes))
       text += " \\\n  " + escaped((std::filesystem::path(*options.emission.templates) / name).string());
   return text + "\n";
 }
 
 // In the output folder, with the depfile wherever it is wanted.
-std::vector<OutputFile> placed(std::vector<OutputFile> files, const Options& options) {
+std::vector<OutputFile> placed(std::vector<OutputFile> files, const Options& options, Axes axes) {
   const std::filesystem::path folder = options.output.value_or(".");
   for (OutputFile& file : files) file.name = (folder / file.name).string();
-  if (options.depfile) files.push_back({*options.depfile, dependencies(options, files)});
+  if (options.depfile) files.push_back({*options.depfile, dependencies(options, files, axes)});
   return files;
 }
 
@@ -166,6 +173,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   if (device.status != ExitStatus::done) return device.status;
   std::vector<OutputFile> outputs;
   std::string shown, certificate, proof;
+  Axes axes;
   if (options.name && options.networks.size() > 1) {
     diagnostics.report<DiagnosticCode::name_of_several>({}, options.networks.size());
     return ExitStatus::command_line_wrong;
@@ -178,13 +186,14 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   for (const std::string& path : options.networks) {
     const SourceFile* file = open_network(path, options, files, diagnostics);
     if (file && has_two_axes(*file)) {
-      const auto axes = compile_axes(*file, options, device, diagnostics);
+      const auto compiled = compile_axes(*file, options, device, diagnostics);
       times.enter("emission");
-      if (axes && options.print) shown += axes_stage_text(*axes, *options.print);
-      else if (const auto emitted = axes ? emit_axes(*axes, options, diagnostics) : std::nullopt) {
+      if (compiled && options.print) shown += axes_stage_text(*compiled, *options.print);
+      else if (const auto emitted = compiled ? emit_axes(*compiled, options, diagnostics) : std::nullopt) {
+        axes.two = true;
         outputs.insert(outputs.end(), emitted->begin(), emitted->end());
         if (options.certificate)
-          certificate = axes_certificate_text(*axes, file->text(), device.text, emitted->front().text);
+          certificate = axes_certificate_text(*compiled, file->text(), device.text, emitted->front().text);
       }
       continue;
     }
@@ -205,6 +214,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
       if (const std::string why = why_no_motion_is_played(*compilation); options.emission.with_test && !why.empty())
         diagnostics.report<DiagnosticCode::test_without_motion>({}, compilation->network.name, why);
       if (options.uncertified) warn_of_uncertified(*compilation, options.choices, diagnostics);
+      axes.one = true;
       outputs.insert(outputs.end(), emitted->begin(), emitted->end());
       if (options.certificate)
         certificate = certificate_text(*compilation, options.choices, file->text(), device.text, emitted->front().text);
@@ -215,7 +225,7 @@ ExitStatus compile_all(const Options& options, SourceFiles& files, Diagnostics& 
   if (diagnostics.has_errors()) return ExitStatus::input_refused;
   if (options.print) return write_standard_output(shown, diagnostics);
   refuse_file_for_folder(options, outputs, diagnostics);
-  std::vector<OutputFile> all = placed(std::move(outputs), options);
+  std::vector<OutputFile> all = placed(std::move(outputs), options, axes);
   if (options.certificate) all.push_back({*options.certificate, certificate});
   if (options.proof) all.push_back({*options.proof, proof});
   report_same_names(all, diagnostics);

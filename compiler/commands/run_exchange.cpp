@@ -92,13 +92,8 @@ std::string convention_in(PronyFormat format, PronyOf of) {
 
 bool is_prony_series(const Compilation& c, Diagnostics& diagnostics) {
   const Span place = c.network.name_span;
-  if (has_tunables(c.network))
-    diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "tunable parameters");
-  else if (!c.ports.empty()) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "several ports");
-  else if (c.form.has_slips()) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "slips");
-  else if (c.network.contact) diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "a contact");
-  else if (c.network.static_curve)
-    diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "a static curve");
+  if (const char* const what = c.beyond_linear())
+    diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, what);
   else if (c.form.linear.feedthrough_damping > 0) {
     diagnostics.report<DiagnosticCode::not_exported>(place, c.network.name, "damping that reaches the tool at once");
     diagnostics.note<DiagnosticCode::stiffen_damper>({});

@@ -19,12 +19,7 @@ std::optional<std::string> network_as(const std::string& form, const Compilation
     if (!is_prony_series(c, diagnostics)) return std::nullopt;
     return prony_network(head, in_convention(prony_series(c.form.linear), PronyOf::instantaneous));
   }
-  const char* what = has_tunables(c.network) ? "tunable parameters"
-                     : !c.ports.empty()      ? "several ports"
-                     : c.form.has_slips()    ? "slips"
-                     : c.network.contact     ? "a contact"
-                                             : nullptr;
-  if (what != nullptr) {
+  if (const char* const what = c.beyond_linear()) {
     diagnostics.report<DiagnosticCode::no_linear_form>(c.network.name_span, c.network.name, what);
     return std::nullopt;
   }

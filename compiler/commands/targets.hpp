@@ -22,6 +22,7 @@ struct Target {
   // Of two axes; nullptr where the target knows none.
   std::optional<std::vector<OutputFile>> (*emit_axes)(const AxesCompilation&, const EmissionOptions&,
                                                       Diagnostics&) = nullptr;
+  std::vector<std::string_view> axes_templates = {};
 };
 
 std::span<const Target> targets();  // the default first

@@ -50,8 +50,7 @@ bool has_names_of_its_own(const Compilation& c, Diagnostics& diagnostics) {
 
 // Whether the command of a sample is a linear map of states and inputs: then from rest at 0 it is its own derivative.
 bool is_linear(const Compilation& c) {
-  if (!c.ports.empty() || c.form.has_slips() || c.network.contact || c.network.map || c.law.tunable || c.law.sheds())
-    return false;
+  if (c.beyond_linear() || c.law.sheds()) return false;
   for (const Variable& variable : c.law.variables)
     if (variable.role == Role::state && variable.rest_value != 0) return false;
   Evaluation<double> run(c.law);

@@ -169,7 +169,7 @@ std::string tunables_json(const UpdateLaw& law) {
 
 // What a linear network opposes to a motion, as a page needs it; nothing for another.
 std::string form_json(const Compilation& c) {
-  if (!c.ports.empty() || c.form.has_slips() || c.network.contact || c.network.map || c.law.tunable) return "null";
+  if (c.beyond_linear()) return "null";
   std::string modes;
   for (const Mode& mode : c.form.linear.modes)
     modes += fmt::format("{}[{},{}]", modes.empty() ? "" : ",", json_literal(to_double(mode.relaxation_rate)),

@@ -333,6 +333,13 @@ class Depfile(CommandTest):
                                          str(SOURCE / "templates/network.hpp.in"),
                                          str(SOURCE / "templates/network_test.cpp.in")])
 
+    def test_names_the_templates_of_two_axes(self):
+        """Fails if a change of the template of a law of two axes does not lead to a new header, or that of another always does."""
+        field = SOURCE / "networks/axes/kelvin_field.json"
+        for target, shapes in [("cpp", ["axes.hpp.in", "axes_test.cpp.in"]), ("c99", ["axes.h.in"])]:
+            self.dashpot("compile", field, "--templates", SOURCE / "templates", "--target", target, "-o", "out", "--depfile", "d")
+            self.assertEqual(rule_of(self.folder / "d")[1], [str(field), *(str(SOURCE / "templates" / shape) for shape in shapes)])
+
     def test_make_understands_it(self):
         """Fails if make does not rebuild when a network with a difficult name changes, or rebuilds when nothing did."""
         self.write("my $ tissue #1.json", KELVIN)

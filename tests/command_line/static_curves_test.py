@@ -225,6 +225,8 @@ class StaticCurvesTest(CommandTest):
     # If this fails, something is written of a static curve that does not hold it.
     def test_what_takes_no_curve_says_so(self):
         self.refused("export", SKIN, "--to", "generic", code="not-exported")
+        for form in ("kelvin", "maxwell", "prony"):
+            self.assertIn("a static curve", self.refused("explain", SKIN, "--as", form, code="not-exported" if form == "prony" else "no-linear-form").stderr)
         self.assertEqual(self.files(), [])
 
 

@@ -3,7 +3,8 @@
 // source: a stiffness as that of gel phantoms, and a relaxation by a third within 0.2 s; the values are chosen
 //   here
 // port ball: behind the map 'ball', pushed and never pulled; b = 0.5 N·s/m by the rule 'paper'
-// kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16
+// kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
+//   their encoders' ranges
 // scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
 // brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
 // share: of the ports' damping the brakes make 109 % in the median over the workspace, 71.1 % at least, at (-1,
@@ -20,7 +21,7 @@
 //   added to the brakes' commands for it: 0.01398, 0.01398 N m s/rad, all that they can give; felt at the tip: up
 //   to 11.3 N s/m more
 // device: pantograph_2dof
-// cost of output(): 96 additions, 121 multiplications, 49 selections, 1 guards against subnormal numbers
+// cost of output(): 78 additions, 91 multiplications, 9 selections, 1 guards against subnormal numbers
 // cost of update(): 1 additions, 2 multiplications, 0 selections, 1 guards against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
 //   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
@@ -51,7 +52,7 @@ class soft_ball {
   struct certified_for {
     static constexpr bool any_device = false;
     static constexpr const char* device = "pantograph_2dof";
-    static constexpr const char* device_digest = "4bd41ae1d50003e1a5b6e464a22f324bda211b6ab99fd1fb7fa6d0c449d6c039";
+    static constexpr const char* device_digest = "1d81bf48c1147a31e2c4ee01df4b74bbb8c7b08f97922856005eb2f0de83a08e";
     static constexpr const char* estimator[axes] = {"butterworth", "butterworth"};
     static constexpr unsigned loop_delay = 0;  // [samples]
     static constexpr bool is_certified = false;
@@ -64,60 +65,49 @@ class soft_ball {
   void reset(const scalar (&position)[axes] = {}) noexcept {
     const scalar q1 = dashpot::all_finite(position[0]) ? position[0] : 0;
     const scalar q2 = dashpot::all_finite(position[1]) ? position[1] : 0;
-    // k, nearest to θ/π
-    const scalar half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
-    const scalar part_1 = half_turns_1 * half;
-    // k/2 less the nearest whole number
-    const scalar oddness_1 = part_1 - (rounder + part_1 - rounder);
-    // (−1)^k
-    const scalar side_1 = one - oddness_1 * oddness_1 * eight;
-    // r = θ − k π
-    const scalar rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+    // r, from a multiple of π/4
+    const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
-    // cos θ
-    const scalar cosine_1 = side_1 * (one +
-        rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-        (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
-        cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
-    const scalar part_2 = proximal_link * cosine_1;
-    // k, nearest to θ/π
-    const scalar half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
-    const scalar part_3 = half * half_turns_2;
-    // k/2 less the nearest whole number
-    const scalar oddness_2 = part_3 - (rounder + part_3 - rounder);
-    // (−1)^k
-    const scalar side_2 = one - eight * (oddness_2 * oddness_2);
-    // r = θ − k π
-    const scalar rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+    const scalar part_1 = rest_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0);
+    const scalar part_2 = rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) +
+        cosine_term_6) - cosine_term_5) + cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1) + one;
+    // −cos θ
+    const scalar cosine_1 = root_of_half * (part_1 + part_2);
+    const scalar part_3 = proximal_link * cosine_1;
+    // r, from a multiple of π/4
+    const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
-    // cos θ
-    const scalar cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+    const scalar part_4 = one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
         rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
         rest_squared_2 * (cosine_term_8 *
-        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
-    const scalar part_4 = base + (proximal_link * cosine_2 - part_2);
-    // sin θ
-    const scalar sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1);
+    const scalar part_5 = rest_2 * (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
         rest_squared_2 * (rest_squared_2 * (sine_term_4 +
         rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
-        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
+        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1));
+    // cos θ
+    const scalar cosine_2 = root_of_half * (part_4 - part_5);
+    const scalar part_6 = base + (part_3 + proximal_link * cosine_2);
     // sin θ
-    const scalar sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-        (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
-        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
-    const scalar part_5 = proximal_link * sine_1;
-    const scalar part_6 = proximal_link * sine_2 - part_5;
-    const scalar part_7 = dashpot::square_root(distal_link_squared * (one / (part_4 * part_4 +
-        part_6 * part_6)) - quarter);
+    const scalar sine_2 = root_of_half * (part_5 + part_4);
+    // sin θ
+    const scalar sine_1 = root_of_half * (part_2 - part_1);
+    const scalar part_7 = proximal_link * sine_1;
+    const scalar part_8 = proximal_link * sine_2 - part_7;
+    const scalar part_9 = dashpot::square_root(distal_link_squared * (one / (part_6 * part_6 +
+        part_8 * part_8)) - quarter);
     // position of the tip, x
-    const scalar tip_x = part_2 + (half * part_4 - part_6 * part_7) - half_base;
+    const scalar tip_x = half * part_6 - part_8 * part_9 - part_3 - half_base;
     // position of the tip, y
-    const scalar tip_y = part_5 + (half * part_6 + part_4 * part_7);
-    const scalar part_8 = tip_y - ball_centre_y;
-    const scalar part_9 = ball_radius - dashpot::square_root(tip_x * tip_x + part_8 * part_8 + blunting_squared);
-    const scalar ball_start = part_9 > 0 ? part_9 : nothing;
+    const scalar tip_y = part_7 + (half * part_8 + part_6 * part_9);
+    const scalar part_10 = tip_y - ball_centre_y;
+    const scalar part_11 = ball_radius - dashpot::square_root(tip_x * tip_x + part_10 * part_10 + blunting_squared);
+    const scalar ball_start = part_11 > 0 ? part_11 : nothing;
     ball_surface_ = dashpot::all_finite(ball_start) ? ball_start : 0;
     ball_spring_3_damper_4_force_ = 0;
     ball_sampled_surface_change_ = 0;
@@ -132,91 +122,80 @@ class soft_ball {
   dashpot::commands<scalar, axes, brakes> output(const scalar (&position)[axes],
                                                  const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // k, nearest to θ/π
-    const scalar half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
-    const scalar part_1 = half_turns_1 * half;
-    // k/2 less the nearest whole number
-    const scalar oddness_1 = part_1 - (rounder + part_1 - rounder);
-    // (−1)^k
-    const scalar side_1 = one - oddness_1 * oddness_1 * eight;
-    // r = θ − k π
-    const scalar rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+    // r, from a multiple of π/4
+    const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
-    // cos θ
-    const scalar cosine_1 = side_1 * (one +
-        rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-        (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
-        cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
-    const scalar part_2 = proximal_link * cosine_1;
-    // k, nearest to θ/π
-    const scalar half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
-    const scalar part_3 = half * half_turns_2;
-    // k/2 less the nearest whole number
-    const scalar oddness_2 = part_3 - (rounder + part_3 - rounder);
-    // (−1)^k
-    const scalar side_2 = one - eight * (oddness_2 * oddness_2);
-    // r = θ − k π
-    const scalar rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+    const scalar part_1 = rest_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0);
+    const scalar part_2 = rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) +
+        cosine_term_6) - cosine_term_5) + cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1) + one;
+    // −cos θ
+    const scalar cosine_1 = root_of_half * (part_1 + part_2);
+    const scalar part_3 = proximal_link * cosine_1;
+    // r, from a multiple of π/4
+    const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
-    // cos θ
-    const scalar cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+    const scalar part_4 = one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
         rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
         rest_squared_2 * (cosine_term_8 *
-        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
-    const scalar part_4 = proximal_link * cosine_2;
-    const scalar part_5 = base + (part_4 - part_2);
-    const scalar part_6 = half * part_5;
-    // sin θ
-    const scalar sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1);
+    const scalar part_5 = rest_2 * (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
         rest_squared_2 * (rest_squared_2 * (sine_term_4 +
         rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
-        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
-    const scalar part_7 = proximal_link * sine_2;
+        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1));
+    // cos θ
+    const scalar cosine_2 = root_of_half * (part_4 - part_5);
+    const scalar part_6 = proximal_link * cosine_2;
+    const scalar part_7 = base + (part_3 + part_6);
+    const scalar part_8 = half * part_7;
     // sin θ
-    const scalar sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-        (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
-        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
-    const scalar part_8 = proximal_link * sine_1;
-    const scalar part_9 = part_7 - part_8;
-    const scalar part_10 = one / (part_5 * part_5 + part_9 * part_9);
-    const scalar part_11 = dashpot::square_root(distal_link_squared * part_10 - quarter);
-    const scalar part_12 = part_9 * part_11;
-    const scalar part_13 = part_6 - part_12;
+    const scalar sine_2 = root_of_half * (part_5 + part_4);
+    const scalar part_9 = proximal_link * sine_2;
+    // sin θ
+    const scalar sine_1 = root_of_half * (part_2 - part_1);
+    const scalar part_10 = proximal_link * sine_1;
+    const scalar part_11 = part_9 - part_10;
+    const scalar part_12 = one / (part_7 * part_7 + part_11 * part_11);
+    const scalar part_13 = dashpot::square_root(distal_link_squared * part_12 - quarter);
+    const scalar part_14 = part_11 * part_13;
+    const scalar part_15 = part_8 - part_14;
     // position of the tip, x
-    const scalar tip_x = part_2 + part_13 - half_base;
-    const scalar part_14 = half * part_9;
-    const scalar part_15 = part_5 * part_11;
-    const scalar part_16 = part_14 + part_15;
+    const scalar tip_x = part_15 - part_3 - half_base;
+    const scalar part_16 = half * part_11;
+    const scalar part_17 = part_7 * part_13;
+    const scalar part_18 = part_16 + part_17;
     // position of the tip, y
-    const scalar tip_y = part_8 + part_16;
-    const scalar part_17 = tip_y - ball_centre_y;
-    const scalar part_18 = dashpot::square_root(tip_x * tip_x + part_17 * part_17 + blunting_squared);
+    const scalar tip_y = part_10 + part_18;
+    const scalar part_19 = tip_y - ball_centre_y;
+    const scalar part_20 = dashpot::square_root(tip_x * tip_x + part_19 * part_19 + blunting_squared);
     // w of port ball
-    const scalar ball_position = ball_radius - part_18;
-    const scalar part_19 = part_10 / part_11;
-    const scalar part_20 = part_6 + part_12;
-    const scalar part_21 = part_15 - part_14;
-    const scalar part_22 = part_19 * (part_7 * part_20 + part_4 * part_21);
+    const scalar ball_position = ball_radius - part_20;
+    const scalar part_21 = part_12 / part_13;
+    const scalar part_22 = part_21 * (part_10 * part_15 + part_3 * part_18);
+    const scalar part_23 = part_17 - part_16;
+    // −∂x/∂q1
+    const scalar x_by_q1 = part_22 * part_23;
+    const scalar part_24 = one / part_20;
+    const scalar part_25 = tip_x * part_24;
+    const scalar part_26 = part_8 + part_14;
+    // −∂y/∂q1
+    const scalar y_by_q1 = part_22 * part_26;
+    const scalar part_27 = part_19 * part_24;
+    // ∂w/∂q1
+    const scalar ball_by_q1 = x_by_q1 * part_25 + y_by_q1 * part_27;
+    const scalar part_28 = part_21 * (part_9 * part_26 + part_6 * part_23);
     // −∂x/∂q2
-    const scalar x_by_q2 = part_16 * part_22;
-    const scalar part_23 = one / part_18;
-    const scalar part_24 = tip_x * part_23;
+    const scalar x_by_q2 = part_18 * part_28;
     // ∂y/∂q2
-    const scalar y_by_q2 = part_13 * part_22;
-    const scalar part_25 = part_17 * part_23;
+    const scalar y_by_q2 = part_15 * part_28;
     // ∂w/∂q2
-    const scalar ball_by_q2 = x_by_q2 * part_24 - y_by_q2 * part_25;
-    const scalar part_26 = part_19 * (part_2 * part_16 - part_8 * part_13);
-    // ∂x/∂q1
-    const scalar x_by_q1 = part_26 * part_21;
-    // ∂y/∂q1
-    const scalar y_by_q1 = part_26 * part_20;
-    // −∂w/∂q1
-    const scalar ball_by_q1 = x_by_q1 * part_24 + y_by_q1 * part_25;
+    const scalar ball_by_q2 = x_by_q2 * part_25 - y_by_q2 * part_27;
     // ẇ = g·v
-    const scalar ball_velocity = ball_by_q2 * v2 - ball_by_q1 * v1;
+    const scalar ball_velocity = ball_by_q1 * v1 + ball_by_q2 * v2;
     // Δ = u − s₋
     const scalar ball_approach = ball_position - ball_surface_;
     // π = k0 s₋ + S
@@ -244,20 +223,20 @@ class soft_ball {
     const scalar ball_force = ball_released > 0 ? ball_none : ball_opposing;
     // B* of joint 1
     const scalar wanted_11 = ball_brake * (ball_by_q1 * ball_by_q1);
-    const scalar part_27 = wanted_11 > 0 ? wanted_11 : nothing;
-    const scalar part_28 = most_damping_1 - part_27 > 0 ? part_27 : most_damping_1;
+    const scalar part_29 = wanted_11 > 0 ? wanted_11 : nothing;
+    const scalar part_30 = most_damping_1 - part_29 > 0 ? part_29 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_28 + added_damping_1;
+    const scalar damping_1 = part_30 + added_damping_1;
     // B* of joint 2
     const scalar wanted_22 = ball_brake * (ball_by_q2 * ball_by_q2);
-    const scalar part_29 = wanted_22 > 0 ? wanted_22 : nothing;
-    const scalar part_30 = most_damping_1 - part_29 > 0 ? part_29 : most_damping_1;
-    const scalar damping_2 = added_damping_1 + part_30;
-    // −B* between the joints
+    const scalar part_31 = wanted_22 > 0 ? wanted_22 : nothing;
+    const scalar part_32 = most_damping_1 - part_31 > 0 ? part_31 : most_damping_1;
+    const scalar damping_2 = added_damping_1 + part_32;
+    // B* between the joints
     const scalar wanted_12 = ball_brake * (ball_by_q1 * ball_by_q2);
     // τ = Σ g M + (B* − D) v
-    const scalar torque_1 = v1 * (wanted_11 - part_28) - wanted_12 * v2 - ball_by_q1 * ball_force;
-    const scalar torque_2 = ball_by_q2 * ball_force + (v2 * (wanted_22 - part_30) - wanted_12 * v1);
+    const scalar torque_1 = ball_by_q1 * ball_force + (v1 * (wanted_11 - part_30) + wanted_12 * v2);
+    const scalar torque_2 = ball_by_q2 * ball_force + (wanted_12 * v1 + v2 * (wanted_22 - part_32));
     sampled_ = false;
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) return {{sampled_damping_1_, sampled_damping_2_}, {}};
     sampled_ = true;
@@ -283,91 +262,80 @@ class soft_ball {
   dashpot::commands<scalar, axes, brakes> step(const scalar (&position)[axes],
                                                const scalar (&velocity)[axes]) noexcept {
     const scalar q1 = position[0], q2 = position[1], v1 = velocity[0], v2 = velocity[1];
-    // k, nearest to θ/π
-    const scalar half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
-    const scalar part_1 = half_turns_1 * half;
-    // k/2 less the nearest whole number
-    const scalar oddness_1 = part_1 - (rounder + part_1 - rounder);
-    // (−1)^k
-    const scalar side_1 = one - oddness_1 * oddness_1 * eight;
-    // r = θ − k π
-    const scalar rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+    // r, from a multiple of π/4
+    const scalar rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
     // r²
     const scalar rest_squared_1 = rest_1 * rest_1;
-    // cos θ
-    const scalar cosine_1 = side_1 * (one +
-        rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-        (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
-        cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
-    const scalar part_2 = proximal_link * cosine_1;
-    // k, nearest to θ/π
-    const scalar half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
-    const scalar part_3 = half * half_turns_2;
-    // k/2 less the nearest whole number
-    const scalar oddness_2 = part_3 - (rounder + part_3 - rounder);
-    // (−1)^k
-    const scalar side_2 = one - eight * (oddness_2 * oddness_2);
-    // r = θ − k π
-    const scalar rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+    const scalar part_1 = rest_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0);
+    const scalar part_2 = rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+        (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) +
+        cosine_term_6) - cosine_term_5) + cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1) + one;
+    // −cos θ
+    const scalar cosine_1 = root_of_half * (part_1 + part_2);
+    const scalar part_3 = proximal_link * cosine_1;
+    // r, from a multiple of π/4
+    const scalar rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
     // r²
     const scalar rest_squared_2 = rest_2 * rest_2;
-    // cos θ
-    const scalar cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+    const scalar part_4 = one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
         rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
         rest_squared_2 * (cosine_term_8 *
-        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
-    const scalar part_4 = proximal_link * cosine_2;
-    const scalar part_5 = base + (part_4 - part_2);
-    const scalar part_6 = half * part_5;
-    // sin θ
-    const scalar sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+        rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1);
+    const scalar part_5 = rest_2 * (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
         rest_squared_2 * (rest_squared_2 * (sine_term_4 +
         rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
-        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
-    const scalar part_7 = proximal_link * sine_2;
+        rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1));
+    // cos θ
+    const scalar cosine_2 = root_of_half * (part_4 - part_5);
+    const scalar part_6 = proximal_link * cosine_2;
+    const scalar part_7 = base + (part_3 + part_6);
+    const scalar part_8 = half * part_7;
     // sin θ
-    const scalar sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-        (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
-        sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
-    const scalar part_8 = proximal_link * sine_1;
-    const scalar part_9 = part_7 - part_8;
-    const scalar part_10 = one / (part_5 * part_5 + part_9 * part_9);
-    const scalar part_11 = dashpot::square_root(distal_link_squared * part_10 - quarter);
-    const scalar part_12 = part_9 * part_11;
-    const scalar part_13 = part_6 - part_12;
+    const scalar sine_2 = root_of_half * (part_5 + part_4);
+    const scalar part_9 = proximal_link * sine_2;
+    // sin θ
+    const scalar sine_1 = root_of_half * (part_2 - part_1);
+    const scalar part_10 = proximal_link * sine_1;
+    const scalar part_11 = part_9 - part_10;
+    const scalar part_12 = one / (part_7 * part_7 + part_11 * part_11);
+    const scalar part_13 = dashpot::square_root(distal_link_squared * part_12 - quarter);
+    const scalar part_14 = part_11 * part_13;
+    const scalar part_15 = part_8 - part_14;
     // position of the tip, x
-    const scalar tip_x = part_2 + part_13 - half_base;
-    const scalar part_14 = half * part_9;
-    const scalar part_15 = part_5 * part_11;
-    const scalar part_16 = part_14 + part_15;
+    const scalar tip_x = part_15 - part_3 - half_base;
+    const scalar part_16 = half * part_11;
+    const scalar part_17 = part_7 * part_13;
+    const scalar part_18 = part_16 + part_17;
     // position of the tip, y
-    const scalar tip_y = part_8 + part_16;
-    const scalar part_17 = tip_y - ball_centre_y;
-    const scalar part_18 = dashpot::square_root(tip_x * tip_x + part_17 * part_17 + blunting_squared);
+    const scalar tip_y = part_10 + part_18;
+    const scalar part_19 = tip_y - ball_centre_y;
+    const scalar part_20 = dashpot::square_root(tip_x * tip_x + part_19 * part_19 + blunting_squared);
     // w of port ball
-    const scalar ball_position = ball_radius - part_18;
-    const scalar part_19 = part_10 / part_11;
-    const scalar part_20 = part_6 + part_12;
-    const scalar part_21 = part_15 - part_14;
-    const scalar part_22 = part_19 * (part_7 * part_20 + part_4 * part_21);
+    const scalar ball_position = ball_radius - part_20;
+    const scalar part_21 = part_12 / part_13;
+    const scalar part_22 = part_21 * (part_10 * part_15 + part_3 * part_18);
+    const scalar part_23 = part_17 - part_16;
+    // −∂x/∂q1
+    const scalar x_by_q1 = part_22 * part_23;
+    const scalar part_24 = one / part_20;
+    const scalar part_25 = tip_x * part_24;
+    const scalar part_26 = part_8 + part_14;
+    // −∂y/∂q1
+    const scalar y_by_q1 = part_22 * part_26;
+    const scalar part_27 = part_19 * part_24;
+    // ∂w/∂q1
+    const scalar ball_by_q1 = x_by_q1 * part_25 + y_by_q1 * part_27;
+    const scalar part_28 = part_21 * (part_9 * part_26 + part_6 * part_23);
     // −∂x/∂q2
-    const scalar x_by_q2 = part_16 * part_22;
-    const scalar part_23 = one / part_18;
-    const scalar part_24 = tip_x * part_23;
+    const scalar x_by_q2 = part_18 * part_28;
     // ∂y/∂q2
-    const scalar y_by_q2 = part_13 * part_22;
-    const scalar part_25 = part_17 * part_23;
+    const scalar y_by_q2 = part_15 * part_28;
     // ∂w/∂q2
-    const scalar ball_by_q2 = x_by_q2 * part_24 - y_by_q2 * part_25;
-    const scalar part_26 = part_19 * (part_2 * part_16 - part_8 * part_13);
-    // ∂x/∂q1
-    const scalar x_by_q1 = part_26 * part_21;
-    // ∂y/∂q1
-    const scalar y_by_q1 = part_26 * part_20;
-    // −∂w/∂q1
-    const scalar ball_by_q1 = x_by_q1 * part_24 + y_by_q1 * part_25;
+    const scalar ball_by_q2 = x_by_q2 * part_25 - y_by_q2 * part_27;
     // ẇ = g·v
-    const scalar ball_velocity = ball_by_q2 * v2 - ball_by_q1 * v1;
+    const scalar ball_velocity = ball_by_q1 * v1 + ball_by_q2 * v2;
     // Δ = u − s₋
     const scalar ball_approach = ball_position - ball_surface_;
     // π = k0 s₋ + S
@@ -395,20 +363,20 @@ class soft_ball {
     const scalar ball_force = ball_released > 0 ? ball_none : ball_opposing;
     // B* of joint 1
     const scalar wanted_11 = ball_brake * (ball_by_q1 * ball_by_q1);
-    const scalar part_27 = wanted_11 > 0 ? wanted_11 : nothing;
-    const scalar part_28 = most_damping_1 - part_27 > 0 ? part_27 : most_damping_1;
+    const scalar part_29 = wanted_11 > 0 ? wanted_11 : nothing;
+    const scalar part_30 = most_damping_1 - part_29 > 0 ? part_29 : most_damping_1;
     // D of B*
-    const scalar damping_1 = part_28 + added_damping_1;
+    const scalar damping_1 = part_30 + added_damping_1;
     // B* of joint 2
     const scalar wanted_22 = ball_brake * (ball_by_q2 * ball_by_q2);
-    const scalar part_29 = wanted_22 > 0 ? wanted_22 : nothing;
-    const scalar part_30 = most_damping_1 - part_29 > 0 ? part_29 : most_damping_1;
-    const scalar damping_2 = added_damping_1 + part_30;
-    // −B* between the joints
+    const scalar part_31 = wanted_22 > 0 ? wanted_22 : nothing;
+    const scalar part_32 = most_damping_1 - part_31 > 0 ? part_31 : most_damping_1;
+    const scalar damping_2 = added_damping_1 + part_32;
+    // B* between the joints
     const scalar wanted_12 = ball_brake * (ball_by_q1 * ball_by_q2);
     // τ = Σ g M + (B* − D) v
-    const scalar torque_1 = v1 * (wanted_11 - part_28) - wanted_12 * v2 - ball_by_q1 * ball_force;
-    const scalar torque_2 = ball_by_q2 * ball_force + (v2 * (wanted_22 - part_30) - wanted_12 * v1);
+    const scalar torque_1 = ball_by_q1 * ball_force + (v1 * (wanted_11 - part_30) + wanted_12 * v2);
+    const scalar torque_2 = ball_by_q2 * ball_force + (wanted_12 * v1 + v2 * (wanted_22 - part_32));
     if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) {
       sampled_ = false;
       return {{sampled_damping_1_, sampled_damping_2_}, {}};
@@ -453,14 +421,20 @@ class soft_ball {
   static constexpr scalar ball_half_static_stiffness = 100.0;  // ½ k0 [N/m]
   static constexpr scalar ball_spring_3_damper_4_energy_weight = 0.005005002500833542;  // 1/(2 k a²) [m/N]
   static constexpr scalar ball_radius = 0.03;  // of the circle [m]
-  static constexpr scalar proximal_link = 0.063;  // length of the link at the motor [m]
-  static constexpr scalar one = 1.0;  // 1 [1]
-  static constexpr scalar rounder = 6755399441055744.0;  // added and taken away, it rounds to a whole number [1]
-  static constexpr scalar half_turns_per_radian = 0.3183098861837907;  // 1/π [1/rad]
   static constexpr scalar half = 0.5;  // 1/2 [1]
-  static constexpr scalar eight = 8.0;  // 8 [1]
-  static constexpr scalar half_turn = 3.1415926534682512;  // π, its first digits [rad]
-  static constexpr scalar half_turn_rest = 1.2154201013012384e-10;  // π, what is left of it [rad]
+  static constexpr scalar base = 0.025;  // distance of the motor axes [m]
+  static constexpr scalar proximal_link = 0.063;  // length of the link at the motor [m]
+  static constexpr scalar root_of_half = 0.7071067811865476;  // √½ [1]
+  static constexpr scalar eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
+  static constexpr scalar eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
+  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
+  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
+  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
+  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
+  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
+  static constexpr scalar sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
+  static constexpr scalar sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
+  static constexpr scalar sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
   static constexpr scalar cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
   static constexpr scalar cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
   static constexpr scalar cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
@@ -469,15 +443,9 @@ class soft_ball {
   static constexpr scalar cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
   static constexpr scalar cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
   static constexpr scalar cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
-  static constexpr scalar base = 0.025;  // distance of the motor axes [m]
-  static constexpr scalar sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
-  static constexpr scalar sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  static constexpr scalar sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  static constexpr scalar sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  static constexpr scalar sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  static constexpr scalar sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  static constexpr scalar sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  static constexpr scalar sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
+  static constexpr scalar one = 1.0;  // 1 [1]
+  static constexpr scalar eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
+  static constexpr scalar eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
   static constexpr scalar distal_link_squared = 0.005625;  // square of that [m²]
   static constexpr scalar quarter = 0.25;  // 1/4 [1]
   static constexpr scalar half_base = 0.0125;  // half of that [m]

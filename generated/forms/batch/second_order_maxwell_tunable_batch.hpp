@@ -22,7 +22,7 @@
 // cost of output(): 3 additions, 2 multiplications, 0 guards against subnormal numbers
 // cost of update(): 16 additions, 15 multiplications, 3 guards against subnormal numbers; 10 numbers are kept
 //   between samples
-// cost of set(): at most 344 additions, multiplications and divisions
+// cost of set(): at most 242 additions, multiplications and divisions
 // words: passive is what gives the hand no more energy than it got; certified, what is proved to be passive
 //
 // Written by dashpot 0.1.0 from a network with digest

@@ -3,7 +3,8 @@
 // source: Gosline & Hayward 2009, Fig. 2c, in two directions; the values are chosen here
 // port across: behind the map 'along'; b = 1 N·s/m by the rule 'paper'
 // port out: behind the map 'wall'; b = 1 N·s/m by the rule 'paper'
-// kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16
+// kinematics: five_bar; sine and cosine by polynomials that are off by less than 2e-16, of joints that stay within
+//   their encoders' ranges
 // scheme: exact at 10000 Hz, double; what is kept of the past follows the measured position
 // brakes: by the rule 'diagonal' the brakes make the diagonal of B*, the motors what couples the joints
 // share: of the ports' damping the brakes make 106 % in the median over the workspace, 100 % at least, at (-11,
@@ -19,7 +20,7 @@
 //   of the workspace
 //   added to the brakes' commands for it: 0.00446149, 0.00446149 N m s/rad; felt at the tip: up to 3.62 N s/m more
 // device: pantograph_2dof
-// cost of output(): 81 additions, 99 multiplications, 22 selections, 0 guards against subnormal numbers
+// cost of output(): 68 additions, 78 multiplications, 2 selections, 0 guards against subnormal numbers
 // cost of update(): 0 additions, 0 multiplications, 0 selections, 0 guards against subnormal numbers
 // words: a port is a network of one axis behind a map w of the tool's position, which says how far the tool has
 //   gone into what the network resists; B* is the damping that all ports ask for, over the joints. Passive is what
@@ -83,8 +84,18 @@ static inline float dashpot_pushed_inf(float at, float position) { return (posit
 
 #endif
 
-// √x, and 0 for x ≤ 0. Infinity stays infinity. The same steps for every x.
+// √x to the nearest number, and 0 for x ≤ 0. Infinity stays infinity. By one instruction where the processor has it, else
+// by the same steps for every x.
 static inline double kelvin_field_square_root(double x) {
+# if defined(__GNUC__) && defined(__SSE2__) && !defined(__AVX__) && !defined(__FRAMAC__)
+  if (!(x > 0)) return 0;
+  __asm__("sqrtsd %0, %0" : "+x"(x));
+  return x;
+# elif defined(__GNUC__) && defined(__ARM_FP) && !defined(__aarch64__) && !defined(__FRAMAC__) && (__ARM_FP & 8)
+  if (!(x > 0)) return 0;
+  __asm__("vsqrt.f64 %P0, %P0" : "+w"(x));
+  return x;
+# else
   // Powers of two that take any number to between 1 and 4.
   static const double halves[] = {1.157920892373162e+77, 1.157920892373162e+77, 3.402823669209385e+38, 1.8446744073709552e+19, 4294967296.0, 65536.0, 256.0, 16.0, 4.0, 2.0};
   double scale = 1;
@@ -100,7 +111,15 @@ static inline double kelvin_field_square_root(double x) {
   // The chord through (1, 1) and (4, 2) is at most 6 % wrong; each of Newton's steps squares the relative error.
   double root = (x + 2) / 3;
   for (int step = 0; step < 4; ++step) root = (root + x / root) / 2;
+  // Off by a last place at most. x − root² is exact, from products of half of the digits (Dekker 1971), and a multiple
+  // of the last place squared, as root times the last place is; half way between two roots there is none.
+  const double spread = 134217729.0 * root, high = spread - (spread - root), low = root - high, square = root * root;
+  const double rest = (x - square) - ((((high * high) - square) + (2 * high * low)) + (low * low));
+  const double nearest = root * 2.220446049250313e-16;
+  if (rest > nearest) root = root + 2.220446049250313e-16;
+  else if (rest <= -nearest) root = root - 2.220446049250313e-16;
   return scale * root;
+# endif
 }
 
 enum { kelvin_field_axes = 2, kelvin_field_brakes = 2 };
@@ -126,7 +145,7 @@ typedef struct kelvin_field {
 static inline double kelvin_field_sample_period(void) { return 0.0001; }  // [s]
 static inline int kelvin_field_is_rotation(void) { return 1; }  // of the joints
 static inline const char *kelvin_field_device(void) { return "pantograph_2dof"; }
-static inline const char *kelvin_field_device_digest(void) { return "4bd41ae1d50003e1a5b6e464a22f324bda211b6ab99fd1fb7fa6d0c449d6c039"; }
+static inline const char *kelvin_field_device_digest(void) { return "1d81bf48c1147a31e2c4ee01df4b74bbb8c7b08f97922856005eb2f0de83a08e"; }
 static inline const char *kelvin_field_estimator(int joint) {
   static const char *const names[kelvin_field_axes] = {"butterworth", "butterworth"};
   return ((joint >= 0) && (joint < kelvin_field_axes)) ? names[joint] : "";
@@ -143,14 +162,20 @@ static inline double kelvin_field_added_damping(int brake) {
 // At rest with the joints at `position` [rad], an array of as many, springs relaxed but for the static load. A
 // NaN or infinite position counts as 0.
 static inline void kelvin_field_reset(kelvin_field *self, const double *position) {
-  const double proximal_link = 0.063;  // length of the link at the motor [m]
-  const double one = 1.0;  // 1 [1]
-  const double rounder = 6755399441055744.0;  // added and taken away, it rounds to a whole number [1]
-  const double half_turns_per_radian = 0.3183098861837907;  // 1/π [1/rad]
   const double half = 0.5;  // 1/2 [1]
-  const double eight = 8.0;  // 8 [1]
-  const double half_turn = 3.1415926534682512;  // π, its first digits [rad]
-  const double half_turn_rest = 1.2154201013012384e-10;  // π, what is left of it [rad]
+  const double base = 0.025;  // distance of the motor axes [m]
+  const double proximal_link = 0.063;  // length of the link at the motor [m]
+  const double root_of_half = 0.7071067811865476;  // √½ [1]
+  const double eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
+  const double eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
+  const double sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
+  const double sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
+  const double sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
+  const double sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
+  const double sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
+  const double sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
+  const double sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
+  const double sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
   const double cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
   const double cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
   const double cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
@@ -159,73 +184,56 @@ static inline void kelvin_field_reset(kelvin_field *self, const double *position
   const double cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
   const double cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
   const double cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
-  const double base = 0.025;  // distance of the motor axes [m]
-  const double sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
-  const double sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  const double sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  const double sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  const double sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  const double sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  const double sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  const double sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
+  const double one = 1.0;  // 1 [1]
+  const double eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
+  const double eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
   const double distal_link_squared = 0.005625;  // square of that [m²]
   const double quarter = 0.25;  // 1/4 [1]
   const double half_base = 0.0125;  // half of that [m]
   const double out_offset = 0.1;  // of the plane from the origin [m]
   const double q1 = (dashpot_all_finite(position[0], position[0], position[0]) != 0) ? position[0] : 0.0;
   const double q2 = (dashpot_all_finite(position[1], position[1], position[1]) != 0) ? position[1] : 0.0;
-  // k, nearest to θ/π
-  const double half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
-  const double part_1 = half_turns_1 * half;
-  // k/2 less the nearest whole number
-  const double oddness_1 = part_1 - (rounder + part_1 - rounder);
-  // (−1)^k
-  const double side_1 = one - oddness_1 * oddness_1 * eight;
-  // r = θ − k π
-  const double rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+  // r, from a multiple of π/4
+  const double rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
   // r²
   const double rest_squared_1 = rest_1 * rest_1;
-  // cos θ
-  const double cosine_1 = side_1 * (one +
-      rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-      (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
-      cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
-  const double part_2 = proximal_link * cosine_1;
-  // k, nearest to θ/π
-  const double half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
-  const double part_3 = half * half_turns_2;
-  // k/2 less the nearest whole number
-  const double oddness_2 = part_3 - (rounder + part_3 - rounder);
-  // (−1)^k
-  const double side_2 = one - eight * (oddness_2 * oddness_2);
-  // r = θ − k π
-  const double rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+  const double part_1 = rest_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+      (rest_squared_1 * (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+      sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0);
+  const double part_2 = rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+      (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) +
+      cosine_term_6) - cosine_term_5) + cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1) + one;
+  // −cos θ
+  const double cosine_1 = root_of_half * (part_1 + part_2);
+  const double part_3 = proximal_link * cosine_1;
+  // r, from a multiple of π/4
+  const double rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
   // r²
   const double rest_squared_2 = rest_2 * rest_2;
-  // cos θ
-  const double cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+  const double part_4 = one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
       rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
       rest_squared_2 * (cosine_term_8 *
-      rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
-  const double part_4 = base + (proximal_link * cosine_2 - part_2);
-  // sin θ
-  const double sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+      rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1);
+  const double part_5 = rest_2 * (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
       rest_squared_2 * (rest_squared_2 * (sine_term_4 +
       rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
-      rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
+      rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1));
+  // cos θ
+  const double cosine_2 = root_of_half * (part_4 - part_5);
+  const double part_6 = base + (part_3 + proximal_link * cosine_2);
   // sin θ
-  const double sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-      (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
-      sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
-  const double part_5 = proximal_link * sine_1;
-  const double part_6 = proximal_link * sine_2 - part_5;
-  const double part_7 = kelvin_field_square_root(distal_link_squared * (one / (part_4 * part_4 +
-      part_6 * part_6)) - quarter);
+  const double sine_2 = root_of_half * (part_5 + part_4);
+  // sin θ
+  const double sine_1 = root_of_half * (part_2 - part_1);
+  const double part_7 = proximal_link * sine_1;
+  const double part_8 = proximal_link * sine_2 - part_7;
+  const double part_9 = kelvin_field_square_root(distal_link_squared * (one / (part_6 * part_6 +
+      part_8 * part_8)) - quarter);
   // position of the tip, x
-  const double tip_x = part_2 + (half * part_4 - part_6 * part_7) - half_base;
+  const double tip_x = half * part_6 - part_8 * part_9 - part_3 - half_base;
   const double across_start = tip_x;
   // position of the tip, y
-  const double tip_y = part_5 + (half * part_6 + part_4 * part_7);
+  const double tip_y = part_7 + (half * part_8 + part_6 * part_9);
   const double out_start = tip_y - out_offset;
   self->across_last_position = (dashpot_all_finite(across_start, across_start, across_start) != 0) ? across_start : 0.0;
   self->across_sampled_position = 0.0;
@@ -249,14 +257,20 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   kelvin_field_commands command;
   const double across_static_stiffness = 100.0;  // k0 [N/m]
   const double out_static_stiffness = 100.0;  // k0 [N/m]
-  const double proximal_link = 0.063;  // length of the link at the motor [m]
-  const double one = 1.0;  // 1 [1]
-  const double rounder = 6755399441055744.0;  // added and taken away, it rounds to a whole number [1]
-  const double half_turns_per_radian = 0.3183098861837907;  // 1/π [1/rad]
   const double half = 0.5;  // 1/2 [1]
-  const double eight = 8.0;  // 8 [1]
-  const double half_turn = 3.1415926534682512;  // π, its first digits [rad]
-  const double half_turn_rest = 1.2154201013012384e-10;  // π, what is left of it [rad]
+  const double base = 0.025;  // distance of the motor axes [m]
+  const double proximal_link = 0.063;  // length of the link at the motor [m]
+  const double root_of_half = 0.7071067811865476;  // √½ [1]
+  const double eighth_turns_3 = 2.3561944901011884;  // a multiple of π/4, its first digits [rad]
+  const double eighth_turns_3_rest = 9.115650759759289e-11;  // a multiple of π/4, what is left of it [rad]
+  const double sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
+  const double sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
+  const double sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
+  const double sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
+  const double sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
+  const double sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
+  const double sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
+  const double sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
   const double cosine_term_8 = 4.608977003001797e-14;  // of the polynomial in r² [1/rad^16]
   const double cosine_term_7 = 1.1462901901757276e-11;  // of the polynomial in r² [1/rad^14]
   const double cosine_term_6 = 2.0876561839933163e-09;  // of the polynomial in r² [1/rad^12]
@@ -265,15 +279,9 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   const double cosine_term_3 = 0.001388888888877299;  // of the polynomial in r² [1/rad^6]
   const double cosine_term_2 = 0.04166666666666388;  // of the polynomial in r² [1/rad^4]
   const double cosine_term_1 = 0.4999999999999997;  // of the polynomial in r² [1/rad^2]
-  const double base = 0.025;  // distance of the motor axes [m]
-  const double sine_term_0 = 0.9999999999999999;  // of the polynomial in r² [1]
-  const double sine_term_2 = 0.008333333333282756;  // of the polynomial in r² [1/rad^4]
-  const double sine_term_4 = 2.7557316609073673e-06;  // of the polynomial in r² [1/rad^8]
-  const double sine_term_6 = 1.6048168318165643e-10;  // of the polynomial in r² [1/rad^12]
-  const double sine_term_7 = 7.374387503862757e-13;  // of the polynomial in r² [1/rad^14]
-  const double sine_term_5 = 2.505188194671259e-08;  // of the polynomial in r² [1/rad^10]
-  const double sine_term_3 = 0.00019841269824861897;  // of the polynomial in r² [1/rad^6]
-  const double sine_term_1 = 0.16666666666666072;  // of the polynomial in r² [1/rad^2]
+  const double one = 1.0;  // 1 [1]
+  const double eighth_turns_1 = 0.7853981633670628;  // a multiple of π/4, its first digits [rad]
+  const double eighth_turns_1_rest = 3.038550253253096e-11;  // a multiple of π/4, what is left of it [rad]
   const double distal_link_squared = 0.005625;  // square of that [m²]
   const double quarter = 0.25;  // 1/4 [1]
   const double half_base = 0.0125;  // half of that [m]
@@ -284,102 +292,91 @@ static inline kelvin_field_commands kelvin_field_output(kelvin_field *self, cons
   const double q2 = position[1];
   const double v1 = velocity[0];
   const double v2 = velocity[1];
-  // k, nearest to θ/π
-  const double half_turns_1 = rounder + q1 * half_turns_per_radian - rounder;
-  const double part_1 = half_turns_1 * half;
-  // k/2 less the nearest whole number
-  const double oddness_1 = part_1 - (rounder + part_1 - rounder);
-  // (−1)^k
-  const double side_1 = one - oddness_1 * oddness_1 * eight;
-  // r = θ − k π
-  const double rest_1 = q1 - half_turns_1 * half_turn - half_turns_1 * half_turn_rest;
+  // r, from a multiple of π/4
+  const double rest_1 = q1 - eighth_turns_3 - eighth_turns_3_rest;
   // r²
   const double rest_squared_1 = rest_1 * rest_1;
-  // cos θ
-  const double cosine_1 = side_1 * (one +
-      rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-      (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) + cosine_term_6) - cosine_term_5) +
-      cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1));
-  const double part_2 = proximal_link * cosine_1;
-  // k, nearest to θ/π
-  const double half_turns_2 = rounder + half_turns_per_radian * q2 - rounder;
-  const double part_3 = half * half_turns_2;
-  // k/2 less the nearest whole number
-  const double oddness_2 = part_3 - (rounder + part_3 - rounder);
-  // (−1)^k
-  const double side_2 = one - eight * (oddness_2 * oddness_2);
-  // r = θ − k π
-  const double rest_2 = q2 - half_turn * half_turns_2 - half_turn_rest * half_turns_2;
+  const double part_1 = rest_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+      (rest_squared_1 * (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
+      sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0);
+  const double part_2 = rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
+      (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * cosine_term_8 - cosine_term_7) +
+      cosine_term_6) - cosine_term_5) + cosine_term_4) - cosine_term_3) + cosine_term_2) - cosine_term_1) + one;
+  // −cos θ
+  const double cosine_1 = root_of_half * (part_1 + part_2);
+  const double part_3 = proximal_link * cosine_1;
+  // r, from a multiple of π/4
+  const double rest_2 = q2 - eighth_turns_1 - eighth_turns_1_rest;
   // r²
   const double rest_squared_2 = rest_2 * rest_2;
-  // cos θ
-  const double cosine_2 = side_2 * (one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
+  const double part_4 = one + rest_squared_2 * (rest_squared_2 * (cosine_term_2 +
       rest_squared_2 * (rest_squared_2 * (cosine_term_4 + rest_squared_2 * (rest_squared_2 * (cosine_term_6 +
       rest_squared_2 * (cosine_term_8 *
-      rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1));
-  const double part_4 = proximal_link * cosine_2;
-  const double part_5 = base + (part_4 - part_2);
-  const double part_6 = half * part_5;
-  // sin θ
-  const double sine_2 = (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
+      rest_squared_2 - cosine_term_7)) - cosine_term_5)) - cosine_term_3)) - cosine_term_1);
+  const double part_5 = rest_2 * (sine_term_0 + rest_squared_2 * (rest_squared_2 * (sine_term_2 +
       rest_squared_2 * (rest_squared_2 * (sine_term_4 +
       rest_squared_2 * (rest_squared_2 * (sine_term_6 - sine_term_7 *
-      rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1)) * (rest_2 * side_2);
-  const double part_7 = proximal_link * sine_2;
+      rest_squared_2) - sine_term_5)) - sine_term_3)) - sine_term_1));
+  // cos θ
+  const double cosine_2 = root_of_half * (part_4 - part_5);
+  const double part_6 = proximal_link * cosine_2;
+  const double part_7 = base + (part_3 + part_6);
+  const double part_8 = half * part_7;
   // sin θ
-  const double sine_1 = (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 * (rest_squared_1 *
-      (rest_squared_1 * (sine_term_6 - rest_squared_1 * sine_term_7) - sine_term_5) +
-      sine_term_4) - sine_term_3) + sine_term_2) - sine_term_1) + sine_term_0) * (rest_1 * side_1);
-  const double part_8 = proximal_link * sine_1;
-  const double part_9 = part_7 - part_8;
-  const double part_10 = one / (part_5 * part_5 + part_9 * part_9);
-  const double part_11 = kelvin_field_square_root(distal_link_squared * part_10 - quarter);
-  const double part_12 = part_9 * part_11;
-  const double part_13 = part_6 - part_12;
+  const double sine_2 = root_of_half * (part_5 + part_4);
+  const double part_9 = proximal_link * sine_2;
+  // sin θ
+  const double sine_1 = root_of_half * (part_2 - part_1);
+  const double part_10 = proximal_link * sine_1;
+  const double part_11 = part_9 - part_10;
+  const double part_12 = one / (part_7 * part_7 + part_11 * part_11);
+  const double part_13 = kelvin_field_square_root(distal_link_squared * part_12 - quarter);
+  const double part_14 = part_11 * part_13;
+  const double part_15 = part_8 - part_14;
   // position of the tip, x
-  const double tip_x = part_2 + part_13 - half_base;
+  const double tip_x = part_15 - part_3 - half_base;
   // w of port across
   const double across_position = tip_x;
   // m = f − b u̇
   const double across_force = across_static_stiffness * across_position;
-  const double part_14 = half * part_9;
-  const double part_15 = part_5 * part_11;
-  const double part_16 = part_14 + part_15;
+  const double part_16 = half * part_11;
+  const double part_17 = part_7 * part_13;
+  const double part_18 = part_16 + part_17;
   // position of the tip, y
-  const double tip_y = part_8 + part_16;
+  const double tip_y = part_10 + part_18;
   // w of port out
   const double out_position = tip_y - out_offset;
   // m = f − b u̇
   const double out_force = out_static_stiffness * out_position;
-  const double part_17 = part_10 / part_11;
-  const double part_18 = part_17 * (part_2 * part_16 - part_8 * part_13);
-  const double part_19 = part_15 - part_14;
-  // ∂x/∂q1
-  const double x_by_q1 = part_18 * part_19;
-  const double part_20 = part_6 + part_12;
-  // ∂y/∂q1
-  const double y_by_q1 = part_18 * part_20;
+  const double part_19 = part_12 / part_13;
+  const double part_20 = part_19 * (part_10 * part_15 + part_3 * part_18);
+  const double part_21 = part_17 - part_16;
+  // −∂x/∂q1
+  const double x_by_q1 = part_20 * part_21;
+  const double part_22 = part_8 + part_14;
+  // −∂y/∂q1
+  const double y_by_q1 = part_20 * part_22;
   // B* of joint 1
   const double wanted_11 = x_by_q1 * x_by_q1 + y_by_q1 * y_by_q1;
-  const double part_21 = (most_damping_1 - wanted_11 > 0) ? wanted_11 : most_damping_1;
+  const double part_23 = (most_damping_1 - wanted_11 > 0) ? wanted_11 : most_damping_1;
   // D of B*
-  const double damping_1 = part_21 + added_damping_1;
-  const double part_22 = part_17 * (part_7 * part_20 + part_4 * part_19);
+  const double damping_1 = part_23 + added_damping_1;
+  const double part_24 = part_19 * (part_9 * part_22 + part_6 * part_21);
   // −∂x/∂q2
-  const double x_by_q2 = part_16 * part_22;
+  const double x_by_q2 = part_18 * part_24;
   // ∂y/∂q2
-  const double y_by_q2 = part_13 * part_22;
+  const double y_by_q2 = part_15 * part_24;
   // B* of joint 2
   const double wanted_22 = x_by_q2 * x_by_q2 + y_by_q2 * y_by_q2;
-  const double part_23 = (most_damping_1 - wanted_22 > 0) ? wanted_22 : most_damping_1;
-  const double damping_2 = added_damping_1 + part_23;
+  const double part_25 = (most_damping_1 - wanted_22 > 0) ? wanted_22 : most_damping_1;
+  const double damping_2 = added_damping_1 + part_25;
   // B* between the joints
-  const double wanted_12 = y_by_q1 * y_by_q2 - x_by_q1 * x_by_q2;
+  const double wanted_12 = x_by_q1 * x_by_q2 - y_by_q1 * y_by_q2;
   // τ = Σ g M + (B* − D) v
-  const double torque_1 = x_by_q1 * across_force + y_by_q1 * out_force + ((wanted_11 - part_21) * v1 +
-      wanted_12 * v2);
+  const double torque_1 = (wanted_11 - part_23) * v1 + wanted_12 * v2 - (x_by_q1 * across_force +
+      y_by_q1 * out_force);
   const double torque_2 = y_by_q2 * out_force - x_by_q2 * across_force + (wanted_12 * v1 +
-      v2 * (wanted_22 - part_23));
+      v2 * (wanted_22 - part_25));
   self->sampled = dashpot_all_finite(q1, q2, v1) & dashpot_all_finite(v2, damping_1,
       damping_2) & dashpot_all_finite(torque_1, torque_2, torque_2);
   if (self->sampled != 0) {

@@ -51,7 +51,7 @@ struct HeldForces {
   double unsettled = 0;         // of the step stiffness, what is no mode's
   double besides = 0;           // Σ Y [N]
   std::vector<Relaxing> relaxing;
-  bool is_stepwise = false;  // without delay, and linear but for a contact: each step obeys its own inequality
+  bool is_stepwise = false;  // without delay, of springs and slips behind them: each step obeys its own inequality
   bool is_tunable = false;
 
   // Of relaxations over a stretch whose places are in w no further than `way` from others.
@@ -73,8 +73,8 @@ HeldForces held_forces(const MotorConstants& motor, const Network& network, cons
   constexpr double unknown = std::numeric_limits<double>::infinity();
   HeldForces held;
   held.besides = slips ? yield_forces(network) : 0;
-  const bool is_a_contact_of_springs = network.contact && held.besides == 0 && slips->springs_alone;
-  held.is_stepwise = tool.delay_samples == 0 && (!slips || is_a_contact_of_springs);
+  const bool is_of_springs = slips && slips->springs_alone && (!network.contact || held.besides == 0);
+  held.is_stepwise = tool.delay_samples == 0 && (!slips || is_of_springs);
   held.unsettled = motor.step_stiffness;
   for (const MotorMode& mode : motor.modes) {
     const double a = exact_decay(motor, mode).convert_to<double>();
@@ -152,7 +152,8 @@ class CurveNeed {
   double cost_of_bend(double from, double to, double steepest, double curvature, double reach) const {
     if (!held_.is_stepwise) return (0.5 + tool_.delay_samples) * force(from, to) * curvature;
     const double w = map_.value_at(to), turn = curvature * reach / 2;
-    double sum = cost_of_static_spring(w, from, to, curvature, steepest * reach) + held_.unsettled * steepest * turn;
+    double sum = cost_of_static_spring(w, from, to, curvature, steepest * reach) + held_.unsettled * steepest * turn +
+                 held_.besides * curvature / 2;
     if (is_one_sided_) sum += cost_of_leaving(steepest, turn);
     for (const HeldForces::Relaxing& mode : held_.relaxing) {
       const double far_from_rest = std::min(mode.per_way * way_from_rest(from, to), mode.largest) * curvature / 2;
@@ -325,8 +326,10 @@ PassivityBound bound_behind_curve(MotorConstants motor, double damping, const Ne
   const PassivityBound bound = slips ? with_slips(bound_beside_slips(motor, *slips, behind), *without_estimate, behind)
                                      : passivity_bound(motor, behind);
   if (bound.proof == Proof::none) return bound;
-  const CurveNeed need(held_forces(motor, network, slips, tool), hold_stiffness(motor).convert_to<double>(), damping,
-                       network, tool, at_tool.coil_lag());
+  // Behind a contact the cut is of the springs that the motor's constants have.
+  const double of_slips = slips && !network.contact ? slips->stiffness : 0;
+  const double stiffness = hold_stiffness(motor).convert_to<double>() + of_slips;
+  const CurveNeed need(held_forces(motor, network, slips, tool), stiffness, damping, network, tool, at_tool.coil_lag());
   return lacking_beside(need.lacking(bound.needed, *of_estimate), damping, network, tool);
 }
 

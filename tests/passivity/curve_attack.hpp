@@ -101,6 +101,9 @@ class Attack {
     move(wanted, share);
   }
 
+  // Counts from the next sample on.
+  void count_anew() { begins_ = true; }
+
   // To and fro from a place, by a part of what the speed lets it go in a hold.
   void tremble(double place, double part = 1) {
     const double most = part * loop_.speed * (loop_.period + loop_.jitter);
@@ -133,6 +136,7 @@ class Attack {
  private:
   void sample() {
     late_.push_back(law_.step(place_, 0));
+    if (begins_) energy_ = law_.stored_energy(), balance_ = {}, begins_ = false;
     if (loop_.delay == 0) balance_.least = std::min(balance_.least, energy_ - law_.stored_energy());
     held_ = late_.front();
     late_.pop_front();
@@ -155,6 +159,7 @@ class Attack {
   std::deque<command<double>> late_;
   command<double> held_ = {};
   double place_ = 0, energy_ = 0;
+  bool begins_ = false;
   Balance balance_;
 };
 
@@ -163,6 +168,18 @@ inline Balance after_trembling(const compiler::Compilation& c, const Loop& loop,
                                double part = 1) {
   Attack attack(c, loop, damping, place);
   attack.wait();
+  attack.tremble(place, part);
+  return attack.balance();
+}
+
+// Comes to a place from so far, by which slips give way, and trembles there: what goes in from then on.
+inline Balance after_coming(const compiler::Compilation& c, const Loop& loop, double damping, double place, double from,
+                            double part = 1) {
+  Attack attack(c, loop, damping, std::clamp(place + from, -loop.travel, loop.travel));
+  attack.wait();
+  while (attack.place() != place) attack.go(place);
+  attack.tremble(place, part);
+  attack.count_anew();
   attack.tremble(place, part);
   return attack.balance();
 }

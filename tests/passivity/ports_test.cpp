@@ -95,9 +95,9 @@ TEST(Ports, CertifiedLawsGiveOutNoEnergy) {
   EXPECT_GT(limited, cases / 10);
 }
 
-// If this fails, the sum asks for much more than the ports need together: a part of the laws gives out energy with nine
-// tenths of it, and with all of it none. Places where one port needs most are not those of another, so that it is not
-// as many as of one port.
+// If this fails, the sum asks for much more than the ports need together: most laws give out energy with nine tenths of
+// it, and with all of it none, whether their slips hold nothing or have given way on the way. Where places at which one
+// port needs most are not those of another it is fewer than of one port.
 TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
   int cases = 0, gains = 0;
   for (std::uint64_t seed = 1; seed <= repetitions(12, 300); ++seed) {
@@ -117,13 +117,17 @@ TEST(Ports, SomeLawsGiveOutEnergyWithNineTenths) {
         gained = gained || less.least < -rounding * trembles * less.largest;
         const Balance enough = after_trembling(first, one.loop, needed, place, part);
         EXPECT_GE(enough.least, -rounding * trembles * enough.largest) << seed << " " << place << " " << one.network;
+        if (i % 8 != 0) continue;
+        const double from = (i % 16 == 0 ? 0.2 : -0.2) * one.loop.travel;
+        const Balance loaded = after_coming(first, one.loop, needed, place, from, part);
+        EXPECT_GE(loaded.least, -rounding * trembles * loaded.largest) << seed << " " << place << " " << one.network;
       }
     gains += gained;
   }
   RecordProperty("cases", cases);
   RecordProperty("gains", gains);
   EXPECT_GE(cases, int(repetitions(12, 300)) * 8 / 10);
-  EXPECT_GE(gains, cases / 4) << "of " << cases;
+  EXPECT_GE(gains, cases * 7 / 10) << "of " << cases;
 }
 
 }  // namespace

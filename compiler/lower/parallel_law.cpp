@@ -145,10 +145,11 @@ class InParallel {
   }
 
   VariableId pushed_in(const std::string& port, double surface_at) {
-    const ExpressionId depth =
-        writer_.subtract(writer_.read(law_.position),
-                         writer_.constant(joined(port, "surface_at"), writer_.length(),
-                                          "where the unloaded surface lies", Real(surface_at), ConstantRole::place));
+    ExpressionId depth = writer_.read(law_.position);
+    if (surface_at != 0)
+      depth = writer_.subtract(
+          depth, writer_.constant(joined(port, "surface_at"), writer_.length(), "where the unloaded surface lies",
+                                  Real(surface_at), ConstantRole::place));
     const VariableId in = writer_.scalar(writer_.unique(joined(port, "pushed_in")), writer_.length(),
                                          "s, how far the tool has the surface pushed in", Role::local);
     const ExpressionId zero =

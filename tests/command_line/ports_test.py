@@ -72,6 +72,15 @@ class PortsTest(CommandTest):
                                certificate["passivity"]["needed_damping"], delta=1e-12)
         self.assertIn("; certified", self.dashpot("verify", "law.json", "finger_pad.hpp").stdout)
 
+    # If this fails, verify refuses a right law of a port whose surface lies at 0, where no constant says so.
+    def test_a_surface_at_zero_is_verified(self):
+        network = self.network({"name": "a", "network": KELVIN, "contact": {"at": "0 mm"}}, {"name": "b", "network": {"spring": "300 N/m"}})
+        for options in [[], ["--device", "rig.json"]]:
+            self.dashpot("compile", network, *options, "--certificate", "law.json")
+            self.assertIn("recomputed in 100 digits", self.dashpot("verify", "law.json", "both.hpp", "--allow-uncertified").stdout)
+        self.write("motion.csv", "time,position\n" + "".join(f"{k / 5000},{min(k, 200) * 1e-5}\n" for k in range(30000)))
+        self.assertAlmostEqual(self.forces(network)[-1], 2e-3 * 700, delta=1e-9)  # all but rest of what relaxed
+
     # If this fails, a wrong constant of some port, or of the sum, passes.
     def test_every_constant_is_recomputed(self):
         self.dashpot("compile", PAD, "--certificate", "law.json")

@@ -85,6 +85,8 @@ Json json_of_curve(const Compilation& c) {
                {"reach", map.reach},
                {"cubics", map.cubics()},
                {"largest_error", map.static_error},
+               {"slope_error", map.slope_error},
+               {"slope_unsure_until", map.unsure_until},
                {"least_scale", least * least},
                {"largest_scale", most * most},
                {"quasi_linear_difference", nullptr}};

@@ -115,6 +115,17 @@ std::string push_text(const Compilation& c, const PortUnits& units) {
   return "over 'valid'          " + text + "\n";
 }
 
+// With its slope all is felt that is not the curve itself.
+std::string slope_text(const MotionMap& map, const PortUnits& units) {
+  std::string text = fmt::format(
+      ", and the map's slope, with which slips, dampers and what relaxes are felt, by {:.2g} % of its largest",
+      100 * map.slope_error);
+  if (map.unsure_until > 0)
+    text +=
+        fmt::format(", by more than 1 % only within {:.2g} {} of where it begins", map.unsure_until, units.position);
+  return text;
+}
+
 // The curve, how well it is met, and what of the numbers that follow is felt at the tool.
 std::string static_text(const Compilation& c, const PortUnits& units) {
   if (!c.network.map) return "";
@@ -122,10 +133,9 @@ std::string static_text(const Compilation& c, const PortUnits& units) {
   const double least = map.least_tangent(0, map.reach), most = map.steepest();
   std::string text = "static curve          " + to_text(*c.network.static_curve, c.network.port_motion) + "\n";
   text += fmt::format(
-      "emitted as            {} cubics up to {:.6g} {} from where it begins, straight beyond; the force at rest is off "
-      "by "
-      "at most {:.2g} % of the largest\n",
-      map.cubics(), map.reach, units.position, 100 * map.static_error);
+      "emitted as            {} cubics up to {:.6g} {} from where it begins, straight beyond; that force is off by at "
+      "most {:.2g} % of the largest{}\n",
+      map.cubics(), map.reach, units.position, 100 * map.static_error, slope_text(map, units));
   text += fmt::format(
       "behind the curve      lies the network: b, and all stiffness and damping below, is felt at the tool {:.4g} to "
       "{:.4g} "

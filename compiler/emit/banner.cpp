@@ -71,9 +71,10 @@ std::string validity_text(const Network& network) {
 }
 
 // What a scheme makes of the time between two samples.
-std::string in_words(Scheme scheme, bool switches) {
+std::string in_words(Scheme scheme, bool switches, bool behind_map) {
   if (scheme == Scheme::backward_euler) return "the paper's own, whose error falls in proportion to the period";
-  return std::string("a motion that is straight between two samples is answered exactly") +
+  return std::string(behind_map ? "a motion whose w is straight between two samples is answered exactly"
+                                : "a motion that is straight between two samples is answered exactly") +
          (switches ? ", but for samples in which a slip or a contact changes" : "");
 }
 
@@ -141,10 +142,10 @@ void describe_curve(const Compilation& c, std::vector<std::string>& facts) {
   if (c.network.map)
     facts.push_back(fmt::format(
         "static curve: {}; the network lies behind a map w of the position u, for which u stands in what follows: f = "
-        "w' "
-        "F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the force at rest is off by at most {:.2g} % of the largest",
+        "w' F(w), b = w'^2 b_w, with {:.4g} <= w' <= {:.4g}; the curve's force is off by at most {:.2g} % of the "
+        "largest, and w' by {:.2g} % of its largest",
         to_text(*c.network.static_curve, c.network.port_motion), c.network.map->least_tangent(0, c.network.map->reach),
-        c.network.map->steepest(), 100 * c.network.map->static_error));
+        c.network.map->steepest(), 100 * c.network.map->static_error, 100 * c.network.map->slope_error));
 }
 
 // What the brake is told, and what the states follow.
@@ -226,7 +227,7 @@ std::vector<std::string> banner(const Compilation& c, const UpdateLaw& law, Timi
   if (const std::string valid = validity_text(c.network); !valid.empty()) facts.push_back("valid: " + valid);
   describe_curve(c, facts);
   facts.push_back(fmt::format("scheme: {} at {} Hz, {}: {}", name_of(c.law.scheme), c.rate, name_of(c.law.scalar),
-                              in_words(c.law.scheme, changes_at_once(c))));
+                              in_words(c.law.scheme, changes_at_once(c), c.network.map.has_value())));
   if (c.ports.empty()) describe_choice(c, unit, facts);
   else describe_ports(c, unit, facts);
   for (const std::string& line : passivity_lines(c.certificate, unit)) facts.push_back(line);

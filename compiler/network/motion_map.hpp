@@ -17,6 +17,8 @@ struct MotionMap {
   std::vector<MapCell> cell;  // of equal widths, from 0 on; the last is straight and has no end
   double stiffness = 0;       // k, the network's that the curve is made of [N/m] or [N·m/rad]
   double static_error = 0;    // of the static force, over the largest [1]
+  double slope_error = 0;     // of w′, over its largest [1]
+  double unsure_until = 0;    // beyond this w′ is off by a hundredth of its largest at most [m] or [rad]
 
   std::size_t cubics() const { return cell.size() - 1; }
   double width() const { return reach / double(cubics()); }

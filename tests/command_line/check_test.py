@@ -358,7 +358,7 @@ class CheckTest(CommandTest):
                                                '"static": { "power": 1.5, "force": "2 N", "at": "10 mm" }, "valid": { "displacement": "10 mm" },'))
         words = self.said(*self.compiled([net, "--device", PANTOGRAPH]))[1]
         self.assertEqual(self.status, 3)
-        self.assertIn("a static curve", words)
+        self.assertIn("curves", words)
 
     # Who asks about a law of two axes would be shown what a library says of a missing key.
     def test_two_axes(self):

@@ -76,7 +76,7 @@ class Hal(unittest.TestCase):
                 lines.append(f"net k => {pins}.K1")
             if i != 1:  # the other leaves to output() what it would do
                 lines.append(f"addf {pins}.update servo")
-        lines += ["addf sampler.0 servo", "setp siggen.0.amplitude 0", "setp siggen.0.frequency 1.7", "start", "loadusr -w sleep 0.1",
+        lines += ["addf sampler.0 servo", "setp siggen.0.amplitude 0", "setp siggen.0.frequency 1.7", "start", "loadusr -w sleep 0.25",
                   "setp siggen.0.amplitude 0.004", f"loadusr -w ./read_samples samples.txt {ROWS} {'f' * pin_count}"]
         self.run_hal(lines)
         rows = [line.split() for line in (self.folder / "samples.txt").read_text().splitlines()]
@@ -118,10 +118,10 @@ class Hal(unittest.TestCase):
         for period, position, code in [(500000, "0.001", 1), (1000000, "nan", 2), (1000000, "0.001", 0)]:
             out = self.run_hal(
                 [f"loadrt threads name1=servo period1={period}", f"loadrt {name}", f"addf {pins}.output servo", f"addf {pins}.update servo",
-                 f"setp {pins}.safe-damping 3", f"setp {pins}.position {position}", "start", "loadusr -w sleep 0.1", *self.outputs(name, *watched),
-                 f"setp {pins}.enable 1", "loadusr -w sleep 0.1", *self.outputs(name, *watched),
-                 f"setp {pins}.position 0.002", "loadusr -w sleep 0.1", *self.outputs(name, "fault-code"),
-                 f"setp {pins}.enable 0", "loadusr -w sleep 0.1", *self.outputs(name, *watched)])
+                 f"setp {pins}.safe-damping 3", f"setp {pins}.position {position}", "start", "loadusr -w sleep 0.25", *self.outputs(name, *watched),
+                 f"setp {pins}.enable 1", "loadusr -w sleep 0.25", *self.outputs(name, *watched),
+                 f"setp {pins}.position 0.002", "loadusr -w sleep 0.25", *self.outputs(name, "fault-code"),
+                 f"setp {pins}.enable 0", "loadusr -w sleep 0.25", *self.outputs(name, *watched)])
             words = self.values(out)
             safe = ["FALSE", 0, 0, 3]
             self.assertEqual(words[:4], safe, out)
@@ -141,7 +141,7 @@ class Hal(unittest.TestCase):
             rig = rig.replace(old, new).replace(old.replace("_", "-"), new.replace("_", "-"))
         watched = ["gets tool-position", "gets wanted-force", "gets motor-current", "gets wanted-damping", "gets brake-coil"]
         lines = [rig, "loadusr -w sleep 0.4", "stop", *watched, *self.outputs(LAWS[0][2], "fault", "enable"),
-                 *self.outputs(BRAKE, "saturated"), "start", f"setp {BRAKE.replace('_', '-')}.0.max-current 0.5", "loadusr -w sleep 0.1",
+                 *self.outputs(BRAKE, "saturated"), "start", f"setp {BRAKE.replace('_', '-')}.0.max-current 0.5", "loadusr -w sleep 0.25",
                  "stop", "gets brake-coil", *self.outputs(BRAKE, "saturated")]
         position, force, current, damping, coil, *rest = self.values(self.run_hal(lines))
         self.assertGreater(position, 1e-4)

@@ -175,6 +175,7 @@ inline Balance after_trembling(const compiler::Compilation& c, const Loop& loop,
 // Comes to a place from so far, by which slips give way, and trembles there: what goes in from then on.
 inline Balance after_coming(const compiler::Compilation& c, const Loop& loop, double damping, double place, double from,
                             double part = 1) {
+  place = std::clamp(place, -loop.travel, loop.travel);
   Attack attack(c, loop, damping, std::clamp(place + from, -loop.travel, loop.travel));
   attack.wait();
   while (attack.place() != place) attack.go(place);

@@ -88,8 +88,10 @@ struct root_instruction<double> {
 template <class Scalar>
 constexpr Scalar square_root(Scalar x) noexcept {
   if (!(x > 0)) return 0;
+  // With __builtin_is_constant_evaluated() g++ 12 would make global objects whose constructors take roots when the
+  // program starts.
   if constexpr (detail::root_instruction<Scalar>::is_there)
-    if (!__builtin_is_constant_evaluated()) return detail::root_instruction<Scalar>::root(x);
+    if (!__builtin_constant_p(x)) return detail::root_instruction<Scalar>::root(x);
   if (x - x != 0) return x;
   Scalar scale = 1;
   for (const Scalar half : detail::halves<Scalar>) {

@@ -91,8 +91,7 @@ SampledLoop loop_of_ports(const AxesCompilation& c) {
 JointPlan plan_of(const AxesCompilation& c) {
   JointPlan plan{c.device.arm,    brakes_of(c.device),     c.certificate.added, c.rule,
                  c.network.field, c.device.joint_motion(), c.certificate.gate};
-  for (std::size_t j = 0; j < plan.ranges.size(); ++j)
-    plan.ranges[j] = {c.device.joints[j].encoder.range_low, c.device.joints[j].encoder.range_high};
+  plan.ranges = known_ranges(c.device);
   for (std::size_t k = 0; k < plan.brakes.size(); ++k)
     if (plan.brakes[k].most < axes::unlimited) plan.brakes[k].most -= c.certificate.added[k];
   return plan;

@@ -13,6 +13,7 @@
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
 #include "law/cost.hpp"
+#include "lower/joint_law.hpp"
 #include "lower/term_writer.hpp"
 #include "network/port_units.hpp"
 #include "source/wrapped_text.hpp"
@@ -59,9 +60,8 @@ std::vector<std::string> banner(const AxesCompilation& c) {
                                 c.network.ports[i].network.contact ? ", pushed and never pulled" : "", choice.damping,
                                 choice.name));
   }
-  const bool has_range = std::any_of(c.device.joints.begin(), c.device.joints.end(), [](const device_description& j) {
-    return j.encoder.range_low < j.encoder.range_high;
-  });
+  const axes::Pair<std::pair<double, double>> ranges = known_ranges(c.device);
+  const bool has_range = std::any_of(ranges.begin(), ranges.end(), [](const auto& r) { return r.first < r.second; });
   facts.push_back(fmt::format("kinematics: {}; sine and cosine by polynomials that are off by less than {:.0e}{}",
                               name_of(c.device.arm.kind), sine_error(c.law.scalar),
                               has_range ? ", of joints that stay within their encoders' ranges" : ""));

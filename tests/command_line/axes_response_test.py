@@ -1,5 +1,7 @@
 """The test that `--with-test` writes for a law of two axes: it passes where the header is right, and fails where it is not."""
 import json
+import os
+import re
 import subprocess
 import unittest
 
@@ -51,8 +53,8 @@ class AxesResponseTest(CommandTest):
 
     def test_right_headers_pass(self):
         """Fails if the bounds on rounding are too narrow for a law, or what the test expects is not what the law does."""
-        for network, options, is_damped in self.laws():
-            for scalar in ("double", "float"):
+        for number, (network, options, is_damped) in enumerate(self.laws()):
+            for scalar in ("double", "float") if number % 3 == 0 or os.environ.get("DASHPOT_LONG") == "1" else ("double",):
                 with self.subTest(network=network.stem, options=options, scalar=scalar):
                     self.dashpot("compile", network, *options, "--scalar", scalar, "--uncertified", "--with-test")
                     said = self.said(json.loads(network.read_text())["name"])
@@ -67,12 +69,13 @@ class AxesResponseTest(CommandTest):
         self.dashpot("compile", FIELD, "--device", PANTOGRAPH, "--with-test")
         header = self.folder / f"{name}.hpp"
         right = header.read_text()
+        less = re.search(r"\(wanted_11 - part_\d+\) \* v1", right)[0]
         for text, wrong, found in (
                 ("across_static_stiffness = 100.0;", "across_static_stiffness = 100.0000000001;", "rests_on_its_springs"),
                 ("half_static_stiffness = 50.0;", "half_static_stiffness = 50.0000000001;", "rests_on_its_springs"),
                 ("half_base = 0.0125;", "half_base = 0.01250000000001;", "rests_on_its_springs"),
                 ("added_damping_1 = 0.00446", "added_damping_1 = 0.00447", "damps_as_its_network"),
-                ("(wanted_11 - part_21) * v1", "(wanted_11 + part_21) * v1", "damps_as_its_network"),
+                (less, less.replace("-", "+"), "damps_as_its_network"),
                 ("wanted_12 * v2", "wanted_12 * v1", "damps_as_its_network"),
                 ("if (!dashpot::all_finite(q1, q2, v1, v2, damping_1, damping_2, torque_1, torque_2)) {", "if (false) {",
                  "survives_what_is_no_number")):

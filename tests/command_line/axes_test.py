@@ -213,7 +213,7 @@ class AxesTest(CommandTest):
     # If this fails, a law that knows the ranges of its joints is another one, or knows them for nothing.
     def test_ranges_of_joints_change_nothing_but_the_cost(self):
         around = [(0.02 * math.cos(0.01 * k), 0.095 + 0.02 * math.sin(0.017 * k)) for k in range(400)]
-        links = {"links": ["63 mm", "75 mm"], "workspace": {"x": ["-25 mm", "25 mm"], "y": ["70 mm", "120 mm"]}}
+        links = {"links": ["63 mm", "75 mm"], "workspace": {"x": ["-20 mm", "20 mm"], "y": ["75 mm", "115 mm"]}}
 
         def of_links(x, y):  # of the two links, the elbow to the right
             far = math.hypot(x, y)
@@ -245,6 +245,18 @@ class AxesTest(CommandTest):
                 for row, other in zip(*answers):
                     for i in range(4):
                         self.assertAlmostEqual(row[i], other[i], delta=2e-14 * largest[i])  # a hundred roundings
+
+    # If this fails, a law computes wrong angles within its workspace, since the ranges that are stated leave it.
+    def test_ranges_that_the_workspace_leaves_are_not_used(self):
+        rows, answers = self.rows(motion_in_joints(100, 4)), []
+        for first, second in [(None, None), (["100 deg", "150 deg"], ["10 deg", "60 deg"]), (["410 deg", "580 deg"], ["-400 deg", "-230 deg"])]:
+            arm = json.loads(PANTOGRAPH.read_text()) | {"assumed": []}
+            for encoder, limits in zip(arm["encoders"], (first, second)):
+                encoder.update({"range": limits}) if limits else encoder.pop("range")
+            self.write("arm.json", json.dumps(arm))
+            answers.append(self.simulated(FIELD, rows, "--device", "arm.json"))
+        self.assertEqual(answers[1], answers[0])
+        self.assertEqual(answers[2], answers[0])
 
     # If this fails, the damping that a brake has without current is counted in full where it fades with speed.
     def test_residual_damping_fades_with_speed(self):

@@ -222,6 +222,33 @@ class StaticCurvesTest(CommandTest):
         self.dashpot("compile", *on_rig)
         self.dashpot("verify", "law.json", "tunable_cone.hpp", status=INPUT_REFUSED)
 
+    # If this fails, what a slip holds costs nothing where the curve bends: a tool that trembles there, pulled by it, would gain.
+    def test_what_slips_hold_costs_damping_where_the_curve_bends(self):
+        self.write("rig.json", json.dumps({
+            "dashpot_device": 1, "name": "rig", "motion": "translation", "loop": {"rate": "1 kHz", "band": ["0.1 Hz", "20 Hz"]},
+            "encoder": {"resolution": "1 um", "range": ["-6 mm", "6 mm"], "max_speed": "50 mm/s"},
+            "velocity": {"estimator": "backward_difference", "window": 4}, "motor": {}, "mechanics": {"inertia": "0.1 kg", "damping": "900 N s/m"}}))
+        needed = {}
+        for holds in (1, 2, 4):
+            self.write("curve.json", json.dumps({
+                "dashpot": 1, "name": "curve", "static": {"exponential": "300 1/m", "force": "1 N", "at": "6 mm"},
+                "network": {"parallel": [{"spring": 200}, {"series": [{"spring": 20}, {"slip": holds}]}]}}))
+            told = json.loads(self.dashpot("explain", "curve.json", "--device", "rig.json", "--json").stdout)
+            self.assertTrue(told["certificate"]["certified"])
+            needed[holds] = told["certificate"]["needed_damping"]
+        # w'' of w = sqrt(2 E/k) at 6 mm, by differences; what is held over a millisecond costs half of it for each newton.
+        bend = self.bend_of_exponential(1, 300, 6e-3, 200)
+        for fewer, more in ((1, 2), (2, 4)):
+            self.assertGreater(needed[more] - needed[fewer], 0.9 * (more - fewer) * bend / 2 * 1e-3)
+
+    def bend_of_exponential(self, force, shape, at, stiffness):
+        factor = force / math.expm1(shape * at)
+
+        def w(u):
+            return math.sqrt(2 * factor / stiffness * (math.expm1(shape * u) / shape - u))
+        h = 1e-5
+        return (w(at) - 2 * w(at - h) + w(at - 2 * h)) / h ** 2
+
     # If this fails, slips are felt with another slope than explain allows, or it allows far more than there is.
     def test_how_far_the_slope_is_off_is_told(self):
         power, force, at, stiffness, holds = 1.5, 4, 6e-3, 170, 0.2

@@ -50,8 +50,6 @@ Real initial_stiffness(const StaticCurve& curve) {
   return 0;
 }
 
-constexpr double unsure = 1e-2;  // of the slope, over its largest: what a reader is told of
-
 struct Knot {
   Real value, tangent;
 };
@@ -103,20 +101,25 @@ MotionMap with_cells(const StaticCurve& curve, const Real& stiffness, double rea
     map.static_error = std::max(map.static_error, std::abs(force - to_double(force_at(curve, u))) / largest);
   };
   for (std::size_t i = 0; i <= cells * places; ++i) look_at(reach * double(i) / double(cells * places));
-  const double steepest = map.steepest();
-  const auto look_at_slope = [&](double u) {
+  for (const CurvePoint& point : curve.points)
+    if (point.displacement < reach) look_at(point.displacement);
+  return map;
+}
+
+// By how much w′ is off, and up to where it is by more than a reader need not know.
+void measure_slope(const StaticCurve& curve, const Real& stiffness, MotionMap& map) {
+  constexpr double unsure = 1e-2;  // of its largest
+  const double steepest = map.steepest(), width = map.width();
+  const auto look_at = [&](double u) {
     const Knot exact = knot_at(curve, stiffness, u, work_between(curve, 0, u));
     const double error = std::abs(map.tangent_at(u) - to_double(exact.tangent)) / steepest;
     map.slope_error = std::max(map.slope_error, error);
     if (error > unsure) map.unsure_until = std::max(map.unsure_until, u);
   };
   // A curve that begins flat has its bend in the first cells.
-  for (std::size_t i = 0; i < cells; ++i) look_at_slope(reach * (double(i) + 0.5) / double(cells));
-  for (std::size_t i = 1; i <= 64; ++i) look_at_slope(2 * map.width() * double(i) / 64);
-  for (double u = map.width() / 64; u > map.width() * 1e-4; u /= 2) look_at_slope(u);
-  for (const CurvePoint& point : curve.points)
-    if (point.displacement < reach) look_at(point.displacement);
-  return map;
+  for (std::size_t i = 0; i < map.cubics(); ++i) look_at(map.reach * (double(i) + 0.5) / double(map.cubics()));
+  for (std::size_t i = 1; i <= 64; ++i) look_at(2 * width * double(i) / 64);
+  for (double u = width / 64; u > width * 1e-4; u /= 2) look_at(u);
 }
 
 // How far the tool goes beyond the place where the curve begins.
@@ -190,6 +193,7 @@ std::optional<MotionMap> motion_map(const Network& network, const LinearForm& fo
     return std::nullopt;
   }
   map.start = network.contact ? network.contact->at : 0;
+  measure_slope(curve, *stiffness, map);
   return map;
 }
 

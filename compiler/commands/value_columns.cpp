@@ -24,31 +24,13 @@ double factor_of(const OtherColumn& other, const Tunable& tunable, Diagnostics& 
   return 1;
 }
 
-// Of columns that are no tunable's own, those whose name is nearest to this one of all.
-void warn_of_misspelt(const Tunable& tunable, const std::vector<std::string>& tunables, const Motion& motion,
-                      Diagnostics& diagnostics) {
-  for (const OtherColumn& other : motion.others) {
-    const std::string name = parts_of(other.column).name;
-    const bool is_own =
-        std::any_of(tunables.begin(), tunables.end(), [&](const std::string& each) { return is_called(other, each); });
-    if (!is_own && nearest_name(name, tunables) == tunable.name)
-      diagnostics.report<DiagnosticCode::csv_misspelt_tunable>(other.span, other.column.title, tunable.name);
-  }
-}
-
 }  // namespace
 
 // Without a column where the motion has none for this tunable.
-ValueColumns::Values ValueColumns::values_of(const Tunable& tunable, const Motion& motion,
-                                             Diagnostics& diagnostics) const {
+ValueColumns::Values ValueColumns::values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics) {
   const auto is_named = [&](const OtherColumn& other) { return is_called(other, tunable.name); };
   const auto found = std::find_if(motion.others.begin(), motion.others.end(), is_named);
-  if (found == motion.others.end()) {
-    std::vector<std::string> names;
-    for (const Tunable& each : tunables_) names.push_back(each.name);
-    warn_of_misspelt(tunable, names, motion, diagnostics);
-    return {};
-  }
+  if (found == motion.others.end()) return {};
   const auto again = std::find_if(found + 1, motion.others.end(), is_named);
   if (again != motion.others.end()) diagnostics.report<DiagnosticCode::csv_column_twice>(again->span, tunable.name);
   if (found->not_a_number) report_cell(*found->not_a_number, tunable.name, diagnostics);
@@ -63,6 +45,21 @@ ValueColumns::ValueColumns(const Compilation& c, const Motion& motion, Diagnosti
     columns_.push_back(values_of(tunable, motion, diagnostics));
   }
   is_empty_ = std::all_of(columns_.begin(), columns_.end(), [](const Values& v) { return v.column == nullptr; });
+  warn_of_misspelt(motion, diagnostics);
+}
+
+// Of columns that are called like no tunable, where the one whose name is nearest has none.
+void ValueColumns::warn_of_misspelt(const Motion& motion, Diagnostics& diagnostics) const {
+  std::vector<std::string> names;
+  for (const Tunable& tunable : tunables_) names.push_back(tunable.name);
+  for (const OtherColumn& other : motion.others) {
+    const auto is_its_own = [&](const std::string& name) { return is_called(other, name); };
+    const auto nearest = nearest_name(parts_of(other.column).name, names);
+    if (!nearest || std::any_of(names.begin(), names.end(), is_its_own)) continue;
+    const auto found = std::find(names.begin(), names.end(), *nearest);
+    if (columns_[std::size_t(found - names.begin())].column == nullptr)
+      diagnostics.report<DiagnosticCode::csv_misspelt_tunable>(other.span, other.column.title, *nearest);
+  }
 }
 
 std::vector<double> ValueColumns::values_of(std::size_t row, double time, Diagnostics& diagnostics) {

@@ -13,7 +13,7 @@ class ValueColumns {
  public:
   // Columns are called like the tunable, "K1" or "K1 [N/mm]"; without a unit they are in the tunable's. Refuses: a unit
   // of anything else, a cell that is no finite number, a column given twice, a tunable that is called like one of the
-  // motion's own. Warns of a column that is called so but for capitals.
+  // motion's own. Warns of a column whose name is nearly one.
   ValueColumns(const Compilation& c, const Motion& motion, Diagnostics& diagnostics);
 
   // Sets the values of a row, and warns once of each tunable that is out of its range.
@@ -31,7 +31,8 @@ class ValueColumns {
     double factor = 1;                    // what 1 in the column is in the tunable's unit
   };
 
-  Values values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics) const;
+  static Values values_of(const Tunable& tunable, const Motion& motion, Diagnostics& diagnostics);
+  void warn_of_misspelt(const Motion& motion, Diagnostics& diagnostics) const;
   std::vector<double> values_of(std::size_t row, double time, Diagnostics& diagnostics);
   void warn_once_outside_range(std::size_t i, double value, double time, Diagnostics& diagnostics);
   Span place_of(const std::string& tunable) const;

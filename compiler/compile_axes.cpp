@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "axes/workspace.hpp"
 #include "compile.hpp"
 #include "discretise/discretise.hpp"
 #include "discretise/element_names.hpp"
@@ -88,10 +89,23 @@ SampledLoop loop_of_ports(const AxesCompilation& c) {
   return loop;
 }
 
+// What the encoders' ranges say of joints that turn, where the workspace lies within them.
+axes::Pair<std::pair<double, double>> known_ranges(const AxesDevice& device) {
+  axes::Pair<std::pair<double, double>> known{};
+  if (device.joint_motion() != motion::rotation) return known;
+  const axes::Box needed = axes::joint_ranges(device.arm, device.workspace);
+  for (std::size_t j = 0; j < known.size(); ++j) {
+    const encoder_description& encoder = device.joints[j].encoder;
+    if (encoder.range_low <= needed[j].low && needed[j].high <= encoder.range_high)
+      known[j] = {encoder.range_low, encoder.range_high};
+  }
+  return known;
+}
+
 JointPlan plan_of(const AxesCompilation& c) {
   JointPlan plan{c.device.arm,    brakes_of(c.device),     c.certificate.added, c.rule,
                  c.network.field, c.device.joint_motion(), c.certificate.gate};
-  plan.ranges = known_ranges(c.device);
+  plan.ranges = c.joint_ranges;
   for (std::size_t k = 0; k < plan.brakes.size(); ++k)
     if (plan.brakes[k].most < axes::unlimited) plan.brakes[k].most -= c.certificate.added[k];
   return plan;
@@ -244,6 +258,7 @@ std::optional<AxesCompilation> compile_axes(const SourceFile& source, const Choi
   c.decomposition = named && !named->empty() ? *named : std::string(name_of(c.rule));
   if (!compile_ports(c, asked, diagnostics)) return std::nullopt;
   c.certificate = certify_axes(c.network, certified_ports(c), c.device, c.rule);
+  c.joint_ranges = known_ranges(c.device);
   c.law = law_of_all(c);
   Network whole;
   whole.name = c.network.name, whole.name_span = c.network.name_span;

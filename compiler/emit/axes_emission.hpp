@@ -21,7 +21,8 @@ struct AxesCompilation {
   axes::BrakeRule rule = axes::BrakeRule::diagonal;
   UpdateLaw law;
   AxesCertificate certificate;
-  double rate = 0;  // [Hz]
+  axes::Pair<std::pair<double, double>> joint_ranges = {};  // that the law counts on [rad]; low == high: none
+  double rate = 0;                                          // [Hz]
 };
 
 namespace axes {

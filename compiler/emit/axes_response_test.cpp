@@ -37,7 +37,7 @@ Rounded operator/(const Rounded& a, const Rounded& b) {
   const double quotient = a.value / b.value;
   return {quotient, (a.error + std::abs(quotient) * b.error) / std::abs(b.value) + std::abs(quotient)};
 }
-// The runtime's root is right to a few units in the last place.
+// Right to a few units, as the root that is rounded to nearest surely is.
 Rounded sqrt(const Rounded& a) {
   const double root = std::sqrt(a.value);
   return {root, a.error / (2 * root) + 4 * root};

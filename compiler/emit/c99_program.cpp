@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "certify/state_box.hpp"
+#include "emit/banner.hpp"
 #include "emit/c99_parts.hpp"
 #include "emit/c99_tunable.hpp"
 #include "emit/cpp_lines.hpp"
@@ -610,6 +611,16 @@ class C99Printer {
 
 C99Program c99_program(const UpdateLaw& law, const std::string& name, const StateBox& box) {
   return C99Printer(law, name, box).print();
+}
+
+void add_program(const C99Program& program, CodeModel& model) {
+  model.lists["before"] = as_list(program.before);
+  model.lists["states"] = as_list(program.states);
+  model.lists["begin"] = as_list(program.begin);
+  model.lists["reset"] = as_list(program.reset);
+  model.lists["output"] = as_list(program.output);
+  model.lists["update"] = as_list(program.update);
+  model.lists["energy"] = as_list(program.energy);
 }
 
 }  // namespace dashpot::compiler

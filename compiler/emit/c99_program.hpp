@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "certify/state_box.hpp"
+#include "emit/code_model.hpp"
 #include "law/update_law.hpp"
 
 namespace dashpot::compiler {
@@ -26,5 +27,8 @@ struct C99Program {
 
 // `name` is the network's.
 C99Program c99_program(const UpdateLaw& law, const std::string& name, const StateBox& box = {});
+
+// What laws of one axis and of two have of it, as templates take it, under the names of its members.
+void add_program(const C99Program& program, CodeModel& model);
 
 }  // namespace dashpot::compiler

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "emit/banner.hpp"
 #include "emit/cpp_lines.hpp"
 #include "emit/cpp_slips.hpp"
 #include "emit/cpp_statements.hpp"
@@ -365,6 +366,24 @@ std::string cpp_literal(double value, ScalarType scalar) {
 
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing) {
   return CppPrinter(law, network, timing).print();
+}
+
+void add_program(const CppProgram& program, CodeModel& model) {
+  model.fields["command"] = program.command;
+  for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
+  model.lists["parameters"] = as_list(program.parameters);
+  model.lists["set"] = as_list(program.set);
+  model.lists["reset"] = as_list(program.reset);
+  model.lists["output"] = as_list(program.output);
+  model.lists["check"] = as_list(program.check);
+  model.lists["keep"] = as_list(program.keep);
+  model.lists["wait"] = as_list(program.wait);
+  model.lists["update"] = as_list(program.update);
+  model.lists["step"] = as_list(program.step);
+  model.lists["energy"] = as_list(program.energy);
+  model.lists["functions"] = as_list(program.functions);
+  model.lists["constants"] = as_list(program.constants);
+  model.lists["states"] = as_list(program.states);
 }
 
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "emit/code_model.hpp"
 #include "law/update_law.hpp"
 #include "network/network.hpp"
 
@@ -33,6 +34,9 @@ enum class Timing { any, constant };
 
 // In constant time: laws without couplings, networks and calls.
 CppProgram cpp_program(const UpdateLaw& law, const Network& network, Timing timing = Timing::any);
+
+// All of it, as templates take it, under the names of its members.
+void add_program(const CppProgram& program, CodeModel& model);
 
 // A line for each place of the coefficient; of a table that is picked from, the array.
 void append_constant_of_each(const Coefficient& coefficient, ScalarType scalar, std::vector<std::string>& lines);

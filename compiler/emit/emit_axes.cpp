@@ -13,7 +13,6 @@
 #include "emit/step_shape.hpp"
 #include "emit/template_text.hpp"
 #include "law/cost.hpp"
-#include "lower/joint_law.hpp"
 #include "lower/term_writer.hpp"
 #include "network/port_units.hpp"
 #include "source/wrapped_text.hpp"
@@ -60,8 +59,8 @@ std::vector<std::string> banner(const AxesCompilation& c) {
                                 c.network.ports[i].network.contact ? ", pushed and never pulled" : "", choice.damping,
                                 choice.name));
   }
-  const axes::Pair<std::pair<double, double>> ranges = known_ranges(c.device);
-  const bool has_range = std::any_of(ranges.begin(), ranges.end(), [](const auto& r) { return r.first < r.second; });
+  const bool has_range = std::any_of(c.joint_ranges.begin(), c.joint_ranges.end(),
+                                     [](const auto& range) { return range.first < range.second; });
   facts.push_back(fmt::format("kinematics: {}; sine and cosine by polynomials that are off by less than {:.0e}{}",
                               name_of(c.device.arm.kind), sine_error(c.law.scalar),
                               has_range ? ", of joints that stay within their encoders' ranges" : ""));
@@ -119,22 +118,8 @@ CodeModel cpp_model(const AxesCompilation& c) {
   model.fields["motion"] = c.device.joint_motion() == motion::rotation ? "rotation" : "translation";
   model.fields["any_device"] = c.has_device ? "false" : "true";
   model.fields["is_certified"] = c.certificate.certified ? "true" : "false";
-  model.fields["command"] = program.command;
-  for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
+  add_program(program, model);
   model.lists["banner"] = as_list(banner(c));
-  model.lists["parameters"] = as_list(program.parameters);
-  model.lists["set"] = as_list(program.set);
-  model.lists["reset"] = as_list(program.reset);
-  model.lists["output"] = as_list(program.output);
-  model.lists["check"] = as_list(program.check);
-  model.lists["keep"] = as_list(program.keep);
-  model.lists["wait"] = as_list(program.wait);
-  model.lists["update"] = as_list(program.update);
-  model.lists["step"] = as_list(program.step);
-  model.lists["energy"] = as_list(program.energy);
-  model.lists["functions"] = as_list(program.functions);
-  model.lists["constants"] = as_list(program.constants);
-  model.lists["states"] = as_list(program.states);
   return model;
 }
 
@@ -148,13 +133,7 @@ CodeModel c99_model(const AxesCompilation& c) {
   model.fields["is_certified"] = c.certificate.certified ? "1" : "0";
   model.lists["banner"] = as_list(banner(c));
   model.lists["command"] = as_list(c99_command_header());
-  model.lists["before"] = as_list(program.before);
-  model.lists["states"] = as_list(program.states);
-  model.lists["begin"] = as_list(program.begin);
-  model.lists["reset"] = as_list(program.reset);
-  model.lists["output"] = as_list(program.output);
-  model.lists["update"] = as_list(program.update);
-  model.lists["energy"] = as_list(program.energy);
+  add_program(program, model);
   return model;
 }
 

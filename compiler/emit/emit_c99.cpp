@@ -135,9 +135,8 @@ CodeModel c_header_model(const Compilation& c) {
       c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
                     : "In the springs after the last update() [J].";
   model.lists["command"] = as_list(c99_command_header());
-  model.lists["before"] = as_list(program.before);
+  add_program(program, model);
   model.lists["functions"] = as_list(program.functions);
-  model.lists["begin"] = as_list(program.begin);
   model.lists["parameters"] = as_list(parameter_lines(c.law, name));
   model.lists["parameter_struct"] = as_list(parameter_struct(c.law, name));
   model.lists["value"] = as_list(value_lines(c.law));
@@ -147,11 +146,6 @@ CodeModel c_header_model(const Compilation& c) {
   model.lists["share"] = as_list(program.kept_share.empty() ? Lines{"(void)self;", "return 1;"}
                                                             : Lines{fmt::format("return {};", program.kept_share)});
   model.lists["banner"] = as_list(banner(c, c.law, Timing::any));
-  model.lists["states"] = as_list(program.states);
-  model.lists["reset"] = as_list(program.reset);
-  model.lists["output"] = as_list(program.output);
-  model.lists["update"] = as_list(program.update);
-  model.lists["energy"] = as_list(program.energy);
   return model;
 }
 

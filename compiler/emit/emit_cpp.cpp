@@ -20,25 +20,11 @@ CodeModel header_model(const Compilation& c, Timing timing) {
   Fields& fields = model.fields;
   describe_file(c, fields);
   describe_device(c, fields);
-  fields["command"] = program.command;
-  for (const std::string& header : program.headers) model.lists["headers"].push_back({{"header", header}});
+  add_program(program, model);
   model.lists["banner"] = as_list(banner(c, law, timing));
   fields["energy_contract"] =
       c.law.tunable ? "In the springs, and set free by changes of parameters, after the last update() [J]."
                     : "In the springs after the last update() [J].";
-  model.lists["parameters"] = as_list(program.parameters);
-  model.lists["set"] = as_list(program.set);
-  model.lists["reset"] = as_list(program.reset);
-  model.lists["output"] = as_list(program.output);
-  model.lists["check"] = as_list(program.check);
-  model.lists["keep"] = as_list(program.keep);
-  model.lists["wait"] = as_list(program.wait);
-  model.lists["update"] = as_list(program.update);
-  model.lists["step"] = as_list(program.step);
-  model.lists["energy"] = as_list(program.energy);
-  model.lists["functions"] = as_list(program.functions);
-  model.lists["constants"] = as_list(program.constants);
-  model.lists["states"] = as_list(program.states);
   return model;
 }
 

@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "axes/workspace.hpp"
 #include "discretise/law_writer.hpp"
 #include "law/check_law.hpp"
 #include "law/walk.hpp"
@@ -466,18 +465,6 @@ class Merging {
 };
 
 }  // namespace
-
-axes::Pair<std::pair<double, double>> known_ranges(const AxesDevice& device) {
-  axes::Pair<std::pair<double, double>> known{};
-  if (device.joint_motion() != motion::rotation) return known;
-  const axes::Box needed = axes::joint_ranges(device.arm, device.workspace);
-  for (std::size_t j = 0; j < known.size(); ++j) {
-    const encoder_description& encoder = device.joints[j].encoder;
-    if (encoder.range_low <= needed[j].low && needed[j].high <= encoder.range_high)
-      known[j] = {encoder.range_low, encoder.range_high};
-  }
-  return known;
-}
 
 UpdateLaw joint_law(const std::vector<PortLaw>& ports, const JointPlan& plan) { return Merging(ports, plan).result(); }
 

@@ -16,7 +16,6 @@
 #include "axes/port_map.hpp"
 #include "axes/viscous_field.hpp"
 #include "law/update_law.hpp"
-#include "network/axes_device.hpp"
 
 namespace dashpot::compiler {
 
@@ -36,10 +35,6 @@ struct JointPlan {
   std::optional<axes::CurlGate> gate = std::nullopt;  // for two brakes and `diagonal`
   axes::Pair<std::pair<double, double>> ranges = {};  // of the joints [rad] or [m]; low == high: unlimited
 };
-
-// What the encoders' ranges say of joints that turn, where the workspace lies within them; of others nothing, low ==
-// high.
-axes::Pair<std::pair<double, double>> known_ranges(const AxesDevice& device);
 
 // Ensures: names begin with the port's name where they come from a port.
 UpdateLaw joint_law(const std::vector<PortLaw>& ports, const JointPlan& plan);

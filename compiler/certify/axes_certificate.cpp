@@ -684,6 +684,10 @@ std::vector<std::string> passivity_lines(const AxesCertificate& c, const AxesDev
   return lines;
 }
 
+namespace {
+
+// What of the energy that the encoders' steps bring in friction takes; empty where there are none, or nothing is
+// proved.
 std::string steps_line(const AxesCertificate& c, const AxesDevice& device) {
   const auto has_steps = [](const device_description& joint) { return joint.encoder.step > 0; };
   if (!c.is_proved || std::none_of(device.joints.begin(), device.joints.end(), has_steps)) return "";
@@ -703,6 +707,15 @@ std::string steps_line(const AxesCertificate& c, const AxesDevice& device) {
     text += fmt::format("; what is beyond can give the hand {:.3g} and {:.3g} J per {} of a joint's travel", beyond[0],
                         beyond[1], units.position);
   return text;
+}
+
+}  // namespace
+
+std::vector<std::string> explained_lines(const AxesCertificate& certificate, const AxesDevice& device) {
+  std::vector<std::string> lines = passivity_lines(certificate, device);
+  const std::string steps = steps_line(certificate, device);
+  if (!steps.empty()) lines.push_back(steps);
+  return lines;
 }
 
 }  // namespace dashpot::compiler

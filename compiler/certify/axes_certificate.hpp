@@ -95,8 +95,7 @@ std::string why_not_certified(const AxesCertificate& certificate, const AxesDevi
 // One or more lines on what is proved.
 std::vector<std::string> passivity_lines(const AxesCertificate& certificate, const AxesDevice& device);
 
-// What of the energy that the encoders' steps bring in friction takes; empty where there are none, or nothing is
-// proved.
-std::string steps_line(const AxesCertificate& certificate, const AxesDevice& device);
+// The same, and what the encoders' steps bring in, where that is known of them.
+std::vector<std::string> explained_lines(const AxesCertificate& certificate, const AxesDevice& device);
 
 }  // namespace dashpot::compiler

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 const char* option_of_one_axis(const Options& options) {
   if (options.emission.constant_time) return "--constant-time";
   if (options.emission.batch) return "--batch";
-  if (options.emission.with_test && options.target->name != "cpp") return "--with-test";
+  if (options.emission.with_test && !options.target->tests_axes) return "--with-test";
   if (options.proof) return "--proof";
   return nullptr;
 }
@@ -238,14 +238,6 @@ std::string explain_json(const AxesCompilation& c) {
   return json.dump(2) + "\n";
 }
 
-// What is proved, and what the encoders' steps do.
-std::vector<std::string> facts_of(const AxesCompilation& c) {
-  std::vector<std::string> facts = passivity_lines(c.certificate, c.device);
-  const std::string steps = steps_line(c.certificate, c.device);
-  if (!steps.empty()) facts.push_back(steps);
-  return facts;
-}
-
 std::string explain_text(const AxesCompilation& c, bool with_legend) {
   std::string text =
       fmt::format("{}: two axes, {}\n", c.network.name,
@@ -255,7 +247,7 @@ std::string explain_text(const AxesCompilation& c, bool with_legend) {
   if (c.certificate.share) text += "\n" + shares_text(c);
   if (with_legend) text += "\n" + legend(c);
   text += "\n";
-  for (const std::string& fact : facts_of(c))
+  for (const std::string& fact : explained_lines(c.certificate, c.device))
     for (const std::string& line : wrapped_text(fact, 98, 2)) text += line + "\n";
   return text + fmt::format("a step takes {} operations before the command leaves and {} after it\n",
                             operations(c.law, c.law.output), operations(c.law, c.law.update));
@@ -308,7 +300,7 @@ std::string axes_stage_text(const AxesCompilation& c, const std::string& stage) 
   }
   if (stage == "certificate") {
     std::string text = "certificate of " + c.network.name + "\n";
-    for (const std::string& line : facts_of(c)) text += line + "\n";
+    for (const std::string& line : explained_lines(c.certificate, c.device)) text += line + "\n";
     return text;
   }
   std::string text;

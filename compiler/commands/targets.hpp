@@ -23,6 +23,7 @@ struct Target {
   std::optional<std::vector<OutputFile>> (*emit_axes)(const AxesCompilation&, const EmissionOptions&,
                                                       Diagnostics&) = nullptr;
   std::vector<std::string_view> axes_templates = {};
+  bool tests_axes = false;  // takes --with-test there
 };
 
 std::span<const Target> targets();  // the default first

@@ -281,9 +281,7 @@ std::optional<std::string> report(const AxesCompilation& c, const std::optional<
   fields["digest"] = c.network.digest;
   fields["style"] = built_in("report.css", diagnostics);
   fields["ports"] = ports_html(c);
-  for (const std::string& line : passivity_lines(c.certificate, c.device)) fields["passivity"] += sentence(line);
-  if (const std::string steps = steps_line(c.certificate, c.device); !steps.empty())
-    fields["passivity"] += sentence(steps);
+  for (const std::string& line : explained_lines(c.certificate, c.device)) fields["passivity"] += sentence(line);
   model.lists["facts"] = facts(c);
   for (const char* list : {"networks", "workspace", "shares", "no_device"}) model.lists[list];
   for (std::size_t i = 0; i < c.ports.size(); ++i)
